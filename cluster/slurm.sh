@@ -20,7 +20,7 @@
 # simulation) and 7 (works too seldom) are answers, but to Slurm they are failures, for which
 # `--dependency=afterok` waits in vain. An array of such commands says which are fine:
 #
-#   pushplan solve "$task" --out plans || case $? in 4 | 5 | 7) ;; *) exit 1 ;; esac
+#   pushplan solve "$task" --out plans || case $? in 4 | 5 | 7 | 8) ;; *) exit 1 ;; esac
 #
 # The commands of this script exit with 0 if and only if the shard is whole. 130 means that a signal
 # ended it in between; what was finished is kept.

@@ -17,6 +17,8 @@ pub const FAILED_VERIFICATION: u8 = 5;
 pub const REFUSED: u8 = 6;
 /// The best plan works as written, but too seldom under small errors.
 pub const FRAGILE: u8 = 7;
+/// The best plan meets some of several goals only.
+pub const PARTIAL: u8 = 8;
 /// Stopped by Ctrl-C or a termination signal; what was finished is saved.
 pub const INTERRUPTED: u8 = 130;
 
@@ -31,6 +33,7 @@ Exit codes:
     5  plans were found but failed verification
     6  outside of what the model was trained on, and `--outside refuse` was given
     7  the plan works, but too seldom under small errors of starts and frictions
+    8  the plan meets some of several goals only
   130  interrupted; finished work is saved";
 
 #[cfg(test)]
@@ -53,9 +56,10 @@ mod tests {
             FAILED_VERIFICATION,
             REFUSED,
             FRAGILE,
+            PARTIAL,
             INTERRUPTED,
         ];
         assert_eq!(listed, all);
-        assert_eq!(all, [0, 1, 2, 3, 4, 5, 6, 7, 130]);
+        assert_eq!(all, [0, 1, 2, 3, 4, 5, 6, 7, 8, 130]);
     }
 }

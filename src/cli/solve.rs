@@ -34,7 +34,8 @@ use super::{
 Writes <out>/<task>.plan.json, <out>/<task>.svg and <out>/<task>.html, a page that plays the plan and
 shows why the others lost; with --animate <out>/<task>.animated.svg, too.
 Without a plan that works, the nearest one is written as <task>.nearest.* (exit code 4) or
-<task>.failed.* (exit code 5); one that works too seldom as <task>.fragile.* (exit code 7).")]
+<task>.failed.* (exit code 5); one that works too seldom as <task>.fragile.* (exit code 7), one that
+meets some of several goals as <task>.partial.* (exit code 8).")]
 pub struct SolveArgs {
     #[command(flatten)]
     task: TaskArgs,
@@ -107,6 +108,7 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     let (code, suffix) = match solution.status {
         PlanStatus::Solved => (exit_code::DONE, ""),
         PlanStatus::Fragile => (exit_code::FRAGILE, ".fragile"),
+        PlanStatus::Partial => (exit_code::PARTIAL, ".partial"),
         PlanStatus::NoPlan => (exit_code::NO_PLAN, ".nearest"),
         PlanStatus::FailedVerification => (exit_code::FAILED_VERIFICATION, ".failed"),
     };

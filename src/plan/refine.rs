@@ -17,7 +17,7 @@
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use crate::scene::Task;
+use crate::scene::{Situation, Task};
 use crate::watch::Watch;
 
 use super::linear::slopes;
@@ -27,7 +27,7 @@ use super::score::{bare, behind, is_behind};
 use super::supports::{Ends, Supports};
 use super::{
     Candidate, Evaluation, Margins, QpProblem, QpSolver, QpStatus, RefineStatistics, Rollouts,
-    Workspace, evaluate,
+    Workspace, evaluate, preferred,
 };
 
 /// Trust radius, in steps, for what a search found: an early stop is off by up to a frame, an
@@ -143,7 +143,7 @@ pub fn refine(
             random: Pcg64::seed_from_u64(settings.seed.wrapping_add(index as u64)),
         })
         .collect();
-    shorten(&mut work, settings.short_list);
+    shorten(&mut work, settings.short_list, workspace, rollouts.situation());
     for round in 0..settings.rounds {
         if watch.cancelled() {
             break;
@@ -166,9 +166,10 @@ pub fn refine(
 }
 
 /// Leaves only the best `most` open, by the end farthest from the goal; equal ones keep their order.
-fn shorten(work: &mut [Work], most: usize) {
+fn shorten(work: &mut [Work], most: usize, workspace: &Workspace, situation: &Situation) {
     let mut order: Vec<usize> = (0..work.len()).collect();
-    order.sort_by(|&a, &b| work[a].refined.worst.total_cmp(&work[b].refined.worst));
+    let refined = |k: usize| &work[k].refined;
+    order.sort_by(|&a, &b| preferred(refined(a), refined(b), workspace, situation));
     order.into_iter().skip(most).for_each(|k| work[k].listed = false);
 }
 

@@ -2,7 +2,7 @@
 
 use serde_json::{Value as Json, json};
 
-use crate::scene::{CORRECTED, ModelKind, ModelPart, ModelSpec, Task};
+use crate::scene::{CORRECTED, Goal, ModelKind, ModelPart, ModelSpec, Task};
 use crate::solve::{PlanStatus, Solution};
 
 use super::bystanders::{self, bystanders};
@@ -25,6 +25,10 @@ pub fn solution_document(task: &Task, solution: &Solution) -> Document {
             let aim = point(aim);
             format!("aimed at {aim}, as the same plan aimed at the goal ended next to it in 3-D")
         }));
+        let share = solution.partial.as_ref().and_then(|partial| partial.robustness);
+        outcomes.lines.extend(share.map(|share| {
+            format!("{:.0} % of the disturbed replays meet the goals that are met", 100.0 * share)
+        }));
         outcomes.lines.extend(ways(task, &best.plan, &best.tools));
         sections.push(outcomes);
     }
@@ -39,7 +43,7 @@ pub fn solution_document(task: &Task, solution: &Solution) -> Document {
         ..Section::default()
     });
     Document {
-        title: format!("{}: {}", task.name, headline(solution)),
+        title: format!("{}: {}", task.name, headline(task, solution)),
         notes: vec![format!("goal: {}", goal_line(task))],
         sections,
         json: json(task, solution),
@@ -47,7 +51,7 @@ pub fn solution_document(task: &Task, solution: &Solution) -> Document {
     }
 }
 
-pub(super) fn headline(solution: &Solution) -> String {
+pub(super) fn headline(task: &Task, solution: &Solution) -> String {
     let Some(best) = solution.best() else {
         let step = if solution.statistics.levers.is_some() { "lever-up" } else { "push" };
         return format!("no plan{}; no {step} can be made at all", cause(solution));
@@ -59,6 +63,10 @@ pub(super) fn headline(solution: &Solution) -> String {
         }
         PlanStatus::Solved => format!("solved with {plan}"),
         PlanStatus::Fragile => format!("fragile; the most robust is {plan}"),
+        PlanStatus::Partial => {
+            let (met, missed) = met(task, solution);
+            format!("partial: {met} of {} goals with {plan}; not {missed}", task.goals().count())
+        }
         PlanStatus::NoPlan if best.plan.is_empty() => {
             format!("no plan{}; no push brings the object nearer", cause(solution))
         }
@@ -71,6 +79,15 @@ pub(super) fn headline(solution: &Solution) -> String {
         true => format!("{headline} (stopped before the search was over)"),
         false => headline,
     }
+}
+
+/// How many goals a partial plan meets, and the objects of those that it does not.
+fn met(task: &Task, solution: &Solution) -> (usize, String) {
+    let met = solution.partial.as_ref().map_or(&[][..], |partial| &partial.met);
+    let missed = task.goals().enumerate().filter(|(k, _)| !met.contains(k));
+    let names: Vec<&str> =
+        missed.map(|(_, goal)| task.scene.objects[goal.object].name.as_str()).collect();
+    (met.len(), names.join(", "))
 }
 
 /// Why there is none, if that is known.
@@ -187,6 +204,13 @@ fn json(task: &Task, solution: &Solution) -> Json {
         "models": solution.models,
         "status": solution.status,
         "stopped": solution.stopped,
+        "partial": solution.partial.as_ref().map(|partial| {
+            let name = |goal: &Goal| task.scene.objects[goal.object].name.clone();
+            let met = task.goals().enumerate().map(|(k, goal)| {
+                json!({"object": name(goal), "met": partial.met.contains(&k)})
+            });
+            json!({"goals": met.collect::<Vec<Json>>(), "robustness": partial.robustness})
+        }),
         "cause": solution.cause.as_ref().map(ToString::to_string),
         "reason": solution.best().map(|best| verdict_line(task, best.verdict.as_ref())),
         "moved": solution.best().map(|best| {

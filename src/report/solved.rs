@@ -169,6 +169,7 @@ pub(super) fn status(status: PlanStatus) -> &'static str {
     match status {
         PlanStatus::Solved => "solved",
         PlanStatus::Fragile => "fragile",
+        PlanStatus::Partial => "partial",
         PlanStatus::NoPlan => "no plan",
         PlanStatus::FailedVerification => "failed verification",
     }

@@ -40,6 +40,17 @@ pub struct Goal {
     /// It lies upside down, or on its underside.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flipped: Option<bool>,
+    /// How much it counts where not all goals of a task can be met: those that weigh most together are.
+    #[serde(default = "unit", skip_serializing_if = "is_unit")]
+    pub weight: f64,
+}
+
+fn unit() -> f64 {
+    1.0
+}
+
+fn is_unit(weight: &f64) -> bool {
+    *weight == 1.0
 }
 
 fn one() -> usize {
@@ -86,6 +97,7 @@ impl Goal {
             outside: None,
             raised: None,
             flipped: None,
+            weight: 1.0,
         }
     }
 

@@ -285,6 +285,13 @@ impl Task {
         task
     }
 
+    /// The same with these of its goals alone, by their indices, in order; `None` for none.
+    pub fn only(&self, goals: &[usize]) -> Option<Self> {
+        let all: Vec<Goal> = self.goals().copied().collect();
+        let mut kept = goals.iter().filter_map(|k| all.get(*k).copied());
+        Some(Self { goal: kept.next()?, further: kept.collect(), ..self.clone() })
+    }
+
     /// Whether an object (an index into [`Scene::objects`]) has a goal.
     pub fn wants(&self, object: usize) -> bool {
         self.goals().any(|goal| goal.object == object)

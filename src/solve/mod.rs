@@ -14,6 +14,7 @@ mod efforts;
 mod error;
 mod grade;
 mod levering;
+mod partly;
 mod planner;
 mod rank;
 mod ranking;
@@ -33,5 +34,5 @@ pub use levering::{AskedLever, AskedPlace, LeverActionError, LeverSettings, aske
 pub use planner::{Planner, PlannerBuilder, Prediction};
 pub use settings::{Effort, Settings};
 pub use solution::{
-    LeverStatistics, PlanStatus, RankedPlan, Refinement, Solution, Statistics, Timing,
+    LeverStatistics, Partial, PlanStatus, RankedPlan, Refinement, Solution, Statistics, Timing,
 };

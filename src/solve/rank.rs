@@ -1,6 +1,6 @@
-//! Which candidates are refined, which are worth verifying, and in what order.
+//! Which candidates are refined, and which are worth verifying.
 
-use crate::plan::{Candidate, Evaluation, Found, Refined, is_behind, kinds};
+use crate::plan::{Candidate, Evaluation, Found, is_behind, kinds};
 use crate::scene::{Goal, Task};
 
 /// The best `count` found candidates of different kinds, then, if there are too few kinds, the next
@@ -21,11 +21,6 @@ pub(super) fn distinct(found: &[Found], count: usize, most_behind: usize) -> Vec
         .chain(behind.into_iter().take(most_behind))
         .map(|one| one.candidate.clone())
         .collect()
-}
-
-/// Sorts by predicted score on the worst support; equal scores keep their order.
-pub(super) fn sort(refined: &mut [Refined]) {
-    refined.sort_by(|a, b| a.worst.total_cmp(&b.worst));
 }
 
 /// A prediction that is outside the tolerance by no more than this share of it is tried, however

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use crate::plan::bare;
 use crate::scene::{Plan, Tool};
 
-use super::solving::{Solving, Tried};
+use super::solving::Solving;
+use super::tried::Tried;
 use super::{PlanStatus, RankedPlan, Solution};
 
 /// At most this many plans are returned: as many as a reader looks at.
@@ -95,6 +96,7 @@ impl Solving<'_> {
             tools: self.workspace.tools.iter().map(|tool| Tool::clone(tool)).collect(),
             candidates: self.candidates,
             statistics: self.statistics,
+            partial: None,
             cause: None,
             warnings,
         }

@@ -6,7 +6,8 @@ use crate::plan::{Candidate, CandidatePush, Found, is_behind};
 use crate::scene::{Engine, Goal, State, Task, Verdict, Warning};
 
 use super::rank::distinct;
-use super::solving::{Solving, Tried};
+use super::solving::Solving;
+use super::tried::Tried;
 
 /// A plan is refuted if its replay misses the goal by more than this many tolerances: one that
 /// misses by less may work with another tool.

@@ -25,6 +25,9 @@ pub enum PlanStatus {
     /// The first plan works as written, but in fewer of the disturbed replays than the task asks
     /// for, and none was found that is more robust.
     Fragile,
+    /// Not all of several goals could be met; the first plan meets [some](Solution::partial), and as such it
+    /// passes.
+    Partial,
     /// After refinement no candidate's predicted error was at most the tolerance plus the effect
     /// model's 95th-percentile error. The first plan is the nearest one.
     NoPlan,
@@ -128,6 +131,16 @@ pub struct Timing {
     pub total: f64,
 }
 
+impl Timing {
+    /// Adds what was spent before.
+    pub(super) fn add(&mut self, before: &Self) {
+        self.search += before.search;
+        self.refinement += before.refinement;
+        self.verification += before.verification;
+        self.total += before.total;
+    }
+}
+
 /// What solving cost.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Statistics {
@@ -151,6 +164,15 @@ pub struct Statistics {
     pub levers: Option<LeverStatistics>,
 }
 
+/// What a plan is worth that meets some of several goals.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Partial {
+    /// The goals that it meets, by their indices.
+    pub met: Vec<usize>,
+    /// Share of the disturbed replays that meet these.
+    pub robustness: Option<f64>,
+}
+
 /// The result of [`super::Planner::solve`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Solution {
@@ -169,6 +191,9 @@ pub struct Solution {
     pub candidates: Vec<ScoredPush>,
     /// What it cost.
     pub statistics: Statistics,
+    /// Which goals are met, where not all of several are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub partial: Option<Partial>,
     /// Why there is no plan, where that was looked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cause: Option<Cause>,

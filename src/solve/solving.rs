@@ -7,18 +7,18 @@ use rayon::prelude::*;
 
 use crate::plan::{
     Candidate, FOUND_RADIUS, RefineSettings, Refined, Rollouts, ScoredPush, Search, Workspace,
-    alone, bare, is_behind, refine,
+    alone, bare, is_behind, preferred, refine,
 };
-use crate::scene::{Goal, Job, Plan, Situation, Task, Tool, Verdict};
+use crate::scene::{Goal, Job, Situation, Task, Tool, Verdict};
 use crate::verify::{Verifier, VerifySettings};
 use crate::watch::Watch;
 
 use super::grade::{Class, Grade};
-use super::rank::{is_worth_verifying, sort};
+use super::rank::is_worth_verifying;
 use super::reconsider::Way;
-use super::tried::after;
+use super::tried::{Tried, after};
 use super::typical::{error_p95, typical};
-use super::{PlanStatus, Planner, Refinement, Solution, Statistics};
+use super::{PlanStatus, Planner, Solution, Statistics};
 
 /// Later pushes get room for the model's error, but no more than this, metres: a longer approach
 /// costs reach and time.
@@ -47,21 +47,6 @@ const DISTURBED_SHARE: f64 = 0.375;
 
 /// Where there are several goals, refinement brings no plan to them that misses one by more tolerances.
 const REFINABLE: f64 = 5.0;
-
-/// A plan that was refined, and verified where it was worth that.
-pub(super) struct Tried {
-    pub plan: Plan,
-    pub tool: Arc<Tool>,
-    /// What the plan was made from; `None` for the plan without pushes.
-    pub candidate: Option<Candidate>,
-    /// What it was refined towards: the task's goals, or some next to them.
-    pub aims: Vec<Goal>,
-    pub refinement: Refinement,
-    pub score: f64,
-    pub verdict: Option<Verdict>,
-    /// Whether it was replayed until it was clear how often it works.
-    pub settled: bool,
-}
 
 pub(super) struct Solving<'a> {
     pub planner: &'a Planner,
@@ -329,7 +314,7 @@ impl<'a> Solving<'a> {
 
     /// Keeps what was refined towards `aims`; the indices of those worth verifying, best first.
     fn worth_verifying(&mut self, mut refined: Vec<Refined>, aims: &[Goal]) -> Vec<usize> {
-        sort(&mut refined);
+        refined.sort_by(|a, b| preferred(a, b, &self.workspace, self.situation));
         let aimed = self.task.aiming(aims);
         let mut worth = Vec::new();
         for refined in refined {
@@ -376,14 +361,16 @@ impl<'a> Solving<'a> {
             self.tried[k].verdict = Some(verdict);
         }
         // Stable, so equal ones keep the order of their predictions.
-        working.sort_by(|a, b| b.0.compare(&a.0));
-        for (_, k) in working.into_iter().take(DISTURBED_AT_ONCE) {
+        let cost = |k: usize| self.tried[k].cost;
+        working.sort_by(|a, b| a.0.before(&b.0, cost(a.1).cmp(&cost(b.1))));
+        for (as_written, k) in working.into_iter().take(DISTURBED_AT_ONCE) {
+            let needed = self.best.map_or(0.0, |(best, _)| best.needed(self.task, &as_written));
             let tried = &mut self.tried[k];
             if let Some(verdict) = tried.verdict.take() {
                 self.disturbed += 1;
                 let (tools, plan) = (std::slice::from_ref(&tried.tool), &tried.plan);
-                let verdict =
-                    self.verifier.disturb(self.task, self.situation, tools, plan, verdict);
+                let verifier = self.verifier.clone().while_above(needed);
+                let verdict = verifier.disturb(self.task, self.situation, tools, plan, verdict);
                 let grade = Grade::of(self.task, &verdict);
                 tried.verdict = Some(verdict);
                 if self.best.is_none_or(|(best, _)| grade.compare(&best).is_gt()) {

@@ -2,11 +2,28 @@
 
 use std::sync::Arc;
 
-use crate::plan::{Evaluation, Refined, bare, behind, is_behind};
-use crate::scene::{Goal, Plan, Tool};
+use crate::plan::{Candidate, Cost, Evaluation, Refined, bare, behind, is_behind};
+use crate::scene::{Goal, Plan, Tool, Verdict};
 
 use super::Refinement;
-use super::solving::{Solving, Tried};
+use super::solving::Solving;
+
+/// A plan that was refined, and verified where it was worth that.
+pub(super) struct Tried {
+    pub plan: Plan,
+    pub tool: Arc<Tool>,
+    /// What the plan was made from; `None` for the plan without pushes.
+    pub candidate: Option<Candidate>,
+    /// What it was refined towards: the task's goals, or some next to them.
+    pub aims: Vec<Goal>,
+    pub refinement: Refinement,
+    pub score: f64,
+    /// What is compared where it is as near as another.
+    pub cost: Cost,
+    pub verdict: Option<Verdict>,
+    /// Whether it was replayed until it was clear how often it works.
+    pub settled: bool,
+}
 
 impl Solving<'_> {
     /// What was made of a candidate that was refined towards `aims`.
@@ -27,6 +44,7 @@ impl Solving<'_> {
                 score if score.is_finite() => self.task.score(&best.outcome),
                 score => score,
             },
+            cost: Cost::of(&best, &self.workspace, self.situation),
             verdict: None,
             settled: false,
             plan: self.plan(&tool, &best),
@@ -59,6 +77,7 @@ impl Solving<'_> {
                 rounds: Vec::new(),
             },
             score: self.task.score(start),
+            cost: Cost::default(),
             verdict: None,
             settled: false,
         }

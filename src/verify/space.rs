@@ -227,6 +227,9 @@ fn on_the_way(robot: &Robot, scene: &LeverScene, lever: &LeverUp) -> Vec<LeverFa
             if block.depth(&solid) > SCRATCH {
                 note(LeverFault::Meets { body: (*name).to_owned() });
             }
+            if robot.hand.is_some() && block.depth(&blade.fingers(&pose)) > SCRATCH {
+                note(LeverFault::HandMeets { body: (*name).to_owned() });
+            }
         }
     }
     found

@@ -1,6 +1,7 @@
 //! Tasks of levering: their files, what is refused and why, and plans of the shipped ones.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use pushplan::ToolLibrary;
 use pushplan::asset::{Kind, PlanFile, check, load_task};
@@ -277,6 +278,37 @@ fn a_blade_goes_through_no_wall() {
     // From the other side there is no wall.
     let other = AskedLever { place: AskedPlace::Edge(3, 0.5), ..lever };
     assert_eq!(asked_lever(&task, &tool, &other).expect("a lever-up").1, None);
+}
+
+#[test]
+fn a_blade_is_held_by_fingers_that_need_room() {
+    // A slot of 20 mm leads to the plate through 80 mm of wall.
+    let slot = "  obstacles:
+    - {name: left, size: [0.08, 0.1, 0.05], position: [0.61, 0.06]}
+    - {name: right, size: [0.08, 0.1, 0.05], position: [0.61, -0.06]}
+robot:";
+    let task = Task::parse(&PLATE.replace("robot:", slot), "plate.yaml").expect("sound");
+    let lever = AskedLever {
+        place: AskedPlace::Edge(1, 0.5),
+        depth: 0.012,
+        angle: 0.2,
+        pivot: Pivot::Auto,
+        speed: None,
+    };
+    let broken = |length: f64, task: &Task| {
+        let blade = format!("{{length: {length}, width: 0.006, thickness: 0.002}}");
+        let text = format!("{{name: b, friction: 0.4, blade: {blade}}}");
+        let tool = Arc::new(Tool::parse(&text, "b.yaml").expect("sound"));
+        asked_lever(task, &tool, &lever).expect("a lever-up").1
+    };
+    let fingers = |broken: &Option<LeverFault>| {
+        broken.as_ref().is_some_and(|fault| matches!(fault, LeverFault::HandMeets { .. }))
+    };
+    assert!(fingers(&broken(0.05, &task)), "{:?}", broken(0.05, &task));
+    assert_eq!(broken(0.12, &task), None);
+    let mut free = task;
+    free.robot.hand = None;
+    assert_eq!(broken(0.05, &free), None);
 }
 
 #[test]

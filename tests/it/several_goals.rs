@@ -84,3 +84,43 @@ fn what_makes_no_sense_in_a_list_is_a_fault_with_its_place() {
     let far = Task::parse(TWO, "two.yaml").unwrap();
     assert!(far.aiming(&[Goal::new(0, [0.1, 0.1], 0.01)]).further == far.further);
 }
+
+/// A can that can be pushed to its goal, and a block that no tool reaches.
+const FAR: &str = "
+scene:
+  objects:
+    - {name: can, shape: {cylinder: {radius: 0.04, height: 0.10}}, mass: 0.3, friction: 0.4, position: [0.55, 0.1]}
+    - {name: block, shape: {cuboid: {size: [0.06, 0.06, 0.06]}}, mass: 0.3, friction: 0.4, position: [0.6, -0.2]}
+robot: {reach: {min: 0.3, max: 0.8}}
+tools: [stick]
+goal:
+  - {object: block, position: [1.9, -0.2], tolerance: 0.02}
+  - {object: can, position: [0.68, 0.1], tolerance: 0.02}
+";
+
+#[test]
+fn where_not_all_goals_can_be_met_the_plan_is_partial_and_never_solved() {
+    let solution = solve(&Task::parse(FAR, "far.yaml").expect("sound"));
+    assert_eq!(solution.status, PlanStatus::Partial);
+    let partial = solution.partial.as_ref().expect("says which");
+    assert_eq!(partial.met, [1]);
+    let verdict = solution.plans[0].verdict.as_ref().expect("replayed");
+    assert!(!verdict.passed && !verdict.works());
+    // It met what it says it meets, in both engines.
+    for evidence in &verdict.evidence {
+        assert!(!evidence.outcome.reached && evidence.outcome.further[0].error < 0.02);
+    }
+}
+
+#[test]
+fn goals_that_weigh_more_are_met_first() {
+    // Either can be met, but not both: they are two places for things that stand in each other's way.
+    let near = FAR.replace("[1.9, -0.2]", "[0.68, 0.1]");
+    let met = |text: &str| {
+        let solution = solve(&Task::parse(text, "near.yaml").expect("sound"));
+        (solution.status, solution.partial.map(|partial| partial.met))
+    };
+    assert_eq!(met(&near), (PlanStatus::Partial, Some(vec![0])));
+    let heavier = near.replacen("object: can, ", "object: can, weight: 2, ", 1);
+    assert_eq!(met(&heavier), (PlanStatus::Partial, Some(vec![1])));
+}

@@ -304,3 +304,23 @@ fn row(name: &str, solution: &Solution) -> String {
         replayed.unwrap_or_default(),
     )
 }
+
+#[test]
+fn among_tools_that_do_as_well_the_simpler_one_is_taken() {
+    // Each of these brings a can that stands free to a place ahead of it.
+    let text = "
+scene:
+  objects:
+    - {name: can, shape: {cylinder: {radius: 0.04, height: 0.10}}, mass: 0.3, friction: 0.4, position: [0.6, 0.0]}
+robot: {reach: {min: 0.3, max: 0.9}}
+tools: [NAMES]
+goal: {object: can, position: [0.75, 0.0], tolerance: 0.02}
+";
+    let library = ToolLibrary::embedded().unwrap();
+    for names in ["fork, l-hook, stick", "stick, l-hook, fork", "l-hook, fork, stick"] {
+        let task = Task::parse(&text.replace("NAMES", names), "can.yaml").unwrap();
+        let solution = planner().solve(&task, &library).unwrap();
+        let tool = &solution.plans[0].tool().name;
+        assert_eq!((solution.status, tool.as_str()), (PlanStatus::Solved, "stick"));
+    }
+}

@@ -267,6 +267,7 @@ class GoalKeys(TypedDict):
     relative_to: NotRequired[str]
     joint_deg: NotRequired[float]
     joint: NotRequired[float]
+    weight: NotRequired[float]
 
 
 class LeverGoalKeys(TypedDict):

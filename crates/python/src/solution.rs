@@ -35,6 +35,7 @@ impl PySolution {
         match self.solution.status {
             PlanStatus::Solved => "solved",
             PlanStatus::Fragile => "fragile",
+            PlanStatus::Partial => "partial",
             PlanStatus::NoPlan => "no_plan",
             PlanStatus::FailedVerification => "failed_verification",
         }

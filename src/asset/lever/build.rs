@@ -10,7 +10,7 @@ use crate::asset::task::{
 use crate::asset::text::apart_by_name;
 use crate::geometry::{Pose, Vector, centroid, cross};
 use crate::scene::{
-    Goal, LeverRules, Object, Obstacle, Pivot, Plate, PushRules, Scene, Slab, Task,
+    Goal, LeverRules, Object, Obstacle, Pivot, Plate, PushRules, Robot, Scene, Slab, Task,
 };
 
 /// A centre of mass that is nearer to the origin of its frame is there, metres: sums of corners
@@ -37,7 +37,7 @@ pub(super) fn lever_task(root: &Node, file: &str) -> Option<Task> {
         further: Vec::new(),
         scene,
         unknown: unknown_of(root)?,
-        robot: reach_of(root.get("robot")?)?.without_body(),
+        robot: Robot { base: 0.0, ..reach_of(root.get("robot")?)? },
         tools: named_tools(root.get("tools")?),
         levers: Some(match root.get("levers") {
             Some(node) => levers(node)?,

@@ -9,13 +9,25 @@ use crate::geometry::MAX_CORNERS;
 /// What a task of levering may hold.
 pub(in crate::asset) static LEVER_TASK: Value = Value::Map(LEVER_TASK_KEYS);
 
+/// What holds a blade.
+const HAND: Key = Key::optional(
+    "hand",
+    Value::Word(&["none"]),
+    "`none` where what holds the tool has no body; by default there are fingers behind the blade, which need \
+     2 cm on both sides of the shaft, and the usual hand about a tool that pushes.",
+);
+
 /// The keys of a task of levering.
 pub(in crate::asset) const LEVER_TASK_KEYS: &[Key] = &[
     Key::optional("name", Value::Name, "The task's name; by default the file's."),
     Key::optional("description", Value::Text, "One line for people; by default empty."),
     Key::required("scene", SCENE, "What lies on the table."),
     UNKNOWN_KEY,
-    Key::required("robot", Value::Map(&[REACH_KEY, MAX_FORCE]), "Where the end effector can be."),
+    Key::required(
+        "robot",
+        Value::Map(&[REACH_KEY, MAX_FORCE, HAND]),
+        "Where the end effector can be.",
+    ),
     TOOLS,
     Key::optional(
         "levers",

@@ -23,6 +23,9 @@ pub(in crate::asset) fn task(task: &Task) -> Json {
     if let Some(force) = task.robot.max_force {
         robot["max_force"] = json!(force);
     }
+    if task.levers.is_some() && task.robot.hand.is_none() {
+        robot["hand"] = json!("none");
+    }
     if task.levers.is_none() {
         robot["hand"] = match task.robot.hand {
             Some(Hand { radius, from: None }) => json!({"radius": radius}),
@@ -292,6 +295,9 @@ fn goal(goal: &Goal, scene: &Scene) -> Json {
     } else if goal.has_place() {
         json["position"] = json!(vector(goal.position));
         json["tolerance"] = json!(goal.tolerance);
+    }
+    if goal.weight != 1.0 {
+        json["weight"] = json!(goal.weight);
     }
     if let Some(other) = goal.relative {
         json["relative_to"] = json!(scene.objects[other].name);

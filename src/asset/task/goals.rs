@@ -3,7 +3,7 @@
 use crate::asset::node::{Content, Node};
 use crate::asset::spec::{ANGLE, Key, POSITION, Range, SHIFT_LIMIT, Value};
 use crate::asset::strict::Ledger;
-use crate::asset::take::{angle, angle_of, name_of, position, shape, vector};
+use crate::asset::take::{angle, angle_of, name_of, number_or, position, shape, vector};
 use crate::geometry::{Footprint, Pose, clearance};
 use crate::scene::{Goal, JointKind, Scene};
 
@@ -73,6 +73,17 @@ pub(super) const GOAL: Value = Value::Map(&[
         "How far its prismatic joint has let it slide along the axis, metres from the start, against what \
          it is joined to; by default any.",
     ),
+    Key::optional(
+        "weight",
+        Value::Number(Range {
+            what: "a weight",
+            low: 0.001,
+            high: 1000.0,
+            advice: "1 is usual, 2 counts twice",
+        }),
+        "How much it counts where not all of several goals can be met: a plan meets those that weigh most \
+         together, and is called partial; default 1.",
+    ),
 ]);
 
 /// The goals of a task's key: it holds one, or a list.
@@ -94,6 +105,7 @@ pub(super) fn goal(node: &Node, scene: &Scene) -> Option<Goal> {
         }
         None => Goal::of(object),
     };
+    goal.weight = number_or(node, "weight", goal.weight)?;
     if node.get("position").is_some() {
         goal.position = position(node)?;
         goal.tolerance = node.get("tolerance")?.number()?;

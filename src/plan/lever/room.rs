@@ -108,8 +108,11 @@ impl<'a> LeverRoom<'a> {
             let size = [blade.length + lever.retreat, blade.width, blade.thickness];
             Solid::cuboid(size, &shaft(pose, 0.5 * lever.retreat))
         };
-        if let Some(fault) = self.meets(&swept(&lying)).or_else(|| self.meets(&swept(&end))) {
-            return Some(fault);
+        for pose in [&lying, &end] {
+            let fault = self.meets(&swept(pose)).or_else(|| self.held(pose));
+            if fault.is_some() {
+                return fault;
+            }
         }
         let farthest =
             (lever.pivot - lever.depth).abs().max((lever.pivot - lever.depth + blade.length).abs());
@@ -126,11 +129,19 @@ impl<'a> LeverRoom<'a> {
             if rises && solid.lowest() > self.top {
                 break;
             }
-            if let Some(fault) = self.meets(&solid) {
+            if let Some(fault) = self.meets(&solid).or_else(|| self.held(&pose)) {
                 return Some(fault);
             }
         }
         None
+    }
+
+    /// What the fingers meet that hold the blade at `pose`.
+    fn held(&self, pose: &Pose3) -> Option<LeverFault> {
+        self.task.robot.hand?;
+        let fingers = self.scene.blade.fingers(pose);
+        let met = self.bodies.iter().find(|(_, solid)| solid.depth(&fingers) > SLACK)?;
+        Some(LeverFault::HandMeets { body: met.0.clone() })
     }
 
     fn meets(&self, blade: &Solid) -> Option<LeverFault> {

@@ -28,7 +28,7 @@ pub fn solution_page(
     recipe: &dyn Fn(&RankedPlan) -> Recipe,
     view: PageView,
 ) -> String {
-    let mut making = Making::of(task, headline(solution));
+    let mut making = Making::of(task, headline(task, solution));
     making.data.drawing =
         solution.best().and_then(|best| making.drawing(&best.plan, &best.tools, nominal));
     for (k, ranked) in solution.plans.iter().enumerate() {
@@ -154,6 +154,7 @@ fn lost(
             PlanStatus::FailedVerification => {
                 "best by prediction, but fails in a replay".to_owned()
             }
+            PlanStatus::Partial => "chosen: it meets some of the goals".to_owned(),
             PlanStatus::NoPlan => "comes nearest, but misses the goal".to_owned(),
         },
         (Some((k, plan)), _) => match &plan.verdict {

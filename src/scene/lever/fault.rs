@@ -24,6 +24,11 @@ pub enum LeverFault {
         /// The name of what it meets.
         body: String,
     },
+    /// The fingers that hold the shaft behind the blade would go through something fixed.
+    HandMeets {
+        /// The name of what they meet.
+        body: String,
+    },
     /// The shaft would go through the table.
     BelowTable,
     /// The end effector cannot be everywhere where it would have to be.
@@ -45,6 +50,9 @@ impl fmt::Display for LeverFault {
             Self::TooThick => f.write_str("the blade is thicker than the clearance below the edge"),
             Self::TooDeep => f.write_str("the blade would reach through under the whole plate"),
             Self::Meets { body } => write!(f, "the blade would go through {body}"),
+            Self::HandMeets { body } => {
+                write!(f, "the fingers behind the blade would go through {body}")
+            }
             Self::BelowTable => f.write_str("the shaft would go through the table"),
             Self::OutOfReach => f.write_str("the end effector would leave its reach"),
             Self::TooLong => f.write_str("it would take more than two minutes"),

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::geometry::{Pose3, Solid, Vector3};
 use crate::scene::{Obstacle, Scene, Tool};
 
 use super::Plate;
@@ -17,6 +18,19 @@ pub struct Blade {
     pub thickness: f64,
     /// Friction value.
     pub friction: f64,
+}
+
+impl Blade {
+    /// How far fingers reach beyond the shaft on both sides and along it, metres.
+    const FINGERS: f64 = 0.02;
+
+    /// What any hand needs beside the shaft to hold it behind the blade, whose centre is at `pose`: fingers
+    /// on both of its sides, no higher than the shaft, as a wrist may come from above or from behind.
+    pub fn fingers(&self, pose: &Pose3) -> Solid {
+        let mut held = *pose;
+        held.position -= pose.rotation * Vector3::x() * (0.5 * self.length + Self::FINGERS);
+        Solid::cuboid([2.0 * Self::FINGERS, 2.0 * Self::FINGERS, self.thickness], &held)
+    }
 }
 
 /// Objects with all their solids, what is fixed around them, and the blade.

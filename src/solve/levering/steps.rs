@@ -123,6 +123,7 @@ impl<'a> Steps<'a> {
                 levers: Some(self.statistics),
                 ..Statistics::default()
             },
+            partial: None,
             cause: None,
             warnings: Vec::new(),
             plans,

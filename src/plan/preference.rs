@@ -1,0 +1,53 @@
+//! Which of several plans that are as good is preferred: stated here, once.
+//!
+//! Among plans with the same verdict and robustness, in this order: fewer pushes, as longer plans are only
+//! looked for where no shorter one is safe; less moved besides what has a goal; the simpler tool; the
+//! smaller error. Errors well inside of the tolerance are no reason to prefer one: models differ by as much.
+
+use std::cmp::Ordering;
+
+use crate::scene::Situation;
+
+use super::{Evaluation, Refined, Workspace};
+
+/// Predictions within this share of the tolerance are equally near: a quarter, where half is still well
+/// inside in another engine.
+const NEAR: f64 = 0.25;
+
+/// What is moved by so much is counted, metres: less is what models differ by.
+const COUNTED: f64 = 0.01;
+
+/// What a plan costs besides its pushes; compared in this order.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Cost {
+    /// By how much all that has no goal is moved, in whole units of [`COUNTED`].
+    moved: usize,
+    /// Pieces of the tool, flush parts taken together: a bar in four parts is a bar.
+    pieces: usize,
+}
+
+impl Cost {
+    /// Of a plan as it is predicted.
+    pub fn of(plan: &Evaluation, workspace: &Workspace, situation: &Situation) -> Self {
+        let goals: Vec<usize> = workspace.task.goals().map(|goal| goal.object).collect();
+        let before = &situation.start.poses;
+        let others = situation.scene.things().map(|(k, _)| k).filter(|k| !goals.contains(k));
+        let ways = others.map(|k| (plan.outcome.poses[k].position - before[k].position).norm());
+        let moved = (ways.sum::<f64>() / COUNTED).round() as usize;
+        Self { moved, pieces: workspace.tools[plan.candidate.tool].outline().len() }
+    }
+}
+
+/// Compares refined plans of one length, the preferred one being less: by predicted score on the worst
+/// support, and near ones by their cost.
+pub fn preferred(
+    a: &Refined,
+    b: &Refined,
+    workspace: &Workspace,
+    situation: &Situation,
+) -> Ordering {
+    let far = |one: &Refined| if one.worst <= NEAR { 0.0 } else { one.worst };
+    let cost = |one: &Refined| Cost::of(&one.best, workspace, situation);
+    let near = far(a).total_cmp(&far(b)).then_with(|| cost(a).cmp(&cost(b)));
+    near.then(a.worst.total_cmp(&b.worst))
+}

@@ -1,0 +1,79 @@
+//! Where not all of several goals can be met: the plan that meets those that weigh most.
+
+use crate::asset::ToolLibrary;
+use crate::scene::{Outcome, Task};
+use crate::verify::{Verifier, VerifySettings};
+use crate::watch::Watch;
+
+use super::planner::stated;
+use super::{Partial, PlanStatus, Planner, Solution, SolveError};
+
+/// Of more goals than this only all but one, and each alone, are tried: their sets double with each.
+const ALL_SETS: usize = 6;
+
+/// Sets of goals that are tried, each as a task of its own: what meets none of these is worth little.
+const TRIED: usize = 12;
+
+impl Planner {
+    /// Puts a plan that meets some of several goals in the place of a solution that does not meet all.
+    pub(super) fn partly(
+        &self,
+        task: &Task,
+        library: &ToolLibrary,
+        watch: &dyn Watch,
+        solution: &mut Solution,
+    ) -> Result<(), SolveError> {
+        let missed = matches!(solution.status, PlanStatus::NoPlan | PlanStatus::FailedVerification);
+        if !missed || task.further.is_empty() || task.in_space() {
+            return Ok(());
+        }
+        let situation = stated(task);
+        for met in sets(task) {
+            let Some(part) = task.only(&met).filter(|_| !watch.cancelled()) else { break };
+            let found = self.solve_from(&situation, &part, library, watch)?;
+            if found.status != PlanStatus::Solved {
+                continue;
+            }
+            let before = solution.statistics.timing;
+            *solution = Solution { status: PlanStatus::Partial, ..found };
+            solution.statistics.timing.add(&before);
+            // Others were judged by some goals only.
+            solution.plans.truncate(1);
+            let mut robustness = None;
+            for best in &mut solution.plans {
+                robustness = best.verdict.as_ref().and_then(|verdict| verdict.robustness);
+                let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+                let (tools, plan) = (&best.tools, &best.plan);
+                best.verdict = Some(verifier.nominal(task, &situation, tools, plan));
+                best.outcome = Outcome::judge(&situation.scene, task, &best.predicted);
+            }
+            solution.partial = Some(Partial { met, robustness });
+            break;
+        }
+        Ok(())
+    }
+}
+
+/// Sets of a task's goals, by their indices, not all of them and not only such as are met at the start:
+/// those that weigh most first.
+fn sets(task: &Task) -> Vec<Vec<usize>> {
+    let start = task.scene.start();
+    let goals: Vec<(f64, bool)> =
+        task.goals().map(|goal| (goal.weight, goal.reached(&start))).collect();
+    let count = goals.len();
+    let mut sets: Vec<Vec<usize>> = match count <= ALL_SETS {
+        true => (1..(1usize << count) - 1)
+            .map(|set| (0..count).filter(|k| set >> k & 1 == 1).collect())
+            .collect(),
+        false => {
+            let but_one = (0..count).map(|left| (0..count).filter(|k| *k != left).collect());
+            but_one.chain((0..count).map(|k| vec![k])).collect()
+        }
+    };
+    sets.retain(|set| set.iter().any(|k| !goals[*k].1));
+    let weight = |set: &Vec<usize>| set.iter().map(|k| goals[*k].0).sum::<f64>();
+    // Stable: of those that weigh the same the earlier goals come first.
+    sets.sort_by(|a, b| weight(b).total_cmp(&weight(a)).then(b.len().cmp(&a.len())).then(a.cmp(b)));
+    sets.truncate(TRIED);
+    sets
+}
