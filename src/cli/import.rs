@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 
 use crate::asset::write_atomic;
 use crate::geometry::Vector;
-use crate::import::{Imported, ImportedScene, Language, Wanted, objects, read, tool};
+use crate::import::{Imported, ImportedScene, Language, Reading, Wanted, objects, read, tool};
 
 use super::{error::CliError, exit_code, session::Session};
 
@@ -41,7 +41,7 @@ What pushplan cannot express is an error that says where and what to do. What it
 roughly, such as damping of joints, is a warning."
 )]
 pub struct ImportArgs {
-    /// An MJCF or URDF file
+    /// An MJCF or URDF file, or a mesh (STL, OBJ)
     file: PathBuf,
     /// What to make of it
     #[arg(long = "as", value_enum, value_name = "WHAT")]
@@ -49,6 +49,18 @@ pub struct ImportArgs {
     /// A body or link to import, several if repeated; by default all, or the only one
     #[arg(long = "body", value_name = "NAME")]
     bodies: Vec<String>,
+    /// A body that stands freely although the file holds it, several if repeated
+    #[arg(long, value_name = "NAME")]
+    free: Vec<String>,
+    /// Folder in and below which the file may name others (meshes, includes); by default its own
+    #[arg(long, value_name = "FOLDER")]
+    root: Option<PathBuf>,
+    /// Unit of a mesh
+    #[arg(long, value_enum, default_value_t = Unit::M)]
+    unit: Unit,
+    /// Density of bodies that state no mass, kg/m^3: wood 700, plastic 1000, aluminium 2700, steel 7800
+    #[arg(long, value_name = "VALUE", value_parser = positive)]
+    density: Option<f64>,
     /// Name of the tool or task; by default that of the model, or of the file
     #[arg(long, value_name = "NAME")]
     name: Option<String>,
@@ -72,15 +84,41 @@ enum What {
     Objects,
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Unit {
+    /// Millimetres
+    Mm,
+    /// Centimetres
+    Cm,
+    /// Metres
+    M,
+    /// Inches
+    In,
+}
+
+impl Unit {
+    fn metres(self) -> f64 {
+        match self {
+            Unit::Mm => 1e-3,
+            Unit::Cm => 1e-2,
+            Unit::M => 1.0,
+            Unit::In => 0.0254,
+        }
+    }
+}
+
 pub fn run(args: &ImportArgs, session: &Session) -> Result<u8, CliError> {
     let file = args.file.display().to_string();
     let wanted = Wanted {
         bodies: args.bodies.clone(),
+        free: args.free.clone(),
+        density: args.density,
         name: args.name.clone(),
         friction: args.friction,
         shift: args.shift,
     };
-    let (model, language, mut notes) = read(&args.file)?;
+    let reading = Reading { root: args.root.clone(), unit: args.unit.metres() };
+    let (model, language, mut notes) = read(&args.file, &reading)?;
     let from = from(&file, language);
     let (text, more) = match args.kind {
         What::Tool => {
@@ -113,6 +151,13 @@ pub fn run(args: &ImportArgs, session: &Session) -> Result<u8, CliError> {
 fn from(file: &str, language: Language) -> String {
     let file = file.replace(char::is_control, " ");
     format!("# From {file} ({}).", language.name())
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
+        _ => Err("write a number above 0, such as 700 for wood".to_owned()),
+    }
 }
 
 /// `x,y` in metres.

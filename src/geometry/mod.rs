@@ -6,6 +6,7 @@
 mod cast;
 mod clearance;
 mod contact;
+mod convex;
 mod cuboids;
 mod flat;
 mod outline;
@@ -22,6 +23,7 @@ mod turn;
 pub use cast::travel_to_contact;
 pub use clearance::{clearance, swept_clearance};
 pub use contact::{ContactPoint, Follows, Placed, contact_points, contact_points_of, far_apart};
+pub use convex::{convex_hull, convex_parts};
 pub use cuboids::{Box3, BoxContact};
 pub use outline::{Extent, OutlinePiece, outline};
 pub use polygon::{ConvexPolygon, MAX_CORNERS, PolygonError, centroid};

@@ -1,7 +1,7 @@
-//! Files of other programs in: tools and scenes from MJCF (MuJoCo) and URDF.
+//! Files of other programs in: tools and scenes from MJCF (MuJoCo), URDF and meshes.
 //!
 //! A file is read into plain bodies with solids, poses in the world and masses ([`Model`], by
-//! `mjcf` or `urdf`), and those become a [`Tool`](crate::scene::Tool) or a
+//! `mjcf`, `urdf` or `mesh`), and those become a [`Tool`](crate::scene::Tool) or a
 //! [`Scene`](crate::scene::Scene) (`convert`). What pushplan cannot express is a fault with its
 //! place and what to do; what it expresses slightly differently is a note. Nothing is left out
 //! silently, nothing is simulated, nothing is written.
@@ -12,14 +12,20 @@
 //! numbers and a missing mass as zero. Faults that point to a line were worth the few hundred lines.
 
 mod convert;
+mod crowd;
 mod fault;
+mod files;
+mod mesh;
 mod mjcf;
 mod model;
 mod read;
+mod rubbing;
+mod spliced;
 mod turns;
 mod urdf;
 mod xml;
 
 pub use convert::{Imported, ImportedScene, Wanted, objects, tool};
-pub use model::{Body, Material, Model, Motion, Outline, Solid, Weight};
-pub use read::{Language, parse, read};
+pub use mesh::{Counted, Mesh};
+pub use model::{Body, Material, Model, Motion, Outline, Place, Solid, Weight};
+pub use read::{Language, Reading, parse, read};

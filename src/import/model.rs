@@ -1,20 +1,40 @@
 //! What a file of another program says, before it is converted.
 
+use std::sync::Arc;
+
 use nalgebra::{Isometry3, Point3, Vector3};
 
-use crate::asset::Place;
+use crate::asset::Fault;
+
+use super::mesh::Mesh;
+
+/// Where something stands: a line and a column, both counted from one, of a file or of one that it
+/// includes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Place {
+    /// Index into [`Model::files`].
+    pub file: usize,
+    /// Line.
+    pub line: usize,
+    /// Column, in characters.
+    pub column: usize,
+}
 
 /// The bodies of a file.
 #[derive(Clone, Debug, Default)]
 pub struct Model {
     /// The name that the file gives it; may be empty.
     pub name: String,
+    /// The file and those that it includes, as they are named in faults.
+    pub files: Vec<String>,
     /// Bodies, every parent before its children; the first is the world.
     pub bodies: Vec<Body>,
     /// Coefficients of friction of pairs of solids, by their names.
     pub pairs: Vec<([String; 2], f64)>,
     /// What the file has besides bodies that would change pushes, such as actuators.
     pub beyond: Vec<(Place, String)>,
+    /// Pairs of bodies that do not touch each other, by their names.
+    pub excluded: Vec<(Place, [String; 2])>,
     /// Where objects should end, if the file says so: body, x and y, tolerance (metres) and,
     /// where it matters, heading and its tolerance (radians).
     pub goals: Vec<(String, Vec<f64>)>,
@@ -42,6 +62,11 @@ pub struct Body {
     /// Mass (kg), centre of mass in the world (metres) and, if it says so, moment of inertia about
     /// the vertical through it (kg m^2); none if they follow from the solids.
     pub inertial: Option<(f64, Point3<f64>, Option<f64>)>,
+    /// Volume (cubic metres) and centre of volume in the world (metres) of all its solids, where those say
+    /// it only roughly.
+    pub weighs: Option<(f64, Point3<f64>)>,
+    /// What is wrong with it: of importance only to those who want it.
+    pub faults: Vec<Fault>,
 }
 
 /// How a body may move against the one that it is attached to.
@@ -67,6 +92,8 @@ pub enum Motion {
         /// Shifts from the start, metres, where limited.
         limits: Option<[f64; 2]>,
     },
+    /// All of these.
+    Several(Vec<Motion>),
     /// What pushplan cannot express; in words.
     Other(String),
 }
@@ -106,6 +133,8 @@ pub enum Weight {
     Mass(f64),
     /// Kilograms a cubic metre.
     Density(f64),
+    /// Kilograms a square metre of surface.
+    Surface(f64),
     /// The body says it.
     OfBody,
 }
@@ -124,12 +153,61 @@ pub enum Outline {
     },
     /// A sphere of this radius.
     Sphere(f64),
-    /// The convex hull of these points.
-    Hull(Vec<Point3<f64>>),
+    /// A capsule along its z axis.
+    Capsule {
+        /// Radius.
+        radius: f64,
+        /// Half of its length without the caps.
+        half: f64,
+    },
+    /// An ellipsoid of these half extents.
+    Ellipsoid([f64; 3]),
+    /// The convex hull of a mesh.
+    Mesh(Arc<Mesh>),
     /// The half space below z = 0; half extents x and y of what is drawn, 0 for no end.
     Plane([f64; 2]),
     /// Anything else, in words.
     Other(String),
+}
+
+impl Motion {
+    /// What a body may do that has this joint and one more.
+    pub fn and(self, next: Motion) -> Self {
+        match (self, next) {
+            (Motion::Fixed, next) => next,
+            (Motion::Several(mut all), next) => {
+                all.push(next);
+                Motion::Several(all)
+            }
+            (one, next) => Motion::Several(vec![one, next]),
+        }
+    }
+
+    /// Whether these are two slides along the table and a hinge about the vertical: what stands on it
+    /// may do just that.
+    pub fn is_planar(&self) -> bool {
+        let Motion::Several(all) = self else { return false };
+        let slides = all.iter().filter_map(|motion| match motion {
+            Motion::Slide { axis, .. } if axis.z.abs() < 1e-3 => Some(axis),
+            _ => None,
+        });
+        let slides: Vec<_> = slides.collect();
+        let turns = |motion: &Motion| {
+            matches!(motion, Motion::Hinge { axis, .. } if axis.xy().norm() < 1e-3)
+        };
+        let rises = |motion: &Motion| {
+            matches!(motion, Motion::Slide { axis, .. } if axis.xy().norm() < 1e-3)
+        };
+        let is = |motion: &Motion| {
+            turns(motion)
+                || rises(motion)
+                || matches!(motion, Motion::Slide { axis, .. } if axis.z.abs() < 1e-3)
+        };
+        slides.len() == 2
+            && slides[0].cross(slides[1]).norm() > 0.1
+            && all.iter().any(turns)
+            && all.iter().all(is)
+    }
 }
 
 impl Body {
@@ -140,12 +218,14 @@ impl Body {
     pub fn world() -> Self {
         Self {
             name: Self::WORLD.to_owned(),
-            place: Place { line: 1, column: 1 },
+            place: Place { line: 1, column: 1, file: 0 },
             parent: None,
             motion: Motion::Fixed,
             pose: Isometry3::identity(),
             solids: Vec::new(),
             inertial: None,
+            weighs: None,
+            faults: Vec::new(),
         }
     }
 }
@@ -160,6 +240,26 @@ impl Model {
     pub fn children(&self, body: usize) -> impl Iterator<Item = usize> + '_ {
         let hangs = move |index: &usize| self.bodies[*index].parent == Some(body);
         (0..self.bodies.len()).filter(hangs)
+    }
+
+    /// Whether a body, or the one that it is attached to, is a part of the world.
+    pub fn is_fixed(&self, body: Option<usize>) -> bool {
+        body.is_some_and(|body| {
+            body == 0
+                || self.bodies[body].motion == Motion::Fixed
+                    && self.is_fixed(self.bodies[body].parent)
+        })
+    }
+
+    /// `body` and everything that hangs on it, in order.
+    pub fn below(&self, body: usize) -> Vec<usize> {
+        let mut found = vec![body];
+        for index in body + 1..self.bodies.len() {
+            if self.bodies[index].parent.is_some_and(|parent| found.contains(&parent)) {
+                found.push(index);
+            }
+        }
+        found
     }
 
     /// `body` and everything that is fixed to it, in order.

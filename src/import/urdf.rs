@@ -3,13 +3,17 @@
 //! Collision shapes count, shapes that are only seen do not. The links below `world`, or one
 //! without a parent, stand in the world as their joints say, all joints at zero. URDF itself has no
 //! friction: it is read where simulators look for it, `<contact><lateral_friction>` of a link
-//! (Bullet) and `<gazebo reference="..."><mu1>`.
+//! (Bullet), under `<gazebo reference="...">` and in Drake's properties of a collision.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Translation3, Vector3};
 use roxmltree::Node;
 
+use super::files::Files;
+use super::mesh::{Counted, Mesh, load};
+use super::rubbing::{Gazebo, drake, friction, gazebo};
 use super::model::{Body, Material, Model, Motion, Outline, Solid, Weight};
 use super::turns;
 use super::xml::{Source, element, elements};
@@ -27,7 +31,11 @@ struct Link<'a> {
 }
 
 /// The model of an element `robot`; none, with faults, if it cannot be read.
-pub(super) fn model<'a>(source: &mut Source<'a>, root: Node<'a, 'a>) -> Option<Model> {
+pub(super) fn model<'a>(
+    source: &mut Source<'a>,
+    root: Node<'a, 'a>,
+    files: &Files,
+) -> Option<Model> {
     let name = root.attribute("name").unwrap_or_default().to_owned();
     let mut model = Model { name, bodies: vec![Body::world()], ..Model::default() };
     let mut links: Vec<(&str, Link<'a>)> = Vec::new();
@@ -48,13 +56,17 @@ pub(super) fn model<'a>(source: &mut Source<'a>, root: Node<'a, 'a>) -> Option<M
                 model.beyond.push((source.place(node), format!("<{}>", node.tag_name().name())));
             }
             tag if HARMLESS.contains(&tag) => {}
-            tag if tag.contains("xacro") || node.tag_name().namespace().is_some() => {
+            _ if node.tag_name().namespace().is_some_and(|space| space.contains("xacro")) => {
                 source.fault(node, "this is a xacro macro", "expand it: `xacro FILE > robot.urdf`");
+            }
+            tag if node.tag_name().namespace().is_some() => {
+                let place = source.place(node);
+                source.ledger.note(place, format!("<{tag}> of another program is left out"));
             }
             tag => source.fault(node, format!("<{tag}> is not read"), "take it out"),
         }
     }
-    let frictions = gazebo(source, root);
+    let gazebo = gazebo(source, root);
     // Parents before children; what is left when nothing more is attached to anything goes in
     // circles.
     let mut indices: HashMap<&str, usize> = HashMap::from([(WORLD, 0)]);
@@ -70,16 +82,10 @@ pub(super) fn model<'a>(source: &mut Source<'a>, root: Node<'a, 'a>) -> Option<M
                 },
                 None => 0,
             };
-            match take(source, &mut model, (name, link), parent, &frictions) {
-                _ if *name == WORLD => {}
-                Some(body) => {
-                    indices.insert(name, model.bodies.len());
-                    model.bodies.push(body);
-                }
-                // Its fault is noted; children are still looked at.
-                None => {
-                    indices.insert(name, 0);
-                }
+            let body = take(source, &mut model, (name, link), parent, (&gazebo, files));
+            if let Some(body) = body {
+                indices.insert(name, model.bodies.len());
+                model.bodies.push(body);
             }
             false
         });
@@ -125,28 +131,34 @@ fn end<'a>(joint: Node<'a, 'a>, side: &str) -> &'a str {
     element(joint, side).and_then(|node| node.attribute("link")).unwrap_or_default()
 }
 
-/// A link as a body.
+/// A link as a body; what is wrong with it goes with it. The world is none.
 fn take<'a>(
     source: &mut Source<'a>,
     model: &mut Model,
     (name, link): (&str, &Link<'a>),
     parent: usize,
-    frictions: &HashMap<String, f64>,
+    (gazebo, files): (&HashMap<String, Gazebo>, &Files),
 ) -> Option<Body> {
+    let before = source.ledger.count();
     let above = model.bodies[parent].pose;
     let (pose, motion) = match link.joint {
         Some(node) => {
-            let pose = above * origin(source, node)?;
-            (pose, motion(source, node, pose)?)
+            let pose = above * origin(source, node).unwrap_or_default();
+            let unknown = || Motion::Other("a joint that cannot be read".to_owned());
+            (pose, motion(source, node, pose).unwrap_or_else(unknown))
         }
         // A link that is attached to nothing stands freely, as in Bullet and MuJoCo.
         None => (above, Motion::Free),
     };
+    let own = gazebo.get(name);
+    if let Some(own) = own {
+        source.ledger.take(&own.faults);
+    }
     let friction = match friction(source, link.node) {
-        Some(stated) => Some(stated?),
-        None => frictions.get(name).copied(),
+        Some(stated) => stated,
+        None => own.and_then(|own| own.friction),
     };
-    let solids = solids(source, link.node, &pose, friction);
+    let solids = solids(source, link.node, &pose, friction, files);
     if name == WORLD {
         model.bodies[0].solids.extend(solids);
         return None;
@@ -159,6 +171,8 @@ fn take<'a>(
         pose,
         solids,
         inertial: inertial(source, link.node, &pose),
+        faults: source.ledger.since(before),
+        ..Body::world()
     })
 }
 
@@ -167,6 +181,12 @@ fn motion<'a>(
     joint: Node<'a, 'a>,
     pose: Isometry3<f64>,
 ) -> Option<Motion> {
+    // What is fixed or floats has neither axis nor limits, whatever stands there.
+    match joint.attribute("type").unwrap_or_default() {
+        "fixed" => return Some(Motion::Fixed),
+        "floating" => return Some(Motion::Free),
+        _ => {}
+    }
     let axis = match element(joint, "axis").and_then(|axis| axis.attribute_node("xyz")) {
         Some(axis) => source.numbers::<3>(axis)?,
         None => [1.0, 0.0, 0.0],
@@ -181,19 +201,28 @@ fn motion<'a>(
         stated.map_or(Some(0.0), |stated| source.number(stated))
     };
     let limits = [limit("lower")?, limit("upper")?];
-    if let Some(dynamics) = element(joint, "dynamics") {
+    if let Some(mimic) = element(joint, "mimic") {
+        let leader = mimic.attribute("joint").unwrap_or_default();
+        let message = format!("this joint follows `{leader}` (<mimic>), which none here does");
+        source.fault(mimic, message, "take <mimic> out if the joint may move by itself");
+    }
+    let loss = |dynamics: &Node<'a, 'a>| {
+        let stated = |name: &str| dynamics.attribute(name).unwrap_or("0").parse() != Ok(0.0);
+        stated("damping") || stated("friction")
+    };
+    if let Some(dynamics) = element(joint, "dynamics").filter(loss) {
         let place = source.place(dynamics);
         source.ledger.note(place, "damping and friction of joints are left out");
     }
     Some(match joint.attribute("type").unwrap_or_default() {
-        "fixed" => Motion::Fixed,
-        "floating" => Motion::Free,
         "revolute" => {
             Motion::Hinge { axis, at: pose.translation.vector.into(), limits: Some(limits) }
         }
         "continuous" => Motion::Hinge { axis, at: pose.translation.vector.into(), limits: None },
         "prismatic" => Motion::Slide { axis, limits: Some(limits) },
-        "planar" => Motion::Other("a planar joint".to_owned()),
+        // It moves in the plane that the axis stands on.
+        "planar" if axis.xy().norm() < 1e-3 => Motion::Free,
+        "planar" => Motion::Other("a planar joint that is not level".to_owned()),
         other => {
             let message = format!("`{other}` is not a type of joint");
             let advice = "write fixed, floating, revolute, continuous or prismatic";
@@ -221,14 +250,14 @@ fn solids<'a>(
     link: Node<'a, 'a>,
     pose: &Isometry3<f64>,
     friction: Option<f64>,
+    files: &Files,
 ) -> Vec<Solid> {
     let mut found = Vec::new();
     let shapes = |kind: &'static str| elements(link).filter(move |node| node.has_tag_name(kind));
     for collision in shapes("collision") {
-        let (Some(own), Some(outline)) = (origin(source, collision), outline(source, collision))
-        else {
-            continue;
-        };
+        let own = origin(source, collision);
+        let (Some(own), Some(outline)) = (own, outline(source, collision, files)) else { continue };
+        let friction = drake(source, collision).or(friction);
         found.push(Solid {
             name: collision.attribute("name").unwrap_or_default().to_owned(),
             place: source.place(collision),
@@ -247,7 +276,11 @@ fn solids<'a>(
     found
 }
 
-fn outline<'a>(source: &mut Source<'a>, collision: Node<'a, 'a>) -> Option<Outline> {
+fn outline<'a>(
+    source: &mut Source<'a>,
+    collision: Node<'a, 'a>,
+    files: &Files,
+) -> Option<Outline> {
     let shape = element(collision, "geometry").and_then(|geometry| elements(geometry).next());
     let Some(shape) = shape else {
         source.fault(collision, "this collision has no geometry", "add <geometry>");
@@ -275,12 +308,44 @@ fn outline<'a>(source: &mut Source<'a>, collision: Node<'a, 'a>) -> Option<Outli
             let radius = need("radius")?;
             Outline::Sphere(source.number(radius)?)
         }
+        "capsule" => {
+            let (radius, length) = (need("radius")?, need("length")?);
+            let half = source.number(length)? / 2.0;
+            Outline::Capsule { radius: source.number(radius)?, half }
+        }
         "mesh" => {
-            let file = shape.attribute("filename").unwrap_or_default();
-            Outline::Other(format!("a mesh of another file ({file})"))
+            let file = need("filename")?;
+            let scale = match shape.attribute_node("scale") {
+                Some(scale) => source.numbers::<3>(scale)?,
+                None => [1.0; 3],
+            };
+            mesh(file.value(), scale, files)
         }
         tag => Outline::Other(format!("a {tag}")),
     })
+}
+
+/// The outline of a mesh file.
+fn mesh(file: &str, scale: [f64; 3], files: &Files) -> Outline {
+    let (points, mut faces) = match files.find("", file).and_then(|path| load(&path)) {
+        Ok(raw) => raw,
+        Err(refused) => {
+            let what = format!("{} ({})", refused.message, refused.advice);
+            return Outline::Other(format!("a mesh that cannot be read: {what}"));
+        }
+    };
+    // A mirrored mesh is inside out.
+    if scale.iter().product::<f64>() < 0.0 {
+        faces.iter_mut().for_each(|face| face.swap(1, 2));
+    }
+    let point = |point: &Point3<f64>| Point3::from([0, 1, 2].map(|k| point[k] * scale[k]));
+    let points: Vec<Point3<f64>> = points.iter().map(point).collect();
+    let enclosed = Mesh::new(points.clone(), faces.clone(), Counted::Enclosed);
+    let closed = enclosed.filter(|mesh| mesh.is_closed() && mesh.volume > 0.0);
+    match closed.or_else(|| Mesh::new(points, faces, Counted::Hull)) {
+        Some(mesh) => Outline::Mesh(Arc::new(mesh)),
+        None => Outline::Other("a mesh that is flat, or whose numbers are none".to_owned()),
+    }
 }
 
 /// Mass, centre of mass in the world and moment of inertia about the vertical.
@@ -305,26 +370,4 @@ fn inertial<'a>(
     let up = frame.rotation.inverse() * Vector3::z();
     let about = Some(up.dot(&(tensor * up))).filter(|moment| *moment > 0.0);
     Some((mass, frame.translation.vector.into(), about))
-}
-
-/// The friction of a link as Bullet has it; the inner none, with a fault, if it is not a number.
-fn friction<'a>(source: &mut Source<'a>, link: Node<'a, 'a>) -> Option<Option<f64>> {
-    let value = element(element(link, "contact")?, "lateral_friction")?.attribute_node("value")?;
-    Some(source.number(value))
-}
-
-/// Frictions of links as Gazebo has them, by their names.
-fn gazebo<'a>(source: &mut Source<'a>, root: Node<'a, 'a>) -> HashMap<String, f64> {
-    let mut found = HashMap::new();
-    for node in elements(root).filter(|node| node.has_tag_name("gazebo")) {
-        let stated = ["mu1", "mu"].into_iter().find_map(|name| element(node, name));
-        let (Some(link), Some(stated)) = (node.attribute("reference"), stated) else { continue };
-        match stated.text().unwrap_or_default().trim().parse::<f64>() {
-            Ok(friction) if friction.is_finite() => {
-                found.insert(link.to_owned(), friction);
-            }
-            _ => source.fault(stated, "this friction is not a number", "write one such as 0.4"),
-        }
-    }
-    found
 }

@@ -2,35 +2,31 @@
 
 use roxmltree::{Attribute, Node};
 
-use crate::asset::Place;
-
 use super::fault::Ledger;
+use super::model::Place;
+use super::spliced::Spliced;
 
 /// A file that is being read.
 pub(super) struct Source<'a> {
-    text: &'a str,
-    /// Where its lines begin, bytes.
-    lines: Vec<usize>,
+    text: &'a Spliced,
     /// What is wrong with it so far.
     pub ledger: Ledger,
 }
 
 impl<'a> Source<'a> {
     /// The text of a file, without faults so far.
-    pub fn new(text: &'a str, ledger: Ledger) -> Self {
-        let ends = text.match_indices('\n').map(|(at, _)| at + 1);
-        Self { text, lines: std::iter::once(0).chain(ends).collect(), ledger }
+    pub fn new(text: &'a Spliced, ledger: Ledger) -> Self {
+        Self { text, ledger }
     }
 
     /// Where an element begins.
     pub fn place(&self, node: Node<'a, 'a>) -> Place {
-        self.place_at(node.range().start)
+        self.text.place(node.range().start)
     }
 
-    fn place_at(&self, offset: usize) -> Place {
-        let line = self.lines.partition_point(|start| *start <= offset).max(1);
-        let before = self.text.get(self.lines[line - 1]..offset).unwrap_or_default();
-        Place { line, column: before.chars().count() + 1 }
+    /// Where an attribute begins.
+    pub fn place_of(&self, attribute: Attribute<'a, 'a>) -> Place {
+        self.text.place(attribute.range().start)
     }
 
     /// Notes a fault of an element.
@@ -51,7 +47,7 @@ impl<'a> Source<'a> {
         message: impl Into<String>,
         advice: impl Into<String>,
     ) {
-        let place = self.place_at(attribute.range().start);
+        let place = self.text.place(attribute.range().start);
         self.ledger.fault(place, message, advice);
     }
 

@@ -71,7 +71,7 @@ const ROOMS: [(&str, &str); 23] = [
 
 /// Crates that only these rooms may name: whatever is behind such a door can be replaced without
 /// touching anything else.
-const DOORS: [(&str, &str); 28] = [
+const DOORS: [(&str, &str); 30] = [
     ("parry2d_f64", "geometry"),
     ("parry3d_f64", "geometry"),
     ("pushplan_models", "effect belief"),
@@ -84,6 +84,8 @@ const DOORS: [(&str, &str); 28] = [
     ("rapier3d_f64", "sim"),
     ("nalgebra", "geometry contact fit belief plan import"),
     ("roxmltree", "import"),
+    ("stl_io", "import"),
+    ("tobj", "import"),
     ("mcap", "export"),
     ("zip", "learn/dataset"),
     ("candle_core", "learn/network learn/train lab/image lab/parts"),

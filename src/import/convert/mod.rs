@@ -1,16 +1,22 @@
 //! From bodies of a file to a tool or a scene.
 
+mod draft;
 mod feet;
 mod frictions;
 mod groups;
 mod hull;
+mod joints;
 mod names;
 mod objects;
+mod pieces;
 mod scene;
+mod shadow;
 mod statics;
+mod thing;
 mod tool;
 mod upright;
 mod wanted;
+mod weighed;
 
 pub use scene::{ImportedScene, objects};
 pub use tool::tool;

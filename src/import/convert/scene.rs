@@ -4,12 +4,13 @@ use crate::asset::Faults;
 use crate::geometry::Vector;
 use crate::import::fault::Ledger;
 use crate::import::model::Model;
-use crate::scene::{Goal, Robot, Scene, Task};
+use crate::scene::{Goal, Joint, JointKind, Mount, Robot, Scene, Task};
 
 use super::frictions::frictions;
-use super::groups::{beyond, free};
+use super::groups::{beyond, free, freed, judged, listed, solid_bodies};
+use super::joints::{joints, mounts};
 use super::names::{Names, same};
-use super::objects::{drafts, joints};
+use super::objects::{drafts, placed};
 use super::statics::{empty, statics};
 use super::wanted::{Imported, Wanted};
 
@@ -38,15 +39,26 @@ pub fn objects(
     file: &str,
     wanted: &Wanted,
 ) -> Result<Imported<ImportedScene>, Faults> {
-    let mut ledger = Ledger::new(file);
+    let mut ledger = Ledger::new(file, &model.files);
+    let freed = freed(model, wanted, &mut ledger);
+    let model = &freed;
     beyond(model, wanted, &mut ledger);
     let roots = free(model, wanted, &mut ledger);
-    let mut ledger = ledger.sound()?;
-    if roots.is_empty() {
-        let advice = "objects stand freely (<freejoint/>, or a floating joint of the world); \
-                      `--as tool` imports a tool";
+    judged(model, &roots, wanted, &mut ledger);
+    if roots.is_empty() && wanted.bodies.is_empty() && ledger.count() == 0 {
+        let advice = match &solid_bodies(model)[..] {
+            [] => "objects stand freely (<freejoint/>, or a floating joint of the world); \
+                   `--as tool` imports a tool"
+                .to_owned(),
+            names => format!(
+                "--free {} lets it stand freely (bodies with solids: {}); `--as tool` imports a tool",
+                names[0],
+                listed(names)
+            ),
+        };
         ledger.fault_of_file("no body of the file moves freely", advice);
     }
+    let mut ledger = ledger.sound()?;
     let mut names = Names::default();
     let (mut found, mut hung) = (Vec::new(), Vec::new());
     for root in roots {
@@ -56,6 +68,7 @@ pub fn objects(
     }
     found.sort_by_key(|draft| draft.body);
     let joints = joints(model, &found, &hung, &mut ledger);
+    let mounts = mounts(model, &found, &mut ledger);
     let mut ledger = ledger.sound()?;
     let statics = statics(model, &found, wanted, &mut names, &mut ledger);
     let Some(statics) = statics else {
@@ -68,10 +81,18 @@ pub fn objects(
     };
     let scene = Scene {
         objects: found.iter().map(|draft| moved(draft.object.clone())).collect(),
-        joints: joints.into_iter().map(|joint| shifted(joint, wanted.shift)).collect(),
+        joints: joints
+            .into_iter()
+            .map(|joint| Joint { kind: shifted(joint.kind, wanted.shift), ..joint })
+            .collect(),
+        mounts: mounts
+            .into_iter()
+            .map(|mount| Mount { kind: shifted(mount.kind, wanted.shift), ..mount })
+            .collect(),
         frictions,
         ..empty(&statics, wanted.shift)
     };
+    let scene = placed(scene, &found);
     let goals = model.goals.iter().filter_map(|(body, numbers)| {
         let object = found.iter().position(|draft| same(body, model.name_of(draft.body)))?;
         goal(&scene, object, numbers, wanted.shift)
@@ -88,19 +109,23 @@ pub fn objects(
     let task = Task::new(name, scene, Robot::reaching(REACH[0], most), goal);
     let task = goals.into_iter().fold(task, Task::and);
     // What spans several bodies, such as overlaps, is judged where every task is.
-    match task.to_yaml().and_then(|text| Task::parse(&text, file)) {
-        Ok(_) => {}
-        Err(faults) => ledger.adopt("task", faults),
-    }
-    let (value, notes) = ledger.finish(Some(ImportedScene { task, has_goal }))?;
+    let read = task.to_yaml().and_then(|text| Task::parse(&text, file));
+    let task = match read {
+        Ok(task) => Some(task),
+        Err(faults) => {
+            ledger.adopt("task", faults);
+            None
+        }
+    };
+    let (value, notes) = ledger.finish(task.map(|task| ImportedScene { task, has_goal }))?;
     Ok(Imported { value, notes })
 }
 
-fn shifted(mut joint: crate::scene::Joint, shift: Vector) -> crate::scene::Joint {
-    if let crate::scene::JointKind::Revolute { at, .. } = &mut joint.kind {
-        *at += shift;
+fn shifted(kind: JointKind, shift: Vector) -> JointKind {
+    match kind {
+        JointKind::Revolute { at, limits } => JointKind::Revolute { at: at + shift, limits },
+        kind => kind,
     }
-    joint
 }
 
 /// The goal as `pushplan export` writes it: x, y, tolerance; heading, its tolerance, headings alike.

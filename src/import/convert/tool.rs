@@ -22,8 +22,16 @@ const LEVEL: f64 = 1e-3;
 /// # Errors
 /// Everything that pushplan cannot express, each with its place in `file`.
 pub fn tool(model: &Model, file: &str, wanted: &Wanted) -> Result<Imported<Tool>, Faults> {
-    let mut ledger = Ledger::new(file);
+    let mut ledger = Ledger::new(file, &model.files);
     let body = chosen(model, wanted, &mut ledger);
+    // Only what was chosen may refuse.
+    let kept: Vec<usize> = body.map_or_else(Vec::new, |body| model.below(body));
+    for (index, other) in model.bodies.iter().enumerate() {
+        match wanted.bodies.is_empty() || kept.contains(&index) {
+            true => ledger.take(&other.faults),
+            false => ledger.pass_over(&other.faults, &format!("`{}`", other.name)),
+        }
+    }
     let made = body.and_then(|body| assemble(model, file, body, wanted, &mut ledger));
     if let Some(tool) = &made
         && let Err(faults) = Tool::parse(&tool.to_json().to_string(), file)
@@ -126,7 +134,7 @@ fn assemble(
                 }
                 Err(error) => {
                     let message = format!("`{name}` is not a prism that pushplan knows: {error}");
-                    ledger.fault(solid.place, message, "leave out corners that matter least");
+                    ledger.fault(solid.place, message, "put a box or a cylinder in its place");
                     continue;
                 }
             },

@@ -4,17 +4,27 @@ use std::f64::consts::PI;
 
 use nalgebra::{Isometry3, Point3, Vector3};
 
-use crate::geometry::{Pose, Vector, centroid, cross};
+use crate::geometry::{MAX_CORNERS, Pose, Vector, centroid, cross};
 use crate::import::fault::Ledger;
 use crate::import::model::{Outline, Solid};
 
 use super::hull::hull;
+use super::shadow::{area, shadow};
 
 /// A solid that leans less than this is upright, radians: files round their turns.
 const LEAN: f64 = 1e-3;
 
 /// Top and bottom of a prism differ by no more than this, metres.
 const PRISM: f64 = 2e-4;
+
+/// What is flatter cannot be pushed, metres.
+const THIN: f64 = 1e-3;
+
+/// What is so near to the lowest point of a mesh, metres, or within a hundredth of its height, stands.
+const LEVEL: f64 = 3e-4;
+
+/// Points around a circle that stand for it.
+const AROUND: usize = 48;
 
 /// What an upright solid covers on the table, in its own frame, metres.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +48,21 @@ pub(super) struct Upright {
     pub low: f64,
     /// From there to its top, metres.
     pub height: f64,
+    /// How it differs from the solid, where it does.
+    pub rough: Option<Rough>,
+}
+
+/// How a solid differs from the prism or cylinder over what it covers.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Rough {
+    /// The outlines are apart by so much at most, metres.
+    pub off: f64,
+    /// Share of the prism that the solid fills.
+    pub fill: f64,
+    /// Corners of what it stands on, in the frame of the base, metres; none where nobody knows.
+    pub stands: Vec<Vector>,
+    /// Corners of what it covers in the world, metres.
+    pub outline: Vec<Vector>,
 }
 
 impl Upright {
@@ -55,18 +80,18 @@ impl Upright {
                 }
                 let (pose, z) = (flat(&solid.pose), solid.pose.translation.z);
                 let base = Base::Disc(*radius);
-                Some(Self { base, pose, low: z - half, height: 2.0 * half })
+                Some(Self { base, pose, low: z - half, height: 2.0 * half, rough: None })
             }
-            Outline::Hull(points) => {
-                let found = prism(&solid.pose, points);
-                if let Err(why) = &found {
-                    let message = format!("the mesh of {what} is not an upright prism: {why}");
-                    ledger.fault(solid.place, message, PRIMITIVES);
-                }
-                found.ok()
-            }
-            Outline::Sphere(_) => {
+            Outline::Mesh(mesh) => match prism(&solid.pose, &mesh.points) {
+                Ok(found) => Some(found),
+                Err(_) => Self::any(solid, what, ledger),
+            },
+            Outline::Sphere(_) | Outline::Ellipsoid(_) => {
                 ledger.fault(solid.place, format!("{what} is a sphere, and rolls"), PRIMITIVES);
+                None
+            }
+            Outline::Capsule { .. } => {
+                ledger.fault(solid.place, format!("{what} is a capsule, and rolls"), PRIMITIVES);
                 None
             }
             Outline::Plane(_) => {
@@ -81,21 +106,83 @@ impl Upright {
         }
     }
 
+    /// The solid as the upright prism or cylinder over what it covers, however it lies: one among several
+    /// that hold each other up. `None`, with a fault, if it cannot be expressed.
+    pub fn any(solid: &Solid, what: &str, ledger: &mut Ledger) -> Option<Self> {
+        let is_upright = match &solid.outline {
+            Outline::Box(half) => standing_box(&solid.pose, *half).is_some(),
+            Outline::Cylinder { .. } => (solid.pose.rotation * Vector3::z()).xy().norm() <= LEAN,
+            Outline::Mesh(mesh) => prism(&solid.pose, &mesh.points).is_ok(),
+            Outline::Plane(_) | Outline::Other(_) => true,
+            _ => false,
+        };
+        if is_upright {
+            return Self::of(solid, what, ledger);
+        }
+        let points = cloud(&solid.outline);
+        let placed: Vec<Point3<f64>> = points.iter().map(|point| solid.pose * point).collect();
+        let volume = volume(solid);
+        let found = Self::over(&placed, volume, matches!(solid.outline, Outline::Mesh(_)));
+        if found.is_none() {
+            let advice = "is its scale right? Lengths are metres";
+            ledger.fault(solid.place, format!("{what} is flat, or too small to be pushed"), advice);
+        }
+        found
+    }
+
+    /// The upright prism or cylinder over points of the world; none where they are flat.
+    pub fn over(points: &[Point3<f64>], volume: Option<f64>, rests: bool) -> Option<Self> {
+        let heights = || points.iter().map(|point| point.z);
+        let low = heights().fold(f64::INFINITY, f64::min);
+        let height = heights().fold(f64::NEG_INFINITY, f64::max) - low;
+        let seen: Vec<Vector> =
+            points.iter().map(|point| Vector::new(point.x, point.y)).collect();
+        let (base, at, off) = shadow(&seen)?;
+        if height < THIN {
+            return None;
+        }
+        // In the frame of a disc, which has its own middle.
+        let under = points.iter().filter(|point| point.z - low <= LEVEL.max(0.01 * height));
+        let under: Vec<Vector> = under.map(|point| Vector::new(point.x, point.y) - at).collect();
+        let pose = Pose { position: at, heading: 0.0 };
+        let mut found = Self { base, pose, low, height, rough: None };
+        let fill = volume.map_or(1.0, |volume| volume / (found.area() * height)).min(1.0);
+        let stands = if rests { hull(&under) } else { Vec::new() };
+        let outline = hull(&seen);
+        found.rough = Some(Rough { off, fill, stands, outline });
+        Some(found)
+    }
+
     /// Height of its top above the origin, metres.
     pub fn top(&self) -> f64 {
         self.low + self.height
     }
 
     /// Area of the base, square metres.
-    fn area(&self) -> f64 {
+    pub fn area(&self) -> f64 {
         match &self.base {
             Base::Rectangle([x, y]) => x * y,
             Base::Disc(radius) => PI * radius * radius,
-            Base::Polygon(corners) => {
-                let next = corners.iter().cycle().skip(1);
-                corners.iter().zip(next).map(|(a, b)| cross(*a, *b)).sum::<f64>() / 2.0
-            }
+            Base::Polygon(corners) => area(corners),
         }
+    }
+
+    /// Corners of what it covers in the world, metres; those of a disc lie around it.
+    pub fn outline(&self) -> Vec<Vector> {
+        if let Some(rough) = &self.rough {
+            return rough.outline.clone();
+        }
+        let corners = match &self.base {
+            Base::Rectangle([x, y]) => {
+                [[-x, -y], [*x, -y], [*x, *y], [-x, *y]].map(|end| Vector::from(end) / 2.0).to_vec()
+            }
+            Base::Disc(radius) => {
+                let angles = (0..AROUND).map(|k| 2.0 * PI * k as f64 / AROUND as f64);
+                angles.map(|angle| *radius * Vector::new(angle.cos(), angle.sin())).collect()
+            }
+            Base::Polygon(corners) => corners.clone(),
+        };
+        corners.into_iter().map(|corner| self.pose.point(corner)).collect()
     }
 
     /// Where an even weight has its middle, in the frame of the base, metres.
@@ -126,18 +213,56 @@ pub(super) fn volume(solid: &Solid) -> Option<f64> {
         Outline::Box([x, y, z]) => Some(8.0 * x * y * z),
         Outline::Cylinder { radius, half } => Some(2.0 * PI * radius * radius * half),
         Outline::Sphere(radius) => Some(4.0 / 3.0 * PI * radius.powi(3)),
-        Outline::Plane(_) => Some(0.0),
-        Outline::Hull(points) => {
-            let upright = prism(&solid.pose, points).ok()?;
-            Some(upright.area() * upright.height)
+        Outline::Capsule { radius, half } => {
+            Some(PI * radius * radius * (2.0 * half + 4.0 / 3.0 * radius))
         }
+        Outline::Ellipsoid([x, y, z]) => Some(4.0 / 3.0 * PI * x * y * z),
+        Outline::Plane(_) => Some(0.0),
+        Outline::Mesh(mesh) => Some(mesh.volume),
         Outline::Other(_) => None,
     }
 }
 
+/// Points whose convex hull the outline is, in its own frame; those of round ones lie on them.
+fn cloud(outline: &Outline) -> Vec<Point3<f64>> {
+    let ball = |radii: [f64; 3], shift: f64| {
+        (0..=AROUND / 2).flat_map(move |row| {
+            (0..AROUND).map(move |k| {
+                let (up, around) = (
+                    PI * row as f64 / (AROUND / 2) as f64,
+                    2.0 * PI * k as f64 / AROUND as f64,
+                );
+                let [x, y, z] = radii;
+                let z = z * up.cos();
+                let z = z + if z < 0.0 { -shift } else { shift };
+                Point3::new(x * up.sin() * around.cos(), y * up.sin() * around.sin(), z)
+            })
+        })
+    };
+    match outline {
+        Outline::Box([x, y, z]) => {
+            let side = |bit: u32, half: &f64| if bit == 0 { -half } else { *half };
+            let corner = |k: u32| Point3::new(side(k & 1, x), side(k & 2, y), side(k & 4, z));
+            (0..8).map(corner).collect()
+        }
+        Outline::Cylinder { radius, half } => (0..AROUND)
+            .flat_map(|k| {
+                let angle = 2.0 * PI * k as f64 / AROUND as f64;
+                let [x, y] = [radius * angle.cos(), radius * angle.sin()];
+                [Point3::new(x, y, -half), Point3::new(x, y, *half)]
+            })
+            .collect(),
+        Outline::Sphere(radius) => ball([*radius; 3], 0.0).collect(),
+        Outline::Capsule { radius, half } => ball([*radius; 3], *half).collect(),
+        Outline::Ellipsoid(radii) => ball(*radii, 0.0).collect(),
+        Outline::Mesh(mesh) => mesh.points.clone(),
+        Outline::Plane(_) | Outline::Other(_) => Vec::new(),
+    }
+}
+
 /// What to do with a shape that cannot be expressed.
-const PRIMITIVES: &str = "put boxes, upright cylinders or upright prisms (meshes whose vertices are \
-    corners of top and bottom) in its place, or let it touch nothing";
+pub(super) const PRIMITIVES: &str = "put a box, an upright cylinder or a mesh (STL, OBJ) in its place, or let \
+    it touch nothing";
 
 fn leans<T>(solid: &Solid, what: &str, ledger: &mut Ledger) -> Option<T> {
     let advice = "pushplan's solids stand upright: turn it by multiples of 90 degrees";
@@ -169,6 +294,7 @@ fn standing_box(pose: &Isometry3<f64>, half: [f64; 3]) -> Option<Upright> {
         pose: Pose::new(pose.translation.x, pose.translation.y, heading),
         low: z - half[up],
         height: 2.0 * half[up],
+        rough: None,
     })
 }
 
@@ -183,6 +309,9 @@ fn prism(pose: &Isometry3<f64>, points: &[Point3<f64>]) -> Result<Upright, Strin
     let corners = hull(&placed.iter().map(seen).collect::<Vec<_>>());
     if corners.len() < 3 || high - low < PRISM {
         return Err("it is flat".to_owned());
+    }
+    if corners.len() > MAX_CORNERS {
+        return Err("it has too many corners".to_owned());
     }
     for (end, z) in [("bottom", low), ("top", high)] {
         let level: Vec<Vector> =
@@ -200,7 +329,7 @@ fn prism(pose: &Isometry3<f64>, points: &[Point3<f64>]) -> Result<Upright, Strin
             return Err(format!("its {end} misses corners of its outline{by}"));
         }
     }
-    Ok(Upright { base: Base::Polygon(corners), pose: frame, low, height: high - low })
+    Ok(Upright { base: Base::Polygon(corners), pose: frame, low, height: high - low, rough: None })
 }
 
 #[cfg(test)]

@@ -7,6 +7,10 @@ use crate::geometry::Vector;
 pub struct Wanted {
     /// Names of the bodies that are imported; all that can be, if there are none.
     pub bodies: Vec<String>,
+    /// Names of bodies that stand freely although the file holds them.
+    pub free: Vec<String>,
+    /// Density of bodies that state no mass, kg/m^3.
+    pub density: Option<f64>,
     /// What the tool or task is called; by default after the file.
     pub name: Option<String>,
     /// Friction value of bodies that state none.
@@ -27,7 +31,7 @@ impl Wanted {
 
 impl Default for Wanted {
     fn default() -> Self {
-        Self { bodies: Vec::new(), name: None, friction: Self::FRICTION, shift: Vector::zeros() }
+        Self { bodies: Vec::new(), free: Vec::new(), density: None, name: None, friction: Self::FRICTION, shift: Vector::zeros() }
     }
 }
 

@@ -58,6 +58,7 @@ fn inside<'a>(
         return;
     }
     for child in elements(node) {
+        let before = source.ledger.count();
         let tag = child.tag_name().name();
         let element = Lookup { node: child, class: within.class };
         match tag {
@@ -70,6 +71,7 @@ fn inside<'a>(
                 source.only(child, &[&TURNS, &["name", "childclass"]]);
                 context.defaults.check(source, child, "childclass");
                 let Some(pose) = context.pose(source, element) else { continue };
+                model.bodies[within.body].faults.extend(source.ledger.since(before));
                 let class = child.attribute("childclass").or(within.class);
                 let (pose, depth) = (within.pose * pose, within.depth + 1);
                 inside(source, context, child, Within { pose, class, depth, ..within }, model);
@@ -78,11 +80,9 @@ fn inside<'a>(
             "joint" | "freejoint" => {
                 let motion = joint(source, context, element, within);
                 let body = &mut model.bodies[within.body];
-                let (Some(motion), Some(_)) = (motion, body.parent) else { continue };
-                body.motion = match &body.motion {
-                    Motion::Fixed => motion,
-                    _ => Motion::Other("several joints".to_owned()),
-                };
+                if let (Some(motion), Some(_)) = (motion, body.parent) {
+                    body.motion = body.motion.clone().and(motion);
+                }
             }
             tag if UNSEEN.contains(&tag) => {}
             _ => {
@@ -90,6 +90,8 @@ fn inside<'a>(
                 source.fault(child, message, FLATTEN);
             }
         }
+        // What is wrong with a body matters to those who want it.
+        model.bodies[within.body].faults.extend(source.ledger.since(before));
     }
 }
 
@@ -104,10 +106,14 @@ fn body<'a>(
     within: Within<'a>,
     model: &mut Model,
 ) {
+    let before = source.ledger.count();
     source.only(node, &[&TURNS, &["childclass", "gravcomp", "mocap", "name", "sleep", "user"]]);
     context.defaults.check(source, node, "childclass");
     let class = node.attribute("childclass").or(within.class);
-    let Some(pose) = context.pose(source, Lookup { node, class }) else { return };
+    let Some(pose) = context.pose(source, Lookup { node, class }) else {
+        model.bodies[within.body].faults.extend(source.ledger.since(before));
+        return;
+    };
     if let Some(lifted) = node.attribute_node("gravcomp").filter(|value| value.value() != "0") {
         source.fault_of(lifted, "this body does not weigh what it should", "leave `gravcomp` out");
     }
@@ -123,8 +129,8 @@ fn body<'a>(
             false => Motion::Fixed,
         },
         pose: within.pose * pose,
-        solids: Vec::new(),
-        inertial: None,
+        faults: source.ledger.since(before),
+        ..Body::world()
     });
     let pose = within.pose * pose;
     let depth = within.depth + 1;
@@ -134,6 +140,7 @@ fn body<'a>(
         (Some(true), _) => model.bodies[index].inertial = None,
         (Some(false), None) => {
             source.fault(node, "this body states no mass", "add <inertial>");
+            model.bodies[index].faults.extend(source.ledger.since(before));
         }
         _ => {}
     }

@@ -9,7 +9,7 @@ use crate::import::xml::Source;
 use super::defaults::{Defaults, Lookup};
 
 /// How numbers of a file are meant.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Compiler {
     /// Whether angles are degrees.
     pub degrees: bool,
@@ -17,25 +17,29 @@ pub(super) struct Compiler {
     pub letters: [char; 3],
     /// Whether masses follow from geoms even where a body states one; none: only where it does not.
     pub from_geoms: Option<bool>,
+    /// Geoms of other groups than these weigh nothing where masses follow from geoms.
+    pub groups: [f64; 2],
+    /// The folder of meshes.
+    pub meshes: String,
+    /// Whether names of files lose their folders.
+    pub strip: bool,
+    /// Whether meshes count for what they enclose, as an old attribute has it.
+    pub exact: bool,
 }
 
 /// Attributes of the compiler that change nothing that is read here.
-const HARMLESS: [&str; 18] = [
+const HARMLESS: [&str; 14] = [
     "alignfree",
-    "assetdir",
     "autolimits",
     "balanceinertia",
     "boundinertia",
     "conflict",
     "convexhull",
     "discardvisual",
-    "exactmeshinertia",
     "fitaabb",
     "fusestatic",
     "lengthrange",
-    "meshdir",
     "saveinertial",
-    "strippath",
     "texturedir",
     "usethread",
     "meshfiles",
@@ -43,7 +47,8 @@ const HARMLESS: [&str; 18] = [
 
 impl Default for Compiler {
     fn default() -> Self {
-        Self { degrees: true, letters: ['x', 'y', 'z'], from_geoms: None }
+        Self { degrees: true, letters: ['x', 'y', 'z'], from_geoms: None, groups: [0.0, 5.0], meshes: String::new(),
+            strip: false, exact: false }
     }
 }
 
@@ -73,9 +78,16 @@ impl Compiler {
                     }
                     refuse("write the masses themselves");
                 }
-                ("inertiagrouprange", "0 5") => {}
+                ("inertiagrouprange", _) => {
+                    if let Some(groups) = source.numbers(attribute) {
+                        self.groups = groups;
+                    }
+                }
+                ("assetdir" | "meshdir", folder) => folder.clone_into(&mut self.meshes),
+                ("strippath", word) => self.strip = word == "true",
+                ("exactmeshinertia", word) => self.exact = word == "true",
                 (name, _) if HARMLESS.contains(&name) => {}
-                _ => refuse("have MuJoCo save the model: `mujoco.mj_saveLastXML`"),
+                _ => refuse("correct it, or take it out"),
             }
         }
     }

@@ -17,6 +17,11 @@ pub(super) fn pairs<'a>(
 ) {
     for pair in elements(node) {
         let tag = pair.tag_name().name();
+        if tag == "exclude" {
+            let names = ["body1", "body2"].map(|name| pair.attribute(name).unwrap_or_default());
+            model.excluded.push((source.place(pair), names.map(str::to_owned)));
+            continue;
+        }
         if tag != "pair" {
             let message = format!("<{tag}> is not read: in pushplan everything touches everything");
             source.fault(pair, message, "take it out");

@@ -1,9 +1,8 @@
 //! Geoms: one solid each.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
-use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
-use roxmltree::Node;
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use crate::import::model::{Material, Outline, Solid, Weight};
 use crate::import::turns;
@@ -11,6 +10,7 @@ use crate::import::xml::Source;
 
 use super::compiler::Compiler;
 use super::defaults::{Defaults, Lookup};
+use super::meshes::Meshes;
 
 /// Density of a geom that states neither mass nor density, kg/m^3: MuJoCo's, that of water.
 const DENSITY: f64 = 1000.0;
@@ -19,15 +19,17 @@ const DENSITY: f64 = 1000.0;
 const FRICTION: f64 = 1.0;
 
 /// Attributes that are read.
-const READ: [&str; 20] = [
+const READ: [&str; 22] = [
     "axisangle",
     "class",
+    "condim",
     "conaffinity",
     "contype",
     "density",
     "euler",
     "friction",
     "fromto",
+    "group",
     "mass",
     "mesh",
     "name",
@@ -43,13 +45,11 @@ const READ: [&str; 20] = [
 ];
 
 /// Attributes that change only how contacts give way, or what is seen.
-const HARMLESS: [&str; 13] = [
-    "condim",
+const HARMLESS: [&str; 11] = [
     "fitscale",
     "fluidcoef",
     "fluidshape",
     "gap",
-    "group",
     "margin",
     "material",
     "rgba",
@@ -63,8 +63,8 @@ const HARMLESS: [&str; 13] = [
 pub(super) struct Context<'a> {
     pub compiler: Compiler,
     pub defaults: Defaults<'a>,
-    /// Elements `mesh`, by name.
-    pub meshes: HashMap<String, Node<'a, 'a>>,
+    /// Those that geoms name.
+    pub meshes: Meshes<'a>,
     /// Names of geoms that touch what a pair says.
     pub paired: HashSet<&'a str>,
 }
@@ -108,6 +108,7 @@ impl<'a> Context<'a> {
             let width = sizes.first().copied().unwrap_or_default();
             halves = match kind {
                 "box" => vec![width, width, along.norm() / 2.0],
+                "ellipsoid" => vec![width, width, along.norm() / 2.0],
                 _ => vec![width, along.norm() / 2.0],
             };
         }
@@ -124,26 +125,48 @@ impl<'a> Context<'a> {
             source.ledger.note(place, note);
         }
         let touches = kinds != 0.0 || with != 0.0 || self.paired.contains(name);
+        if let Some(condim) = find("condim").filter(|condim| condim.value() == "1" && touches) {
+            let place = source.place_of(condim);
+            let note = "`condim` 1 is left out: the geom rubs as its `friction` says";
+            source.ledger.note(place, note);
+        }
         Some(Solid {
             name: name.to_owned(),
             place: source.place(node),
-            outline,
             pose: parent * pose,
-            material: self.material(source, element)?,
+            material: self.material(source, element, &outline)?,
+            outline,
             touches,
         })
     }
 
-    fn material(&self, source: &mut Source<'a>, element: Lookup<'a, '_>) -> Option<Material> {
+    fn material(
+        &self,
+        source: &mut Source<'a>,
+        element: Lookup<'a, '_>,
+        outline: &Outline,
+    ) -> Option<Material> {
         let find = |name: &str| self.defaults.find(element, name);
+        let group = match find("group") {
+            Some(group) => source.number(group)?,
+            None => 0.0,
+        };
+        let [first, last] = self.compiler.groups;
         if let Some(shell) = find("shellinertia").filter(|shell| shell.value() == "true") {
             source.fault_of(shell, "this geom is hollow", "state mass and inertia of its body");
             return None;
         }
         let weight = match (find("mass"), find("density")) {
+            _ if group < first || group > last => Weight::Mass(0.0),
             (Some(mass), _) => Weight::Mass(source.number(mass)?),
             (None, Some(density)) => Weight::Density(source.number(density)?),
             (None, None) => Weight::Density(DENSITY),
+        };
+        // A mesh that is a shell weighs as its surface does.
+        let is_shell = matches!(outline, Outline::Mesh(mesh) if mesh.volume == 0.0);
+        let weight = match weight {
+            Weight::Density(density) if is_shell => Weight::Surface(density),
+            weight => weight,
         };
         let friction = match find("friction") {
             Some(values) => source.list(values)?.first().copied().unwrap_or(FRICTION),
@@ -176,68 +199,24 @@ impl<'a> Context<'a> {
                     source.fault(node, "this geom is a mesh but names none", "add `mesh`");
                     return None;
                 };
-                let Some(mesh) = self.meshes.get(named.value()).copied() else {
-                    let message = format!("there is no mesh `{}`", named.value());
-                    source.fault_of(named, message, "name one of those under <asset>");
-                    return None;
-                };
-                self.hull(source, mesh)?
+                self.meshes.outline(source, self, named)?
             }
-            ("box" | "cylinder" | "sphere" | "plane", _) => {
+            ("capsule", [radius, half] | [radius, half, _]) => {
+                Outline::Capsule { radius: *radius, half: *half }
+            }
+            ("ellipsoid", [x, y, z]) => Outline::Ellipsoid([*x, *y, *z]),
+            ("box" | "cylinder" | "sphere" | "plane" | "capsule" | "ellipsoid", _) => {
                 let message = format!("this {kind} has {} sizes", sizes.len());
                 let advice = "a box has three half extents, a cylinder radius and half its length";
                 source.fault(node, message, advice);
                 return None;
             }
-            ("capsule" | "ellipsoid" | "hfield" | "sdf", _) => {
-                let article = if kind == "ellipsoid" { "an" } else { "a" };
-                Outline::Other(format!("{article} {kind}"))
-            }
+            ("hfield" | "sdf", _) => Outline::Other(format!("a {kind}")),
             _ => {
                 let message = format!("`{kind}` is not a type of geom");
                 source.fault(node, message, "write box, cylinder or mesh");
                 return None;
             }
         })
-    }
-
-    /// The points of a mesh that is in the file itself.
-    fn hull(&self, source: &mut Source<'a>, mesh: Node<'a, 'a>) -> Option<Outline> {
-        let element = Lookup { node: mesh, class: None };
-        let find = |name: &str| self.defaults.find(element, name);
-        let Some(vertices) = find("vertex") else {
-            let what = find("file").map_or("", |file| file.value());
-            return Some(Outline::Other(format!("a mesh of another file ({what})")));
-        };
-        if find("builtin").is_some() {
-            return Some(Outline::Other("a mesh that MuJoCo makes itself".to_owned()));
-        }
-        let scale = match find("scale") {
-            Some(scale) => source.numbers::<3>(scale)?,
-            None => [1.0; 3],
-        };
-        let moved = match find("refpos") {
-            Some(position) => source.numbers::<3>(position)?,
-            None => [0.0; 3],
-        };
-        let turn = match find("refquat") {
-            Some(quaternion) => turns::quaternion(source.numbers(quaternion)?)?,
-            None => UnitQuaternion::identity(),
-        };
-        let numbers = source.list(vertices)?;
-        if numbers.len() < 12 || !numbers.len().is_multiple_of(3) {
-            let message = format!("a mesh has 4 vertices or more, not {} numbers", numbers.len());
-            source.fault_of(vertices, message, "write x, y and z of each");
-            return None;
-        }
-        let frame = Isometry3::from_parts(Translation3::from(moved), turn);
-        let point = |three: &[f64]| {
-            frame.inverse_transform_point(&Point3::new(
-                three[0] * scale[0],
-                three[1] * scale[1],
-                three[2] * scale[2],
-            ))
-        };
-        Some(Outline::Hull(numbers.chunks_exact(3).map(point).collect()))
     }
 }

@@ -1,9 +1,10 @@
 //! The sections of a file.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
 use roxmltree::Node;
 
+use crate::import::files::Files;
 use crate::import::model::{Body, Model};
 use crate::import::xml::{Source, elements};
 use crate::scene::GRAVITY;
@@ -13,22 +14,27 @@ use super::compiler::Compiler;
 use super::contacts::pairs;
 use super::defaults::Defaults;
 use super::geoms::Context;
+use super::meshes::Meshes;
 
 /// Sections that do not affect how pushes end.
-const HARMLESS: [&str; 5] = ["visual", "statistic", "size", "sensor", "keyframe"];
+const HARMLESS: [&str; 4] = ["visual", "statistic", "size", "sensor"];
 
 /// Sections that move or hold bodies in ways that pushplan cannot express.
 const BEYOND: [&str; 5] = ["actuator", "equality", "tendon", "deformable", "extension"];
 
 /// The model of an element `mujoco`; none, with faults, if it cannot be read.
-pub(in crate::import) fn model<'a>(source: &mut Source<'a>, root: Node<'a, 'a>) -> Option<Model> {
+pub(in crate::import) fn model<'a>(
+    source: &mut Source<'a>,
+    root: Node<'a, 'a>,
+    files: &'a Files,
+) -> Option<Model> {
     let name = root.attribute("model").unwrap_or_default().to_owned();
     let mut model =
         Model { name, bodies: vec![Body::world()], larger_friction: true, ..Model::default() };
     let mut context = Context {
         compiler: Compiler::default(),
         defaults: Defaults::default(),
-        meshes: HashMap::new(),
+        meshes: Meshes::of(files),
         paired: HashSet::new(),
     };
     // Sections that others depend on come first, wherever they are.
@@ -36,7 +42,7 @@ pub(in crate::import) fn model<'a>(source: &mut Source<'a>, root: Node<'a, 'a>) 
         match section.tag_name().name() {
             "compiler" => context.compiler.read(source, section),
             "default" => context.defaults.read(source, section, None),
-            "asset" => meshes(section, &mut context),
+            "asset" => meshes(source, section, &mut context),
             "contact" => {
                 let ends = elements(section).filter(|pair| pair.has_tag_name("pair"));
                 let names = ends.flat_map(|pair| ["geom1", "geom2"].map(|end| pair.attribute(end)));
@@ -50,8 +56,15 @@ pub(in crate::import) fn model<'a>(source: &mut Source<'a>, root: Node<'a, 'a>) 
             "compiler" | "default" | "asset" => {}
             "worldbody" => world(source, &context, section, &mut model),
             "contact" => pairs(source, &context, section, &mut model),
-            "option" => gravity(source, section),
+            "option" => option(source, section),
             "custom" => custom(source, section, &mut model),
+            "keyframe" => {
+                if elements(section).any(|key| key.has_attribute("qpos")) {
+                    let note = "keyframes are left out: everything is where bodies and joints say";
+                    let place = source.place(section);
+                    source.ledger.note(place, note);
+                }
+            }
             tag if HARMLESS.contains(&tag) => {}
             tag if BEYOND.contains(&tag) => {
                 if elements(section).next().is_some() {
@@ -64,12 +77,35 @@ pub(in crate::import) fn model<'a>(source: &mut Source<'a>, root: Node<'a, 'a>) 
     Some(model)
 }
 
-fn meshes<'a>(section: Node<'a, 'a>, context: &mut Context<'a>) {
+fn meshes<'a>(source: &mut Source<'a>, section: Node<'a, 'a>, context: &mut Context<'a>) {
+    for model in elements(section).filter(|asset| asset.has_tag_name("model")) {
+        source.fault(model, "models of other files are not attached", FLATTEN);
+    }
     for mesh in elements(section).filter(|asset| asset.has_tag_name("mesh")) {
         // A mesh without a name is called like its file.
         let stem = || std::path::Path::new(mesh.attribute("file")?).file_stem()?.to_str();
         if let Some(name) = mesh.attribute("name").or_else(stem) {
-            context.meshes.insert(name.to_owned(), mesh);
+            context.meshes.add(name, mesh);
+        }
+    }
+}
+
+/// Options that change how things move.
+fn option<'a>(source: &mut Source<'a>, option: Node<'a, 'a>) {
+    gravity(source, option);
+    for (name, what) in [("density", "the medium"), ("viscosity", "the medium"), ("wind", "wind")] {
+        let stated = option.attribute(name).unwrap_or_default();
+        if stated.split_whitespace().any(|word| word.parse().is_ok_and(|value: f64| value != 0.0)) {
+            let place = source.place(option);
+            source.ledger.note(place, format!("`{name}` is left out: {what} does not push here"));
+        }
+    }
+    for flag in elements(option).filter(|node| node.has_tag_name("flag")) {
+        for name in ["gravity", "contact", "constraint", "limit"] {
+            if let Some(off) = flag.attribute_node(name).filter(|flag| flag.value() == "disable") {
+                let message = format!("{name} is switched off; pushplan's tables have it");
+                source.fault_of(off, message, "take the flag out");
+            }
         }
     }
 }
@@ -81,7 +117,12 @@ fn gravity<'a>(source: &mut Source<'a>, option: Node<'a, 'a>) {
     if x.hypot(y) > 1e-3 * GRAVITY || (z + GRAVITY).abs() > 0.02 * GRAVITY {
         let message =
             format!("gravity is {x} {y} {z} m/s^2; pushplan's tables stand level on earth");
-        source.fault_of(stated, message, "turn the scene, so that gravity is `0 0 -9.81`");
+        let none = x.hypot(y).hypot(z) < 1e-3 * GRAVITY;
+        let advice = match none {
+            true => "write `0 0 -9.81`: without weight nothing rubs",
+            false => "turn the scene, so that gravity is `0 0 -9.81`",
+        };
+        source.fault_of(stated, message, advice);
     }
 }
 
