@@ -106,7 +106,8 @@ impl Files {
 /// Says which folder has to be named for a file that lies elsewhere.
 fn outside(name: &str, root: &Path, real: &Path) -> Refused {
     let shared = root.components().zip(real.components()).take_while(|(a, b)| a == b);
-    let shared: PathBuf = shared.map(|(part, _)| part).collect::<Vec<Component<'_>>>().iter().collect();
+    let shared: PathBuf =
+        shared.map(|(part, _)| part).collect::<Vec<Component<'_>>>().iter().collect();
     Refused {
         message: format!("`{name}` lies outside of the file's own folder"),
         advice: format!("files in and below a folder may be read with --root {}", shared.display()),

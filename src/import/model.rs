@@ -192,12 +192,8 @@ impl Motion {
             _ => None,
         });
         let slides: Vec<_> = slides.collect();
-        let turns = |motion: &Motion| {
-            matches!(motion, Motion::Hinge { axis, .. } if axis.xy().norm() < 1e-3)
-        };
-        let rises = |motion: &Motion| {
-            matches!(motion, Motion::Slide { axis, .. } if axis.xy().norm() < 1e-3)
-        };
+        let turns = |motion: &Motion| matches!(motion, Motion::Hinge { axis, .. } if axis.xy().norm() < 1e-3);
+        let rises = |motion: &Motion| matches!(motion, Motion::Slide { axis, .. } if axis.xy().norm() < 1e-3);
         let is = |motion: &Motion| {
             turns(motion)
                 || rises(motion)

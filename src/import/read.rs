@@ -77,11 +77,7 @@ pub fn parse(text: &str, file: &str) -> Result<(Model, Language, Vec<String>), F
     parsed(text, file, &Files::default())
 }
 
-fn parsed(
-    text: &str,
-    file: &str,
-    files: &Files,
-) -> Result<(Model, Language, Vec<String>), Faults> {
+fn parsed(text: &str, file: &str, files: &Files) -> Result<(Model, Language, Vec<String>), Faults> {
     let spliced = Spliced::read(text, file, files)?;
     let document = document(&spliced.text, file)?;
     let mut source = Source::new(&spliced, Ledger::new(file, &spliced.names()));

@@ -96,7 +96,8 @@ impl Spliced {
                     // Relative to the file itself, or, in a file that is included, to that.
                     let folder = Path::new(name).parent().filter(|_| !whole);
                     let beside = folder.map(|folder| folder.join(named).display().to_string());
-                    beside.map_or(Err(refused.clone()), |beside| files.beside(&beside).ok_or(refused))
+                    beside
+                        .map_or(Err(refused.clone()), |beside| files.beside(&beside).ok_or(refused))
                 })
                 .map_err(|refused| fault(node, refused.message, refused.advice, self))?;
             if stack.contains(&path) || self.files.len() > MOST || self.text.len() > LONGEST {

@@ -13,8 +13,8 @@ use roxmltree::Node;
 
 use super::files::Files;
 use super::mesh::{Counted, Mesh, load};
-use super::rubbing::{Gazebo, drake, friction, gazebo};
 use super::model::{Body, Material, Model, Motion, Outline, Solid, Weight};
+use super::rubbing::{Gazebo, drake, friction, gazebo};
 use super::turns;
 use super::xml::{Source, element, elements};
 
@@ -276,11 +276,7 @@ fn solids<'a>(
     found
 }
 
-fn outline<'a>(
-    source: &mut Source<'a>,
-    collision: Node<'a, 'a>,
-    files: &Files,
-) -> Option<Outline> {
+fn outline<'a>(source: &mut Source<'a>, collision: Node<'a, 'a>, files: &Files) -> Option<Outline> {
     let shape = element(collision, "geometry").and_then(|geometry| elements(geometry).next());
     let Some(shape) = shape else {
         source.fault(collision, "this collision has no geometry", "add <geometry>");

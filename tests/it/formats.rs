@@ -2,5 +2,7 @@
 //! that says why not. What MuJoCo, `mcap` and NumPy make of ours is tested from Python.
 
 mod imports;
+mod kinds;
+mod kinds;
 mod recordings;
 mod round_trip;

@@ -509,7 +509,13 @@ def infer(
 ) -> Belief: ...
 def main(arguments: Sequence[str]) -> int: ...
 def import_tool(
-    path: _Path, *, body: str | None = None, name: str | None = None, friction: float = 0.5
+    path: _Path,
+    *,
+    body: str | None = None,
+    name: str | None = None,
+    friction: float = 0.5,
+    root: _Path | None = None,
+    unit: float = 1.0,
 ) -> Tool: ...
 def import_task(
     path: _Path,
@@ -518,6 +524,10 @@ def import_task(
     name: str | None = None,
     friction: float = 0.5,
     shift: tuple[float, float] = ...,
+    free: Sequence[str] | None = None,
+    density: float | None = None,
+    root: _Path | None = None,
+    unit: float = 1.0,
 ) -> Task: ...
 def export_mjcf(plan: Plan, path: _Path) -> None: ...
 def export_mcap(

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use pushplan::Vector;
 use pushplan::asset::{Faults, write_atomic};
 use pushplan::export;
-use pushplan::import::{self, Imported, Model, Wanted};
+use pushplan::import::{self, Imported, Model, Reading, Wanted};
 use pyo3::exceptions::{PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 
@@ -24,21 +24,24 @@ const _: () = assert!(Wanted::FRICTION == 0.5);
 /// The tool in a file of MuJoCo (MJCF) or ROS (URDF): the body of that name, by default the only one,
 /// with all that is fixed to it.
 ///
-/// `friction` is the value of bodies that state none. `pushplan import --help` says what is
-/// imported as what. Raises `FileError` for anything that pushplan cannot express; slight
+/// `friction` is the value of bodies that state none, `root` the folder in and below which the file
+/// may name others, by default its own, and `unit` that of a mesh (STL, OBJ), metres. `pushplan import
+/// --help` says what is imported as what. Raises `FileError` for anything that pushplan cannot express; slight
 /// differences are warnings.
 #[pyfunction]
-#[pyo3(signature = (path, *, body = None, name = None, friction = 0.5))]
+#[pyo3(signature = (path, *, body = None, name = None, friction = 0.5, root = None, unit = 1.0))]
 pub fn import_tool(
     py: Python<'_>,
     path: PathBuf,
     body: Option<String>,
     name: Option<String>,
     friction: f64,
+    root: Option<PathBuf>,
+    unit: f64,
 ) -> PyResult<PyTool> {
     let bodies = body.into_iter().collect();
     let wanted = Wanted { bodies, name, friction, ..Wanted::default() };
-    let tool = imported(py, path, &wanted, import::tool)?;
+    let tool = imported(py, path, &reading(root, unit)?, &wanted, import::tool)?;
     Ok(PyTool(Arc::new(tool)))
 }
 
@@ -47,11 +50,14 @@ pub fn import_tool(
 ///
 /// Robot and tools are placeholders for yours, and so is the goal, where the first object is,
 /// unless the file is one of `export_mjcf`. `friction` is the value of bodies that state none,
-/// `shift` moves everything on the table (metres). Raises `FileError` for anything that pushplan
+/// `shift` moves everything on the table (metres), `free` names bodies that stand freely although the
+/// file holds them, `density` (kg/m^3) is that of bodies that state no mass, `root` the folder in and below
+/// which the file may name others, by default its own, and `unit` that of a mesh, metres. Raises `FileError` for anything that pushplan
 /// cannot express; slight differences are warnings.
 #[pyfunction]
-#[pyo3(signature = (path, *, bodies = None, name = None, friction = 0.5,
-                    shift = (0.0, 0.0)))]
+#[pyo3(signature = (path, *, bodies = None, name = None, friction = 0.5, shift = (0.0, 0.0),
+                    free = None, density = None, root = None, unit = 1.0))]
+#[expect(clippy::too_many_arguments, reason = "Python has names for them")]
 pub fn import_task(
     py: Python<'_>,
     path: PathBuf,
@@ -59,22 +65,38 @@ pub fn import_task(
     name: Option<String>,
     friction: f64,
     shift: (f64, f64),
+    free: Option<Vec<String>>,
+    density: Option<f64>,
+    root: Option<PathBuf>,
+    unit: f64,
 ) -> PyResult<PyTask> {
     let (bodies, shift) = (bodies.unwrap_or_default(), Vector::new(shift.0, shift.1));
-    let wanted = Wanted { bodies, name, friction, shift };
-    let scene = imported(py, path, &wanted, import::objects)?;
+    if density.is_some_and(|density| !(density > 0.0 && density.is_finite())) {
+        return Err(PyValueError::new_err("`density` is a number above 0, kg/m^3"));
+    }
+    let free = free.unwrap_or_default();
+    let wanted = Wanted { bodies, free, density, name, friction, shift };
+    let scene = imported(py, path, &reading(root, unit)?, &wanted, import::objects)?;
     Ok(PyTask { task: Arc::new(scene.task), source: None })
+}
+
+fn reading(root: Option<PathBuf>, unit: f64) -> PyResult<Reading> {
+    if !(unit > 0.0 && unit.is_finite()) {
+        return Err(PyValueError::new_err("`unit` is a number above 0, metres"));
+    }
+    Ok(Reading { root, unit })
 }
 
 /// What one of the library's ways to import makes of a file; its notes become warnings.
 fn imported<T>(
     py: Python<'_>,
     path: PathBuf,
+    reading: &Reading,
     wanted: &Wanted,
     way: fn(&Model, &str, &Wanted) -> Result<Imported<T>, Faults>,
 ) -> PyResult<T> {
     let faults = |faults: Faults| errors::files(py, &faults, None);
-    let (model, _, mut notes) = import::read(&path).map_err(faults)?;
+    let (model, _, mut notes) = import::read(&path, reading).map_err(faults)?;
     let made = way(&model, &path.display().to_string(), wanted).map_err(faults)?;
     notes.extend(made.notes);
     for note in notes {

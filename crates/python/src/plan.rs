@@ -249,6 +249,10 @@ impl PyPlan {
         json::unpickled(py, "Plan", &self.json()?)
     }
 
+    fn __eq__(&self, other: &Self) -> bool {
+        self.file == other.file
+    }
+
     fn __repr__(&self) -> String {
         let plan = &self.file.plan;
         let steps = match (plan.steps.len(), plan.levers()) {

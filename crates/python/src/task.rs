@@ -208,6 +208,10 @@ impl PyTask {
         unpickled(py, "Task", &self.task.to_json())
     }
 
+    fn __eq__(&self, other: &Self) -> bool {
+        self.task == other.task
+    }
+
     fn __repr__(&self) -> String {
         format!("<Task {}>", self.task.name)
     }

@@ -6,10 +6,13 @@ use super::things;
 use crate::asset::task::{WORLD, area_of, emitted_obstacle, name_of_surface};
 use crate::geometry::{Pose, Shape, Vector};
 use crate::scene::{
-    Blade, Directions, Goal, Hand, Joint, JointKind, LeverRules, Mount, Object, Obstacle, Offsets,
-    PairFriction, Pivot, Plate, PushForm, PushRules, Robot, Scene, Slab, Span, Support, TableTop,
-    Task, Tool, ToolChoice,
+    Blade, Directions, DisjointSets, Goal, Hand, Joint, JointKind, LeverRules, Mount, Object,
+    Obstacle, Offsets, PairFriction, Pivot, Plate, PushForm, PushRules, Robot, Scene, Slab, Span,
+    Support, TableTop, Task, Tool, ToolChoice,
 };
+
+/// The most pairs of parts that a tool file names.
+const MAX_NAMED: usize = 64;
 
 /// A task as in a task file.
 pub(in crate::asset) fn task(task: &Task) -> Json {
@@ -103,9 +106,12 @@ pub(in crate::asset) fn tool(tool: &Tool) -> Json {
             posed(fields, &part.pose)
         })
         .collect();
-    // Every joint is written, those of touching parts too: to name one by hand does no harm.
-    let joints: Vec<Json> =
-        tool.joints().iter().map(|pair| json!(pair.map(|k| &tool.parts()[k].name))).collect();
+    // Every joint is written, those of touching parts too: to name one by hand does no harm. Where
+    // there are more than a file may have, those that hold the parts together.
+    let mut held = DisjointSets::new(tool.parts().len());
+    let all = tool.joints().len() <= MAX_NAMED;
+    let kept = tool.joints().iter().filter(|pair| held.join(**pair) || all);
+    let joints: Vec<Json> = kept.map(|pair| json!(pair.map(|k| &tool.parts()[k].name))).collect();
     json!({
         "name": tool.name,
         "description": tool.description,

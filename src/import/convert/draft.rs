@@ -171,7 +171,9 @@ fn shape(
         Base::Disc(radius) if off <= OFF_CENTRE.max(ROUGHLY * radius) => {
             if off > OFF_CENTRE && upright.rough.is_none() {
                 let by = 1e3 * off;
-                let note = format!("the centre of mass of `{name}` is {by:.2} mm off its axis, here on it");
+                let note = format!(
+                    "the centre of mass of `{name}` is {by:.2} mm off its axis, here on it"
+                );
                 ledger.note(solid.place, note);
             }
             Some(Shape::Cylinder { radius: *radius, height })

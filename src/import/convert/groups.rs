@@ -115,9 +115,9 @@ pub(super) fn judged(model: &Model, roots: &[usize], wanted: &Wanted, ledger: &m
     }
     ledger.pass_over(&others, "what is not imported");
     for (place, names) in &model.excluded {
-        let both = names.iter().all(|name| {
-            chosen.iter().any(|body| model.name_of(*body) == name.as_str())
-        });
+        let both = names
+            .iter()
+            .all(|name| chosen.iter().any(|body| model.name_of(*body) == name.as_str()));
         // What hangs together by a joint does not touch anyhow.
         let of = |name: &String| model.bodies.iter().position(|body| body.name == *name);
         let joined = match names.each_ref().map(of) {

@@ -72,8 +72,12 @@ pub(super) fn fewer(mut pieces: Weighed<'_>) -> (Weighed<'_>, f64) {
 fn joined(one: &Upright, other: &Upright) -> Option<Upright> {
     let (low, top) = (one.low.min(other.low), one.top().max(other.top()));
     let at = |z: f64| move |point: Vector| Point3::new(point.x, point.y, z);
-    let points: Vec<Point3<f64>> =
-        one.outline().into_iter().chain(other.outline()).flat_map(|p| [at(low)(p), at(top)(p)]).collect();
+    let points: Vec<Point3<f64>> = one
+        .outline()
+        .into_iter()
+        .chain(other.outline())
+        .flat_map(|p| [at(low)(p), at(top)(p)])
+        .collect();
     Upright::over(&points, None, false)
 }
 

@@ -14,6 +14,9 @@ use super::wanted::Wanted;
 /// Objects stand on what is within this of their undersides, metres: scenes drop them a little.
 const STAND: f64 = 5e-3;
 
+/// What is no deeper in the table than this stands on it, metres: programs move it before they begin.
+const SUNK: f64 = 0.05;
+
 /// What is no more above the table than this is set down on it, metres.
 const DROP: f64 = 0.25;
 
@@ -45,10 +48,17 @@ pub(super) fn statics<'a>(
         .collect();
     let floor = floor(&fixed, drafts, ledger);
     let mut level = true;
+    for draft in drafts.iter().filter(|draft| draft.low < floor - STAND) {
+        let (name, below) = (&draft.object.name, 1e3 * (floor - draft.low));
+        let note =
+            format!("`{name}` is {below:.0} mm inside the table in the file: it is set on it");
+        ledger.note(draft.place, note);
+    }
     for draft in drafts.iter().filter(|draft| draft.low > floor + STAND) {
         let (name, above) = (&draft.object.name, 1e3 * (draft.low - floor));
         if draft.low <= floor + DROP {
-            let note = format!("`{name}` is {above:.0} mm above the table in the file: it is set down");
+            let note =
+                format!("`{name}` is {above:.0} mm above the table in the file: it is set down");
             ledger.note(draft.place, note);
             continue;
         }
@@ -184,7 +194,10 @@ fn floor(fixed: &[(&str, &Solid)], drafts: &[Draft<'_>], ledger: &mut Ledger) ->
         }
         _ => None,
     });
-    let under = |top: &f64| *top <= lowest + STAND && *top >= lowest - DROP;
+    // Sunk in by less than half of its height it is meant to stand on it.
+    let half = drafts.iter().map(|draft| draft.object.shape.height() / 2.0);
+    let sunk = half.fold(SUNK, f64::min).max(STAND);
+    let under = |top: &f64| *top <= lowest + sunk && *top >= lowest - DROP;
     let floor = tops.filter(under).fold(f64::NEG_INFINITY, f64::max);
     // They are judged later.
     ledger.since(before);
@@ -216,13 +229,8 @@ fn obstacle<'a>(
     // The least box around it.
     let outline = upright.outline();
     let (size, pose) = around(&outline);
-    let obstacle = Obstacle {
-        name: names.take(what),
-        size: [size[0], size[1], tall],
-        pose,
-        z,
-        friction,
-    };
+    let obstacle =
+        Obstacle { name: names.take(what), size: [size[0], size[1], tall], pose, z, friction };
     let own = obstacle.shape().footprint();
     let touches = |object: &Object, pose: &Pose| {
         obstacle.z < object.shape.height()
@@ -263,7 +271,8 @@ fn around(corners: &[Vector]) -> ([f64; 2], Pose) {
     };
     let sides = corners.iter().zip(corners.iter().cycle().skip(1));
     let all = sides.map(|(a, b)| boxed((b.y - a.y).atan2(b.x - a.x)));
-    all.min_by(|(a, _), (b, _)| (a[0] * a[1]).total_cmp(&(b[0] * b[1]))).unwrap_or_else(|| boxed(0.0))
+    all.min_by(|(a, _), (b, _)| (a[0] * a[1]).total_cmp(&(b[0] * b[1])))
+        .unwrap_or_else(|| boxed(0.0))
 }
 
 /// The scene without objects.

@@ -61,9 +61,8 @@ pub(super) fn of_group<'a>(
         solids = vec![(all[0].0, first)];
     }
     // Spheres are what a single solid stands on; elsewhere they are solids like others.
-    let one_each = bodies
-        .iter()
-        .all(|body| solids.iter().filter(|(owner, _)| owner == body).count() <= 1);
+    let one_each =
+        bodies.iter().all(|body| solids.iter().filter(|(owner, _)| owner == body).count() <= 1);
     if !(one_each && (model.ours || solids.len() == 1)) && all.len() > 1 {
         solids = all.clone();
     }
@@ -200,15 +199,14 @@ fn compound<'a>(
         ledger.note(place, note);
     }
     let mut masses: Vec<f64> = pieces.iter().map(|(_, share)| *share).collect();
-    let middles: Vec<Vector> = pieces
-        .iter()
-        .map(|(piece, _)| piece.upright.pose.point(piece.upright.middle()))
-        .collect();
+    let middles: Vec<Vector> =
+        pieces.iter().map(|(piece, _)| piece.upright.pose.point(piece.upright.middle())).collect();
     if let Some(centre) = centre {
         let off = balanced(&mut masses, &middles, Vector::new(centre.x, centre.y));
         if off > OFF {
             let by = 1e3 * off;
-            let note = format!("the centre of mass of `{name}` is here {by:.1} mm off where it should be");
+            let note =
+                format!("the centre of mass of `{name}` is here {by:.1} mm off where it should be");
             ledger.note(place, note);
         }
     }
@@ -260,7 +258,8 @@ fn shares<'a>(
             own.iter().map(|k| volume(found[*k].0.solid).unwrap_or_default()).collect();
         let all: f64 = space.iter().sum();
         if of.inertial.is_some() && own.len() > 1 {
-            let note = format!("the mass of `{}` is split over its solids by volume", bare(&of.name));
+            let note =
+                format!("the mass of `{}` is split over its solids by volume", bare(&of.name));
             ledger.note(of.place, note);
         }
         for (k, space) in own.into_iter().zip(space) {

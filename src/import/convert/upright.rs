@@ -135,8 +135,7 @@ impl Upright {
         let heights = || points.iter().map(|point| point.z);
         let low = heights().fold(f64::INFINITY, f64::min);
         let height = heights().fold(f64::NEG_INFINITY, f64::max) - low;
-        let seen: Vec<Vector> =
-            points.iter().map(|point| Vector::new(point.x, point.y)).collect();
+        let seen: Vec<Vector> = points.iter().map(|point| Vector::new(point.x, point.y)).collect();
         let (base, at, off) = shadow(&seen)?;
         if height < THIN {
             return None;
@@ -228,10 +227,8 @@ fn cloud(outline: &Outline) -> Vec<Point3<f64>> {
     let ball = |radii: [f64; 3], shift: f64| {
         (0..=AROUND / 2).flat_map(move |row| {
             (0..AROUND).map(move |k| {
-                let (up, around) = (
-                    PI * row as f64 / (AROUND / 2) as f64,
-                    2.0 * PI * k as f64 / AROUND as f64,
-                );
+                let (up, around) =
+                    (PI * row as f64 / (AROUND / 2) as f64, 2.0 * PI * k as f64 / AROUND as f64);
                 let [x, y, z] = radii;
                 let z = z * up.cos();
                 let z = z + if z < 0.0 { -shift } else { shift };

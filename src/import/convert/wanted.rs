@@ -31,7 +31,14 @@ impl Wanted {
 
 impl Default for Wanted {
     fn default() -> Self {
-        Self { bodies: Vec::new(), free: Vec::new(), density: None, name: None, friction: Self::FRICTION, shift: Vector::zeros() }
+        Self {
+            bodies: Vec::new(),
+            free: Vec::new(),
+            density: None,
+            name: None,
+            friction: Self::FRICTION,
+            shift: Vector::zeros(),
+        }
     }
 }
 

@@ -67,9 +67,8 @@ impl Mesh {
 
     /// Volume of its convex hull, cubic metres; nothing where it is flat.
     pub fn hull_volume(&self) -> f64 {
-        hull(&self.points).map_or(0.0, |(corners, faces)| {
-            bulk(&corners, &faces, Counted::Enclosed).0
-        })
+        hull(&self.points)
+            .map_or(0.0, |(corners, faces)| bulk(&corners, &faces, Counted::Enclosed).0)
     }
 
     /// Whether every side of a triangle is that of one other triangle, the other way round.
@@ -137,7 +136,8 @@ mod tests {
 
     fn cube() -> (Vec<Point3<f64>>, Vec<[u32; 3]>) {
         let corner = |k: u32| Point3::from([k & 1, k >> 1 & 1, k >> 2].map(f64::from));
-        let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let sides =
+            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
         let faces = sides.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]);
         ((0..8).map(corner).collect(), faces.collect())
     }
@@ -155,6 +155,8 @@ mod tests {
         let open = Mesh::new(points.clone(), faces[1..].to_vec(), Counted::Unsigned);
         assert!(!open.expect("a mesh").is_closed());
         assert!(Mesh::new(points[..3].to_vec(), Vec::new(), Counted::Hull).is_none());
-        assert!(Mesh::new(vec![Point3::new(f64::NAN, 0.0, 0.0); 4], faces, Counted::Shell).is_none());
+        assert!(
+            Mesh::new(vec![Point3::new(f64::NAN, 0.0, 0.0); 4], faces, Counted::Shell).is_none()
+        );
     }
 }

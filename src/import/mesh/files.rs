@@ -124,7 +124,14 @@ mod tests {
         for cut in 0..whole.len() {
             let _ = (stl(whole[..cut].to_vec()), msh(&whole[..cut]), obj(&whole[..cut]));
         }
-        for text in ["f 1 2 3", "v 1 2\nf 1 1 1", "v 0 0 0\nf 1 2 99", "v x 0 0", "f -9 -8 -7", "v 0 0 0\nf 1"] {
+        for text in [
+            "f 1 2 3",
+            "v 1 2\nf 1 1 1",
+            "v 0 0 0\nf 1 2 99",
+            "v x 0 0",
+            "f -9 -8 -7",
+            "v 0 0 0\nf 1",
+        ] {
             let read = obj(text.as_bytes());
             assert!(read.is_err() || read.is_ok_and(|(points, _)| points.len() < 4), "{text}");
         }

@@ -52,10 +52,9 @@ pub(in crate::import) fn model(
             (LIKELY[0]..=LIKELY[1]).contains(&(side / unit * other)) && *other != unit
         });
         let advice = match likely {
-            Some((word, other)) => format!(
-                "write its unit: --unit {word} makes it {:.3} m",
-                side / unit * other
-            ),
+            Some((word, other)) => {
+                format!("write its unit: --unit {word} makes it {:.3} m", side / unit * other)
+            }
             None => "write its unit: --unit mm, cm, m or in".to_owned(),
         };
         return Err(fault(message, advice).into());
@@ -64,7 +63,8 @@ pub(in crate::import) fn model(
     let made = |counted| Mesh::new(points.clone(), faces.clone(), counted);
     let mut mesh = made(Counted::Enclosed);
     if !mesh.as_ref().is_some_and(Mesh::is_closed) {
-        notes.push(format!("{file}: the mesh is not closed: its volume is that of its convex hull"));
+        notes
+            .push(format!("{file}: the mesh is not closed: its volume is that of its convex hull"));
         mesh = made(Counted::Hull);
     }
     let Some(mesh) = mesh.filter(|mesh| mesh.volume > 0.0) else {

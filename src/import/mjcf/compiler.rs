@@ -47,8 +47,15 @@ const HARMLESS: [&str; 14] = [
 
 impl Default for Compiler {
     fn default() -> Self {
-        Self { degrees: true, letters: ['x', 'y', 'z'], from_geoms: None, groups: [0.0, 5.0], meshes: String::new(),
-            strip: false, exact: false }
+        Self {
+            degrees: true,
+            letters: ['x', 'y', 'z'],
+            from_geoms: None,
+            groups: [0.0, 5.0],
+            meshes: String::new(),
+            strip: false,
+            exact: false,
+        }
     }
 }
 

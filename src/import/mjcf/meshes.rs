@@ -131,7 +131,9 @@ impl<'a> Meshes<'a> {
         let points: Vec<Point3<f64>> = points.into_iter().map(point).collect();
         match Mesh::new(points, faces, counted) {
             Some(mesh) => Some(Outline::Mesh(Arc::new(mesh))),
-            None => Some(Outline::Other("a mesh that is flat, or whose numbers are none".to_owned())),
+            None => {
+                Some(Outline::Other("a mesh that is flat, or whose numbers are none".to_owned()))
+            }
         }
     }
 }

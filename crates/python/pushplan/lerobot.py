@@ -1,0 +1,232 @@
+"""Trajectories as a LeRobot data set (format v3.0), which ``lerobot``, ``datasets`` and ``pyarrow`` read.
+
+    import pushplan
+    from pushplan import lerobot
+
+    plan = pushplan.solve(pushplan.Task.example("pull-back-behind-wall")).best
+    lerobot.save("demonstrations", [(plan.task, pushplan.predict(plan, "3d"))])
+
+Needs ``pyarrow`` (``pip install 'pushplan[lerobot]'``). A frame holds
+
+- ``observation.state``: pose of the tool frame, x and y in metres, heading in radians;
+- ``observation.environment_state``: the same of every object, in the order of the task;
+- ``action``: where the tool is to be at the next frame;
+- ``next.done`` and ``next.success``: whether the episode ends, and whether its goal is then reached.
+
+There are no pictures. Headings count their turns.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+import tempfile
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ._native import Task, Trajectory
+
+__all__ = ["save"]
+
+_VERSION = "v3.0"
+_DATA = "data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet"
+_EPISODES = "meta/episodes/chunk-000/file-000.parquet"
+_AXES = ("x", "y", "heading")
+
+_Floats = npt.NDArray[np.float64]
+
+
+def save(
+    folder: str | Path, episodes: Iterable[tuple[Task, Trajectory]], *, fps: int = 20
+) -> Path:
+    """Writes a new folder with an episode for every task and trajectory on its table.
+
+    All tasks have objects of the same names, in the same order. ``fps`` is the number of frames a
+    second; poses between those of a trajectory lie on the straight line between them. A partial data
+    set is never left behind, and an existing folder is not touched.
+    """
+    parquet, arrow = _pyarrow()
+    folder = Path(folder)
+    if folder.exists():
+        raise FileExistsError(f"{folder} exists; name a new folder")
+    if not (isinstance(fps, int) and 1 <= fps <= 1000):
+        raise ValueError("`fps` is a whole number from 1 to 1000")
+    taken = [(task, trajectory, *_frames(trajectory, fps)) for task, trajectory in episodes]
+    if not taken:
+        raise ValueError("a data set has one episode or more")
+    names = taken[0][1].objects
+    for _, trajectory, *_ in taken:
+        if trajectory.objects != names:
+            raise ValueError(
+                f"episodes of one data set have the same objects: {names} and {trajectory.objects}"
+            )
+    words = list(dict.fromkeys(_words(task) for task, *_ in taken))
+    features = _features(names)
+    columns: dict[str, list[Any]] = {name: [] for name in features}
+    rows: list[dict[str, Any]] = []
+    first = 0
+    for number, (task, trajectory, tool, objects) in enumerate(taken):
+        length = len(tool)
+        done = np.arange(length) == length - 1
+        episode: dict[str, npt.NDArray[Any]] = {
+            "observation.state": tool.astype(np.float32),
+            "observation.environment_state": objects.astype(np.float32),
+            # At the end the tool stays where it is.
+            "action": np.concatenate([tool[1:], tool[-1:]]).astype(np.float32),
+            "next.done": done,
+            "next.success": done & trajectory.reached,
+            "timestamp": (np.arange(length) / fps).astype(np.float32),
+            "frame_index": np.arange(length),
+            "episode_index": np.full(length, number),
+            "index": first + np.arange(length),
+            "task_index": np.full(length, words.index(_words(task))),
+        }
+        for name, values in episode.items():
+            columns[name].append(values)
+        row: dict[str, Any] = {
+            "episode_index": number,
+            "tasks": [_words(task)],
+            "length": length,
+            "data/chunk_index": 0,
+            "data/file_index": 0,
+            "dataset_from_index": first,
+            "dataset_to_index": first + length,
+            "meta/episodes/chunk_index": 0,
+            "meta/episodes/file_index": 0,
+        }
+        for name, values in episode.items():
+            row |= {f"stats/{name}/{key}": value for key, value in _stats(values).items()}
+        rows.append(row)
+        first += length
+    whole = {name: np.concatenate(values) for name, values in columns.items()}
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    # Made beside it and moved: what is there is whole.
+    made = Path(tempfile.mkdtemp(prefix=f".{folder.name}.", dir=folder.parent))
+    try:
+        for path in (_DATA.format(chunk_index=0, file_index=0), _EPISODES):
+            (made / path).parent.mkdir(parents=True)
+        table = {name: _column(arrow, values) for name, values in whole.items()}
+        parquet.write_table(arrow.table(table), made / _DATA.format(chunk_index=0, file_index=0))
+        parquet.write_table(arrow.Table.from_pylist(rows), made / _EPISODES)
+        parquet.write_table(_tasks(arrow, words), made / "meta/tasks.parquet")
+        stats = {name: _stats(values) for name, values in whole.items()}
+        (made / "meta/stats.json").write_text(json.dumps(stats, indent=4))
+        info = {
+            "codebase_version": _VERSION,
+            "robot_type": "pushplan",
+            "total_episodes": len(rows),
+            "total_frames": first,
+            "total_tasks": len(words),
+            "chunks_size": 1000,
+            "data_files_size_in_mb": 100,
+            "video_files_size_in_mb": 200,
+            "fps": fps,
+            "splits": {"train": f"0:{len(rows)}"},
+            "data_path": _DATA,
+            "video_path": None,
+            "features": features,
+        }
+        (made / "meta/info.json").write_text(json.dumps(info, indent=4))
+        # As others read it: what is private while it is made is not afterwards.
+        made.chmod(0o755)
+        made.rename(folder)
+    except BaseException:
+        shutil.rmtree(made, ignore_errors=True)
+        raise
+    return folder
+
+
+def _pyarrow() -> tuple[Any, Any]:
+    try:
+        import pyarrow
+        import pyarrow.parquet
+    except ImportError as error:
+        raise ImportError("LeRobot data sets need pyarrow: pip install 'pushplan[lerobot]'") from error
+    return pyarrow.parquet, pyarrow
+
+
+def _words(task: Task) -> str:
+    """What the task is, in words."""
+    mapping: Any = task.to_dict()
+    return str(mapping.get("description") or task.name)
+
+
+def _frames(trajectory: Trajectory, fps: int) -> tuple[_Floats, _Floats]:
+    """Poses of the tool `[frames, 3]`, and of all objects `[frames, objects * 3]`, at equal steps."""
+    times = trajectory.times - trajectory.times[0]
+    steps = np.arange(int(np.ceil(times[-1] * fps - 1e-9)) + 1) / fps
+    poses = trajectory.poses.reshape(len(times), -1)
+
+    def at(values: _Floats) -> _Floats:
+        return np.stack([np.interp(steps, times, column) for column in values.T], axis=1)
+
+    tool = trajectory.tool_poses.copy()
+    tool[:, 2] = np.unwrap(tool[:, 2])
+    return at(tool), at(poses)
+
+
+def _features(names: list[str]) -> dict[str, Any]:
+    def numbers(of: list[str]) -> dict[str, Any]:
+        return {"dtype": "float32", "shape": [len(of)], "names": of}
+
+    def one(dtype: str) -> dict[str, Any]:
+        return {"dtype": dtype, "shape": [1], "names": None}
+
+    tool = [f"tool.{axis}" for axis in _AXES]
+    return {
+        "observation.state": numbers(tool),
+        "observation.environment_state": numbers(
+            [f"{name}.{axis}" for name in names for axis in _AXES]
+        ),
+        "action": numbers(tool),
+        "next.done": one("bool"),
+        "next.success": one("bool"),
+        "timestamp": one("float32"),
+        "frame_index": one("int64"),
+        "episode_index": one("int64"),
+        "index": one("int64"),
+        "task_index": one("int64"),
+    }
+
+
+def _stats(values: npt.NDArray[Any]) -> dict[str, list[float]]:
+    numbers = values.reshape(len(values), -1).astype(np.float64)
+    quantiles = {f"q{share:02d}": np.quantile(numbers, share / 100, axis=0) for share in (1, 10, 50, 90, 99)}
+    found = {
+        "min": numbers.min(axis=0),
+        "max": numbers.max(axis=0),
+        "mean": numbers.mean(axis=0),
+        "std": numbers.std(axis=0),
+        **quantiles,
+    }
+    return {key: value.tolist() for key, value in found.items()} | {"count": [len(values)]}
+
+
+def _column(arrow: Any, values: npt.NDArray[Any]) -> Any:
+    if values.ndim == 1:
+        return arrow.array(values)
+    flat = arrow.array(values.reshape(-1))
+    return arrow.FixedSizeListArray.from_arrays(flat, values.shape[1])
+
+
+def _tasks(arrow: Any, words: list[str]) -> Any:
+    """Tasks by their words, which pandas takes as the index."""
+
+    def column(name: str, kind: str, numpy: str) -> dict[str, Any]:
+        return {
+            "name": name, "field_name": name, "pandas_type": kind, "numpy_type": numpy, "metadata": None,
+        }
+
+    index = {
+        "index_columns": ["task"],
+        "column_indexes": [],
+        "columns": [column("task_index", "int64", "int64"), column("task", "unicode", "object")],
+        "creator": {"library": "pyarrow", "version": arrow.__version__},
+        "pandas_version": "2.0.0",
+    }
+    table = arrow.table({"task_index": list(range(len(words))), "task": words})
+    return table.replace_schema_metadata({"pandas": json.dumps(index)})
