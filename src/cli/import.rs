@@ -10,29 +10,35 @@ use crate::import::{Imported, ImportedScene, Language, Reading, Wanted, objects,
 
 use super::{error::CliError, exit_code, session::Session};
 
-/// Import a tool or objects from a file of MuJoCo (MJCF) or ROS (URDF)
+/// Import a tool or objects from a file of MuJoCo (MJCF) or ROS (URDF), or from a mesh (STL, OBJ)
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:
   pushplan import gripper.urdf --as tool --out tools/gripper.yaml
   pushplan import scene.xml --as objects --body can --body box --out tasks/mine.yaml
+  pushplan import mug.stl --as objects --unit mm --density 2400
 
 Without --out the file is printed. `pushplan import --help` says what is imported as what.",
     after_long_help = "What is imported as what:
 
-  objects    Bodies that stand freely (<freejoint/>; in URDF a link without a parent, or on a floating
-             joint of `world`) on one plane or box, the table. Boxes on any face, upright cylinders,
-             and meshes that are upright prisms of up to eight corners with their vertices in the file.
-             Several solids of a body become objects with fixed joints, hinges about the vertical and
-             slides along the table become joints. Small spheres under a solid are the points that it
-             stands on. Boxes that do not move are obstacles. Robot and tools, and the goal where the
-             file has none, stand for yours.
+  objects    Bodies that stand freely (<freejoint/>, two slides and a hinge, --free NAME; in URDF a link
+             without a parent, or on a floating joint of `world`) on one plane or box, the table, or up
+             to 25 cm above it. A body is one object; of several solids it has parts, of many those that
+             cover the same. Hinges about the vertical and slides along the table become joints, to the
+             world as well. Small spheres under a solid are the points that it stands on. What does not
+             move is an obstacle: the box around it. Robot and tools, and the goal where the file has
+             none, stand for yours.
+  meshes     STL, OBJ and MSH, of the file or by themselves: the prism of up to eight corners, or the
+             upright cylinder, over what the convex hull covers, as MuJoCo and Bullet have it. A mesh by
+             itself that is not convex has parts. A warning says how far the outline is off.
+  includes   Files in or below the folder of the file, or that of --root.
   tool       One body with all that is fixed to it, undersides level. Its frame is that of the body.
              What it weighs, and what holds or moves it, does not matter.
-  mass       <inertial> if it is there, else MuJoCo's rule: mass, or density (1000 kg/m^3) times volume.
-             A centre of mass off the middle makes a box a prism.
-  friction   The first number of `friction` in MJCF (1 by default); in URDF <lateral_friction> or
-             <mu1>, else --friction. MuJoCo takes the larger value of a pair, or that of a <pair>,
+  mass       <inertial> if it is there, else MuJoCo's rule: mass, or density (1000 kg/m^3) times volume,
+             else --density. One mass of several solids is split by volume, so that the centre of mass
+             is where it should be. A centre of mass off the middle makes a box a prism.
+  friction   The first number of `friction` in MJCF (1 by default); in URDF <lateral_friction>,
+             <mu1>, <mu> or Drake's, else --friction. MuJoCo takes the larger value of a pair, or that of a <pair>,
              where pushplan takes the mean: pairs that differ are listed under `frictions`. Of a tool
              and an object it is the mean.
   shapes that are only seen (contype and conaffinity 0, <visual>) weigh, but are left out.
