@@ -60,6 +60,25 @@ impl Ledger {
         self.faults.len()
     }
 
+    /// How many notes there are.
+    pub fn notes(&self) -> usize {
+        self.notes.len()
+    }
+
+    /// Takes back all notes but the first `count`.
+    pub fn notes_since(&mut self, count: usize) -> Vec<String> {
+        self.notes.split_off(count)
+    }
+
+    /// Takes over notes that were made earlier.
+    pub fn note_all(&mut self, notes: &[String]) {
+        for note in notes {
+            if !self.notes.contains(note) {
+                self.notes.push(note.clone());
+            }
+        }
+    }
+
     /// Takes back all faults but the first `count`.
     pub fn since(&mut self, count: usize) -> Vec<Fault> {
         self.faults.split_off(count)

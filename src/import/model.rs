@@ -67,6 +67,8 @@ pub struct Body {
     pub weighs: Option<(f64, Point3<f64>)>,
     /// What is wrong with it: of importance only to those who want it.
     pub faults: Vec<Fault>,
+    /// What is expressed slightly differently, each with its place.
+    pub notes: Vec<String>,
 }
 
 /// How a body may move against the one that it is attached to.
@@ -222,6 +224,7 @@ impl Body {
             inertial: None,
             weighs: None,
             faults: Vec::new(),
+            notes: Vec::new(),
         }
     }
 }

@@ -139,7 +139,7 @@ fn take<'a>(
     parent: usize,
     (gazebo, files): (&HashMap<String, Gazebo>, &Files),
 ) -> Option<Body> {
-    let before = source.ledger.count();
+    let (before, noted) = (source.ledger.count(), source.ledger.notes());
     let above = model.bodies[parent].pose;
     let (pose, motion) = match link.joint {
         Some(node) => {
@@ -172,6 +172,7 @@ fn take<'a>(
         solids,
         inertial: inertial(source, link.node, &pose),
         faults: source.ledger.since(before),
+        notes: source.ledger.notes_since(noted),
         ..Body::world()
     })
 }

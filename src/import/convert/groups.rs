@@ -107,6 +107,9 @@ pub(super) fn judged(model: &Model, roots: &[usize], wanted: &Wanted, ledger: &m
     let chosen: Vec<usize> = roots.iter().flat_map(|root| model.below(*root)).collect();
     let mut others = Vec::new();
     for (index, body) in model.bodies.iter().enumerate() {
+        if wanted.bodies.is_empty() || chosen.contains(&index) || model.is_fixed(Some(index)) {
+            ledger.note_all(&body.notes);
+        }
         if wanted.bodies.is_empty() || chosen.contains(&index) {
             ledger.take(&body.faults);
         } else {

@@ -19,6 +19,9 @@ const HANGS: f64 = 1e-3;
 /// A centre of mass that is farther from where it should be is worth a note, metres.
 const OFF: f64 = 1e-3;
 
+/// The least mass of a part that a task states, kg.
+const LEAST: f64 = 1.1e-3;
+
 /// The most solids of one thing.
 const MANY: usize = 300;
 
@@ -89,7 +92,9 @@ pub(super) fn of_group<'a>(
     let Some(weighed) = together(model, bodies, wanted.density, ledger) else { return Vec::new() };
     if weighed.0 <= NOTHING {
         let message = format!("`{}` has no mass", owner.name);
-        ledger.fault(owner.place, message, "state its mass in kilograms (<inertial>)");
+        let advice = "state its mass in kilograms (<inertial>), or what it is made of: --density 700 \
+                      (kg/m^3, wood)";
+        ledger.fault(owner.place, message, advice);
         return Vec::new();
     }
     let name = names.take(&owner_name(owner, &model.bodies[found[0].2], single));
@@ -227,6 +232,7 @@ fn compound<'a>(
             objects[0].name = name.to_owned();
         }
     }
+    stated(&mut objects);
     let mut objects = objects.into_iter();
     let object = objects.next()?;
     let part = |part: Object| {
@@ -239,6 +245,28 @@ fn compound<'a>(
         .flat_map(|body| model.bodies[*body].solids.iter().map(move |solid| (body, solid)))
         .find(|(_, solid)| solid.touches)?;
     Some(Draft { object, parts, place, body, group, solid, feet: Vec::new(), low })
+}
+
+/// Masses (kg) that a task can state: where a part would be too light it gets more, and where all would be,
+/// their shares by volume, which are not stated.
+fn stated(solids: &mut [Object]) {
+    let sum: f64 = solids.iter().map(|solid| solid.mass).sum();
+    if solids.iter().all(|solid| solid.mass >= LEAST) {
+        return;
+    }
+    if sum < 2.0 * LEAST * solids.len() as f64 {
+        let volume = |solid: &Object| solid.shape.footprint().area() * solid.shape.height();
+        let all: f64 = solids.iter().map(volume).sum();
+        for solid in solids.iter_mut() {
+            solid.mass = sum * (volume(solid) / all);
+        }
+        return;
+    }
+    let missing: f64 = solids.iter().map(|solid| (LEAST - solid.mass).max(0.0)).sum();
+    let above: f64 = solids.iter().map(|solid| (solid.mass - LEAST).max(0.0)).sum();
+    for solid in solids.iter_mut() {
+        solid.mass = LEAST + (solid.mass - LEAST).max(0.0) * (1.0 - missing / above);
+    }
 }
 
 /// What each solid weighs: what the file says, or its share by volume of what its body does.

@@ -27,6 +27,9 @@ pub fn tool(model: &Model, file: &str, wanted: &Wanted) -> Result<Imported<Tool>
     // Only what was chosen may refuse.
     let kept: Vec<usize> = body.map_or_else(Vec::new, |body| model.below(body));
     for (index, other) in model.bodies.iter().enumerate() {
+        if kept.contains(&index) {
+            ledger.note_all(&other.notes);
+        }
         match wanted.bodies.is_empty() || kept.contains(&index) {
             true => ledger.take(&other.faults),
             false => ledger.pass_over(&other.faults, &format!("`{}`", other.name)),

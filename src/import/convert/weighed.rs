@@ -25,7 +25,9 @@ pub(super) fn middle(solid: &Solid) -> Point3<f64> {
 
 /// Mass, centre of mass and moment of inertia of one body; `density` (kg/m^3) where it states none.
 pub(super) fn of_body(body: &Body, density: Option<f64>, ledger: &mut Ledger) -> Option<Weighed> {
-    if let Some((mass, centre, moment)) = body.inertial {
+    // A mass of zero is how some say that they do not know it.
+    let known = |mass: &f64| *mass > NOTHING || density.is_none();
+    if let Some((mass, centre, moment)) = body.inertial.filter(|(mass, ..)| known(mass)) {
         return Some((mass, Some(centre), moment));
     }
     if let (Some((volume, centre)), Some(density)) = (body.weighs, density) {

@@ -119,15 +119,21 @@ fn bulk(points: &[Point3<f64>], faces: &[[u32; 3]], counted: Counted) -> Bulk {
     if counted == Counted::Shell {
         return (0.0, surface, origin.into());
     }
-    let (mut volume, mut moment) = (0.0, nalgebra::Vector3::zeros());
-    for [a, b, c] in triangles() {
-        let signed = (a - origin).dot(&(b - origin).cross(&(c - origin))) / 6.0;
-        let held = if counted == Counted::Unsigned { signed.abs() } else { signed };
-        volume += held;
-        moment += held * (a + b + c + origin) / 4.0;
-    }
+    let held = |origin: nalgebra::Vector3<f64>| {
+        let (mut volume, mut moment) = (0.0, nalgebra::Vector3::zeros());
+        for [a, b, c] in triangles() {
+            let signed = (a - origin).dot(&(b - origin).cross(&(c - origin))) / 6.0;
+            let held = if counted == Counted::Unsigned { signed.abs() } else { signed };
+            volume += held;
+            moment += held * (a + b + c + origin) / 4.0;
+        }
+        (volume, moment / volume)
+    };
+    let (volume, middle) = held(origin);
+    // MuJoCo moves a mesh to its centre of mass and counts again from there.
+    let volume = if counted == Counted::Unsigned { held(middle).0 } else { volume };
     // Turned inside out it encloses as much.
-    (volume.abs(), surface, (moment / volume).into())
+    (volume.abs(), surface, middle.into())
 }
 
 #[cfg(test)]

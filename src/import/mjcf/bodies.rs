@@ -58,7 +58,7 @@ fn inside<'a>(
         return;
     }
     for child in elements(node) {
-        let before = source.ledger.count();
+        let (before, noted) = (source.ledger.count(), source.ledger.notes());
         let tag = child.tag_name().name();
         let element = Lookup { node: child, class: within.class };
         match tag {
@@ -92,6 +92,7 @@ fn inside<'a>(
         }
         // What is wrong with a body matters to those who want it.
         model.bodies[within.body].faults.extend(source.ledger.since(before));
+        model.bodies[within.body].notes.extend(source.ledger.notes_since(noted));
     }
 }
 

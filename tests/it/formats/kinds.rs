@@ -343,6 +343,26 @@ fn a_centre_of_mass_outside_is_told_and_one_off_an_axis_makes_a_prism() {
 }
 
 #[test]
+fn what_weighs_nothing_weighs_what_it_is_made_of() {
+    let text = urdf(&link("a", "").replace("'0.5'", "'0'"));
+    let fault = taken(&text, &all()).expect_err("a fault");
+    assert!(fault.contains("`a` has no mass") && fault.contains("--density 700"), "{fault}");
+    let wood = Wanted { density: Some(700.0), ..all() };
+    let (task, _) = taken(&text, &wood).expect("as the advice says");
+    assert!((task.scene.objects[0].mass - 0.336).abs() < 1e-12);
+    // Parts that are lighter than a task can say weigh more, and the whole as much as before.
+    let thin = mjcf(
+        "<body name='t' pos='.5 0 .02'><freejoint/><geom type='box' size='.04 .04 .02'/>\
+         <geom type='box' size='.002 .02 .02' pos='.042 0 0' density='1'/></body>",
+    );
+    let (task, _) = taken(&thin, &all()).expect("a task");
+    assert!((task.scene.mass(0) - 0.2560032).abs() < 1e-6 && task.scene.objects[1].mass > 1e-3);
+    let light = thin.replace("density='1'", "").replace("/>", " density='5'/>");
+    let (task, _) = taken(&light, &all()).expect("a task");
+    assert!((task.scene.mass(0) - 0.0013).abs() < 1e-4, "{}", task.scene.mass(0));
+}
+
+#[test]
 fn masses_follow_from_the_groups_that_count() {
     let text = mjcf(
         "<body name='b' pos='.5 0 .05'><freejoint/><geom type='box' size='.05 .05 .05' group='4'/>\
