@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Pose, Vector};
 
-use super::{Feet, Joint, JointKind, Object, Physics, Scene, Sight, State};
+use super::{Feet, Joint, JointKind, Object, PairFriction, Physics, Scene, Sight, State, Surface};
 
 /// What an object is a part of.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -53,6 +53,29 @@ impl Scene {
         self.joints.push(Joint::new([object, self.objects.len()], JointKind::Fixed));
         self.objects.push(part);
         self
+    }
+
+    /// The scene in which the frictions that are stated of things are those of all their solids.
+    pub fn rubbing_all_over(mut self) -> Self {
+        let solids = |thing: usize| std::iter::once(thing).chain(self.parts_of(thing));
+        let mut all = Vec::new();
+        for pair in &self.frictions {
+            let others: Vec<Surface> = match pair.with {
+                Surface::Object(other) => solids(other).map(Surface::Object).collect(),
+                other => vec![other],
+            };
+            for object in solids(pair.object) {
+                all.extend(others.iter().map(|with| PairFriction { object, with: *with, ..*pair }));
+            }
+        }
+        self.frictions = all;
+        self
+    }
+
+    /// Whether the friction of a pair is that of things, and not only of parts of theirs.
+    pub fn is_of_things(&self, pair: &PairFriction) -> bool {
+        let is_part = |object: usize| self.objects[object].is_part();
+        !is_part(pair.object) && !matches!(pair.with, Surface::Object(other) if is_part(other))
     }
 
     /// The objects that are no parts of others, with their indices: what a person would count.

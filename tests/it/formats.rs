@@ -4,5 +4,7 @@
 mod imports;
 mod kinds;
 mod kinds;
+mod meshes;
+mod meshes;
 mod recordings;
 mod round_trip;

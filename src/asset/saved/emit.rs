@@ -190,7 +190,8 @@ pub(in crate::asset) fn scene(scene: &Scene) -> Json {
                 "coefficient": pair.coefficient,
             })
         };
-        fields["frictions"] = scene.frictions.iter().map(friction).collect();
+        fields["frictions"] =
+            scene.frictions.iter().filter(|pair| scene.is_of_things(pair)).map(friction).collect();
     }
     if let Some(share) = scene.push_height {
         fields["push_height"] = json!(share);

@@ -95,7 +95,7 @@ pub(super) fn scene(node: &Node) -> Option<Scene> {
     };
     let seams: Vec<Joint> = scene.seams().collect();
     scene.joints.splice(0..0, seams);
-    Some(scene)
+    Some(scene.rubbing_all_over())
 }
 
 /// Where a table with a size ends.

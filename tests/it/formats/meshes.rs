@@ -1,0 +1,130 @@
+//! Meshes, and files that a file names.
+
+use std::fs;
+use std::path::Path;
+
+use pushplan::import::{Reading, Wanted, objects, read};
+use pushplan::scene::Support;
+
+use super::kinds::{Taken, all};
+
+/// The same of a file in a folder of these files.
+fn taken_of(files: &[(&str, &[u8])], reading: &Reading, wanted: &Wanted) -> Taken {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, bytes) in files {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+        fs::write(path, bytes).expect("a file");
+    }
+    let root = reading.root.as_ref().map(|root| folder.path().join(root));
+    let reading = Reading { root, ..reading.clone() };
+    let path = folder.path().join(files[0].0);
+    let (model, _, mut notes) = read(&path, &reading).map_err(|faults| faults.to_string())?;
+    let made = objects(&model, "f", wanted).map_err(|faults| faults.to_string())?;
+    notes.extend(made.notes);
+    Ok((made.value.task, notes.join("\n")))
+}
+
+/// A cube with this side as OBJ.
+fn cube(side: f64) -> Vec<u8> {
+    let mut text = String::new();
+    for k in 0..8 {
+        let [x, y, z] = [k & 1, k >> 1 & 1, k >> 2].map(|bit| side * f64::from(bit));
+        text += &format!("v {x} {y} {z}\n");
+    }
+    for face in ["1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"] {
+        text += &format!("f {face}\n");
+    }
+    text.into_bytes()
+}
+
+#[test]
+fn a_mesh_is_a_thing_on_the_table() {
+    let made = |unit: f64, density: Option<f64>, side: f64| {
+        let reading = Reading { unit, ..Reading::default() };
+        taken_of(&[("cube.obj", &cube(side))], &reading, &Wanted { density, ..Wanted::default() })
+    };
+    let (task, _) = made(1e-3, Some(700.0), 60.0).expect("a task");
+    let object = &task.scene.objects[0];
+    assert_eq!(object.name, "cube");
+    let area = object.shape.footprint().area();
+    assert!((area - 0.0036).abs() < 1e-9 && (object.shape.height() - 0.06).abs() < 1e-9);
+    assert!((object.mass - 700.0 * 0.06f64.powi(3)).abs() < 1e-9, "{}", object.mass);
+    let fault = made(1.0, Some(700.0), 60.0).expect_err("60 m");
+    assert!(fault.contains("--unit mm makes it 0.060 m"), "{fault}");
+    let fault = made(1e-3, None, 60.0).expect_err("no mass");
+    assert!(fault.contains("--density 700"), "{fault}");
+    let broken = taken_of(&[("cube.stl", b"solid x\nfacet")], &Reading::default(), &all());
+    assert!(broken.expect_err("a fault").contains("cannot be read as a mesh"));
+}
+
+#[test]
+fn a_mesh_that_is_not_convex_has_parts() {
+    // An ell: two cubes' worth of a U, as one closed mesh.
+    let outline = [[0, 0], [9, 0], [9, 3], [3, 3], [3, 9], [0, 9]];
+    let mut text = String::new();
+    for z in [0.0, 0.03] {
+        for [x, y] in outline {
+            text += &format!("v {} {} {z}\n", 0.01 * f64::from(x), 0.01 * f64::from(y));
+        }
+    }
+    for k in 0..6 {
+        let next = (k + 1) % 6;
+        text += &format!("f {} {} {} {}\n", k + 1, next + 1, next + 7, k + 7);
+    }
+    text += "f 4 3 2 1\nf 6 5 4 1\nf 7 8 9 10\nf 7 10 11 12\n";
+    let wanted = Wanted { density: Some(1000.0), ..Wanted::default() };
+    let (task, notes) =
+        taken_of(&[("ell.obj", text.as_bytes())], &Reading::default(), &wanted).expect("a task");
+    let scene = &task.scene;
+    assert!(scene.objects.len() >= 2 && scene.things().count() == 1, "{notes}");
+    assert!((scene.mass(0) - 0.135).abs() < 1e-6, "{}", scene.mass(0));
+    let area: f64 = scene.objects.iter().map(|solid| solid.shape.footprint().area()).sum();
+    assert!((0.0044..0.0056).contains(&area), "{area}, where the hull has 0.0063\n{notes}");
+}
+
+#[test]
+fn meshes_and_includes_lie_beside_the_file_or_below_what_is_named() {
+    let scene = "<mujoco><include file='parts/assets.xml'/><worldbody><geom type='plane' size='1 1 1'/>\
+                 <body name='c' pos='.5 0 0'><freejoint/><geom type='mesh' mesh='cube'/></body>\
+                 </worldbody></mujoco>";
+    let assets = "<mujocoinclude>\n<asset>\n<mesh name='cube' file='parts/cube.obj' scale='.001 .001 .001'/>\
+                  </asset></mujocoinclude>";
+    let solid = cube(60.0);
+    let files: [(&str, &[u8]); 3] = [
+        ("scene.xml", scene.as_bytes()),
+        ("parts/assets.xml", assets.as_bytes()),
+        ("parts/cube.obj", &solid),
+    ];
+    let (task, _) = taken_of(&files, &Reading::default(), &all()).expect("a task");
+    let object = &task.scene.objects[0];
+    assert!((object.mass - 0.216).abs() < 1e-9 && object.support == Support::Even);
+    // A fault of an included file has its place in that.
+    let wrong = assets.replace("<asset>", "<compiler eulerseq='q'/><asset>");
+    let files = [files[0], ("parts/assets.xml", wrong.as_bytes()), files[2]];
+    let fault = taken_of(&files, &Reading::default(), &all()).expect_err("a fault");
+    assert!(fault.contains("assets.xml:2:11: error: the compiler's eulerseq"), "{fault}");
+    // Above it only where somebody says so.
+    let scene = scene.replace("parts/", "../parts/");
+    let assets = assets.replace("parts/", "../parts/");
+    let files: [(&str, &[u8]); 3] =
+        [("scenes/scene.xml", scene.as_bytes()), ("parts/assets.xml", assets.as_bytes()), files[2]];
+    let fault = taken_of(&files, &Reading::default(), &all()).expect_err("a fault");
+    assert!(
+        fault.contains("outside of the file's own folder") && fault.contains("--root "),
+        "{fault}"
+    );
+    let root = Reading { root: Some("".into()), ..Reading::default() };
+    taken_of(&files, &root, &all()).expect("as the advice says");
+    let circle = "<mujoco><include file='a.xml'/></mujoco>";
+    let circle = taken_of(&[("a.xml", circle.as_bytes())], &Reading::default(), &all());
+    assert!(circle.expect_err("a fault").contains("include each other"));
+}
+
+#[test]
+fn damaged_meshes_and_folders_are_faults() {
+    assert!(read(Path::new("/nowhere/thing.stl"), &Reading::default()).is_err());
+    let flat = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+    let made = taken_of(&[("flat.obj", flat)], &Reading::default(), &all());
+    assert!(made.expect_err("a fault").contains("flat"));
+}
