@@ -73,6 +73,13 @@ impl PyRecording {
         self.0.frames.len()
     }
 
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let parse = py.get_type::<Self>().getattr("parse")?;
+        // Long ones are read as JSON alone.
+        let words = (self.0.to_json().to_string(), "recording.json");
+        Ok((parse, words).into_pyobject(py)?.into_any())
+    }
+
     fn __repr__(&self) -> String {
         format!("<Recording {} of {} frames>", self.0.name, self.0.frames.len())
     }

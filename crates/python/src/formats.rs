@@ -57,7 +57,7 @@ pub fn import_tool(
 #[pyfunction]
 #[pyo3(signature = (path, *, bodies = None, name = None, friction = 0.5, shift = (0.0, 0.0),
                     free = None, density = None, root = None, unit = 1.0))]
-#[expect(clippy::too_many_arguments, reason = "Python has names for them")]
+#[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn import_task(
     py: Python<'_>,
     path: PathBuf,

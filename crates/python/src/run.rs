@@ -128,6 +128,18 @@ impl PyRun {
         self.0.write(&path).map_err(|faults| errors::files(py, &faults, None))
     }
 
+    /// Reads what pickle keeps.
+    #[staticmethod]
+    fn parse(text: &str) -> PyResult<Self> {
+        serde_json::from_str(text).map(Self).map_err(json::damaged)
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let trace = serde_json::to_value(&self.0);
+        let trace = trace.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+        json::unpickled(py, "Run", &trace)
+    }
+
     /// Everything, in the keys of the trace.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let trace = serde_json::to_string(&self.0);

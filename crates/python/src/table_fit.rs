@@ -32,6 +32,18 @@ impl PyTableFit {
         self.0.write(path).map_err(|faults| errors::files(py, &faults, None))
     }
 
+    /// Reads what pickle keeps.
+    #[staticmethod]
+    fn parse(text: &str) -> PyResult<Self> {
+        serde_json::from_str(text).map(Self).map_err(json::damaged)
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let kept = serde_json::to_value(&self.0);
+        let kept = kept.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+        json::unpickled(py, "TableFit", &kept)
+    }
+
     /// Number of pushes that taught it.
     #[getter]
     fn pushes(&self) -> usize {

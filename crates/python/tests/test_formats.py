@@ -209,3 +209,32 @@ def test_data_are_read_by_numpy_and_are_what_the_engines_say(
     change = np.diff(data["pose"], axis=0)
     inside = np.setdiff1d(np.arange(1, frames), data["frame_start"])
     assert data["change"][inside] == pytest.approx(change[inside - 1], nan_ok=True)
+
+
+def test_a_mesh_of_a_library_is_what_mujoco_compiles(tmp_path: Path) -> None:
+    """Mass, centre and outline of a body that a file holds, with a mesh of another file."""
+    corners = [(x, y, z) for x in (0, 60) for y in (0, 40) for z in (0, 50)]
+    faces = ["1 2 4 3", "5 7 8 6", "1 5 6 2", "3 4 8 7", "1 3 7 5", "2 6 8 4"]
+    lines = [f"v {x} {y} {z}" for x, y, z in corners] + [f"f {face}" for face in faces]
+    (tmp_path / "meshes").mkdir()
+    (tmp_path / "meshes/block.obj").write_text("\n".join(lines) + "\n")
+    scale = "<mesh name='m' file='meshes/block.obj' scale='.001 .001 .001'/>"
+    (tmp_path / "block.xml").write_text(
+        f"<mujoco><asset>{scale}</asset><worldbody><body><body name='object' pos='.5 .1 0'>"
+        "<geom type='mesh' mesh='m' density='500'/></body></body></worldbody></mujoco>"
+    )
+    with pytest.raises(pushplan.FileError, match="no body of the file moves freely"):
+        pushplan.import_task(tmp_path / "block.xml")
+    with pytest.warns(UserWarning, match="there is no table"):
+        task = pushplan.import_task(tmp_path / "block.xml", free=["object"])
+    scene: Any = task.to_dict()["scene"]
+    [thing] = scene["objects"]
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "block.xml"))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    body = model.body("object").id
+    assert thing["mass"] == pytest.approx(model.body_mass[body])
+    assert thing["position"] == pytest.approx(data.xipos[body][:2])
+    corner = np.array(thing["shape"]["prism"]["corners"])
+    assert np.ptp(corner, axis=0) == pytest.approx([0.06, 0.04])
+    assert thing["shape"]["prism"]["height"] == pytest.approx(0.05)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import pickle
 from pathlib import Path
 from typing import Any, Callable
 
@@ -50,6 +51,8 @@ def test_a_log_in_millimetres_and_radians_is_a_recording(tmp_path: Path) -> None
     turned = recording.poses[:, 0, 2]
     assert np.abs(np.diff(turned)).max() < 0.1, "turns are counted"
     assert turned[-1] - turned[0] == pytest.approx(0.303, abs=1e-3)
+    again = pickle.loads(pickle.dumps(recording))
+    assert again.poses == pytest.approx(recording.poses, abs=1e-12)
     part = logs.read_csv(path, **STATED, end=1.0)
     assert len(part) == 51
     logs.write_json(tmp_path / "log.recording.json", path, **STATED)

@@ -119,7 +119,9 @@ def test_plans_tasks_and_tools_can_be_pickled(task: pushplan.Task) -> None:
     assert best is not None
     again = pickle.loads(pickle.dumps(best))
     assert again.to_dict() == best.to_dict()
-    assert pickle.loads(pickle.dumps(task)).to_dict() == task.to_dict()
+    push = pushplan.Push((0.3, 0.0), 0.1, 0.1, 0.1)
+    assert again == best != pushplan.Plan.of(task, "stick", [push])
+    assert pickle.loads(pickle.dumps(task)) == task != pushplan.Task.example("pull-back")
     assert pickle.loads(pickle.dumps(best.tool)) == best.tool
 
 

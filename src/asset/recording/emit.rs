@@ -29,7 +29,8 @@ impl Recording {
         write_atomic(path, text.as_bytes())
     }
 
-    fn to_json(&self) -> Json {
+    /// The recording in the keys of its file.
+    pub fn to_json(&self) -> Json {
         let pose = |pose: &Pose, heading: bool| match heading {
             true => json!([pose.position.x, pose.position.y, emit::degrees(pose.heading)]),
             false => json!([pose.position.x, pose.position.y]),
