@@ -49,9 +49,10 @@ pub(super) fn model<'a>(
         links.push((name, Link { node, joint: None }));
     }
     for node in elements(root) {
+        let own = node.tag_name().namespace().is_none();
         match node.tag_name().name() {
-            "link" => {}
-            "joint" => hang(source, node, &mut links)?,
+            "link" if own => {}
+            "joint" if own => hang(source, node, &mut links)?,
             "transmission" | "ros2_control" => {
                 model.beyond.push((source.place(node), format!("<{}>", node.tag_name().name())));
             }

@@ -3,8 +3,6 @@
 
 mod imports;
 mod kinds;
-mod kinds;
-mod meshes;
 mod meshes;
 mod recordings;
 mod round_trip;

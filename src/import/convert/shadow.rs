@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use crate::geometry::{MAX_CORNERS, Vector, centroid, cross};
 
-use super::hull::hull;
+use super::hull::whole_hull;
 use super::upright::Base;
 
 /// A corner that stands out by less is not worth it, metres.
@@ -27,7 +27,7 @@ pub(super) fn area(corners: &[Vector]) -> f64 {
 /// The disc or polygon that is nearest to the convex hull of points, where it is, and how far its outline
 /// is off at most, metres; none where they lie in a line.
 pub(super) fn shadow(points: &[Vector]) -> Option<(Base, Vector, f64)> {
-    let outline = hull(points);
+    let outline = whole_hull(points);
     let size = area(&outline);
     if outline.len() < 3 || size < 1e-7 {
         return None;
@@ -47,7 +47,18 @@ pub(super) fn shadow(points: &[Vector]) -> Option<(Base, Vector, f64)> {
 
 /// At most as many corners as a polygon may have, and only those that are worth it, around the same area.
 pub(super) fn fewer(outline: &[Vector]) -> Vec<Vector> {
-    let mut corners = outline.to_vec();
+    // Of thousands those that are farthest in one of some hundred directions: what follows takes the
+    // square of their number.
+    let mut corners = match outline.len() > 2 * DIRECTIONS {
+        false => outline.to_vec(),
+        true => {
+            let mut kept: Vec<usize> =
+                directions().filter_map(|towards| farthest(outline, towards)).collect();
+            kept.sort_unstable();
+            kept.dedup();
+            kept.into_iter().map(|k| outline[k]).collect()
+        }
+    };
     loop {
         let count = corners.len();
         if count <= 3 {
@@ -88,13 +99,22 @@ fn reach(corners: &[Vector], direction: Vector) -> f64 {
     corners.iter().map(|corner| corner.dot(&direction)).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// How far two convex outlines are apart: the largest difference of how far they reach.
-pub(super) fn apart(outline: &[Vector], other: impl Fn(Vector) -> f64) -> f64 {
-    let directions = (0..DIRECTIONS).map(|k| {
+fn directions() -> impl Iterator<Item = Vector> {
+    (0..DIRECTIONS).map(|k| {
         let angle = TAU * k as f64 / DIRECTIONS as f64;
         Vector::new(angle.cos(), angle.sin())
-    });
-    directions.map(|towards| (reach(outline, towards) - other(towards)).abs()).fold(0.0, f64::max)
+    })
+}
+
+/// The corner that is farthest in a direction.
+fn farthest(corners: &[Vector], towards: Vector) -> Option<usize> {
+    let reach = |k: &usize| corners[*k].dot(&towards);
+    (0..corners.len()).max_by(|a, b| reach(a).total_cmp(&reach(b)))
+}
+
+/// How far two convex outlines are apart: the largest difference of how far they reach.
+pub(super) fn apart(outline: &[Vector], other: impl Fn(Vector) -> f64) -> f64 {
+    directions().map(|towards| (reach(outline, towards) - other(towards)).abs()).fold(0.0, f64::max)
 }
 
 #[cfg(test)]

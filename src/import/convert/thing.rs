@@ -206,14 +206,13 @@ fn compound<'a>(
     let mut masses: Vec<f64> = pieces.iter().map(|(_, share)| *share).collect();
     let middles: Vec<Vector> =
         pieces.iter().map(|(piece, _)| piece.upright.pose.point(piece.upright.middle())).collect();
-    if let Some(centre) = centre {
-        let off = balanced(&mut masses, &middles, Vector::new(centre.x, centre.y));
-        if off > OFF {
-            let by = 1e3 * off;
-            let note =
-                format!("the centre of mass of `{name}` is here {by:.1} mm off where it should be");
-            ledger.note(place, note);
+    let centre = centre.map(|centre| Vector::new(centre.x, centre.y));
+    // What a task cannot state is made heavier, which shifts the centre again.
+    for _ in 0..8 {
+        if let Some(centre) = centre {
+            balanced(&mut masses, &middles, centre);
         }
+        heavier(&mut masses);
     }
     let mut objects: Vec<Object> = Vec::new();
     for ((mut piece, _), mass) in pieces.into_iter().zip(masses) {
@@ -232,7 +231,17 @@ fn compound<'a>(
             objects[0].name = name.to_owned();
         }
     }
-    stated(&mut objects);
+    by_volume(&mut objects);
+    if let Some(centre) = centre {
+        let moment = objects.iter().zip(&middles).map(|(solid, middle)| solid.mass * middle);
+        let off = (moment.sum::<Vector>() / mass - centre).norm();
+        if off > OFF {
+            let by = 1e3 * off;
+            let note =
+                format!("the centre of mass of `{name}` is here {by:.1} mm off where it should be");
+            ledger.note(place, note);
+        }
+    }
     let mut objects = objects.into_iter();
     let object = objects.next()?;
     let part = |part: Object| {
@@ -247,25 +256,29 @@ fn compound<'a>(
     Some(Draft { object, parts, place, body, group, solid, feet: Vec::new(), low })
 }
 
-/// Masses (kg) that a task can state: where a part would be too light it gets more, and where all would be,
-/// their shares by volume, which are not stated.
-fn stated(solids: &mut [Object]) {
+/// Masses (kg) that a task can state: what is too light for it gets more from the others.
+fn heavier(masses: &mut [f64]) {
+    let sum: f64 = masses.iter().sum();
+    let missing: f64 = masses.iter().map(|mass| (LEAST - mass).max(0.0)).sum();
+    if missing == 0.0 || sum < 2.0 * LEAST * masses.len() as f64 {
+        return;
+    }
+    let above: f64 = masses.iter().map(|mass| (mass - LEAST).max(0.0)).sum();
+    for mass in masses.iter_mut() {
+        *mass = LEAST + (*mass - LEAST).max(0.0) * (1.0 - missing / above);
+    }
+}
+
+/// Where some are still too light, all get their shares by volume, which a task need not state.
+fn by_volume(solids: &mut [Object]) {
+    if solids.iter().all(|solid| solid.mass >= 0.95 * LEAST) {
+        return;
+    }
     let sum: f64 = solids.iter().map(|solid| solid.mass).sum();
-    if solids.iter().all(|solid| solid.mass >= LEAST) {
-        return;
-    }
-    if sum < 2.0 * LEAST * solids.len() as f64 {
-        let volume = |solid: &Object| solid.shape.footprint().area() * solid.shape.height();
-        let all: f64 = solids.iter().map(volume).sum();
-        for solid in solids.iter_mut() {
-            solid.mass = sum * (volume(solid) / all);
-        }
-        return;
-    }
-    let missing: f64 = solids.iter().map(|solid| (LEAST - solid.mass).max(0.0)).sum();
-    let above: f64 = solids.iter().map(|solid| (solid.mass - LEAST).max(0.0)).sum();
+    let volume = |solid: &Object| solid.shape.footprint().area() * solid.shape.height();
+    let all: f64 = solids.iter().map(volume).sum();
     for solid in solids.iter_mut() {
-        solid.mass = LEAST + (solid.mass - LEAST).max(0.0) * (1.0 - missing / above);
+        solid.mass = sum * (volume(solid) / all);
     }
 }
 

@@ -8,7 +8,7 @@ use crate::geometry::{MAX_CORNERS, Pose, Vector, centroid, cross};
 use crate::import::fault::Ledger;
 use crate::import::model::{Outline, Solid};
 
-use super::hull::hull;
+use super::hull::{hull, whole_hull};
 use super::shadow::{area, shadow};
 
 /// A solid that leans less than this is upright, radians: files round their turns.
@@ -147,7 +147,7 @@ impl Upright {
         let mut found = Self { base, pose, low, height, rough: None };
         let fill = volume.map_or(1.0, |volume| volume / (found.area() * height)).min(1.0);
         let stands = if rests { hull(&under) } else { Vec::new() };
-        let outline = hull(&seen);
+        let outline = whole_hull(&seen);
         found.rough = Some(Rough { off, fill, stands, outline });
         Some(found)
     }

@@ -246,7 +246,7 @@ fn what_weighs_nothing_weighs_what_it_is_made_of() {
          <geom type='box' size='.002 .02 .02' pos='.042 0 0' density='1'/></body>",
     );
     let (task, _) = taken(&thin, &all()).expect("a task");
-    assert!((task.scene.mass(0) - 0.2560032).abs() < 1e-6 && task.scene.objects[1].mass > 1e-3);
+    assert!((task.scene.mass(0) - 0.2560064).abs() < 1e-6 && task.scene.objects[1].mass > 1e-3);
     let light = thin.replace("density='1'", "").replace("/>", " density='5'/>");
     let (task, _) = taken(&light, &all()).expect("a task");
     assert!((task.scene.mass(0) - 0.0013).abs() < 1e-4, "{}", task.scene.mass(0));
