@@ -208,6 +208,10 @@ fn roughly(
     height: f64,
     ledger: &mut Ledger,
 ) {
+    // Of many parts only what is worth it.
+    if !alone && rough.off < 1e-4 {
+        return;
+    }
     let what = match &upright.base {
         Base::Polygon(corners) => format!("a prism of {} corners", corners.len()),
         _ => "an upright cylinder".to_owned(),

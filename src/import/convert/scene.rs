@@ -112,7 +112,15 @@ pub fn objects(
     let read = task.to_yaml().and_then(|text| Task::parse(&text, file));
     let task = match read {
         Ok(task) => Some(task),
-        Err(faults) => {
+        Err(mut faults) => {
+            // A goal that the file does not have is where the object is.
+            for fault in faults.0.iter_mut().filter(|_| !has_goal) {
+                if let Some((name, within)) = fault.message.split_once(" would be inside ") {
+                    let name = name.trim_start_matches("at the goal ");
+                    fault.message = format!("{name} stands inside {within}");
+                    fault.advice = "move one of them, or name others with --body".to_owned();
+                }
+            }
             ledger.adopt("task", faults);
             None
         }

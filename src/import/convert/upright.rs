@@ -86,12 +86,13 @@ impl Upright {
                 Ok(found) => Some(found),
                 Err(_) => Self::any(solid, what, ledger),
             },
-            Outline::Sphere(_) | Outline::Ellipsoid(_) => {
-                ledger.fault(solid.place, format!("{what} is a sphere, and rolls"), PRIMITIVES);
-                None
-            }
-            Outline::Capsule { .. } => {
-                ledger.fault(solid.place, format!("{what} is a capsule, and rolls"), PRIMITIVES);
+            Outline::Sphere(_) | Outline::Ellipsoid(_) | Outline::Capsule { .. } => {
+                let kind = match solid.outline {
+                    Outline::Sphere(_) => "a sphere",
+                    Outline::Ellipsoid(_) => "an ellipsoid",
+                    _ => "a capsule",
+                };
+                ledger.fault(solid.place, format!("{what} is {kind}, and rolls"), PRIMITIVES);
                 None
             }
             Outline::Plane(_) => {
