@@ -1,0 +1,300 @@
+"""A node of ROS 2 that plans and carries out: ``python -m pushplan.ros TASK``.
+
+Needs `rclpy` and messages: those of a ROS 2 that is installed, or ``pip install 'pushplan[ros]'`` (CPython
+3.11). Standard messages only, so that nothing has to be built:
+
+==================  ============================  ====================================================
+``~/pose/OBJECT``   geometry_msgs/PoseStamped     in: where an object is, in the table's frame, its
+                                                  heading about z; names have ``_`` for what topics
+                                                  cannot hold
+``~/solve``         std_srvs/Trigger              plans from the last poses; the answer is JSON
+``~/run``           std_srvs/Trigger              looks, plans, sends, waits, and again until the goal is
+                                                  reached; answers at once whether it has begun
+``~/cancel``        std_srvs/Trigger              stops what is going on, and the robot
+``~/feedback``      std_msgs/String               out: JSON with ``state`` and what belongs to it
+``~/path``          nav_msgs/Path                 out: the way of the end effector in what is to be
+                                                  done now, two poses for each push
+``~/trajectory``    trajectory_msgs/              out: the way of the joints, of tasks with an arm; empty
+                    JointTrajectory               to stop
+``~/done``          std_msgs/String               in: ``done``, or what went wrong, once the robot has
+                                                  carried out the last path or trajectory
+==================  ============================  ====================================================
+
+Lengths are metres, angles radians, times seconds. A plan is sent only if it is verified, from poses that are
+newer than what was done last. After a restart of either side nothing is going on, and ``~/run`` begins with
+a look.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import re
+import threading
+import time
+from typing import Any, Optional, Sequence
+
+import numpy as np
+
+from . import _native
+
+__all__ = ["Node", "Stopped", "main"]
+
+#: Poses older than this when a plan is asked for are no sight, seconds.
+FRESH = 2.0
+#: How long a look waits for poses, and a robot may take beyond what a plan takes, seconds.
+PATIENCE = 10.0
+#: Frame in which paths are.
+FRAME = "table"
+
+
+class Stopped(Exception):
+    """What is going on was cancelled, or cannot go on; says why."""
+
+
+class Node:
+    """The node, on a context of rclpy that is initialised; `spin` until it is shut down. ``solve`` are the
+    arguments of `pushplan.solve`, ``tries`` how often a run plans."""
+
+    def __init__(self, task: _native.Task, *, name: str = "pushplan", tries: int = 8, **solve: Any) -> None:
+        ros = _ros()
+        self.task, self.tries, self.options = task, tries, solve
+        self.node = ros["Node"](name)
+        self.ros = ros
+        self._seen: dict[str, tuple[float, np.ndarray]] = {}
+        self._changed = threading.Condition()
+        self._answer: Optional[str] = None
+        self._cancelled = threading.Event()
+        self._worker: Optional[threading.Thread] = None
+        group = ros["ReentrantCallbackGroup"]()
+        for thing in task.objects:
+            topic = "~/pose/" + re.sub(r"\W", "_", thing)
+            self.node.create_subscription(
+                ros["PoseStamped"], topic, lambda message, thing=thing: self._sight(thing, message), 10,
+                callback_group=group,
+            )
+        self.node.create_subscription(ros["String"], "~/done", self._done, 10, callback_group=group)
+        self.feedback = self.node.create_publisher(ros["String"], "~/feedback", 10)
+        # Who comes late is not sent what was to be done long ago.
+        self.path = self.node.create_publisher(ros["Path"], "~/path", 10)
+        self.trajectory = self.node.create_publisher(ros["JointTrajectory"], "~/trajectory", 10)
+        for service, answer in [("solve", self._solve), ("run", self._run), ("cancel", self._cancel)]:
+            self.node.create_service(ros["Trigger"], f"~/{service}", answer, callback_group=group)
+
+    def spin(self) -> None:
+        """Answers until the context is shut down."""
+        executor = self.ros["MultiThreadedExecutor"](num_threads=4)
+        executor.add_node(self.node)
+        try:
+            executor.spin()
+        except (KeyboardInterrupt, self.ros["ExternalShutdownException"]):
+            pass
+        finally:
+            self._cancelled.set()
+            if self._worker is not None:
+                self._worker.join()
+
+    # What comes in.
+
+    def _sight(self, thing: str, message: Any) -> None:
+        at, q = message.pose.position, message.pose.orientation
+        heading = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
+        pose = np.array([at.x, at.y, heading])
+        if not np.isfinite(pose).all():
+            return self._say("ignored", what=f"a pose of {thing} that is not finite")
+        with self._changed:
+            self._seen[thing] = (time.monotonic(), pose)
+            self._changed.notify_all()
+
+    def _done(self, message: Any) -> None:
+        with self._changed:
+            self._answer = message.data
+            self._changed.notify_all()
+
+    # Services.
+
+    def _solve(self, _: Any, answer: Any) -> Any:
+        if self._busy():
+            return _answer(answer, False, {"error": "a run is going on; cancel it first"})
+        try:
+            solution = self._planned(self._look(time.monotonic() - FRESH))
+        except (Stopped, ValueError, RuntimeError) as error:
+            return _answer(answer, False, {"error": str(error)})
+        best = solution.best
+        return _answer(answer, solution.solved, {
+            "status": solution.status, "plan": best.to_dict()["plan"] if best else None,
+        })
+
+    def _run(self, _: Any, answer: Any) -> Any:
+        if self._busy():
+            return _answer(answer, False, {"error": "a run is going on already"})
+        self._cancelled.clear()
+        self._worker = threading.Thread(target=self._runs, daemon=True)
+        self._worker.start()
+        return _answer(answer, True, {"state": "begun"})
+
+    def _cancel(self, _: Any, answer: Any) -> Any:
+        going = self._busy()
+        self._cancelled.set()
+        # A controller stops at a trajectory without points.
+        self.trajectory.publish(self.ros["JointTrajectory"]())
+        with self._changed:
+            self._changed.notify_all()
+        return _answer(answer, True, {"cancelled": going})
+
+    # The run.
+
+    def _runs(self) -> None:
+        try:
+            self._say("ended", **self._run_through())
+        except Stopped as stop:
+            self._say("cancelled" if self._cancelled.is_set() else "failed", why=str(stop))
+        except Exception as error:  # noqa: BLE001 - whoever waits for the end must hear of it
+            self._say("failed", why=f"{type(error).__name__}: {error}")
+
+    def _run_through(self) -> dict[str, Any]:
+        since = time.monotonic() - FRESH
+        for tried in range(self.tries + 1):
+            task = self._look(since)
+            score = task.score(np.array(task.start))
+            self._say("looked", tried=tried, score=score)
+            if score <= 1.0:
+                return {"reached": True, "plans": tried}
+            if tried == self.tries:
+                break
+            solution = self._planned(task)
+            best = solution.best
+            self._say("planned", status=solution.status, tool=best.tool.name if best else None)
+            if best is None or not solution.solved:
+                return {"reached": False, "plans": tried, "why": solution.status}
+            self._carry_out(best)
+            since = time.monotonic()
+        return {"reached": False, "plans": self.tries, "why": "as often tried as allowed"}
+
+    def _look(self, since: float) -> _native.Task:
+        """The task with its objects where they have been seen after this moment."""
+        until = time.monotonic() + PATIENCE
+        with self._changed:
+            while True:
+                missing = [
+                    thing for thing in self.task.objects
+                    if thing not in self._seen or self._seen[thing][0] < since
+                ]
+                if not missing:
+                    return self.task.at(np.array([self._seen[thing][1] for thing in self.task.objects]))
+                self._go_on()
+                if time.monotonic() > until:
+                    raise Stopped(f"no pose of {', '.join(missing)} within {PATIENCE:.0f} s")
+                self._changed.wait(0.1)
+
+    def _planned(self, task: _native.Task) -> _native.Solution:
+        solution = _native.solve(task, **self.options)
+        self._go_on()
+        return solution
+
+    def _carry_out(self, plan: _native.Plan) -> None:
+        self._answer = None
+        joints = plan.to_dict().get("joints")
+        takes = sum(push.length / push.speed for push in plan.pushes if push.length and push.speed)
+        self.path.publish(self._path_of(plan))
+        if joints:
+            self.trajectory.publish(self._trajectory_of(joints))
+            takes = joints["points"][-1]["time"]
+        self._say("sent", seconds=takes, joints=bool(joints))
+        until = time.monotonic() + takes + PATIENCE
+        with self._changed:
+            while self._answer is None:
+                self._go_on()
+                if time.monotonic() > until:
+                    raise Stopped("the robot does not say that it is done")
+                self._changed.wait(0.1)
+            if self._answer != "done":
+                raise Stopped(f"the robot: {self._answer}")
+
+    def _go_on(self) -> None:
+        if self._cancelled.is_set() and self._busy():
+            raise Stopped("cancelled")
+
+    def _busy(self) -> bool:
+        return self._worker is not None and self._worker.is_alive()
+
+    # What goes out.
+
+    def _say(self, state: str, **more: Any) -> None:
+        self.feedback.publish(self.ros["String"](data=json.dumps({"state": state, **more})))
+
+    def _path_of(self, plan: _native.Plan) -> Any:
+        path = self.ros["Path"]()
+        path.header.frame_id = FRAME
+        for step in plan.steps:
+            push = step.get("push")
+            if push is None:
+                continue
+            ahead = np.array([math.cos(push["direction"]), math.sin(push["direction"])])
+            for along in (0.0, push["length"]):
+                stamped = self.ros["PoseStamped"]()
+                stamped.header.frame_id = FRAME
+                at = np.array(push["start"]) + along * ahead
+                stamped.pose.position.x, stamped.pose.position.y = map(float, at)
+                stamped.pose.position.z = float(push["lift"])
+                stamped.pose.orientation.z = math.sin(push["grip_yaw"] / 2)
+                stamped.pose.orientation.w = math.cos(push["grip_yaw"] / 2)
+                path.poses.append(stamped)
+        return path
+
+    def _trajectory_of(self, joints: dict[str, Any]) -> Any:
+        message = self.ros["JointTrajectory"](joint_names=list(joints["joints"]))
+        for point in joints["points"]:
+            there = self.ros["JointTrajectoryPoint"](
+                positions=list(map(float, point["positions"])), velocities=list(map(float, point["velocities"]))
+            )
+            nanos = round(point["time"] * 1e9)
+            there.time_from_start.sec, there.time_from_start.nanosec = divmod(nanos, 10**9)
+            message.points.append(there)
+        return message
+
+
+def _answer(answer: Any, success: bool, says: dict[str, Any]) -> Any:
+    answer.success, answer.message = success, json.dumps(says)
+    return answer
+
+
+def _ros() -> dict[str, Any]:
+    try:
+        from geometry_msgs.msg import PoseStamped
+        from nav_msgs.msg import Path
+        from rclpy.callback_groups import ReentrantCallbackGroup
+        from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
+        from rclpy.node import Node as RosNode
+        from std_msgs.msg import String
+        from std_srvs.srv import Trigger
+        from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+    except ImportError as error:
+        raise ImportError("a node needs ROS 2: source it, or pip install 'pushplan[ros]'") from error
+    names = locals()
+    return {("Node" if name == "RosNode" else name): thing for name, thing in names.items()}
+
+
+def main(arguments: Optional[Sequence[str]] = None) -> int:
+    """The node for a task file."""
+    parser = argparse.ArgumentParser(prog="python -m pushplan.ros", description="A node of ROS 2 that plans.")
+    parser.add_argument("task", help="the task file")
+    parser.add_argument("--name", default="pushplan", help="of the node [default: pushplan]")
+    parser.add_argument("--effort", default="standard", choices=["draft", "standard", "thorough"])
+    parser.add_argument("--tries", type=int, default=8, help="how often a run plans [default: 8]")
+    options = parser.parse_args(arguments)
+    import rclpy
+
+    task = _native.Task.load(options.task)
+    rclpy.init()
+    try:
+        Node(task, name=options.name, tries=options.tries, effort=options.effort).spin()
+    finally:
+        if rclpy.ok():
+            rclpy.shutdown()
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

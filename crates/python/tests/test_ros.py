@@ -1,0 +1,160 @@
+"""The node of ROS 2 with a simulated robot on the loopback interface: plans, feedback, cancel, restarts."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import threading
+import time
+from typing import Any, Callable, Iterator
+
+import numpy as np
+import pytest
+
+import pushplan
+
+os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+os.environ.setdefault("ROS_DOMAIN_ID", "47")
+rclpy = pytest.importorskip("rclpy")
+ros = pytest.importorskip("pushplan.ros")
+
+TASK = {
+    "scene": {"objects": [{
+        "name": "can", "shape": {"cylinder": {"radius": 0.04, "height": 0.1}},
+        "mass": 0.4, "friction": 0.4, "position": [0.45, 0.1],
+    }]},
+    "robot": {"reach": {"min": 0.1, "max": 0.9}},
+    "tools": ["paddle"],
+    "goal": {"object": "can", "position": [0.55, 0.1], "tolerance": 0.02},
+}
+
+
+class Robot:
+    """Says where the can is, and pushes it as the planar engine has it; ``stuck`` never says that it is done."""
+
+    def __init__(self, task: pushplan.Task, stuck: bool = False) -> None:
+        parts = ros._ros()
+        self.parts, self.task, self.stuck = parts, task, stuck
+        self.poses = np.array(task.start)
+        self.node = parts["Node"]("robot")
+        self.out = self.node.create_publisher(parts["PoseStamped"], "/pushplan/pose/can", 10)
+        self.done = self.node.create_publisher(parts["String"], "/pushplan/done", 10)
+        self.node.create_subscription(parts["Path"], "/pushplan/path", self.push, 10)
+        self.states: list[dict[str, Any]] = []
+        self.node.create_subscription(
+            parts["String"], "/pushplan/feedback", lambda said: self.states.append(json.loads(said.data)), 10
+        )
+        self.stops = 0
+        self.node.create_subscription(parts["JointTrajectory"], "/pushplan/trajectory", self.stop, 10)
+        self.node.create_timer(0.05, self.say)
+
+    def say(self) -> None:
+        message = self.parts["PoseStamped"]()
+        x, y, heading = map(float, self.poses[0])
+        message.pose.position.x, message.pose.position.y = x, y
+        message.pose.orientation.z, message.pose.orientation.w = math.sin(heading / 2), math.cos(heading / 2)
+        self.out.publish(message)
+
+    def stop(self, message: Any) -> None:
+        self.stops += not message.points
+
+    def push(self, path: Any) -> None:
+        if self.stuck:
+            return
+        pushes = []
+        for a, b in zip(path.poses[::2], path.poses[1::2]):
+            way = np.array([b.pose.position.x - a.pose.position.x, b.pose.position.y - a.pose.position.y])
+            start = (a.pose.position.x, a.pose.position.y)
+            pushes.append(pushplan.Push(start, math.atan2(way[1], way[0]), float(np.hypot(*way)), 0.1))
+        yaw = 2 * math.atan2(path.poses[0].pose.orientation.z, path.poses[0].pose.orientation.w)
+        plan = pushplan.Plan.of(self.task.at(self.poses), "paddle", pushes, grip_yaw=yaw)
+        self.poses = np.array(pushplan.predict(plan, "planar").poses[-1])
+        self.done.publish(self.parts["String"](data="done"))
+
+    def call(self, service: str) -> dict[str, Any]:
+        client = self.node.create_client(self.parts["Trigger"], f"/pushplan/{service}")
+        assert client.wait_for_service(timeout_sec=20)
+        future = client.call_async(self.parts["Trigger"].Request())
+        wait(future.done, 60)
+        answer = future.result()
+        return {"success": answer.success, **json.loads(answer.message)}
+
+    def state(self, *wanted: str) -> dict[str, Any]:
+        wait(lambda: any(said["state"] in wanted for said in self.states), 60)
+        return next(said for said in self.states if said["state"] in wanted)
+
+
+def wait(until: Callable[[], bool], seconds: float) -> None:
+    end = time.monotonic() + seconds
+    while not until():
+        assert time.monotonic() < end, "nothing happened"
+        time.sleep(0.02)
+
+
+class Turning:
+    """A node that is turned in a thread of its own, on a context of its own."""
+
+    def __init__(self, node: Any) -> None:
+        self.node = node
+        self.executor = ros._ros()["MultiThreadedExecutor"](num_threads=3)
+        self.executor.add_node(node)
+        self.thread = threading.Thread(target=self.executor.spin, daemon=True)
+        self.thread.start()
+
+    def stop(self) -> None:
+        self.executor.shutdown(timeout_sec=5)
+        self.thread.join(5)
+        self.node.destroy_node()
+
+
+@pytest.fixture
+def context() -> Iterator[None]:
+    rclpy.init()
+    yield
+    rclpy.shutdown()
+
+
+def started(stuck: bool = False) -> tuple[Any, Turning, Robot, Turning]:
+    task = pushplan.Task.of(TASK)
+    planner = ros.Node(task, effort="draft")
+    robot = Robot(task, stuck)
+    return planner, Turning(planner.node), robot, Turning(robot.node)
+
+
+def test_a_run_looks_plans_sends_and_ends_at_the_goal(context: None) -> None:
+    _, node, robot, turning = started()
+    solved = robot.call("solve")
+    assert solved["success"] and solved["status"] == "solved" and solved["plan"]["steps"]
+    assert (robot.poses == np.array(robot.task.start)).all(), "a plan that is asked for moves nothing"
+    assert robot.call("run")["success"]
+    ended = robot.state("ended", "failed")
+    assert ended["state"] == "ended" and ended["reached"], robot.states
+    assert {"looked", "planned", "sent"} <= {said["state"] for said in robot.states}
+    assert np.linalg.norm(robot.poses[0, :2] - [0.55, 0.1]) <= 0.02
+    node.stop(), turning.stop()
+
+
+def test_a_run_is_cancelled_and_either_side_starts_again(context: None) -> None:
+    planner, node, robot, turning = started(stuck=True)
+    assert robot.call("run")["success"]
+    robot.state("sent")
+    assert not robot.call("run")["success"]
+    assert robot.call("cancel")["cancelled"]
+    assert robot.state("cancelled", "ended")["state"] == "cancelled"
+    wait(lambda: robot.stops > 0, 10)
+    # The robot goes away and comes back, and works now.
+    turning.stop()
+    robot = Robot(robot.task)
+    turning = Turning(robot.node)
+    assert robot.call("run")["success"]
+    assert robot.state("ended", "failed")["state"] == "ended", robot.states
+    # The planner does.
+    node.stop()
+    planner = ros.Node(robot.task, effort="draft")
+    node = Turning(planner.node)
+    robot.states.clear()
+    robot.poses = np.array(robot.task.start)
+    assert robot.call("run")["success"]
+    assert robot.state("ended", "failed").get("reached"), robot.states
+    node.stop(), turning.stop()
