@@ -2,13 +2,13 @@
 //!
 //! Each imports only from rooms before it, in this order:
 //!
-//! geometry, scene, recording, asset, store, sim, contact, graph, network, rollout, effect, judge,
+//! geometry, scene, arm, recording, asset, store, sim, contact, graph, network, rollout, effect, judge,
 //! fit, belief, plan, verify, solve, act, bench, report, export, import, cli
 
 #[doc(inline)]
 pub use crate::{
-    act, asset, belief, bench, contact, effect, export, fit, geometry, graph, judge, network, plan,
-    recording, report, rollout, scene, seeded, sim, solve, store, verify, watch,
+    act, arm, asset, belief, bench, contact, effect, export, fit, geometry, graph, judge, network,
+    plan, recording, report, rollout, scene, seeded, sim, solve, store, verify, watch,
 };
 
 #[cfg(feature = "formats")]

@@ -76,6 +76,8 @@ pub mod internals;
 #[doc(hidden)]
 pub mod act;
 #[doc(hidden)]
+pub mod arm;
+#[doc(hidden)]
 pub mod asset;
 #[doc(hidden)]
 pub mod belief;

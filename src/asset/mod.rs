@@ -6,6 +6,7 @@
 //! `strict`), and the rules that span several keys are applied while the domain's type is
 //! built (`tool`, `task`, `lever`, `saved`). Nothing is simulated here and nothing is drawn.
 
+mod arm;
 mod edit;
 mod example;
 mod fault;

@@ -6,12 +6,14 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use crate::asset::{self, Fault, Faults, Kind, PlanFile, SCHEMA_VERSION, TrajectoryFile};
-use crate::export::{ExportError, LEVER_SCRIPT, REPLAY_SCRIPT, mjcf};
+use crate::export::{
+    ExportError, LEVER_SCRIPT, REPLAY_SCRIPT, joint_table, joint_trajectory, mjcf,
+};
 use crate::scene::{ModelSpec, Trajectory};
 
 use super::{error::CliError, exit_code, model, output, session::Session};
 
-/// Write plans for other programs: MuJoCo scenes, recordings for Foxglove and Rerun
+/// Write plans for other programs: MuJoCo scenes, recordings for Foxglove and Rerun, joint trajectories
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
   pushplan export plans/pull-back.plan.json --out mjcf
@@ -25,7 +27,11 @@ lever-ups <out>/lever.py does.
 mcap writes <out>/<plan>.mcap: how tool and objects move, as foxglove.SceneUpdate (/scene) and
 foxglove.FrameTransforms (/tf) that viewers such as Foxglove and Rerun play, the same as plain numbers
 (/state, metres and radians), all in JSON, and the plan as an attachment. A plan is carried out by
---model; a trajectory file (`pushplan predict --trajectories`) is written as it is.")]
+--model; a trajectory file (`pushplan predict --trajectories`) is written as it is.
+
+trajectory writes <out>/<plan>.joints.json, the message trajectory_msgs/JointTrajectory of ROS, and
+<out>/<plan>.joints.csv: times in seconds, positions and velocities in radians, of a task whose robot has
+a `urdf`.")]
 pub struct ExportArgs {
     /// Plan or trajectory files; each holds the task and the tool as well
     #[arg(required = true, value_name = "PLAN")]
@@ -50,6 +56,8 @@ enum Format {
     /// Recordings for Foxglove, Rerun and others
     #[cfg(feature = "formats")]
     Mcap,
+    /// How the joints of an arm move, for ROS and as a table
+    Trajectory,
 }
 
 impl Format {
@@ -59,6 +67,7 @@ impl Format {
             Format::Mjcf => "xml",
             #[cfg(feature = "formats")]
             Format::Mcap => "mcap",
+            Format::Trajectory => "joints.json",
         }
     }
 }
@@ -91,6 +100,7 @@ pub fn run(args: &ExportArgs, session: &Session) -> Result<u8, CliError> {
         let refused = |error: ExportError| CliError::File(format!("{}: {error}", path.display()));
         let bytes = match args.format {
             Format::Mjcf => mjcf(&plan).map_err(refused)?.into_bytes(),
+            Format::Trajectory => joint_trajectory(&plan).map_err(refused)?.into_bytes(),
             #[cfg(feature = "formats")]
             Format::Mcap => {
                 let trajectory = match known {
@@ -100,6 +110,11 @@ pub fn run(args: &ExportArgs, session: &Session) -> Result<u8, CliError> {
                 crate::export::mcap(&plan, &trajectory).map_err(refused)?
             }
         };
+        if args.format == Format::Trajectory {
+            let table = joint_table(&plan).map_err(refused)?;
+            let name = format!("{}csv", name.trim_end_matches("json"));
+            written.push(output::write(&args.out, &name, table.as_bytes())?);
+        }
         #[cfg(not(feature = "formats"))]
         let _ = (&args.model, known);
         written.push(output::write(&args.out, name, &bytes)?);

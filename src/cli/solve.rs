@@ -178,6 +178,7 @@ fn write(
         fit: planner.fit().cloned(),
         predicted: Some(best.outcome.clone()),
         verdict: best.verdict.clone(),
+        joints: best.joints.clone(),
     };
     file.write(&path).map_err(CliError::Output)?;
     let mut written = vec![path];

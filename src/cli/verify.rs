@@ -71,7 +71,8 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     let situation = Situation::stated(&file.task.scene);
     let following = Following::spinner(session, "replaying");
     let until = Until::new(&following, args.time_limit);
-    let verifier = Verifier::new(settings).watched(&until).until_clear();
+    let verifier =
+        Verifier::new(settings).watched(&until).until_clear().moving(file.joints.as_ref());
     let seconds = verifier.seconds(&file.task.scene, &file.plan) / session.threads() as f64;
     if seconds > LONG {
         session.warn(&format!(

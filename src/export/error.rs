@@ -11,6 +11,9 @@ pub enum ExportError {
         /// Names of the two objects.
         between: [String; 2],
     },
+    /// A plan of a robot without an arm, or that was not solved with it.
+    #[error("it has no motion of joints; solve a task whose `robot` has a `urdf`")]
+    NoJoints,
     /// A plan without its tools; a file of ours never holds one.
     #[error("its steps name tools that the file does not hold")]
     Tools,

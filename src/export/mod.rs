@@ -12,6 +12,7 @@ mod forest;
 #[cfg(feature = "formats")]
 mod foxglove;
 mod hinges;
+mod joints;
 #[cfg(feature = "formats")]
 mod mcap;
 mod mesh;
@@ -26,5 +27,6 @@ mod xml;
 #[cfg(feature = "formats")]
 pub use self::mcap::mcap;
 pub use error::ExportError;
+pub use joints::{joint_table, joint_trajectory};
 pub use mjcf::{FRAMES_SCRIPT, REPLAY_SCRIPT, mjcf, motion_mjcf};
 pub use space::{LEVER_SCRIPT, lever_mjcf};

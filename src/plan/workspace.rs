@@ -39,6 +39,9 @@ const OVERHANG: f64 = 0.6;
 /// Refinement may shift the offset up to this share of the object's half width past the face.
 const LARGEST_OVERHANG: f64 = 0.9;
 
+/// A push that an arm does not carry through is shortened by this, metres, until it does.
+const SHORTER: f64 = 0.02;
+
 /// Distances larger than this are all alike to the margins, metres.
 const FAR: f64 = 0.05;
 
@@ -158,7 +161,7 @@ impl Workspace<'_> {
         length: f64,
     ) -> Result<f64, Infeasible> {
         let robot = &self.task.robot;
-        if !robot.reaches(start) {
+        if !self.task.stands(start, grip_yaw) {
             return Err(Infeasible::Reach);
         }
         let (ahead, _) = axes(direction);
@@ -171,6 +174,10 @@ impl Workspace<'_> {
             && let Some(t) = travel_to_contact(hand, ahead, (&base, &Pose::default()))
         {
             free = free.min(t);
+        }
+        // An arm does not turn the tool everywhere.
+        while free >= MIN_LENGTH && !self.task.stands(start + ahead * (free - SLACK), grip_yaw) {
+            free -= SHORTER;
         }
         if free < MIN_LENGTH {
             return Err(Infeasible::Reach);

@@ -9,6 +9,7 @@
 //! and returns these types. SI units and radians throughout.
 
 mod area;
+mod arm;
 mod balance;
 mod drag;
 mod feet;
@@ -56,6 +57,9 @@ mod whole;
 mod world;
 
 pub use area::Area;
+pub use arm::{
+    Arm, ArmBody, ArmFault, ArmJoint, JointPoint, JointTrajectory, MAX_JOINTS, Places, ToolMount,
+};
 pub use balance::carries;
 pub use drag::Drag;
 pub use feet::{Feet, MAX_FEET};

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::Vector;
 
-use super::{Goal, Hand, LeverRules, Plate, Scene, State, Unknowns};
+use super::{Arm, Goal, Hand, LeverRules, Plate, Scene, State, Unknowns};
 
 /// Where the end effector can be.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -192,6 +192,9 @@ pub struct Task {
     pub unknown: Unknowns,
     /// The robot.
     pub robot: Robot,
+    /// Its arm, if that is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arm: Option<Box<Arm>>,
     /// Allowed tools.
     pub tools: ToolChoice,
     /// Allowed pushes.
@@ -232,6 +235,7 @@ impl Task {
             scene,
             unknown: Unknowns::NONE,
             robot,
+            arm: None,
             tools: ToolChoice::All,
             pushes: PushRules::default(),
             levers: None,
@@ -290,6 +294,13 @@ impl Task {
         let all: Vec<Goal> = self.goals().copied().collect();
         let mut kept = goals.iter().filter_map(|k| all.get(*k).copied());
         Some(Self { goal: kept.next()?, further: kept.collect(), ..self.clone() })
+    }
+
+    /// Whether the end effector can stand at `position` (metres), turned by `yaw` (radians), as far as that
+    /// is cheap to tell.
+    pub fn stands(&self, position: Vector, yaw: f64) -> bool {
+        let allows = |arm: &Arm| arm.places.allow(position, yaw);
+        self.robot.reaches(position) && self.arm.as_deref().is_none_or(allows)
     }
 
     /// Whether an object (an index into [`Scene::objects`]) has a goal.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{LeverFault, ModelSpec, PushFault, Quantity, Unknowns};
+use super::{ArmFault, LeverFault, ModelSpec, PushFault, Quantity, Unknowns};
 
 mod words;
 
@@ -122,6 +122,13 @@ pub enum Warning {
         push: usize,
         /// What is in the way and taller than it is lifted.
         obstacle: String,
+    },
+    /// The arm cannot make a push, or does not get there.
+    Arm {
+        /// Index of the push.
+        push: usize,
+        /// Why.
+        fault: ArmFault,
     },
     /// The task does not allow the tool.
     ForbiddenTool {
@@ -245,6 +252,7 @@ impl Warning {
             | Warning::ThroughObstacle { .. }
             | Warning::HandThrough { .. }
             | Warning::NoWay { .. }
+            | Warning::Arm { .. }
             | Warning::ForbiddenTool { .. }
             | Warning::ForbiddenYaw { .. }
             | Warning::SetDownOn { .. }
@@ -310,6 +318,7 @@ impl Warning {
             Warning::ThroughObstacle { .. } => "through an obstacle",
             Warning::HandThrough { .. } => "hand through an obstacle",
             Warning::NoWay { .. } => "no way to a push",
+            Warning::Arm { .. } => "not for the arm",
             Warning::ForbiddenTool { .. }
             | Warning::ForbiddenYaw { .. }
             | Warning::TooManyPushes { .. }

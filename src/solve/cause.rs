@@ -4,6 +4,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::scene::ArmFault;
+
 /// What alone stands between a task and a plan that is predicted to reach the goal. It was tried: with
 /// the limit wider there is such a plan. Lengths are in metres; what is `needed` is what the plan that
 /// needs least of it takes.
@@ -61,6 +63,11 @@ pub enum Cause {
     Hand,
     /// The robot stands in the way.
     Base,
+    /// Plans are predicted to reach the goal that the arm cannot carry out.
+    Arm {
+        /// What it cannot do in the best of them.
+        fault: ArmFault,
+    },
     /// This obstacle is in the way.
     Obstacle {
         /// Its name.
@@ -115,6 +122,9 @@ impl fmt::Display for Cause {
             Cause::Hand => f.write_str(
                 "the hand would meet something; without it there is a way, see `robot.hand`",
             ),
+            Cause::Arm { fault } => {
+                write!(f, "there are plans that the arm cannot carry out; in the best one {fault}")
+            }
             Cause::Base => f.write_str("the robot's base is in the way, see `robot.base`"),
             Cause::Obstacle { name } => write!(f, "obstacle `{name}` is in the way"),
             Cause::Several => f.write_str("no wider limit alone would do"),

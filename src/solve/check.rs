@@ -165,6 +165,9 @@ pub(super) fn check(
             ));
         }
     }
+    if let Some(wrong) = task.arm.as_ref().and_then(|arm| arm.fault()) {
+        return fault(wrong);
+    }
     if tools.is_empty() {
         return fault("it allows no tool".into());
     }

@@ -6,6 +6,7 @@
 //! person asks for. Where something leaves the plane, `levering` does the same for lever-ups and for
 //! plans that push as well.
 
+mod armed;
 mod aside;
 mod asked;
 mod cause;

@@ -240,7 +240,7 @@ impl Planner {
         let until = Until::new(watch, self.time_limit);
         let mut solution = self.solve_from(&stated(task), task, library, &until)?;
         self.partly(task, library, &until, &mut solution)?;
-        if solution.status == PlanStatus::NoPlan && !task.in_space() {
+        if solution.status == PlanStatus::NoPlan && !task.in_space() && solution.cause.is_none() {
             solution.cause = self.cause(task, library, &until);
         }
         if task.unknown.any() {

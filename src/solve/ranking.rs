@@ -75,7 +75,7 @@ impl Solving<'_> {
                 None => 0,
             };
         let warnings = predictions.first().map(|p| p.warnings.clone()).unwrap_or_default();
-        let plans = order
+        let mut plans: Vec<RankedPlan> = order
             .into_iter()
             .zip(predictions)
             .map(|((_, tried), prediction)| RankedPlan {
@@ -85,9 +85,12 @@ impl Solving<'_> {
                 outcome: prediction.outcome,
                 verdict: tried.verdict,
                 refinement: tried.refinement,
+                joints: None,
             })
             .collect();
+        self.add_joints(&mut plans);
         self.statistics.timing.total = began.elapsed().as_secs_f64();
+        let cause = self.arm_cause(status);
         Solution {
             status,
             stopped: self.watch.cancelled(),
@@ -97,7 +100,7 @@ impl Solving<'_> {
             candidates: self.candidates,
             statistics: self.statistics,
             partial: None,
-            cause: None,
+            cause,
             warnings,
         }
     }

@@ -9,7 +9,8 @@ use crate::geometry::Vector;
 use crate::plan::lever::LeverSearchStatistics;
 use crate::plan::{RefineStatistics, ScoredPush, SearchStatistics};
 use crate::scene::{
-    Models, Outcome, Physics, Plan, Situation, Task, Tool, Trajectory, Verdict, Warning,
+    JointTrajectory, Models, Outcome, Physics, Plan, Situation, Task, Tool, Trajectory, Verdict,
+    Warning,
 };
 use crate::verify::{Verifier, VerifySettings};
 
@@ -69,6 +70,9 @@ pub struct RankedPlan {
     pub verdict: Option<Verdict>,
     /// What refinement did.
     pub refinement: Refinement,
+    /// How the arm carries it out, where the task has one that can.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joints: Option<JointTrajectory>,
 }
 
 impl RankedPlan {

@@ -1,6 +1,5 @@
 //! One task being solved: the loop over lengths of plans.
 
-use crate::watch::Instant;
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -9,9 +8,9 @@ use crate::plan::{
     Candidate, FOUND_RADIUS, RefineSettings, Refined, Rollouts, ScoredPush, Search, Workspace,
     alone, bare, is_behind, preferred, refine,
 };
-use crate::scene::{Goal, Job, Situation, Task, Tool, Verdict};
+use crate::scene::{ArmFault, Goal, Job, Situation, Task, Tool, Verdict};
 use crate::verify::{Verifier, VerifySettings};
-use crate::watch::Watch;
+use crate::watch::{Instant, Watch};
 
 use super::grade::{Class, Grade};
 use super::rank::is_worth_verifying;
@@ -65,6 +64,8 @@ pub(super) struct Solving<'a> {
     pub tried: Vec<Tried>,
     /// Plans that were replayed with disturbances.
     disturbed: usize,
+    /// What the arm cannot do, of the first plan that was not verified for that.
+    pub unable: Option<ArmFault>,
     /// What replays have shown not to work.
     pub refuted: Vec<Way>,
     /// The best plan that was replayed with disturbances.
@@ -97,6 +98,7 @@ impl<'a> Solving<'a> {
             candidates: Vec::new(),
             tried: Vec::new(),
             disturbed: 0,
+            unable: None,
             refuted: Vec::new(),
             best: None,
             promising: None,
@@ -324,7 +326,7 @@ impl<'a> Solving<'a> {
             // What the network says of this very push, or else what was measured of many.
             let spread = refined.best.spread.map(|spread| spread.within_90().position);
             let error = spread.or_else(|| error_p95(self.planner.model(), self.situation, &job));
-            if is_worth_verifying(&aimed, &refined.best, error) {
+            if is_worth_verifying(&aimed, &refined.best, error) && self.is_for_arm(&refined.best) {
                 worth.push(self.tried.len());
             }
             let tried = self.tried(refined, aims);

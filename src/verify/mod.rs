@@ -4,11 +4,13 @@
 //! in both engines, and so does a wanted share of those with small errors. What leaves the plane is
 //! replayed in 3-D alone. Knows nothing of how plans are found.
 
+mod arm;
 mod clear;
 mod disturbance;
 mod rules;
 mod space;
 mod verifier;
 
+pub use arm::joints;
 pub use rules::broken_rules;
 pub use verifier::{Verifier, VerifySettings};

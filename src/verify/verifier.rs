@@ -6,12 +6,13 @@ use rayon::prelude::*;
 
 use crate::geometry::Pose;
 use crate::scene::{
-    Disturbance, Engine, Evidence, Job, LeverScene, Outcome, Plan, Record, Scene, Situation, Task,
-    Tool, ToolMotion, Trajectory, Verdict, Warning,
+    Disturbance, Engine, Evidence, Job, JointTrajectory, LeverScene, Outcome, Plan, Record, Scene,
+    Situation, Task, Tool, ToolMotion, Trajectory, Verdict, Warning,
 };
 use crate::sim::{LeverSimulator, Simulator};
 use crate::watch::{Unwatched, Watch};
 
+use super::arm::arm_faults;
 use super::clear;
 use super::disturbance::Disturbed;
 use super::rules::broken_rules;
@@ -52,6 +53,8 @@ pub struct Verifier<'a> {
     until_clear: bool,
     /// Replays end when less than this share can reach the goal.
     least: f64,
+    /// How an arm carries the plan out, if that was made with it.
+    joints: Option<&'a JointTrajectory>,
 }
 
 impl<'a> Verifier<'a> {
@@ -59,7 +62,15 @@ impl<'a> Verifier<'a> {
     pub fn new(settings: VerifySettings) -> Self {
         let [planar, spatial] =
             [Simulator::planar(), Simulator::spatial()].map(Simulator::retreating);
-        Self { settings, planar, spatial, watch: &Unwatched, until_clear: false, least: 0.0 }
+        Self {
+            settings,
+            planar,
+            spatial,
+            watch: &Unwatched,
+            until_clear: false,
+            least: 0.0,
+            joints: None,
+        }
     }
 
     /// The same, which `watch` can stop. Replays that are not over then say so, and the plan does
@@ -79,6 +90,12 @@ impl<'a> Verifier<'a> {
     /// reach the goal: what is no better than another plan need not be known better.
     pub(crate) fn while_above(self, least: f64) -> Self {
         Self { least, ..self }
+    }
+
+    /// The same of plans that came with this motion of an arm's joints: it is judged rather than another
+    /// one made.
+    pub fn moving(self, joints: Option<&'a JointTrajectory>) -> Self {
+        Self { joints, ..self }
     }
 
     /// About how long verifying a plan takes on one core, seconds: right to within a factor of
@@ -123,7 +140,10 @@ impl<'a> Verifier<'a> {
             .collect();
         // The planar engine is the one that people compare predictions with: it comes first.
         evidence.reverse();
-        Verdict::judge(broken_rules(task, scene, tool, plan), evidence, task.robustness)
+        let mut forbidden = broken_rules(task, scene, tool, plan);
+        let asked = (task, situation);
+        forbidden.extend(arm_faults(asked, tool, plan, &evidence, self.joints));
+        Verdict::judge(forbidden, evidence, task.robustness)
     }
 
     /// The verdict of [`Verifier::nominal`] together with the disturbed replays.

@@ -38,11 +38,12 @@ const HOUSES: [(&str, &str, Rooms); 3] = [
     ),
 ];
 
-const ROOMS: [(&str, &str); 23] = [
+const ROOMS: [(&str, &str); 24] = [
     ("geometry", ""),
     ("scene", "geometry"),
+    ("arm", "geometry scene"),
     ("recording", "geometry scene"),
-    ("asset", "geometry scene recording"),
+    ("asset", "geometry scene arm recording"),
     ("store", "asset"),
     ("sim", "geometry scene"),
     ("contact", "geometry scene"),
@@ -55,8 +56,8 @@ const ROOMS: [(&str, &str); 23] = [
     ("belief", "geometry scene network effect"),
     ("plan", "geometry scene effect"),
     // Not `plan`: the check shares no code with what it checks.
-    ("verify", "geometry scene sim"),
-    ("solve", "geometry scene asset sim effect plan verify"),
+    ("verify", "geometry scene arm sim"),
+    ("solve", "geometry scene arm asset sim effect plan verify"),
     ("act", "geometry scene asset sim effect judge fit belief solve"),
     ("bench", "geometry scene asset store sim effect judge solve"),
     ("report", "geometry scene graph recording asset store judge fit belief plan solve act bench"),
@@ -82,10 +83,10 @@ const DOORS: [(&str, &str); 30] = [
     ("serde_yaml", "asset"),
     ("rapier2d", "sim"),
     ("rapier3d_f64", "sim"),
-    ("nalgebra", "geometry contact fit belief plan import"),
-    ("roxmltree", "import"),
-    ("stl_io", "import"),
-    ("tobj", "import"),
+    ("nalgebra", "geometry arm contact fit belief plan import"),
+    ("roxmltree", "asset import"),
+    ("stl_io", "asset import"),
+    ("tobj", "asset import"),
     ("mcap", "export"),
     ("zip", "learn/dataset"),
     ("candle_core", "learn/network learn/train lab/image lab/parts"),

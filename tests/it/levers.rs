@@ -51,6 +51,7 @@ fn planner(effort: Effort) -> Planner {
 /// A plan as it is written, with the task that it solves.
 pub fn plan_file(task: &Task, best: &RankedPlan) -> PlanFile {
     PlanFile {
+        joints: None,
         task: task.clone(),
         tools: best.tools.clone(),
         plan: best.plan.clone(),

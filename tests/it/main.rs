@@ -2,6 +2,7 @@
 //! their own, which share what several of them need.
 
 mod architecture;
+mod arms;
 mod aside;
 mod assets;
 mod baselines;

@@ -79,6 +79,7 @@ impl Solved {
             model: Some(best.predicted.by.clone()),
             predicted: Some(best.outcome.clone()),
             verdict: best.verdict.clone(),
+            joints: best.joints.clone(),
             ..PlanFile::new(self.task.clone(), best.tools.clone(), best.plan.clone())
         };
         serde_json::to_string(&file).unwrap_or_default()

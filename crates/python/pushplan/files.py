@@ -7,7 +7,7 @@ default. Lengths are metres, masses kilograms, angles (keys that end in ``_deg``
 
 import sys
 from collections.abc import Sequence
-from typing import Literal, TypedDict, Union
+from typing import Any, Literal, TypedDict, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -48,10 +48,12 @@ __all__ = [
     "RobotKeys",
     "SceneKeys",
     "ShapeKeys",
+    "StandKeys",
     "SupportKeys",
     "TableKeys",
     "TaskFile",
     "ToolFile",
+    "ToolMountKeys",
 ]
 
 #: Numbers in a row, such as a position [x, y] in metres.
@@ -196,14 +198,32 @@ class ReachKeys(TypedDict):
 HandKeys = TypedDict("HandKeys", {"radius": float, "from": float}, total=False)
 
 
-class RobotKeys(TypedDict):
-    """Where the end effector can be, metres, and how hard it can press, newtons."""
+class StandKeys(TypedDict, total=False):
+    """How an arm stands at the origin: its height in metres, and its turn."""
 
-    reach: ReachKeys
+    height: float
+    yaw_deg: float
+
+
+class ToolMountKeys(TypedDict, total=False):
+    """From the flange to the tool's underside, metres, and the tool's turn about the flange's axis."""
+
+    length: float
+    yaw_deg: float
+
+
+class RobotKeys(TypedDict):
+    """Where the end effector can be, metres, or the arm that holds it, and how hard it can press, newtons."""
+
+    reach: NotRequired[ReachKeys]
     home: NotRequired[Numbers]
+    urdf: NotRequired[str]
+    flange: NotRequired[str]
+    tool_mount: NotRequired[ToolMountKeys]
+    arm: NotRequired[Any]
     max_force: NotRequired[float]
     hand: NotRequired[Union[Literal["none"], HandKeys]]
-    base: NotRequired[Union[Literal["none"], float]]
+    base: NotRequired[Union[Literal["none"], float, StandKeys]]
     travel: NotRequired[float]
 
 

@@ -284,6 +284,7 @@ impl PyPlan {
             fit: fit.cloned(),
             predicted: Some(ranked.outcome.clone()),
             verdict: ranked.verdict.clone(),
+            joints: ranked.joints.clone(),
         };
         let trajectory = Some(ranked.predicted.clone());
         Self { file, source: source.clone(), trajectory, broken: Vec::new() }

@@ -241,7 +241,8 @@ pub fn verify(
     let verdict = work::run(py, words::threads(threads)?, |cancel| {
         let until = Until::new(cancel, limit);
         let situation = Situation::stated(&file.task.scene);
-        let verifier = Verifier::new(settings).watched(&until).until_clear();
+        let verifier =
+            Verifier::new(settings).watched(&until).until_clear().moving(file.joints.as_ref());
         verifier.verify(&file.task, &situation, &file.tools, &file.plan)
     })?;
     Ok(PyVerdict { file, verdict })

@@ -38,6 +38,7 @@ pub(super) fn lever_task(root: &Node, file: &str) -> Option<Task> {
         scene,
         unknown: unknown_of(root)?,
         robot: Robot { base: 0.0, ..reach_of(root.get("robot")?)? },
+        arm: None,
         tools: named_tools(root.get("tools")?),
         levers: Some(match root.get("levers") {
             Some(node) => levers(node)?,

@@ -16,11 +16,12 @@ const MAX_NAMED: usize = 64;
 
 /// A task as in a task file.
 pub(in crate::asset) fn task(task: &Task) -> Json {
-    let mut robot = json!({
-        "reach": {"min": task.robot.reach_min, "max": task.robot.reach_max},
-    });
+    let mut robot = match &task.arm {
+        Some(arm) => json!({"arm": arm}),
+        None => json!({"reach": {"min": task.robot.reach_min, "max": task.robot.reach_max}}),
+    };
     // Chained pushes alone begin at home.
-    if task.levers.is_none() {
+    if task.levers.is_none() && task.arm.is_none() {
         robot["home"] = json!(vector(task.robot.home));
     }
     if let Some(force) = task.robot.max_force {
@@ -29,7 +30,7 @@ pub(in crate::asset) fn task(task: &Task) -> Json {
     if task.levers.is_some() && task.robot.hand.is_none() {
         robot["hand"] = json!("none");
     }
-    if task.levers.is_none() {
+    if task.levers.is_none() && task.arm.is_none() {
         robot["hand"] = match task.robot.hand {
             Some(Hand { radius, from: None }) => json!({"radius": radius}),
             Some(Hand { radius, from: Some(from) }) => json!({"radius": radius, "from": from}),
@@ -39,6 +40,8 @@ pub(in crate::asset) fn task(task: &Task) -> Json {
             half if half > 0.0 => json!(half),
             _ => json!("none"),
         };
+    }
+    if task.levers.is_none() {
         if task.robot.travel != Robot::TRAVEL {
             robot["travel"] = json!(task.robot.travel);
         }

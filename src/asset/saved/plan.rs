@@ -9,7 +9,7 @@ use crate::asset::fault::Faults;
 use crate::asset::node::Node;
 use crate::asset::read_text;
 use crate::asset::table_fit::Whole;
-use crate::scene::{ModelSpec, Outcome, Plan, TableFit, Task, Tool, Verdict};
+use crate::scene::{JointTrajectory, ModelSpec, Outcome, Plan, TableFit, Task, Tool, Verdict};
 
 use super::read::{self, Opened};
 use super::{PLAN_FILE, PLAN_VERSION, emit};
@@ -31,12 +31,23 @@ pub struct PlanFile {
     pub predicted: Option<Outcome>,
     /// Whether simulation confirms it.
     pub verdict: Option<Verdict>,
+    /// How the joints of the task's arm carry it out.
+    pub joints: Option<JointTrajectory>,
 }
 
 impl PlanFile {
     /// A plan of which nothing is known yet.
     pub fn new(task: Task, tools: Vec<Arc<Tool>>, plan: Plan) -> Self {
-        Self { task, tools, plan, model: None, fit: None, predicted: None, verdict: None }
+        Self {
+            task,
+            tools,
+            plan,
+            model: None,
+            fit: None,
+            predicted: None,
+            verdict: None,
+            joints: None,
+        }
     }
 
     /// Reads a plan file.
@@ -71,6 +82,7 @@ impl PlanFile {
                 opened.check_outcome(node.get("outcome"), &evidence.outcome);
             }
         }
+        opened.check_joints(own.joints.as_ref());
         let fit = own.fit.filter(|value| !value.is_null());
         let fit = fit.map(|value| TableFit::parse(&value.to_string(), file)).transpose()?;
         let tools = opened.tools;
@@ -82,6 +94,7 @@ impl PlanFile {
             fit,
             predicted: own.predicted,
             verdict: own.verdict,
+            joints: own.joints,
         });
         opened.ledger.finish(file)
     }
@@ -104,6 +117,7 @@ struct Own {
     fit: Option<serde_json::Value>,
     predicted: Option<Outcome>,
     verdict: Option<Verdict>,
+    joints: Option<JointTrajectory>,
 }
 
 /// The same of a lever-up in a file of the first version.
@@ -124,7 +138,7 @@ impl OldLever {
         let pushes = self.follow_up.map(|pushes| pushes.plan).unwrap_or_default();
         let model = self.model.and_then(|model| model.parse().ok());
         let plan = self.plan.then(pushes);
-        Own { plan, model, fit: None, predicted: None, verdict: None }
+        Own { plan, model, fit: None, predicted: None, verdict: None, joints: None }
     }
 }
 
@@ -140,6 +154,8 @@ impl Serialize for PlanFile {
             fit: Option<Whole>,
             predicted: &'a Option<Outcome>,
             verdict: &'a Option<Verdict>,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            joints: &'a Option<JointTrajectory>,
             tools: Vec<serde_json::Value>,
             task: serde_json::Value,
         }
@@ -151,6 +167,7 @@ impl Serialize for PlanFile {
             fit: self.fit.as_ref().map(Whole::of),
             predicted: &self.predicted,
             verdict: &self.verdict,
+            joints: &self.joints,
             tools: self.tools.iter().map(|tool| emit::tool(tool)).collect(),
             task: emit::task(&self.task),
         }

@@ -12,7 +12,7 @@ use crate::asset::spec::Value;
 use crate::asset::strict::{Ledger, check};
 use crate::asset::text::Source;
 use crate::asset::{task, tool, write_atomic};
-use crate::scene::{Outcome, Plan, Plate, State, Step, Task, Tool};
+use crate::scene::{JointTrajectory, Outcome, Plan, Plate, State, Step, Task, Tool};
 
 /// A file that has passed the strict check, open for the rules that span several keys.
 pub(super) struct Opened<'a> {
@@ -58,6 +58,19 @@ impl<'a> Opened<'a> {
                 advice: "the file is damaged or of another version; make it again".into(),
             }
         })
+    }
+
+    /// Checks that the motion of joints is one of the task's arm.
+    pub fn check_joints(&mut self, joints: Option<&JointTrajectory>) {
+        let (Some(joints), Some(node)) = (joints, self.root.get("joints")) else { return };
+        let again = "the file is damaged; make it again";
+        if let Some(fault) = joints.fault() {
+            self.ledger.fault(node, fault, again);
+        }
+        let arm = self.task.as_ref().map(|task| task.arm.as_deref());
+        if arm == Some(None) {
+            self.ledger.fault(node, "the task has no arm whose joints could move", again);
+        }
     }
 
     /// Checks that the plan is one of this task with these tools.

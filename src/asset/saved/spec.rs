@@ -48,6 +48,12 @@ static STEPS_FILE: Value = Value::Map(&[
     Key::optional("fit", Value::Anything, FIT),
     PREDICTED,
     JUDGED,
+    Key::optional(
+        "joints",
+        Value::Anything,
+        "How the joints of the task's arm carry the plan out: positions and velocities at times; by \
+         default unsaid.",
+    ),
 ]);
 
 /// The first version, of pushes with one tool.

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use crate::arm::{flange, frames};
+use crate::asset::arm::Standing;
 use crate::asset::node::{Content, Node};
 use crate::asset::prism::origin;
 use crate::asset::take::{name_of, number_or, pose, shape, vector};
@@ -16,13 +18,16 @@ use super::spec::default;
 use super::{frictions, goals, joints, keep, mounts, obstacles, parts};
 
 /// The task, or `None` if anything needed is missing or was faulty.
-pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
+pub(super) fn task(root: &Node, file: &str, arm: Option<Standing>) -> Option<Task> {
     let stem = || Path::new(file).file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let mut scene = scene(root.get("scene")?)?;
     let goals = goals::each(root.get("goal")?).iter().map(|node| goals::goal(node, &scene));
     let goals: Vec<Goal> = goals.collect::<Option<_>>()?;
     let (goal, further) = goals.split_first()?;
-    let robot = robot(root.get("robot")?)?;
+    let robot = match &arm {
+        Some(arm) => standing(root.get("robot")?, arm)?,
+        None => robot(root.get("robot")?)?,
+    };
     scene.obstacles.extend(robot.column());
     scene.keep_out = keep::regions(root)?;
     if let Some(keep) = root.get("keep") {
@@ -38,6 +43,7 @@ pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
         scene,
         unknown: unknown(root)?,
         robot,
+        arm: arm.map(|arm| arm.arm),
         tools: tools(root.get("tools")?),
         pushes: match root.get("pushes") {
             Some(node) => pushes(node)?,
@@ -168,6 +174,21 @@ pub(in crate::asset) fn robot(node: &Node) -> Option<Robot> {
             Some((base, None)) => base.number()?,
         },
         travel: number_or(node, "travel", Robot::TRAVEL)?,
+    })
+}
+
+/// The robot that an arm is: its reach is the ring in which it holds tools.
+fn standing(node: &Node, standing: &Standing) -> Option<Robot> {
+    let Standing { arm, ring: [near, far] } = standing;
+    let home = flange(arm, &frames(arm, &arm.home)).position;
+    Some(Robot {
+        home: home.xy(),
+        max_force: match node.get("max_force") {
+            Some(force) => Some(force.number()?),
+            None => None,
+        },
+        travel: number_or(node, "travel", Robot::TRAVEL)?,
+        ..Robot::reaching(*near, *far)
     })
 }
 

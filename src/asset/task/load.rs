@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::scene::{Scene, Task, Tool, ToolChoice};
 
+use crate::asset::arm;
 use crate::asset::fault::{Fault, Faults, did_you_mean};
 use crate::asset::lever::{check_blades, is_lever_task, lever_task_of, unknown_blade};
 use crate::asset::library::ToolLibrary;
@@ -157,7 +158,9 @@ pub(in crate::asset) fn task_of(root: &Node, file: &str, ledger: &mut Ledger) ->
         return lever_task_of(root, file, ledger);
     }
     rules::check(root, ledger);
-    build::task(root, file)
+    let robot = root.get("robot");
+    let arm = robot.and_then(|robot| arm::arm(robot, root.get("pushes"), file, ledger));
+    build::task(root, file, arm)
 }
 
 /// The scene of another kind of file, by the rules of a task's; bodies may be `slack` metres

@@ -1,5 +1,6 @@
 //! Rules that span several keys of a task file, and that no single value can break.
 
+use crate::asset::arm;
 use crate::asset::fault::did_you_mean;
 use crate::asset::node::Node;
 use crate::asset::prism;
@@ -8,6 +9,7 @@ use crate::asset::take::{name_of, number_or, pose, shape, triple, unique_names, 
 use crate::geometry::{Footprint, Pose, Shape, clearance};
 use crate::scene::{PushForm, PushRules, Support, carries};
 
+use super::spec::REACH_KEY;
 use super::{build, frictions, goals, joints, keep as regions, obstacles as fixed, parts};
 
 /// Bodies may sink into each other by this much before it is a fault, metres: the rounding of
@@ -31,7 +33,10 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
     let obstacles = scene.get("obstacles").map(Node::items).unwrap_or_default();
     check_scene(scene, SLACK, ledger);
     unknown(section("unknown"), scene, ledger);
-    robot(section("robot"), pushes, ledger);
+    if !arm::check(section("robot"), ledger) {
+        without_arm(section("robot"), ledger);
+        robot(section("robot"), pushes, ledger);
+    }
     tools(section("tools"), ledger);
     push_rules(pushes, objects, ledger);
     let goals = goals::each(section("goal"));
@@ -227,6 +232,24 @@ fn masses(objects: &[Node], ledger: &mut Ledger) {
             ),
             "bring the masses closer together, or make the heaviest an obstacle",
         );
+    }
+}
+
+/// Of a robot without an arm: that its reach is stated, and its home a place.
+pub(super) fn without_arm(robot: &Node, ledger: &mut Ledger) {
+    let given = robot.pairs();
+    let meant = |(key, _): &(Node, Node)| {
+        let advice = did_you_mean(key.text().unwrap_or_default(), ["reach"]);
+        advice.starts_with("did you mean")
+    };
+    if !given.is_empty() && robot.get("reach").is_none() && !given.iter().any(meant) {
+        ledger.fault(robot, "missing key `reach`", REACH_KEY.meaning);
+    }
+    if let Some(home) = robot.get("home")
+        && !matches!(home.items().len(), 0 | 2)
+    {
+        let message = format!("expected a list of 2 numbers, found one of {}", home.items().len());
+        ledger.fault(home, message, "joint positions are of arms, which `urdf` names");
     }
 }
 

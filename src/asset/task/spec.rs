@@ -1,5 +1,6 @@
 //! What a task file may hold.
 
+use crate::asset::arm::{ARM, BASE, FLANGE, HOME, TOOL_MOUNT, URDF};
 use crate::asset::lever::{LEVER_TASK, is_lever_task};
 use crate::asset::node::Node;
 use crate::asset::spec::{
@@ -196,13 +197,17 @@ pub(in crate::asset) const OBJECT_SHAPE: Key =
     Key::required("shape", SHAPE, "The object's solid, standing upright.");
 
 const ROBOT: Value = Value::Map(&[
+    HOME,
     Key::optional(
-        "home",
-        POSITION,
-        "Where chained pushes start, [x, y] in metres; by default the nearest point of the reach \
-         in front of the base.",
+        REACH_KEY.name,
+        REACH_KEY.value,
+        "Distances from the base, at the origin, at which the end effector can be; no default, but \
+         with `urdf`, where they are the arm's own.",
     ),
-    REACH_KEY,
+    URDF,
+    FLANGE,
+    TOOL_MOUNT,
+    ARM,
     MAX_FORCE,
     Key::optional(
         "hand",
@@ -221,13 +226,7 @@ const ROBOT: Value = Value::Map(&[
         "The hand about the end effector, an upright cylinder that keeps clear of all that is as \
          high, or `none`; by default a usual gripper.",
     ),
-    Key::optional(
-        "base",
-        Value::Either(&[Value::Word(&["none"]), SIZE]),
-        "Half the side in metres of the square column at the origin on which the arm stands, or \
-         `none`; by default 0.08, or as much less as the hand comes nearer: 0.06 less than the \
-         smallest reach.",
-    ),
+    BASE,
     Key::optional(
         "travel",
         SIZE,

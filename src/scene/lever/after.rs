@@ -54,6 +54,7 @@ impl Task {
             description: format!("What is left of {} after the lever-up.", self.name),
             scene,
             unknown: Unknowns::NONE,
+            arm: None,
             robot: self.robot,
             tools: self.tools.clone(),
             pushes: self.pushes.clone(),

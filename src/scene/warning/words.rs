@@ -131,6 +131,9 @@ impl fmt::Display for Warning {
                      and higher than `robot.travel`"
                 )
             }
+            Warning::Arm { push, fault } => {
+                write!(f, "the arm cannot make push {}: {fault}", push + 1)
+            }
             Warning::ForbiddenTool { tool } => {
                 write!(f, "the task does not allow the tool {tool}")
             }

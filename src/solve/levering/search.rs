@@ -172,7 +172,7 @@ impl Steps<'_> {
         let refinement =
             Refinement { before: error, after: error, aimed_at: None, rounds: Vec::new() };
         let tools = tools.to_vec();
-        RankedPlan { plan, tools, predicted, outcome, verdict: None, refinement }
+        RankedPlan { plan, tools, predicted, outcome, verdict: None, refinement, joints: None }
     }
 }
 

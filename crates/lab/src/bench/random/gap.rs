@@ -77,6 +77,7 @@ pub(super) fn gap_task(rng: &mut Pcg64, ordinal: usize) -> Task {
         },
         unknown: Unknowns::NONE,
         robot: Robot::reaching(0.1, 0.9),
+        arm: None,
         tools: ToolChoice::All,
         pushes: pushes(2),
         levers: None,

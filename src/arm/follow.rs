@@ -1,0 +1,256 @@
+//! A plan of pushes as a motion of the joints.
+//!
+//! Every push is a straight line of the flange: down from above, along, back by what the tool retreats,
+//! and up. Between pushes the joints go straight, or, where that meets something, fold to how they are
+//! at home, turn, and unfold. What posture a push begins in is tried: near where the arm is, then any
+//! other; the first that carries the whole push out is taken.
+
+use std::sync::Arc;
+
+use crate::geometry::{PlacedHull, Pose3};
+use crate::scene::{
+    Arm, ArmFault, JointTrajectory, Plan, PushForm, PushStep, Scene, State, Stroke, Task, Tool,
+};
+
+use super::inverse::postures;
+use super::path::{GENTLE, Pieces, flange_at, line, unwound};
+use super::room::Room;
+
+/// Joints on their straight way are looked at this often, radians or metres.
+const LOOK: f64 = 0.06;
+
+/// A lifted tool is at least this far above the tallest object, metres, where it does not get as high as
+/// the task wants.
+const ABOVE: f64 = 0.02;
+
+/// Postures that a push may begin in, at most.
+const POSTURES: usize = 10;
+
+/// What became of a plan: its trajectory, or the push that cannot be made and why.
+pub type Followed = Result<JointTrajectory, (usize, ArmFault)>;
+
+/// How the joints of `arm` carry out the pushes of a plan; `states` say where objects are before the
+/// first push and after each, as far as that is known.
+///
+/// # Errors
+/// The first push that no pose carries out, and why.
+pub fn follow(
+    task: &Task,
+    (arm, scene): (&Arm, &Scene),
+    tool: &Arc<Tool>,
+    plan: &Plan,
+    states: &[State],
+) -> Followed {
+    let room = Room::new(arm, scene, Some(tool));
+    let motion = plan.motion(tool);
+    let mount = arm.flange_of_tool();
+    let tallest = scene.objects.iter().map(|one| one.shape.height()).fold(0.0, f64::max);
+    let mut pieces = Pieces::new(arm);
+    let mut pushes = Vec::new();
+    let steps: Vec<&PushStep> = plan.push_steps().collect();
+    for (k, (step, stroke)) in steps.iter().zip(&motion.strokes).enumerate() {
+        let at = |pose: &crate::geometry::Pose, height: f64| {
+            Pose3::upright(*pose * tool.grip, height) * mount
+        };
+        let state = |k: usize| states.get(k).or(states.last());
+        let objects = |k: usize| state(k).map(|state| room.objects(state)).unwrap_or_default();
+        let push = Push {
+            room: &room,
+            set_down: step.form == PushForm::Placed || k == 0,
+            ends: [at(&stroke.from, step.lift), at(&stroke.to, step.lift)],
+            back: motion.retreat(scene, k).map(|back: Stroke| at(&back.to, step.lift)),
+            rise: (task.robot.travel - step.lift).max(0.0),
+            least: (tallest + ABOVE - step.lift).max(ABOVE),
+            before: objects(k),
+            after: objects(k + 1),
+        };
+        let made = push.make(&mut pieces, step).map_err(|fault| (k, fault))?;
+        pushes.push(made);
+    }
+    let joints = arm.joints.iter().map(|joint| joint.name.clone()).collect();
+    Ok(JointTrajectory { joints, points: pieces.points, pushes })
+}
+
+struct Push<'a> {
+    room: &'a Room<'a>,
+    /// Whether the tool comes from above.
+    set_down: bool,
+    ends: [Pose3; 2],
+    /// Where it goes back to before it is lifted, if it is.
+    back: Option<Pose3>,
+    /// How high it is lifted, and how high at least, metres.
+    rise: f64,
+    least: f64,
+    before: Vec<(&'a str, PlacedHull)>,
+    after: Vec<(&'a str, PlacedHull)>,
+}
+
+/// The lines of a push, in joint positions.
+struct Lines {
+    /// From above down to where it begins.
+    down: Vec<Vec<f64>>,
+    /// What it takes to come above that.
+    way: Vec<Vec<f64>>,
+    push: Vec<Vec<f64>>,
+    back: Vec<Vec<f64>>,
+    up: Vec<Vec<f64>>,
+}
+
+impl Push<'_> {
+    /// Adds the push; the points at which it begins and ends.
+    fn make(&self, pieces: &mut Pieces, step: &PushStep) -> Result<[usize; 2], ArmFault> {
+        let arm = self.room.arm;
+        let now = pieces.now().to_vec();
+        let lines = match self.set_down {
+            true => self.begun(&now)?,
+            false => self.lines(&now, &now)?,
+        };
+        for through in &lines.way {
+            pieces.swing(through);
+        }
+        let length = |a: &Pose3, b: &Pose3| (b.position - a.position).norm();
+        let ends = |line: &[Vec<f64>]| match (line.first(), line.last()) {
+            (Some(a), Some(b)) => length(&flange_at(arm, a), &flange_at(arm, b)),
+            _ => 0.0,
+        };
+        pieces.along(&lines.down, ends(&lines.down), GENTLE, true);
+        let begin = pieces.points.len() - 1;
+        pieces.along(&lines.push, length(&self.ends[0], &self.ends[1]), step.push.speed, false);
+        let end = pieces.points.len() - 1;
+        for (joint, point) in pieces.points[begin..=end]
+            .iter()
+            .flat_map(|point| arm.joints.iter().zip(&point.velocities))
+        {
+            if let Some(limit) = joint.max_speed.filter(|limit| point.abs() > *limit) {
+                let (joint, needed) = (joint.name.clone(), point.abs());
+                return Err(ArmFault::TooFast { joint, needed, limit });
+            }
+        }
+        pieces.along(&lines.back, ends(&lines.back), GENTLE, true);
+        pieces.along(&lines.up, ends(&lines.up), GENTLE, true);
+        Ok([begin, end])
+    }
+
+    /// The lines from a posture in which the push can begin.
+    fn begun(&self, now: &[f64]) -> Result<Lines, ArmFault> {
+        let arm = self.room.arm;
+        let seeds = [now.to_vec(), facing(arm, &arm.home, &self.ends[0])];
+        let mut fault = None;
+        let mut tried: Vec<Vec<f64>> = Vec::new();
+        // Few of them need more than what is near.
+        for all in [false, true] {
+            let found = match all {
+                false => super::inverse::near(arm, &self.ends[0], &seeds),
+                true => postures(arm, &self.ends[0], &seeds),
+            };
+            for posture in found.into_iter().take(POSTURES) {
+                let posture = unwound(arm, &posture, now);
+                if tried.contains(&posture) {
+                    continue;
+                }
+                match self.lines(&posture, now) {
+                    Ok(lines) => return Ok(lines),
+                    Err(found) => fault = fault.or(Some(found)),
+                }
+                tried.push(posture);
+            }
+        }
+        Err(fault.unwrap_or(ArmFault::Unreachable))
+    }
+
+    /// The lines from this posture.
+    fn lines(&self, posture: &[f64], now: &[f64]) -> Result<Lines, ArmFault> {
+        let arm = self.room.arm;
+        let (push, fault) = line(arm, [&self.ends[0], &self.ends[1]], posture);
+        fault.map_or(Ok(()), Err)?;
+        let half = push.len() / 2;
+        self.clear(&push[..=half], &self.before)?;
+        self.clear(&push[half..], &self.after)?;
+        let last = push.last().cloned().unwrap_or_default();
+        let mut lines =
+            Lines { down: Vec::new(), way: Vec::new(), push, back: Vec::new(), up: Vec::new() };
+        if self.set_down {
+            let mut up = self.risen(&self.ends[0], posture, &self.before)?;
+            up.reverse();
+            lines.way = self.way(now, &up[0])?;
+            lines.down = up;
+        }
+        if let Some(back) = &self.back {
+            let (points, fault) = line(arm, [&self.ends[1], back], &last);
+            fault.map_or(Ok(()), Err)?;
+            let from = points.last().cloned().unwrap_or(last);
+            lines.back = points;
+            lines.up = self.risen(back, &from, &self.after)?;
+        }
+        Ok(lines)
+    }
+
+    /// Straight up, as high as it goes.
+    fn risen(
+        &self,
+        from: &Pose3,
+        posture: &[f64],
+        objects: &[(&str, PlacedHull)],
+    ) -> Result<Vec<Vec<f64>>, ArmFault> {
+        let mut to = *from;
+        to.position.z += self.rise.max(self.least);
+        let (points, fault) = line(self.room.arm, [from, &to], posture);
+        let reached = points
+            .last()
+            .map_or(0.0, |last| flange_at(self.room.arm, last).position.z - from.position.z);
+        if let Some(fault) = fault.filter(|_| reached < self.least) {
+            return Err(fault);
+        }
+        self.clear(&points, objects)?;
+        Ok(points)
+    }
+
+    /// That the arm, its tool apart, meets nothing.
+    fn clear(&self, points: &[Vec<f64>], objects: &[(&str, PlacedHull)]) -> Result<(), ArmFault> {
+        for point in points {
+            if let Some(between) = self.room.met(&self.room.stance(point), objects, false) {
+                return Err(ArmFault::Collides { between });
+            }
+        }
+        Ok(())
+    }
+
+    /// Joint positions on the way to others with the tool lifted: those themselves, or how the arm is at
+    /// home before and after it turns.
+    fn way(&self, from: &[f64], to: &[f64]) -> Result<Vec<Vec<f64>>, ArmFault> {
+        let Some(between) = self.swept(from, to) else { return Ok(vec![to.to_vec()]) };
+        let folded = |at: &[f64]| {
+            let mut folded = self.room.arm.home.clone();
+            folded[0] = at[0];
+            folded
+        };
+        let by = [folded(from), folded(to), to.to_vec()];
+        let mut at = from;
+        for next in &by {
+            if self.swept(at, next).is_some() {
+                return Err(ArmFault::NoWay { between });
+            }
+            at = next;
+        }
+        Ok(by.to_vec())
+    }
+
+    /// What is met on the straight way of the joints.
+    fn swept(&self, from: &[f64], to: &[f64]) -> Option<[String; 2]> {
+        let far = from.iter().zip(to).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let steps = (far / LOOK).ceil().max(1.0) as usize;
+        (0..=steps).find_map(|step| {
+            let share = step as f64 / steps as f64;
+            let at: Vec<f64> = from.iter().zip(to).map(|(a, b)| a + share * (b - a)).collect();
+            self.room.met(&self.room.stance(&at), &self.before, true)
+        })
+    }
+}
+
+/// A posture with the first joint turned so that the flange is in the direction of another.
+fn facing(arm: &Arm, posture: &[f64], target: &Pose3) -> Vec<f64> {
+    let mut turned = posture.to_vec();
+    let angle = |pose: &Pose3| pose.position.y.atan2(pose.position.x);
+    turned[0] += crate::geometry::wrap_angle(angle(target) - angle(&flange_at(arm, posture)));
+    turned
+}

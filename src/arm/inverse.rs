@@ -1,0 +1,223 @@
+//! Joint positions that bring the flange somewhere: damped least squares (Wampler 1986,
+//! doi:10.1109/TSMC.1986.289285) with the damping of what is left (Sugihara 2011,
+//! doi:10.1109/TRO.2011.2148230). A joint at its limit stands still and the others move on; what joints
+//! there are to spare draws towards the middle of their limits.
+
+use nalgebra::{DVector, Matrix6, Vector6};
+
+use crate::geometry::Pose3;
+use crate::scene::Arm;
+
+use super::kinematics::{flange, frames, jacobian, twist};
+
+/// Nearer is there, metres and radians.
+const SHIFT: f64 = 1e-7;
+const TURN: f64 = 1e-6;
+
+/// A joint moves by at most this in one round, radians or metres.
+const STRIDE: f64 = 0.4;
+
+/// Spare joints go this share of the way to their middle in the first round.
+const SPARE: f64 = 0.02;
+
+/// Rounds from where the joints are near, and from anywhere.
+pub(super) const NEAR: usize = 15;
+pub(super) const ANYWHERE: usize = 60;
+
+/// Starts besides the given ones, and how far postures are apart that are not one, radians or metres.
+const STARTS: usize = 24;
+const APART: f64 = 0.1;
+
+/// Joint positions that bring the flange to a pose, near `seed`; `None` if none were found in so many
+/// rounds.
+pub fn inverse(arm: &Arm, target: &Pose3, seed: &[f64], rounds: usize) -> Option<Vec<f64>> {
+    let mut at = seed.to_vec();
+    keep(arm, &mut at);
+    for round in 0..=rounds {
+        let frames = frames(arm, &at);
+        let here = flange(arm, &frames);
+        let left = twist(&here, target);
+        if left.fixed_rows::<3>(0).norm() < SHIFT && left.fixed_rows::<3>(3).norm() < TURN {
+            return Some(at);
+        }
+        if round == rounds {
+            break;
+        }
+        let mut jacobian = jacobian(arm, &frames, here.position);
+        let mut step = DVector::zeros(at.len());
+        // Joints that would leave their limits are taken out, and the rest solves it alone.
+        for _ in 0..3 {
+            step = solved(&jacobian, &left);
+            let mut held = false;
+            for k in 0..at.len() {
+                if let Some([low, high]) = arm.joints[k].limits
+                    && jacobian.column(k).norm_squared() > 0.0
+                    && (at[k] <= low && step[k] < 0.0 || at[k] >= high && step[k] > 0.0)
+                {
+                    jacobian.column_mut(k).fill(0.0);
+                    held = true;
+                }
+            }
+            if !held {
+                break;
+            }
+        }
+        if round == 0 && at.len() > 6 {
+            let wish = |k: usize, _| SPARE * (arm.joints[k].middle() - at[k]);
+            let wish = DVector::from_fn(at.len(), wish);
+            // Of the wish, what does not move the flange.
+            step += &wish - solved(&jacobian, &(&jacobian * &wish));
+        }
+        let largest = step.amax();
+        if !largest.is_finite() {
+            return None;
+        }
+        let share = if largest > STRIDE { STRIDE / largest } else { 1.0 };
+        at.iter_mut().zip(step.iter()).for_each(|(at, step)| *at += share * step);
+        keep(arm, &mut at);
+    }
+    None
+}
+
+/// Postures near these, as far as there are any, each once.
+pub(super) fn near(arm: &Arm, target: &Pose3, seeds: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let found = seeds.iter().filter_map(|seed| inverse(arm, target, seed, ANYWHERE));
+    let mut found: Vec<Vec<f64>> = found.collect();
+    found.dedup_by(|a, b| away(a, b) <= APART);
+    found
+}
+
+/// The largest difference of joint positions.
+fn away(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+/// Postures that bring the flange to a pose, those near `seeds` first and then those nearest to the
+/// first of them.
+pub fn postures(arm: &Arm, target: &Pose3, seeds: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let mut found: Vec<Vec<f64>> = Vec::new();
+    let add = |found: &mut Vec<Vec<f64>>, seed: &[f64]| {
+        if let Some(posture) = inverse(arm, target, seed, ANYWHERE)
+            && found.iter().all(|known| away(known, &posture) > APART)
+        {
+            found.push(posture);
+        }
+    };
+    seeds.iter().for_each(|seed| add(&mut found, seed));
+    let given = found.len();
+    (0..STARTS).for_each(|index| add(&mut found, &start(arm, index)));
+    if let Some(first) = seeds.first() {
+        found[given..].sort_by(|a, b| away(a, first).total_cmp(&away(b, first)));
+    }
+    found
+}
+
+/// Joint positions within the limits, spread evenly: a Kronecker sequence, the same each time.
+pub(super) fn start(arm: &Arm, index: usize) -> Vec<f64> {
+    // Powers of the positive root of x^(d+1) = x + 1.
+    let d = arm.joints.len() as i32;
+    let mut root: f64 = 1.5;
+    for _ in 0..40 {
+        root = (1.0 + root).powf(1.0 / f64::from(d + 1));
+    }
+    let share = |k: usize| (0.5 + (index + 1) as f64 * root.powi(-(k as i32 + 1))).fract();
+    let at = |k: usize| {
+        let span = arm.joints[k].limits.unwrap_or([-std::f64::consts::PI, std::f64::consts::PI]);
+        // Turns by more than once around are the same postures again.
+        let low = span[0].max(-std::f64::consts::PI);
+        let high = span[1].min(std::f64::consts::PI).max(low);
+        low + share(k) * (high - low)
+    };
+    (0..arm.joints.len()).map(at).collect()
+}
+
+/// The least step of the joints for a twist, damped by what is left of it.
+fn solved(jacobian: &nalgebra::Matrix6xX<f64>, twist: &Vector6<f64>) -> DVector<f64> {
+    let damping = 1e-3 * twist.norm_squared().min(1.0) + 1e-10;
+    let mut square: Matrix6<f64> = jacobian * jacobian.transpose();
+    for k in 0..6 {
+        square[(k, k)] += damping;
+    }
+    match square.cholesky() {
+        Some(factor) => jacobian.transpose() * factor.solve(twist),
+        None => DVector::zeros(jacobian.ncols()),
+    }
+}
+
+/// Brings positions into the limits; what only turns is turned back by whole turns first.
+fn keep(arm: &Arm, at: &mut [f64]) {
+    for (joint, at) in arm.joints.iter().zip(at) {
+        if let Some([low, high]) = joint.limits {
+            *at = at.clamp(low, high);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Turn3, Vector3};
+    use crate::scene::{ArmBody, ArmJoint, Places, ToolMount};
+
+    /// Six joints like those of a small arm, 0.3 m and 0.3 m long.
+    fn arm() -> Arm {
+        let joint = |at: [f64; 3], axis: Vector3| ArmJoint {
+            name: "j".into(),
+            slides: false,
+            origin: Pose3 { position: Vector3::from(at), ..Pose3::default() },
+            axis,
+            limits: Some([-2.8, 2.8]),
+            max_speed: Some(2.0),
+        };
+        let (y, z) = (Vector3::y(), Vector3::z());
+        let joints = vec![
+            joint([0.0, 0.0, 0.2], z),
+            joint([0.0, 0.0, 0.1], y),
+            joint([0.0, 0.0, 0.3], y),
+            joint([0.0, 0.0, 0.15], z),
+            joint([0.0, 0.0, 0.15], y),
+            joint([0.0, 0.0, 0.05], z),
+        ];
+        let body = |_| ArmBody { name: "b".into(), solids: Vec::new() };
+        Arm {
+            name: "test".into(),
+            base: Pose3::default(),
+            bodies: (0..7).map(body).collect(),
+            home: vec![0.0; joints.len()],
+            joints,
+            pairs: Vec::new(),
+            flange: Pose3::default(),
+            mount: ToolMount { length: 0.1, yaw: 0.0 },
+            places: Places::default(),
+        }
+    }
+
+    #[test]
+    fn what_joints_do_is_undone_and_limits_are_kept() {
+        let arm = arm();
+        let mut solved = 0;
+        for index in 0..60 {
+            let there = start(&arm, index);
+            let target = flange(&arm, &frames(&arm, &there));
+            let near: Vec<f64> = there.iter().map(|at| at + 0.05).collect();
+            let found = inverse(&arm, &target, &near, ANYWHERE);
+            let Some(found) = found else { continue };
+            solved += 1;
+            let off = twist(&flange(&arm, &frames(&arm, &found)), &target);
+            assert!(off.norm() < 1e-5, "{off}");
+            assert!(found.iter().all(|at| at.abs() <= 2.8));
+        }
+        assert!(solved >= 55, "{solved}");
+        let far = Pose3 { position: Vector3::new(2.0, 0.0, 0.3), rotation: Turn3::identity() };
+        assert!(postures(&arm, &far, &[vec![0.0; 6]]).is_empty());
+    }
+
+    #[test]
+    fn a_reachable_pose_has_several_postures() {
+        let arm = arm();
+        let down = Turn3::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI);
+        let target = Pose3 { position: Vector3::new(0.35, 0.1, 0.25), rotation: down };
+        let found = postures(&arm, &target, &[vec![0.3, 0.5, 1.0, 0.0, 1.5, 0.0]]);
+        assert!(found.len() >= 3, "{}", found.len());
+    }
+}

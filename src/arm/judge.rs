@@ -1,0 +1,161 @@
+//! Whether a joint trajectory carries a plan out: forwards, from its numbers alone.
+
+use std::sync::Arc;
+
+use crate::geometry::{Pose3, Vector3};
+use crate::scene::{Arm, ArmFault, JointTrajectory, Plan, PushForm, PushStep, Scene, State, Tool};
+
+use super::kinematics::{dexterity, flange, frames};
+use super::path::DEXTERITY;
+use super::room::Room;
+
+/// The tool may be this far off a push, metres, and a turn counts at this distance, metres.
+const OFF: f64 = 1e-3;
+const ARM: f64 = 0.1;
+
+/// Joints are looked at this often, radians or metres.
+const LOOK: f64 = 0.05;
+
+/// Slack for rounding, radians and metres, and a share of a speed.
+const SLACK: f64 = 1e-6;
+
+/// A tool this far above where it pushes, metres, that moves sideways by this from point to point, is
+/// carried.
+const RAISED: f64 = 0.01;
+const SIDEWAYS: f64 = 0.005;
+
+/// How much nearer to a singular pose rounding may bring it.
+const NEARER: f64 = 0.9;
+
+/// What of a plan a trajectory does not do, or not with this arm: of every push the first fault. `states`
+/// say where objects are before the first push and after each, as far as that is known.
+pub fn judge(
+    (arm, scene): (&Arm, &Scene),
+    tool: &Arc<Tool>,
+    plan: &Plan,
+    states: &[State],
+    path: &JointTrajectory,
+) -> Vec<(usize, ArmFault)> {
+    let steps: Vec<&PushStep> = plan.push_steps().collect();
+    let names = arm.joints.iter().map(|joint| &joint.name);
+    if path.fault().is_some()
+        || !names.eq(&path.joints)
+        || path.pushes.len() != steps.len()
+        || path.points.is_empty()
+    {
+        return vec![(0, ArmFault::OfAnother)];
+    }
+    let room = Room::new(arm, scene, Some(tool));
+    let ends = |k: usize| path.pushes.get(k).map_or(path.points.len() - 1, |push| push[1]);
+    let mut found = Vec::new();
+    for (k, step) in steps.iter().enumerate() {
+        // A push answers for how the arm gets to it, and the last one for how it leaves.
+        let from = if k == 0 { 0 } else { path.pushes[k - 1][1] };
+        let to = if k + 1 == steps.len() { path.points.len() - 1 } else { ends(k) };
+        let fault = (from..to).find_map(|point| {
+            let [begin, end] = path.pushes[k];
+            let pushing = (begin..end).contains(&point);
+            let moved = point >= begin.midpoint(end);
+            let state = states.get(k + usize::from(moved)).or(states.last());
+            let objects = state.map(|state| room.objects(state)).unwrap_or_default();
+            let samples = samples(path, point);
+            limits(arm, path, point, &samples)
+                .or_else(|| pushing.then(|| off(arm, step, &samples)).flatten())
+                .or_else(|| {
+                    let carried = !pushing && is_carried(arm, step, &samples);
+                    let met = |at: &Vec<f64>| room.met(&room.stance(at), &objects, carried);
+                    let between = samples.iter().find_map(met)?;
+                    Some(ArmFault::Collides { between })
+                })
+        });
+        let fault = fault.or_else(|| ends_off(arm, step, path, k));
+        found.extend(fault.map(|fault| (k, fault)));
+    }
+    let parted = |k: &usize| {
+        steps[*k].form == PushForm::Chained && path.pushes[k - 1][1] != path.pushes[*k][0]
+    };
+    found.extend((1..steps.len()).filter(parted).map(|k| (k, ArmFault::OfAnother)));
+    found
+}
+
+/// Joint positions from a point to the next, both included.
+fn samples(path: &JointTrajectory, point: usize) -> Vec<Vec<f64>> {
+    let [a, b] = [&path.points[point].positions, &path.points[point + 1].positions];
+    let far = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let count = (far / LOOK).ceil().clamp(2.0, 1000.0) as usize;
+    (0..=count).map(|k| path.between(point, k as f64 / count as f64)).collect()
+}
+
+/// Limits of positions and speeds.
+fn limits(
+    arm: &Arm,
+    path: &JointTrajectory,
+    point: usize,
+    samples: &[Vec<f64>],
+) -> Option<ArmFault> {
+    let time = path.points[point + 1].time - path.points[point].time;
+    let each = time / (samples.len() - 1) as f64;
+    for (k, joint) in arm.joints.iter().enumerate() {
+        if let Some([low, high]) = joint.limits
+            && samples.iter().any(|at| at[k] < low - SLACK || at[k] > high + SLACK)
+        {
+            return Some(ArmFault::Limit { joint: joint.name.clone() });
+        }
+        let mean = samples.windows(2).map(|pair| (pair[1][k] - pair[0][k]).abs() / each);
+        let needed = mean.fold(path.points[point].velocities[k].abs(), f64::max);
+        if let Some(limit) = joint.max_speed
+            && needed > limit * (1.0 + SLACK)
+        {
+            return Some(ArmFault::TooFast { joint: joint.name.clone(), needed, limit });
+        }
+    }
+    None
+}
+
+/// The end effector, at the tool's underside, at joint positions.
+fn effector(arm: &Arm, at: &[f64]) -> Pose3 {
+    flange(arm, &frames(arm, at)) * arm.flange_of_tool().inverse()
+}
+
+/// Whether the tool is moved over the table.
+fn is_carried(arm: &Arm, step: &PushStep, samples: &[Vec<f64>]) -> bool {
+    let [a, b] = [&samples[0], &samples[samples.len() - 1]].map(|at| effector(arm, at).position);
+    let sideways = (a.xy() - b.xy()).norm() > SIDEWAYS;
+    sideways && a.z.min(b.z) > step.lift + RAISED
+}
+
+/// How far a pose is from the line of a push, metres.
+fn off_line(step: &PushStep, pose: &Pose3) -> f64 {
+    let push = &step.push;
+    let along = (pose.position.xy() - push.start).dot(&push.heading()).clamp(0.0, push.length);
+    let nearest = push.start + along * push.heading();
+    off_pose(step, pose, Vector3::new(nearest.x, nearest.y, step.lift))
+}
+
+/// How far a pose is from where the tool is to be, held as the push says.
+fn off_pose(step: &PushStep, pose: &Pose3, position: Vector3) -> f64 {
+    let held = Pose3::upright(crate::geometry::Pose::new(0.0, 0.0, step.grip_yaw), 0.0);
+    (pose.position - position).norm() + ARM * pose.angle_to(&held)
+}
+
+/// A pose of the tool off its push, or too near to a singular one.
+fn off(arm: &Arm, step: &PushStep, samples: &[Vec<f64>]) -> Option<ArmFault> {
+    samples.iter().find_map(|at| {
+        let distance = off_line(step, &effector(arm, at));
+        if distance > OFF {
+            return Some(ArmFault::Off { distance });
+        }
+        (dexterity(arm, &frames(arm, at)) < NEARER * DEXTERITY).then_some(ArmFault::Singular)
+    })
+}
+
+/// A push that does not begin or end where it should.
+fn ends_off(arm: &Arm, step: &PushStep, path: &JointTrajectory, k: usize) -> Option<ArmFault> {
+    let push = &step.push;
+    let ends = path.pushes[k].into_iter().zip([push.start, push.end()]);
+    ends.into_iter().find_map(|(point, end)| {
+        let pose = effector(arm, &path.points[point].positions);
+        let distance = off_pose(step, &pose, Vector3::new(end.x, end.y, step.lift));
+        (distance > OFF).then_some(ArmFault::Off { distance })
+    })
+}

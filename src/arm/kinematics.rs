@@ -1,0 +1,57 @@
+//! From joint positions to frames, and how these move with the joints.
+
+use nalgebra::{Matrix6, Matrix6xX, Vector6};
+
+use crate::geometry::{Pose3, Vector3};
+use crate::scene::Arm;
+
+/// What a turn counts against a shift, metres: a tool's part is about as far from the flange.
+const LEVER: f64 = 0.2;
+
+/// Frames of the bodies of an arm in the world: of what stands, then of what moves with each joint.
+pub fn frames(arm: &Arm, positions: &[f64]) -> Vec<Pose3> {
+    let mut frames = Vec::with_capacity(arm.joints.len() + 1);
+    let mut frame = arm.base;
+    frames.push(frame);
+    for (joint, position) in arm.joints.iter().zip(positions) {
+        frame = frame * joint.pose(*position);
+        frames.push(frame);
+    }
+    frames
+}
+
+/// Where the flange is.
+pub fn flange(arm: &Arm, frames: &[Pose3]) -> Pose3 {
+    frames.last().map_or(arm.base, |last| *last * arm.flange)
+}
+
+/// How the flange moves with the joints: shifts, then turns, in the world's axes.
+pub(super) fn jacobian(arm: &Arm, frames: &[Pose3], at: Vector3) -> Matrix6xX<f64> {
+    let mut found = Matrix6xX::zeros(arm.joints.len());
+    for (k, joint) in arm.joints.iter().enumerate() {
+        let axis = frames[k + 1].rotation * joint.axis;
+        let (shift, turn) = match joint.slides {
+            true => (axis, Vector3::zeros()),
+            false => (axis.cross(&(at - frames[k + 1].position)), axis),
+        };
+        found.fixed_view_mut::<3, 1>(0, k).copy_from(&shift);
+        found.fixed_view_mut::<3, 1>(3, k).copy_from(&turn);
+    }
+    found
+}
+
+/// What is left to a pose: a shift, metres, and a turn, radians.
+pub(super) fn twist(from: &Pose3, to: &Pose3) -> Vector6<f64> {
+    let shift = to.position - from.position;
+    let turn = (to.rotation * from.rotation.inverse()).scaled_axis();
+    Vector6::new(shift.x, shift.y, shift.z, turn.x, turn.y, turn.z)
+}
+
+/// How far the flange moves at least, metres, for joints that move by one radian together, in the
+/// direction in which it moves least; a turn counts as a shift at 20 cm. Zero at a singular pose.
+pub fn dexterity(arm: &Arm, frames: &[Pose3]) -> f64 {
+    let mut jacobian = jacobian(arm, frames, flange(arm, frames).position);
+    jacobian.rows_mut(3, 3).scale_mut(LEVER);
+    let square: Matrix6<f64> = &jacobian * jacobian.transpose();
+    square.symmetric_eigenvalues().min().max(0.0).sqrt()
+}

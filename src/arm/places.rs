@@ -1,0 +1,101 @@
+//! Where an arm can hold a tool over the table, found by trying.
+
+use std::f64::consts::{PI, TAU};
+
+use rayon::prelude::*;
+
+use crate::geometry::{Pose, Pose3, Vector, Vector3};
+use crate::scene::{Arm, Places, Scene};
+
+use super::inverse::{NEAR, inverse, near, postures};
+use super::kinematics::{dexterity, frames};
+use super::path::DEXTERITY;
+use super::room::Room;
+
+/// Distances from the base that are tried are this far apart, metres, up to this.
+const STEP: f64 = 0.025;
+const FARTHEST: f64 = 3.0;
+
+/// Turns of the tool that are tried at each.
+const TURNS: usize = 36;
+
+/// Starts from anywhere, where no neighbour gives one.
+const STARTS: usize = 4;
+
+/// The distances between which an arm can hold a tool, metres.
+pub type Ring = [f64; 2];
+
+/// Where an arm can hold a tool with its underside at a height, metres, and the ring that this is; `None`
+/// where it is nowhere. The arm meets neither itself nor the table there.
+pub fn find_places(arm: &Arm, height: f64) -> Option<(Ring, Places)> {
+    let scene = Scene::default();
+    let room = Room::new(arm, &scene, None);
+    let long = |from: Vector3| from.norm();
+    let length: f64 = arm.joints.iter().map(|joint| long(joint.origin.position)).sum::<f64>()
+        + long(arm.flange.position);
+    let slides = arm.joints.iter().filter(|joint| joint.slides);
+    let stroke = slides.filter_map(|joint| joint.limits).map(|[low, high]| high - low).sum::<f64>();
+    let rings = ((length + stroke).min(FARTHEST) / STEP).ceil() as usize + 1;
+    let rows: Vec<Vec<bool>> = (0..TURNS)
+        .into_par_iter()
+        .map(|turn| row(&room, height, turn as f64 * TAU / TURNS as f64, rings))
+        .collect();
+    let any = |ring: &usize| rows.iter().any(|row| row[*ring]);
+    let (first, last) = ((0..rings).find(any)?, (0..rings).rev().find(any)?);
+    let free = match turns_about_the_base(arm) {
+        true => (0..rings).flat_map(|ring| rows.iter().map(move |row| row[ring])).collect(),
+        false => Vec::new(),
+    };
+    let ring = [first as f64 * STEP, last as f64 * STEP];
+    (first < last).then(|| (ring, Places { step: STEP, turns: TURNS, free }))
+}
+
+/// Whether it can, ahead of the base with the tool at a turn, at each distance.
+fn row(room: &Room, height: f64, turn: f64, rings: usize) -> Vec<bool> {
+    let arm = room.arm;
+    let mut before: Option<Vec<f64>> = None;
+    (0..rings)
+        .map(|ring| {
+            let at = Pose { position: Vector::new(ring as f64 * STEP, 0.0), heading: turn };
+            let target = Pose3::upright(at, height) * arm.flange_of_tool();
+            let sound = |posture: &Vec<f64>| {
+                dexterity(arm, &frames(arm, posture)) >= DEXTERITY
+                    && room.met(&room.stance(posture), &[], false).is_none()
+            };
+            let next = before.as_ref().and_then(|seed| inverse(arm, &target, seed, NEAR));
+            let next = next.filter(&sound).or_else(|| {
+                let mut seeds = vec![arm.home.clone()];
+                seeds.extend((0..STARTS).map(|index| super::inverse::start(arm, index)));
+                near(arm, &target, &seeds).into_iter().find(sound)
+            });
+            before = next;
+            before.is_some()
+        })
+        .collect()
+}
+
+/// Whether the first joint turns about the vertical through the origin, nearly all around: what the arm
+/// does ahead of the base it does to its sides as well.
+fn turns_about_the_base(arm: &Arm) -> bool {
+    let Some(first) = arm.joints.first() else { return false };
+    let frame = arm.base * first.origin;
+    let axis = frame.rotation * first.axis;
+    let wide = first.limits.is_none_or(|[low, high]| low <= -0.75 * PI && high >= 0.75 * PI);
+    !first.slides && wide && axis.xy().norm() < 1e-3 && frame.position.xy().norm() < 1e-3
+}
+
+/// A posture that is free, with a tool over the middle of the ring at the height at which tools travel,
+/// metres, or as high as it goes; `None` where there is none.
+pub fn usual_home(arm: &Arm, [near_by, far]: Ring, travel: f64) -> Option<Vec<f64>> {
+    let scene = Scene::default();
+    let room = Room::new(arm, &scene, None);
+    let at = Pose { position: Vector::new(0.5 * (near_by + far), 0.0), heading: 0.0 };
+    [1.0, 0.75, 0.5, 0.25].iter().find_map(|share| {
+        let target = Pose3::upright(at, share * travel) * arm.flange_of_tool();
+        let free = |posture: &Vec<f64>| {
+            dexterity(arm, &frames(arm, posture)) >= DEXTERITY
+                && room.met(&room.stance(posture), &[], false).is_none()
+        };
+        postures(arm, &target, &[arm.home.clone()]).into_iter().find(free)
+    })
+}

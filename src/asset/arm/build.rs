@@ -1,0 +1,184 @@
+//! From the keys of a robot to its arm.
+
+use serde_json::{Number, Value as Json};
+
+use crate::arm::{Ring, find_places, pairs, usual_home};
+use crate::asset::node::{Content, Node};
+use crate::asset::strict::Ledger;
+use crate::asset::take::{angle, number_or};
+use crate::geometry::{Pose, Pose3};
+use crate::scene::{Arm, PushRules, Robot, ToolMount};
+
+/// From the flange to the tool's underside where a task does not say it, metres: a gripper.
+const LENGTH: f64 = 0.15;
+
+/// Keys that an arm has of its own.
+const OWN: [&str; 2] = ["reach", "hand"];
+
+/// Keys that only say something of an arm.
+const OF_URDF: [&str; 2] = ["flange", "tool_mount"];
+
+/// An arm, and the ring in which it holds tools, metres.
+pub(in crate::asset) struct Standing {
+    pub arm: Box<Arm>,
+    pub ring: Ring,
+}
+
+/// Notes what does not go together in a robot; whether it is an arm.
+pub(in crate::asset) fn check(robot: &Node, ledger: &mut Ledger) -> bool {
+    let [urdf, arm] = ["urdf", "arm"].map(|key| robot.get(key));
+    let map = |key| robot.get(key).filter(|node| matches!(node.content, Content::Map(_)));
+    let Some(which) = urdf.or(arm) else {
+        for (key, node) in OF_URDF.map(|key| (key, robot.get(key))) {
+            if let Some(node) = node {
+                let message = format!("`{key}` is of an arm, and there is none");
+                ledger.fault(node, message, "add `urdf`, the file of the arm");
+            }
+        }
+        if let Some(base) = map("base") {
+            let advice =
+                "add `urdf`, the file of the arm; of a robot without one, `base` is a number";
+            ledger.fault(base, "`base` says how an arm stands, and there is none", advice);
+        }
+        return false;
+    };
+    if let (Some(_), Some(arm)) = (urdf, arm) {
+        ledger.fault(arm, "`urdf` and `arm` both say what the arm is", "keep one of them");
+    }
+    let inside = |key: &&&str| urdf.is_none() && robot.get(key).is_some();
+    for key in OWN.iter().filter(|key| robot.get(key).is_some()) {
+        let message = format!("an arm has a `{key}` of its own");
+        ledger.fault(robot.get(key).unwrap_or(which), message, format!("remove `{key}`"));
+    }
+    if let Some(base) = robot.get("base").filter(|_| urdf.is_some() && map("base").is_none()) {
+        let advice = "write `base: {height: 0.1}`, or remove it";
+        ledger.fault(base, "an arm has a base of its own; `base` says how it stands", advice);
+    }
+    for key in ["base", "flange", "tool_mount", "home"].iter().filter(inside) {
+        let message = format!("`arm` says its `{key}` itself");
+        ledger.fault(robot.get(key).unwrap_or(which), message, format!("remove `{key}`"));
+    }
+    if let Some(urdf) = urdf.filter(|_| robot.get("flange").is_none()) {
+        let advice =
+            "add `flange`, the link on which tools are mounted, its z axis pointing out of it";
+        ledger.fault(urdf, "an arm needs a `flange`", advice);
+    }
+    true
+}
+
+/// The arm of a robot whose task is in `file`; none, with faults, where there is none or it is faulty.
+pub(in crate::asset) fn arm(
+    robot: &Node,
+    pushes: Option<&Node>,
+    file: &str,
+    ledger: &mut Ledger,
+) -> Option<Standing> {
+    let which = robot.get("urdf").or(robot.get("arm"))?;
+    let read = match robot.get("urdf") {
+        Some(urdf) => from_urdf(robot, urdf.text()?, file),
+        None => embedded(which),
+    };
+    let noted = |(message, advice): Wrong, ledger: &mut Ledger| {
+        ledger.fault(which, message, advice);
+        None
+    };
+    let mut arm = match read {
+        Ok(arm) => Box::new(arm),
+        Err(wrong) => return noted(wrong, ledger),
+    };
+    let again = || "the file is damaged or of another version; make it again".to_owned();
+    let stated = robot.get("home").map(|home| {
+        home.items().iter().map(|one| one.number().unwrap_or(f64::NAN)).collect::<Vec<f64>>()
+    });
+    if let Some(home) = &stated {
+        if home.len() != arm.joints.len() {
+            let names: Vec<&str> = arm.joints.iter().map(|joint| &*joint.name).collect();
+            let message =
+                format!("`home` has {} numbers, and the arm {} joints", home.len(), names.len());
+            let advice = format!("write one for each of {}, radians", names.join(", "));
+            ledger.fault(robot.get("home")?, message, advice);
+            return None;
+        }
+        arm.home.clone_from(home);
+    }
+    if let Some(fault) = arm.fault() {
+        let advice = if robot.get("urdf").is_some() { String::new() } else { again() };
+        return noted((fault, advice), ledger);
+    }
+    if robot.get("urdf").is_some() {
+        arm.pairs = pairs(&arm);
+    }
+    let lift = match pushes {
+        Some(pushes) => number_or(pushes, "lift", PushRules::LIFT)?,
+        None => PushRules::LIFT,
+    };
+    let Some((ring, places)) = find_places(&arm, lift) else {
+        let length = arm.mount.length;
+        let message = format!(
+            "this arm holds no tool over the table, with its flange {:.2} m above it and pointing down",
+            length + lift
+        );
+        let advice = "the z axis of `flange` points out of it; look at `base` and `tool_mount` too";
+        return noted((message, advice.into()), ledger);
+    };
+    arm.places = places;
+    if stated.is_none() && robot.get("urdf").is_some() {
+        let travel = number_or(robot, "travel", Robot::TRAVEL)?;
+        if let Some(home) = usual_home(&arm, ring, travel) {
+            arm.home = home;
+        }
+    }
+    Some(Standing { arm, ring })
+}
+
+/// What is wrong, and what to do.
+pub(super) type Wrong = (String, String);
+
+/// The arm that a plan file holds.
+fn embedded(node: &Node) -> Result<Arm, Wrong> {
+    let advice = || "the file is damaged or of another version; make it again".to_owned();
+    serde_json::from_value(json(node)).map_err(|error| (format!("no arm: {error}"), advice()))
+}
+
+#[cfg(feature = "formats")]
+fn from_urdf(robot: &Node, urdf: &str, file: &str) -> Result<Arm, Wrong> {
+    let path = std::path::Path::new(file).with_file_name("").join(urdf);
+    let chain = super::urdf::chain(&path, robot.get("flange").and_then(Node::text).unwrap_or(""))?;
+    let number = |node: Option<&Node>, key: &str, default: f64| {
+        node.and_then(|node| number_or(node, key, default)).unwrap_or(default)
+    };
+    let turn =
+        |node: Option<&Node>| node.and_then(|node| angle(node, "yaw_deg", 0.0)).unwrap_or(0.0);
+    let (base, mount) = (robot.get("base"), robot.get("tool_mount"));
+    let stand = Pose { heading: turn(base), ..Pose::default() };
+    Ok(Arm {
+        base: Pose3::upright(stand, number(base, "height", 0.0)),
+        mount: ToolMount { length: number(mount, "length", LENGTH), yaw: turn(mount) },
+        ..chain
+    })
+}
+
+#[cfg(not(feature = "formats"))]
+fn from_urdf(_: &Node, _: &str, _: &str) -> Result<Arm, Wrong> {
+    let _ =
+        (angle, LENGTH, ToolMount { length: LENGTH, yaw: 0.0 }, Pose::default(), Pose3::default());
+    let advice = "build it with the feature `formats`";
+    Err(("this program was built without reading URDF".into(), advice.into()))
+}
+
+fn json(node: &Node) -> Json {
+    match &node.content {
+        Content::Nothing => Json::Null,
+        Content::Switch(value) => Json::Bool(*value),
+        Content::Whole(value) => i64::try_from(*value).map_or(Json::Null, Json::from),
+        Content::Number(value) => Number::from_f64(*value).map_or(Json::Null, Json::Number),
+        Content::Text(text) => Json::String(text.clone()),
+        Content::List(items) => Json::Array(items.iter().map(json).collect()),
+        Content::Map(pairs) => {
+            let pair = |(key, value): &(Node, Node)| {
+                (key.text().unwrap_or_default().to_owned(), json(value))
+            };
+            Json::Object(pairs.iter().map(pair).collect())
+        }
+    }
+}

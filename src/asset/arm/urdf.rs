@@ -1,0 +1,301 @@
+//! The chain of an arm in a URDF.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use roxmltree::{Document, Node};
+
+use crate::asset::text::read_text;
+use crate::geometry::{Hull, Pose3, Turn3, Vector3};
+use crate::scene::{Arm, ArmBody, ArmJoint, Places, ToolMount};
+
+use super::build::Wrong;
+use super::mesh;
+
+/// Sides of the prism that stands for a cylinder.
+const SIDES: usize = 16;
+
+/// A file that is being read.
+struct File<'a> {
+    path: &'a Path,
+    document: &'a Document<'a>,
+}
+
+/// The arm in a file from its root to the link `flange`; it stands at the origin, and what is mounted on
+/// it is not known yet. At home its joints are in the middle of their limits.
+pub(super) fn chain(path: &Path, flange: &str) -> Result<Arm, Wrong> {
+    let (_, text) = read_text(path).map_err(|fault| (fault.to_string(), String::new()))?;
+    let document = Document::parse(&text).map_err(|error| {
+        (format!("{}: no XML: {error}", path.display()), "is this the right file?".to_owned())
+    })?;
+    let file = File { path, document: &document };
+    let root = document.root_element();
+    if !root.has_tag_name("robot") {
+        return Err(file.wrong(
+            root,
+            "this is no URDF: <robot> is missing",
+            "is this the right file?",
+        ));
+    }
+    file.arm(root, flange)
+}
+
+impl<'a> File<'a> {
+    fn wrong(&self, node: Node, message: impl Into<String>, advice: impl Into<String>) -> Wrong {
+        let place = self.document.text_pos_at(node.range().start);
+        let message: String = message.into();
+        let (path, row, column) = (self.path.display(), place.row, place.col);
+        (format!("{path}:{row}:{column}: {message}"), advice.into())
+    }
+
+    fn arm(&self, root: Node<'a, 'a>, flange: &str) -> Result<Arm, Wrong> {
+        let named = |tag: &'static str| elements(root).filter(move |node| node.has_tag_name(tag));
+        let links: HashMap<&str, Node> =
+            named("link").filter_map(|node| Some((node.attribute("name")?, node))).collect();
+        // By child: what attaches it.
+        let mut joints: HashMap<&str, Node> = HashMap::new();
+        for joint in named("joint") {
+            if joints.insert(end(joint, "child"), joint).is_some() {
+                let message =
+                    format!("the link `{}` is attached by two joints", end(joint, "child"));
+                return Err(self.wrong(joint, message, "a link has one parent"));
+            }
+        }
+        if !links.contains_key(flange) {
+            let mut known: Vec<&str> = links.keys().copied().collect();
+            known.sort_unstable();
+            let message = format!("there is no link `{flange}`");
+            return Err(self.wrong(root, message, format!("its links are {}", known.join(", "))));
+        }
+        // From the flange up, then turned around.
+        let mut chain = Vec::new();
+        let mut link = flange;
+        while let Some(joint) = joints.get(link) {
+            if chain.len() > joints.len() {
+                return Err(self.wrong(*joint, "these joints go in a circle", "break it"));
+            }
+            chain.push(*joint);
+            link = end(*joint, "parent");
+        }
+        chain.reverse();
+        let mut arm = Arm {
+            name: root.attribute("name").unwrap_or("arm").to_owned(),
+            base: Pose3::default(),
+            joints: Vec::new(),
+            bodies: vec![ArmBody { name: link.to_owned(), solids: Vec::new() }],
+            pairs: Vec::new(),
+            flange: Pose3::default(),
+            mount: ToolMount { length: 0.0, yaw: 0.0 },
+            home: Vec::new(),
+            places: Places::default(),
+        };
+        let branches = Branches { links: &links, joints: &joints, flange };
+        let on_chain: Vec<&str> = chain.iter().map(|joint| end(*joint, "child")).collect();
+        let mut pose = Pose3::default();
+        self.collect(&branches, (link, pose), &on_chain, &mut arm.bodies[0].solids)?;
+        for joint in chain {
+            let child = end(joint, "child");
+            pose = pose * self.origin(joint)?;
+            if joint.attribute("type") != Some("fixed") {
+                arm.joints.push(self.joint(joint, pose)?);
+                arm.bodies.push(ArmBody { name: child.to_owned(), solids: Vec::new() });
+                pose = Pose3::default();
+            }
+            if let Some(body) = arm.bodies.last_mut() {
+                self.collect(&branches, (child, pose), &on_chain, &mut body.solids)?;
+            }
+        }
+        arm.flange = pose;
+        arm.home = arm.joints.iter().map(ArmJoint::middle).collect();
+        Ok(arm)
+    }
+
+    /// The solids of a link, and of what is fixed to it beside the chain.
+    fn collect(
+        &self,
+        branches: &Branches<'_, 'a>,
+        (link, pose): (&str, Pose3),
+        on_chain: &[&str],
+        solids: &mut Vec<Hull>,
+    ) -> Result<(), Wrong> {
+        let mut left = vec![(link, pose)];
+        let mut seen = 0;
+        while let Some((link, pose)) = left.pop() {
+            if let Some(node) = branches.links.get(link) {
+                for collision in elements(*node).filter(|node| node.has_tag_name("collision")) {
+                    solids.push(self.solid(collision, &pose)?);
+                }
+            }
+            seen += 1;
+            if link == branches.flange || seen > branches.links.len() {
+                continue;
+            }
+            let mut fixed: Vec<_> = branches.joints.iter().collect();
+            fixed.sort_by_key(|(child, _)| **child);
+            for (child, joint) in fixed {
+                let beside = !on_chain.contains(child);
+                if beside
+                    && end(*joint, "parent") == link
+                    && joint.attribute("type") == Some("fixed")
+                {
+                    left.push((child, pose * self.origin(*joint)?));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn joint(&self, joint: Node<'a, 'a>, origin: Pose3) -> Result<ArmJoint, Wrong> {
+        let name = joint.attribute("name").unwrap_or_default().to_owned();
+        let axis = match element(joint, "axis") {
+            Some(axis) => self.three(axis, "xyz", [1.0, 0.0, 0.0])?,
+            None => Vector3::x(),
+        };
+        let Some(axis) = axis.try_normalize(1e-9) else {
+            return Err(self.wrong(joint, "the axis of this joint has no length", "write `0 0 1`"));
+        };
+        if element(joint, "mimic").is_some() {
+            let message = format!("joint `{name}` follows another one, which arms here do not");
+            return Err(self.wrong(joint, message, "name a `flange` before it"));
+        }
+        let kind = joint.attribute("type").unwrap_or_default();
+        let slides = kind == "prismatic";
+        let limit = element(joint, "limit");
+        let number = |name: &str| match limit {
+            Some(limit) => self.numbers(limit, name),
+            None => Ok(Vec::new()),
+        };
+        let [lower, upper, speed] = [number("lower")?, number("upper")?, number("velocity")?]
+            .map(|list| list.first().copied());
+        let limits = match kind {
+            "continuous" => None,
+            "revolute" | "prismatic" => {
+                let limits = [lower.unwrap_or(0.0), upper.unwrap_or(0.0)];
+                if limits[0] >= limits[1] {
+                    let message = format!("joint `{name}` has no room between its limits");
+                    let advice = "write <limit lower=... upper=.../>, or `continuous` for its type";
+                    return Err(self.wrong(joint, message, advice));
+                }
+                Some(limits)
+            }
+            other => {
+                let message = format!("joint `{name}` is `{other}`");
+                let advice = "arms have joints that are revolute, continuous, prismatic or fixed";
+                return Err(self.wrong(joint, message, advice));
+            }
+        };
+        Ok(ArmJoint {
+            name,
+            slides,
+            origin,
+            axis,
+            limits,
+            max_speed: speed.filter(|speed| *speed > 0.0),
+        })
+    }
+
+    fn solid(&self, collision: Node<'a, 'a>, pose: &Pose3) -> Result<Hull, Wrong> {
+        let own = *pose * self.origin(collision)?;
+        let shape = element(collision, "geometry").and_then(|node| elements(node).next());
+        let Some(shape) = shape else {
+            return Err(self.wrong(collision, "this collision has no geometry", "add <geometry>"));
+        };
+        let size = |name: &str| -> Result<f64, Wrong> {
+            let found = self.numbers(shape, name)?.first().copied().filter(|size| *size > 0.0);
+            found.ok_or_else(|| {
+                self.wrong(shape, format!("its `{name}` must be positive"), "lengths are in metres")
+            })
+        };
+        match shape.tag_name().name() {
+            "box" => {
+                let size = self.three(shape, "size", [0.0; 3])?;
+                Ok(Hull::cuboid(0.5 * size, &own))
+            }
+            "sphere" => Ok(Hull { points: vec![own.position], radius: size("radius")? }),
+            tag @ ("cylinder" | "capsule") => {
+                let (radius, half) = (size("radius")?, 0.5 * size("length")?);
+                let ends = [half, -half];
+                let points = match tag {
+                    "capsule" => ends.map(|z| own.point(Vector3::z() * z)).to_vec(),
+                    _ => {
+                        let step = std::f64::consts::TAU / SIDES as f64;
+                        let out = radius / (0.5 * step).cos();
+                        let at = |k: usize, z: f64| {
+                            let turn = k as f64 * step;
+                            own.point(Vector3::new(out * turn.cos(), out * turn.sin(), z))
+                        };
+                        ends.iter().flat_map(|z| (0..SIDES).map(move |k| at(k, *z))).collect()
+                    }
+                };
+                Ok(Hull { points, radius: if tag == "capsule" { radius } else { 0.0 } })
+            }
+            "mesh" => {
+                let scale = self.three(shape, "scale", [1.0; 3])?;
+                let name = shape.attribute("filename").unwrap_or_default();
+                let corners = mesh::corners(self.path, name)
+                    .map_err(|(message, advice)| self.wrong(shape, message, advice))?;
+                let corners: Vec<Vector3> =
+                    corners.iter().map(|corner| own.point(corner.component_mul(&scale))).collect();
+                Hull::around(&corners)
+                    .ok_or_else(|| self.wrong(shape, "this mesh has no corners", "export it again"))
+            }
+            tag => Err(self.wrong(
+                shape,
+                format!("a {tag} is not read"),
+                "use a box, cylinder or mesh",
+            )),
+        }
+    }
+
+    fn origin(&self, node: Node<'a, 'a>) -> Result<Pose3, Wrong> {
+        let Some(origin) = element(node, "origin") else { return Ok(Pose3::default()) };
+        let turn = self.three(origin, "rpy", [0.0; 3])?;
+        Ok(Pose3 {
+            position: self.three(origin, "xyz", [0.0; 3])?,
+            rotation: Turn3::from_euler_angles(turn.x, turn.y, turn.z),
+        })
+    }
+
+    fn three(&self, node: Node, name: &str, default: [f64; 3]) -> Result<Vector3, Wrong> {
+        match self.numbers(node, name)?[..] {
+            [] => Ok(Vector3::from(default)),
+            [x, y, z] => Ok(Vector3::new(x, y, z)),
+            _ => {
+                Err(self.wrong(node, format!("`{name}` must be three numbers"), "such as `0 0 1`"))
+            }
+        }
+    }
+
+    /// The numbers of an attribute; none where it is missing.
+    fn numbers(&self, node: Node, name: &str) -> Result<Vec<f64>, Wrong> {
+        let words = node.attribute(name).unwrap_or_default().split_whitespace();
+        let number = |word: &str| match word.parse::<f64>() {
+            Ok(number) if number.is_finite() && number.abs() < 1e4 => Ok(number),
+            _ => {
+                let message = format!("`{name}` has `{word}`, which is no number to go by");
+                Err(self.wrong(node, message, "expand macros first: `xacro FILE > robot.urdf`"))
+            }
+        };
+        words.map(number).collect()
+    }
+}
+
+/// What hangs where.
+struct Branches<'b, 'a> {
+    links: &'b HashMap<&'a str, Node<'a, 'a>>,
+    joints: &'b HashMap<&'a str, Node<'a, 'a>>,
+    flange: &'b str,
+}
+
+/// The name of the link at an end of a joint.
+fn end<'a>(joint: Node<'a, 'a>, side: &str) -> &'a str {
+    element(joint, side).and_then(|node| node.attribute("link")).unwrap_or_default()
+}
+
+fn elements<'a>(node: Node<'a, 'a>) -> impl Iterator<Item = Node<'a, 'a>> {
+    node.children().filter(Node::is_element)
+}
+
+fn element<'a>(node: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
+    elements(node).find(|child| child.has_tag_name(name))
+}

@@ -1,0 +1,162 @@
+//! An arm with everything that is needed to move it: kinematics, limits, solids.
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::{Hull, Pose3, Turn3, Vector3};
+
+use super::Places;
+
+/// Most joints that move.
+pub const MAX_JOINTS: usize = 16;
+
+/// Most points of a solid, and most solids of a body.
+const MOST: usize = 64;
+
+/// A joint that moves.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ArmJoint {
+    /// Its name, as controllers know it.
+    pub name: String,
+    /// Whether it slides along its axis; else it turns about it.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub slides: bool,
+    /// Its frame at zero, seen from the frame of the joint before.
+    pub origin: Pose3,
+    /// Its axis in that frame, of length one.
+    pub axis: Vector3,
+    /// The least and the largest position, radians or metres; `None` where it turns without end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub limits: Option<[f64; 2]>,
+    /// Largest speed, radians or metres a second; `None` for any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max_speed: Option<f64>,
+}
+
+/// What moves with a joint.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ArmBody {
+    /// The name of its link.
+    pub name: String,
+    /// Its solids, in the frame of the joint.
+    pub solids: Vec<Hull>,
+}
+
+/// How the tool hangs on the flange.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ToolMount {
+    /// From the flange to the tool's underside, along the flange's z axis, metres.
+    pub length: f64,
+    /// Turn of the tool about that axis, radians.
+    pub yaw: f64,
+}
+
+/// A serial arm.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Arm {
+    /// The name of the robot.
+    pub name: String,
+    /// Where its base stands in the world.
+    pub base: Pose3,
+    /// The joints that move, from the base on.
+    pub joints: Vec<ArmJoint>,
+    /// What stands on the table, and then what moves with each joint.
+    pub bodies: Vec<ArmBody>,
+    /// Pairs of bodies that could come to each other; others are neighbours, or their convex solids are in
+    /// each other without the links being so.
+    pub pairs: Vec<[usize; 2]>,
+    /// The flange in the frame of the last joint, its z axis pointing out of it.
+    pub flange: Pose3,
+    /// The tool on it.
+    pub mount: ToolMount,
+    /// Joint positions at which a plan begins, radians or metres.
+    pub home: Vec<f64>,
+    /// Where it can hold a tool over the table; found when it is read.
+    #[serde(skip)]
+    pub places: Places,
+}
+
+impl ArmJoint {
+    /// Its frame, seen from the frame of the joint before, at `position`, radians or metres.
+    pub fn pose(&self, position: f64) -> Pose3 {
+        let moved = match self.slides {
+            true => Pose3 { position: self.axis * position, ..Pose3::default() },
+            false => Pose3 {
+                position: Vector3::zeros(),
+                rotation: Turn3::from_scaled_axis(self.axis * position),
+            },
+        };
+        self.origin * moved
+    }
+
+    /// The middle of its limits; 0 without any.
+    pub fn middle(&self) -> f64 {
+        self.limits.map_or(0.0, |[low, high]| 0.5 * (low + high))
+    }
+}
+
+impl Arm {
+    /// The flange as a tool sees it whose end effector is at the origin and whose underside is at
+    /// height zero.
+    pub fn flange_of_tool(&self) -> Pose3 {
+        let down = Turn3::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI);
+        let turn = Turn3::from_axis_angle(&Vector3::z_axis(), self.mount.yaw);
+        Pose3 { position: Vector3::z() * self.mount.length, rotation: down * turn }
+    }
+
+    /// What is wrong with it, if anything.
+    pub fn fault(&self) -> Option<String> {
+        let finite =
+            |pose: &Pose3| pose.is_finite() && (pose.rotation.coords.norm() - 1.0).abs() < 1e-6;
+        let count = self.joints.len();
+        if count == 0 || count > MAX_JOINTS {
+            return Some(format!("an arm has 1 to {MAX_JOINTS} joints that move, this {count}"));
+        }
+        if self.bodies.len() != count + 1 || self.home.len() != count {
+            return Some(
+                "an arm has one body more than joints, and a position at home for each".into(),
+            );
+        }
+        for joint in &self.joints {
+            let limits = joint
+                .limits
+                .is_none_or(|[low, high]| low.is_finite() && low < high && high.is_finite());
+            let speed = joint.max_speed.is_none_or(|speed| speed.is_finite() && speed > 0.0);
+            let axis = (joint.axis.norm() - 1.0).abs() < 1e-6;
+            if !(finite(&joint.origin) && axis && limits && speed) {
+                let name = &joint.name;
+                return Some(format!(
+                    "joint `{name}` needs a finite pose, an axis of length one, and limits"
+                ));
+            }
+        }
+        for (joint, at) in self.joints.iter().zip(&self.home) {
+            if !at.is_finite() || joint.limits.is_some_and(|[low, high]| *at < low || *at > high) {
+                return Some(format!(
+                    "at home joint `{}` is at {at}, outside its limits",
+                    joint.name
+                ));
+            }
+        }
+        let sound = |hull: &Hull| {
+            (1..=MOST).contains(&hull.points.len())
+                && hull.points.iter().all(|point| point.iter().all(|v| v.is_finite()))
+                && hull.radius.is_finite()
+                && hull.radius >= 0.0
+        };
+        for body in &self.bodies {
+            if body.solids.len() > MOST || !body.solids.iter().all(sound) {
+                return Some(format!("the solids of `{}` are not finite, or too many", body.name));
+            }
+        }
+        if self.pairs.iter().flatten().any(|body| *body > count) {
+            return Some("its pairs name bodies that it does not have".into());
+        }
+        let mount = self.mount.length.is_finite() && self.mount.yaw.is_finite();
+        (!(finite(&self.base) && finite(&self.flange) && mount))
+            .then(|| "base, flange and mount must be finite".into())
+    }
+}

@@ -1,0 +1,52 @@
+//! Where an arm can hold a tool over the table: a cheap test that comes before all others.
+
+use std::f64::consts::TAU;
+
+use crate::geometry::Vector;
+
+/// By distance from the base and by how the tool is turned against the way there. No arm has any until
+/// they are found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Places {
+    /// Between two distances, metres.
+    pub step: f64,
+    /// Turns that were tried at each distance, evenly spread.
+    pub turns: usize,
+    /// Whether it can, for each distance from zero on and each turn; empty where that depends on more.
+    pub free: Vec<bool>,
+}
+
+impl Places {
+    /// Whether a tool may be held at a position, its end effector turned by `yaw` radians: no where none
+    /// of what was tried around it can.
+    pub fn allow(&self, position: Vector, yaw: f64) -> bool {
+        if self.free.is_empty() {
+            return true;
+        }
+        let turn = (yaw - position.y.atan2(position.x)).rem_euclid(TAU) / TAU * self.turns as f64;
+        let (ring, turn) = (position.norm() / self.step, turn.floor() as usize);
+        let at = |ring: usize, turn: usize| {
+            self.free.get(ring * self.turns + turn % self.turns).copied().unwrap_or(false)
+        };
+        let ring = ring.floor() as usize;
+        [ring, ring + 1].iter().any(|ring| at(*ring, turn) || at(*ring, turn + 1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_refused_only_where_nothing_around_them_is_free() {
+        let mut free = vec![false; 4 * 8];
+        free[2 * 8] = true;
+        let places = Places { step: 0.1, turns: 8, free };
+        let at = |x: f64, yaw: f64| places.allow(Vector::new(x, 0.0), yaw);
+        assert!(at(0.2, 0.0) && at(0.15, 0.1) && at(0.25, -0.1));
+        assert!(!at(0.05, 0.0) && !at(0.35, 0.0) && !at(0.2, 1.6) && !at(9.0, 0.0));
+        // Only the turn against the way there counts.
+        assert!(places.allow(Vector::new(0.0, 0.2), TAU / 4.0));
+        assert!(Places::default().allow(Vector::new(9.0, 0.0), 0.0));
+    }
+}

@@ -1,0 +1,61 @@
+//! Whether the arm of a task can carry a plan out: the joint trajectory that comes with the plan, or one
+//! that is made for it, judged by its numbers.
+
+use std::sync::Arc;
+
+use crate::arm::{Followed, follow, judge};
+use crate::scene::{
+    Engine, Evidence, JointTrajectory, Plan, Situation, State, Task, Tool, Warning,
+};
+
+/// Where objects are before the first push of a plan and after each, by a replay in 3-D.
+fn states(situation: &Situation, plan: &Plan, evidence: &[Evidence]) -> Vec<State> {
+    let mut states = vec![situation.start.clone()];
+    let nominal =
+        evidence.iter().find(|one| one.engine == Engine::Spatial && one.trajectory.is_some());
+    let frames = nominal.and_then(|one| one.trajectory.as_ref()).map_or(&[][..], |t| &t.frames);
+    for push in 0..plan.push_steps().count() {
+        let last = frames.iter().rfind(|frame| frame.stroke == push);
+        states.extend(last.map(|frame| frame.state.clone()));
+    }
+    states
+}
+
+/// How the joints of the task's arm carry out a plan that was replayed like this; `None` without an arm.
+pub fn joints(
+    task: &Task,
+    situation: &Situation,
+    tool: &Arc<Tool>,
+    plan: &Plan,
+    evidence: &[Evidence],
+) -> Option<Followed> {
+    let arm = task.arm.as_deref()?;
+    let states = states(situation, plan, evidence);
+    Some(follow(task, (arm, &situation.scene), tool, plan, &states))
+}
+
+/// What the arm cannot do of a plan.
+pub(super) fn arm_faults(
+    (task, situation): (&Task, &Situation),
+    tool: &Arc<Tool>,
+    plan: &Plan,
+    evidence: &[Evidence],
+    stated: Option<&JointTrajectory>,
+) -> Vec<Warning> {
+    let Some(arm) = task.arm.as_deref().filter(|_| !plan.is_empty()) else { return Vec::new() };
+    let made = match stated {
+        Some(stated) => Ok(stated.clone()),
+        None => match joints(task, situation, tool, plan, evidence) {
+            Some(made) => made,
+            None => return Vec::new(),
+        },
+    };
+    let faults = match made {
+        Ok(path) => {
+            let states = states(situation, plan, evidence);
+            judge((arm, &situation.scene), tool, plan, &states, &path)
+        }
+        Err(fault) => vec![fault],
+    };
+    faults.into_iter().map(|(push, fault)| Warning::Arm { push, fault }).collect()
+}

@@ -1,0 +1,228 @@
+//! Robots that are arms: their files, what they can do, plans with the motion of their joints.
+
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+
+use serde_json::Value as Json;
+use tempfile::TempDir;
+
+use pushplan::Task;
+use pushplan::asset::PlanFile;
+use pushplan::scene::{ArmFault, Reason, Situation, Warning};
+use pushplan::verify::{Verifier, VerifySettings};
+
+use crate::program::{run, stderr};
+
+/// Six joints: a turn of the base, shoulder, elbow, and a wrist of three.
+const URDF: &str = r#"<robot name="six">
+  <link name="foot"><collision><geometry><cylinder radius="0.06" length="0.1"/></geometry>
+    <origin xyz="0 0 0.05"/></collision></link>
+  <link name="trunk"><collision><geometry><sphere radius="0.06"/></geometry></collision></link>
+  <link name="upper"><collision><origin xyz="0 0 0.2"/><geometry><box size="0.08 0.08 0.4"/></geometry>
+    </collision></link>
+  <link name="lower"><collision><origin xyz="0 0 0.1"/><geometry><box size="0.06 0.06 0.2"/></geometry>
+    </collision></link>
+  <link name="roll"/>
+  <link name="pitch"><collision><geometry><sphere radius="0.04"/></geometry></collision></link>
+  <link name="hand"/>
+  <link name="tool0"/>
+  <link name="finger"/>
+  <joint name="turn" type="revolute"><parent link="foot"/><child link="trunk"/>
+    <origin xyz="0 0 0.2"/><axis xyz="0 0 1"/><limit lower="-3" upper="3" velocity="2"/></joint>
+  <joint name="shoulder" type="revolute"><parent link="trunk"/><child link="upper"/>
+    <axis xyz="0 1 0"/><limit lower="-2.2" upper="2.2" velocity="2"/></joint>
+  <joint name="elbow" type="revolute"><parent link="upper"/><child link="lower"/>
+    <origin xyz="0 0 0.4"/><axis xyz="0 1 0"/><limit lower="-2.7" upper="2.7" velocity="2"/></joint>
+  <joint name="wrist1" type="revolute"><parent link="lower"/><child link="roll"/>
+    <origin xyz="0 0 0.2"/><axis xyz="0 0 1"/><limit lower="-3.1" upper="3.1" velocity="3"/></joint>
+  <joint name="wrist2" type="revolute"><parent link="roll"/><child link="pitch"/>
+    <origin xyz="0 0 0.2"/><axis xyz="0 1 0"/><limit lower="-2.5" upper="2.5" velocity="3"/></joint>
+  <joint name="wrist3" type="continuous"><parent link="pitch"/><child link="hand"/>
+    <axis xyz="0 0 1"/><limit effort="1" velocity="3"/></joint>
+  <joint name="mount" type="fixed"><parent link="hand"/><child link="tool0"/>
+    <origin xyz="0 0 0.08"/></joint>
+  <joint name="grip" type="prismatic"><parent link="tool0"/><child link="finger"/>
+    <limit lower="0" upper="0.04" velocity="1"/></joint>
+</robot>"#;
+
+const TASK: &str = r#"scene:
+  objects:
+    - {name: can, shape: {cylinder: {radius: 0.04, height: 0.1}}, mass: 0.4, friction: 0.4, position: [0.45, 0.1]}
+robot: ROBOT
+tools: [stick, paddle]
+goal: {object: can, position: [0.55, 0.1], tolerance: 0.02}
+"#;
+
+const ROBOT: &str = "{urdf: six.urdf, flange: tool0, tool_mount: {length: 0.1}}";
+
+/// A folder with the arm and a task of a robot.
+fn folder(robot: &str) -> TempDir {
+    let folder = TempDir::new().expect("a folder");
+    write(folder.path(), "six.urdf", URDF);
+    write(folder.path(), "push.yaml", &TASK.replace("ROBOT", robot));
+    folder
+}
+
+fn write(folder: &Path, name: &str, text: &str) {
+    fs::write(folder.join(name), text).expect("a file");
+}
+
+fn at(folder: &Path, name: &str) -> String {
+    folder.join(name).to_str().expect("UTF-8").to_owned()
+}
+
+/// Solves the task of a folder.
+fn solve(folder: &Path) -> Output {
+    let (task, out) = (at(folder, "push.yaml"), at(folder, "out"));
+    run(&["solve", &task, "--out", &out, "--effort", "draft", "--quiet"])
+}
+
+#[test]
+fn a_plan_of_an_arm_carries_its_joints_and_verifies_without_the_urdf() {
+    let folder = folder(ROBOT);
+    let folder = folder.path();
+    let output = solve(folder);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    fs::remove_file(folder.join("six.urdf")).expect("the file");
+    let path = at(folder, "out/push.plan.json");
+    let output = run(&["verify", &path, "--disturbed", "0"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+
+    let file = PlanFile::load(&path).expect("a plan");
+    let joints = file.joints.as_ref().expect("a motion of joints");
+    assert_eq!(joints.joints, ["turn", "shoulder", "elbow", "wrist1", "wrist2", "wrist3"]);
+    assert_eq!(joints.pushes.len(), file.plan.steps.len());
+    let arm = file.task.arm.as_deref().expect("an arm");
+    assert_eq!(joints.points[0].positions, arm.home);
+
+    // A joint that is a little off, and one that is too fast, are seen.
+    let judged = |change: &dyn Fn(&mut pushplan::scene::JointTrajectory)| {
+        let mut changed = joints.clone();
+        change(&mut changed);
+        let settings = VerifySettings { disturbed: 0, seed: 0 };
+        let situation = Situation::stated(&file.task.scene);
+        let verifier = Verifier::new(settings).moving(Some(&changed));
+        verifier.nominal(&file.task, &situation, &file.tools, &file.plan)
+    };
+    assert!(judged(&|_| ()).passed);
+    let [begin, end] = joints.pushes[0];
+    let fault = |change: &dyn Fn(&mut pushplan::scene::JointTrajectory)| match judged(change).reason
+    {
+        Some(Reason::Forbidden(Warning::Arm { fault, .. })) => fault,
+        other => panic!("{other:?}"),
+    };
+    let off = fault(&|path| path.points[begin.midpoint(end)].positions[0] += 0.01);
+    assert!(matches!(off, ArmFault::Off { distance } if distance > 1e-3), "{off:?}");
+    let fast = fault(&|path| path.points.iter_mut().for_each(|point| point.time *= 0.02));
+    assert!(matches!(fast, ArmFault::TooFast { .. }), "{fast:?}");
+    let other = fault(&|path| path.joints[0] = "other".into());
+    assert_eq!(other, ArmFault::OfAnother);
+}
+
+#[test]
+fn joints_are_exported_for_ros_and_as_a_table() {
+    let folder = folder(ROBOT);
+    let folder = folder.path();
+    assert_eq!(solve(folder).status.code(), Some(0));
+    let (plan, out) = (at(folder, "out/push.plan.json"), at(folder, "ros"));
+    let output = run(&["export", &plan, "--format", "trajectory", "--out", &out]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = fs::read_to_string(folder.join("ros/push.joints.json")).expect("a message");
+    let message: Json = serde_json::from_str(&text).expect("JSON");
+    let points = message["points"].as_array().expect("points");
+    let seconds = |point: &Json| {
+        let time = &point["time_from_start"];
+        time["sec"].as_i64().expect("s") as f64
+            + 1e-9 * time["nanosec"].as_i64().expect("ns") as f64
+    };
+    assert!(points.windows(2).all(|pair| seconds(&pair[0]) < seconds(&pair[1])));
+    assert_eq!(message["joint_names"].as_array().map(Vec::len), Some(6));
+    let table = fs::read_to_string(folder.join("ros/push.joints.csv")).expect("a table");
+    assert_eq!(table.lines().count(), points.len() + 1);
+    assert!(table.lines().all(|line| line.split(',').count() == 13));
+
+    // A robot that is only a reach has no joints.
+    write(folder, "push.yaml", &TASK.replace("ROBOT", "{reach: {min: 0.2, max: 0.8}}"));
+    assert_eq!(solve(folder).status.code(), Some(0));
+    let output = run(&["export", &plan, "--format", "trajectory", "--out", &out]);
+    assert!(stderr(&output).contains("no motion of joints"), "{}", stderr(&output));
+}
+
+#[test]
+fn what_no_pose_can_do_is_no_plan_and_says_so() {
+    // A shelf over the can, under which the tool would fit and the arm does not.
+    let folder = folder(ROBOT);
+    let folder = folder.path();
+    let shelf = "  obstacles:\n    - {name: shelf, size: [0.5, 0.7, 0.02], position: [0.5, 0.1, 0.17]}\nrobot";
+    write(folder, "push.yaml", &TASK.replace("ROBOT", ROBOT).replace("robot", shelf));
+    let output = solve(folder);
+    assert_ne!(output.status.code(), Some(0));
+}
+
+/// What is wrong with a task, and where.
+fn faults(robot: &str) -> String {
+    let folder = folder(robot);
+    let faults = Task::load(folder.path().join("push.yaml")).expect_err("faults");
+    let path = folder.path().to_str().expect("UTF-8").to_owned();
+    faults.to_string().replace(&format!("{path}/"), "")
+}
+
+#[test]
+fn faults_of_arms_say_where_and_what_to_do() {
+    for (robot, message) in [
+        ("{urdf: six.urdf, flange: tool0, reach: {max: 0.9}}", "an arm has a `reach` of its own"),
+        ("{urdf: six.urdf, flange: tool0, base: 0.1}", "an arm has a base of its own"),
+        ("{urdf: six.urdf, flange: tool0, hand: none}", "an arm has a `hand` of its own"),
+        ("{urdf: six.urdf}", "an arm needs a `flange`"),
+        ("{urdf: six.urdf, flange: tool1}", "there is no link `tool1`"),
+        ("{urdf: seven.urdf, flange: tool0}", "seven.urdf"),
+        ("{urdf: push.yaml, flange: tool0}", "no XML"),
+        (
+            "{urdf: six.urdf, flange: tool0, home: [0, 0]}",
+            "`home` has 2 numbers, and the arm 6 joints",
+        ),
+        (
+            "{urdf: six.urdf, flange: tool0, home: [0, 0, 5, 0, 0, 0]}",
+            "at home joint `elbow` is at 5",
+        ),
+        ("{urdf: six.urdf, flange: tool0, base: {height: 5}}", "holds no tool over the table"),
+        ("{flange: tool0, reach: {max: 0.9}}", "`flange` is of an arm, and there is none"),
+        ("{base: {height: 0.1}, reach: {max: 0.9}}", "`base` says how an arm stands"),
+        ("{home: [0, 0, 0], reach: {max: 0.9}}", "expected a list of 2 numbers, found one of 3"),
+        ("{home: [0, 0]}", "missing key `reach`"),
+        ("{arm: {name: six}}", "no arm: missing field"),
+    ] {
+        let found = faults(robot);
+        assert!(found.contains(message), "{robot}: {found}");
+        assert!(found.starts_with("push.yaml:"), "{found}");
+    }
+}
+
+#[test]
+fn a_damaged_arm_is_a_fault_with_its_place_in_the_urdf() {
+    for (good, bad, message) in [
+        ("upper=\"2.7\"", "upper=\"-2.8\"", "joint `elbow` has no room between its limits"),
+        ("lower=\"-2.7\"", "lower=\"${low}\"", "`lower` has `${low}`"),
+        (
+            "name=\"wrist3\" type=\"continuous\"",
+            "name=\"wrist3\" type=\"planar\"",
+            "joint `wrist3` is `planar`",
+        ),
+        ("<child link=\"roll\"/>", "<child link=\"lower\"/>", "is attached by two joints"),
+        ("<parent link=\"foot\"/>", "<parent link=\"tool0\"/>", "go in a circle"),
+        (
+            "<sphere radius=\"0.04\"/>",
+            "<mesh filename=\"package://no/such.stl\"/>",
+            "there is no mesh",
+        ),
+        ("<sphere radius=\"0.04\"/>", "<sphere radius=\"-1\"/>", "its `radius` must be positive"),
+        ("<axis xyz=\"0 1 0\"/>", "<axis xyz=\"0 0 0\"/>", "has no length"),
+    ] {
+        let folder = folder(ROBOT);
+        assert!(URDF.contains(good), "{good}");
+        write(folder.path(), "six.urdf", &URDF.replacen(good, bad, 1));
+        let faults = Task::load(folder.path().join("push.yaml")).expect_err("faults").to_string();
+        assert!(faults.contains(message) && faults.contains("six.urdf:"), "{bad}: {faults}");
+    }
+}
