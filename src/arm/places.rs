@@ -20,14 +20,17 @@ const FARTHEST: f64 = 3.0;
 const TURNS: usize = 36;
 
 /// Starts from anywhere, where no neighbour gives one.
-const STARTS: usize = 4;
+const STARTS: usize = 3;
+
+/// Every so many rings are tried until one is found, and so many that fail in a row are the end.
+const SPARSE: usize = 3;
+const FAILED: usize = 3;
 
 /// The distances between which an arm can hold a tool, metres.
 pub type Ring = [f64; 2];
 
-/// Where an arm can hold a tool with its underside at a height, metres, and the ring that this is; `None`
-/// where it is nowhere. The arm meets neither itself nor the table there.
-pub fn find_places(arm: &Arm, height: f64) -> Option<(Ring, Places)> {
+/// Where an arm can hold a tool with its underside at a height, metres; `None` where it is nowhere. The arm meets neither itself nor the table there.
+pub fn find_places(arm: &Arm, height: f64) -> Option<Places> {
     let scene = Scene::default();
     let room = Room::new(arm, &scene, None);
     let long = |from: Vector3| from.norm();
@@ -47,31 +50,47 @@ pub fn find_places(arm: &Arm, height: f64) -> Option<(Ring, Places)> {
         false => Vec::new(),
     };
     let ring = [first as f64 * STEP, last as f64 * STEP];
-    (first < last).then(|| (ring, Places { step: STEP, turns: TURNS, free }))
+    (first < last).then(|| Places { ring, step: STEP, turns: TURNS, free })
 }
 
 /// Whether it can, ahead of the base with the tool at a turn, at each distance.
 fn row(room: &Room, height: f64, turn: f64, rings: usize) -> Vec<bool> {
     let arm = room.arm;
-    let mut before: Option<Vec<f64>> = None;
-    (0..rings)
-        .map(|ring| {
-            let at = Pose { position: Vector::new(ring as f64 * STEP, 0.0), heading: turn };
-            let target = Pose3::upright(at, height) * arm.flange_of_tool();
-            let sound = |posture: &Vec<f64>| {
-                dexterity(arm, &frames(arm, posture)) >= DEXTERITY
-                    && room.met(&room.stance(posture), &[], false).is_none()
-            };
-            let next = before.as_ref().and_then(|seed| inverse(arm, &target, seed, NEAR));
-            let next = next.filter(&sound).or_else(|| {
-                let mut seeds = vec![arm.home.clone()];
-                seeds.extend((0..STARTS).map(|index| super::inverse::start(arm, index)));
-                near(arm, &target, &seeds).into_iter().find(sound)
-            });
-            before = next;
-            before.is_some()
+    let sound = |posture: &Vec<f64>| {
+        dexterity(arm, &frames(arm, posture)) >= DEXTERITY
+            && room.met(&room.stance(posture), &[], false).is_none()
+    };
+    let held = |ring: usize, before: Option<&Vec<f64>>| {
+        let at = Pose { position: Vector::new(ring as f64 * STEP, 0.0), heading: turn };
+        let target = Pose3::upright(at, height) * arm.flange_of_tool();
+        let next = before.and_then(|seed| inverse(arm, &target, seed, NEAR));
+        next.filter(&sound).or_else(|| {
+            let mut seeds = vec![arm.home.clone()];
+            seeds.extend((0..STARTS).map(|index| super::inverse::start(arm, index)));
+            near(arm, &target, &seeds).into_iter().find(&sound)
         })
-        .collect()
+    };
+    let mut row = vec![false; rings];
+    // From the first that is found, in the middle, outwards and inwards until some in a row fail.
+    let middle = (0..rings / 2).step_by(SPARSE).flat_map(|k| [rings / 2 - k, rings / 2 + k]);
+    let first =
+        middle.filter(|ring| *ring < rings).find_map(|ring| Some((ring, held(ring, None)?)));
+    let Some((first, posture)) = first else { return row };
+    row[first] = true;
+    let outwards: Vec<usize> = (first + 1..rings).collect();
+    let inwards: Vec<usize> = (0..first).rev().collect();
+    for way in [outwards, inwards] {
+        let (mut before, mut failed) = (Some(posture.clone()), 0);
+        for ring in way {
+            before = held(ring, before.as_ref());
+            row[ring] = before.is_some();
+            failed = if row[ring] { 0 } else { failed + 1 };
+            if failed == FAILED {
+                break;
+            }
+        }
+    }
+    row
 }
 
 /// Whether the first joint turns about the vertical through the origin, nearly all around: what the arm

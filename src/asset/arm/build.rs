@@ -7,7 +7,7 @@ use crate::asset::node::{Content, Node};
 use crate::asset::strict::Ledger;
 use crate::asset::take::{angle, number_or};
 use crate::geometry::{Pose, Pose3};
-use crate::scene::{Arm, PushRules, Robot, ToolMount};
+use crate::scene::{Arm, Places, PushRules, Robot, ToolMount};
 
 /// From the flange to the tool's underside where a task does not say it, metres: a gripper.
 const LENGTH: f64 = 0.15;
@@ -112,7 +112,8 @@ pub(in crate::asset) fn arm(
         Some(pushes) => number_or(pushes, "lift", PushRules::LIFT)?,
         None => PushRules::LIFT,
     };
-    let Some((ring, places)) = find_places(&arm, lift) else {
+    let known = Some(arm.places.clone()).filter(Places::known);
+    let Some(places) = known.or_else(|| find_places(&arm, lift)) else {
         let length = arm.mount.length;
         let message = format!(
             "this arm holds no tool over the table, with its flange {:.2} m above it and pointing down",
@@ -121,6 +122,7 @@ pub(in crate::asset) fn arm(
         let advice = "the z axis of `flange` points out of it; look at `base` and `tool_mount` too";
         return noted((message, advice.into()), ledger);
     };
+    let ring = places.ring;
     arm.places = places;
     if stated.is_none() && robot.get("urdf").is_some() {
         let travel = number_or(robot, "travel", Robot::TRAVEL)?;

@@ -74,8 +74,8 @@ pub struct Arm {
     pub mount: ToolMount,
     /// Joint positions at which a plan begins, radians or metres.
     pub home: Vec<f64>,
-    /// Where it can hold a tool over the table; found when it is read.
-    #[serde(skip)]
+    /// Where it can hold a tool over the table; found when a URDF is read.
+    #[serde(default)]
     pub places: Places,
 }
 
