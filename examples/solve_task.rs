@@ -32,6 +32,7 @@ fn main() -> Result<(), pushplan::Error> {
     // `pushplan verify` and `pushplan export` read this file.
     if let Some(folder) = std::env::args_os().nth(1).map(PathBuf::from) {
         let file = PlanFile {
+            joints: best.joints.clone(),
             task,
             tools: best.tools.clone(),
             plan: best.plan.clone(),

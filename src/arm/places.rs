@@ -50,7 +50,7 @@ pub fn find_places(arm: &Arm, height: f64) -> Option<Places> {
         false => Vec::new(),
     };
     let ring = [first as f64 * STEP, last as f64 * STEP];
-    (first < last).then(|| Places { ring, step: STEP, turns: TURNS, free })
+    (first < last).then_some(Places { ring, step: STEP, turns: TURNS, free })
 }
 
 /// Whether it can, ahead of the base with the tool at a turn, at each distance.
@@ -115,6 +115,6 @@ pub fn usual_home(arm: &Arm, [near_by, far]: Ring, travel: f64) -> Option<Vec<f6
             dexterity(arm, &frames(arm, posture)) >= DEXTERITY
                 && room.met(&room.stance(posture), &[], false).is_none()
         };
-        postures(arm, &target, &[arm.home.clone()]).into_iter().find(free)
+        postures(arm, &target, std::slice::from_ref(&arm.home)).into_iter().find(free)
     })
 }

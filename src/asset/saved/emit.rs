@@ -41,10 +41,8 @@ pub(in crate::asset) fn task(task: &Task) -> Json {
             _ => json!("none"),
         };
     }
-    if task.levers.is_none() {
-        if task.robot.travel != Robot::TRAVEL {
-            robot["travel"] = json!(task.robot.travel);
-        }
+    if task.levers.is_none() && task.robot.travel != Robot::TRAVEL {
+        robot["travel"] = json!(task.robot.travel);
     }
     let mut fields = json!({
         "name": task.name,
