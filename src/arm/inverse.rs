@@ -214,7 +214,9 @@ mod tests {
 
     #[test]
     fn a_reachable_pose_has_several_postures() {
-        let arm = arm();
+        // Tool down and the flange's axes along the world's takes a last joint that turns by more than 2.8.
+        let mut arm = arm();
+        arm.joints.iter_mut().for_each(|joint| joint.limits = None);
         let down = Turn3::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI);
         let target = Pose3 { position: Vector3::new(0.35, 0.1, 0.25), rotation: down };
         let found = postures(&arm, &target, &[vec![0.3, 0.5, 1.0, 0.0, 1.5, 0.0]]);
