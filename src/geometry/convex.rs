@@ -13,8 +13,11 @@ const MOST: u32 = 24;
 /// A part whose hull is larger than it by less than this share of the whole is convex enough.
 const CONCAVITY: f64 = 0.02;
 
-/// Corners and triangles of the convex hull of points, metres; none where they lie in a plane.
-pub fn convex_hull(points: &[[f64; 3]]) -> Option<(Vec<[f64; 3]>, Vec<[u32; 3]>)> {
+/// Corners, metres, and triangles that name them.
+type Mesh = (Vec<[f64; 3]>, Vec<[u32; 3]>);
+
+/// The convex hull of points, metres; none where they lie in a plane.
+pub fn convex_hull(points: &[[f64; 3]]) -> Option<Mesh> {
     let points: Vec<ParryVector> = points.iter().copied().map(ParryVector::from).collect();
     let (corners, faces) = try_convex_hull(&points).ok()?;
     Some((corners.into_iter().map(|corner| corner.to_array()).collect(), faces))

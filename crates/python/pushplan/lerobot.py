@@ -142,8 +142,8 @@ def save(
 
 def _pyarrow() -> tuple[Any, Any]:
     try:
-        import pyarrow
-        import pyarrow.parquet
+        import pyarrow  # type: ignore[import-not-found,import-untyped,unused-ignore]
+        import pyarrow.parquet  # type: ignore[import-not-found,import-untyped,unused-ignore]
     except ImportError as error:
         raise ImportError("LeRobot data sets need pyarrow: pip install 'pushplan[lerobot]'") from error
     return pyarrow.parquet, pyarrow

@@ -105,7 +105,8 @@ class Camera:
         slopes = placed.slopes(points)[1]
         off = np.sqrt(np.mean((corners - placed.project(points)) ** 2))
         spread = max(pixels, float(off))
-        return replace(placed, covariance=spread**2 * np.linalg.inv(slopes.T @ slopes))
+        covariance = np.asarray(spread**2 * np.linalg.inv(slopes.T @ slopes), dtype=np.float64)
+        return replace(placed, covariance=covariance)
 
     def project(self, points: Floats) -> Floats:
         """Where points of the table's frame are seen, pixels, ``[points, 2]``."""

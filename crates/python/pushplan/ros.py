@@ -262,14 +262,14 @@ def _answer(answer: Any, success: bool, says: dict[str, Any]) -> Any:
 
 def _ros() -> dict[str, Any]:
     try:
-        from geometry_msgs.msg import PoseStamped
-        from nav_msgs.msg import Path
-        from rclpy.callback_groups import ReentrantCallbackGroup
-        from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
-        from rclpy.node import Node as RosNode
-        from std_msgs.msg import String
-        from std_srvs.srv import Trigger
-        from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+        from geometry_msgs.msg import PoseStamped  # type: ignore[import-not-found,import-untyped,unused-ignore]
+        from nav_msgs.msg import Path  # type: ignore[import-not-found,import-untyped,unused-ignore]
+        from rclpy.callback_groups import ReentrantCallbackGroup  # type: ignore[import-not-found,import-untyped,unused-ignore]
+        from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor  # type: ignore[import-not-found,import-untyped,unused-ignore]
+        from rclpy.node import Node as RosNode  # type: ignore[import-not-found,import-untyped,unused-ignore]
+        from std_msgs.msg import String  # type: ignore[import-not-found,import-untyped,unused-ignore]
+        from std_srvs.srv import Trigger  # type: ignore[import-not-found,import-untyped,unused-ignore]
+        from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint  # type: ignore[import-not-found,import-untyped,unused-ignore]
     except ImportError as error:
         raise ImportError("a node needs ROS 2: source it, or pip install 'pushplan[ros]'") from error
     names = locals()
@@ -284,7 +284,7 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
     parser.add_argument("--effort", default="standard", choices=["draft", "standard", "thorough"])
     parser.add_argument("--tries", type=int, default=8, help="how often a run plans [default: 8]")
     options = parser.parse_args(arguments)
-    import rclpy
+    import rclpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
     task = _native.Task.load(options.task)
     rclpy.init()

@@ -57,7 +57,7 @@ pub(super) fn draft(
         _ => 0.0,
     };
     let reach = |foot: &&Solid| foot.pose.translation.z - radius(foot);
-    let low = feet.iter().map(|foot| reach(&*foot)).fold(upright.low, f64::min);
+    let low = feet.iter().map(reach).fold(upright.low, f64::min);
     if let Some(foot) = feet.iter().find(|foot| reach(foot) > low + 1e-6) {
         let message = format!("a sphere of `{name}` does not reach as low as it does");
         ledger.fault(foot.place, message, "spheres are the points that a body stands on");
