@@ -26,7 +26,7 @@ def test_gymnasium_accepts_it(root: Path, name: str, spread: float) -> None:
 def test_a_good_push_reaches_the_goal(task: pushplan.Task) -> None:
     env = pushplan.env.PushEnv(task, render_mode="html")
     env.reset(seed=0)
-    action = env.action("l-hook", math.pi, offset=0.0, length=0.17)
+    action = env.action("l-hook", math.pi, offset=0.0, length=0.165)
     seen, reward, reached, truncated, info = env.step(action)
     assert reached and not truncated and info == {"score": info["score"], "refused": None}
     assert info["score"] < 1.0 and reward > 1.5
