@@ -24,7 +24,7 @@ TABLE = {0: (0.25, -0.3), 1: (0.85, -0.3), 2: (0.25, 0.3), 3: (0.85, 0.3)}
 EDGE = 0.06
 #: White around a tag, as a share of its edge.
 MARGIN = 1.5
-TASK = {
+TASK: Any = {
     "scene": {
         "objects": [
             {"name": "can", "shape": {"cylinder": {"radius": 0.04, "height": 0.1}},
@@ -39,7 +39,7 @@ TASK = {
 }
 
 
-def scene(folder: Path, eye: npt.ArrayLike, at: npt.NDArray[np.float64]) -> Any:
+def scene(folder: Path, eye: Any, at: npt.NDArray[np.float64]) -> Any:
     """A table with tags, a can and a box with tags on top, and a camera a metre or so away."""
     kinds, geoms = [], []
     dictionary = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_APRILTAG_36h11)
@@ -76,7 +76,7 @@ def scene(folder: Path, eye: npt.ArrayLike, at: npt.NDArray[np.float64]) -> Any:
     return mujoco.MjModel.from_xml_string(text)
 
 
-def looking(eye: npt.ArrayLike) -> npt.NDArray[np.float64]:
+def looking(eye: Any) -> npt.NDArray[np.float64]:
     """The axes of a camera that looks at the middle of the table: x right, y down, z ahead, as columns."""
     ahead = np.array([0.55, 0.0, 0.05]) - np.asarray(eye)
     ahead /= np.linalg.norm(ahead)

@@ -19,7 +19,7 @@ os.environ.setdefault("ROS_DOMAIN_ID", "47")
 rclpy = pytest.importorskip("rclpy")
 ros = pytest.importorskip("pushplan.ros")
 
-TASK = {
+TASK: Any = {
     "scene": {"objects": [{
         "name": "can", "shape": {"cylinder": {"radius": 0.04, "height": 0.1}},
         "mass": 0.4, "friction": 0.4, "position": [0.45, 0.1],
@@ -132,7 +132,8 @@ def test_a_run_looks_plans_sends_and_ends_at_the_goal(context: None) -> None:
     assert ended["state"] == "ended" and ended["reached"], robot.states
     assert {"looked", "planned", "sent"} <= {said["state"] for said in robot.states}
     assert np.linalg.norm(robot.poses[0, :2] - [0.55, 0.1]) <= 0.02
-    node.stop(), turning.stop()
+    node.stop()
+    turning.stop()
 
 
 def test_a_run_is_cancelled_and_either_side_starts_again(context: None) -> None:
@@ -157,4 +158,5 @@ def test_a_run_is_cancelled_and_either_side_starts_again(context: None) -> None:
     robot.poses = np.array(robot.task.start)
     assert robot.call("run")["success"]
     assert robot.state("ended", "failed").get("reached"), robot.states
-    node.stop(), turning.stop()
+    node.stop()
+    turning.stop()
