@@ -91,11 +91,12 @@ fn random_tasks_are_solvable_and_refinement_never_makes_a_prediction_worse() {
     let report = measured(2);
     assert_eq!((report.tasks, report.worse, report.programmes_failed), (6, 0, 0));
     assert!(report.programmes > 0 && report.after.solved >= report.before.solved, "{report:?}");
-    // The model is the truth, so what it predicts is what happens.
-    for errors in [&report.before, &report.after] {
-        assert_eq!(errors.predicted, errors.planar);
-    }
     let mean = |errors: &PlanErrors| errors.planar.as_ref().map_or(f64::NAN, |s| s.mean);
+    // The model is the truth, so what it predicts is what happens, but for the tool's going back afterwards.
+    for errors in [&report.before, &report.after] {
+        let predicted = errors.predicted.as_ref().map_or(f64::NAN, |s| s.mean);
+        assert!((predicted - mean(errors)).abs() < 2e-5, "{errors:?}");
+    }
     assert!(mean(&report.after) < 0.5 * mean(&report.before), "{report:?}");
     assert_eq!(report, measured(1));
 }
