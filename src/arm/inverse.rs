@@ -28,8 +28,8 @@ pub(super) const ANYWHERE: usize = 60;
 const STARTS: usize = 24;
 const APART: f64 = 0.1;
 
-/// Joint positions that bring the flange to a pose, near `seed`; `None` if none were found in so many
-/// rounds.
+/// Joint positions that bring the flange to a pose, near `seed`; `None` if none are found within `rounds` steps
+/// of the solver.
 pub fn inverse(arm: &Arm, target: &Pose3, seed: &[f64], rounds: usize) -> Option<Vec<f64>> {
     let mut at = seed.to_vec();
     keep(arm, &mut at);
@@ -144,7 +144,7 @@ fn solved(jacobian: &nalgebra::Matrix6xX<f64>, twist: &Vector6<f64>) -> DVector<
     }
 }
 
-/// Brings positions into the limits; what only turns is turned back by whole turns first.
+/// Brings positions into the limits.
 fn keep(arm: &Arm, at: &mut [f64]) {
     for (joint, at) in arm.joints.iter().zip(at) {
         if let Some([low, high]) = joint.limits {

@@ -22,14 +22,17 @@ const TURNS: usize = 36;
 /// Starts from anywhere, where no neighbour gives one.
 const STARTS: usize = 3;
 
-/// Every so many rings are tried until one is found, and so many that fail in a row are the end.
+/// Until a ring is found, only one in this many is tried.
 const SPARSE: usize = 3;
+
+/// The search ends after this many rings in a row have failed.
 const FAILED: usize = 3;
 
 /// The distances between which an arm can hold a tool, metres.
 pub type Ring = [f64; 2];
 
-/// Where an arm can hold a tool with its underside at a height, metres; `None` where it is nowhere. The arm meets neither itself nor the table there.
+/// Where an arm can hold a tool with its underside at a height, metres, without meeting itself or the table;
+/// `None` where it can nowhere.
 pub fn find_places(arm: &Arm, height: f64) -> Option<Places> {
     let scene = Scene::default();
     let room = Room::new(arm, &scene, None);

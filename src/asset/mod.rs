@@ -11,6 +11,8 @@ mod edit;
 mod example;
 mod fault;
 mod folder;
+#[cfg(feature = "formats")]
+pub(crate) mod foreign;
 mod kind;
 mod lever;
 mod library;

@@ -14,7 +14,6 @@
 mod convert;
 mod crowd;
 mod fault;
-mod files;
 mod mesh;
 mod mjcf;
 mod model;

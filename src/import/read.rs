@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use crate::asset::{Faults, read_text};
 
 use super::fault::Ledger;
-use super::files::Files;
 use super::model::Model;
 use super::spliced::{Spliced, document};
 use super::xml::Source;
 use super::{mesh, mjcf, urdf};
+use crate::asset::foreign::Files;
 
 /// The language of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

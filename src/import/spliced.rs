@@ -7,8 +7,8 @@ use roxmltree::Document;
 use crate::asset::{self, Fault, Faults};
 
 use super::crowd::crowded;
-use super::files::Files;
 use super::model::Place;
+use crate::asset::foreign::Files;
 
 /// The most files that are included, and the most bytes of all together.
 const MOST: usize = 200;

@@ -11,12 +11,12 @@ use std::sync::Arc;
 use nalgebra::{Isometry3, Matrix3, Point3, Translation3, Vector3};
 use roxmltree::Node;
 
-use super::files::Files;
 use super::mesh::{Counted, Mesh, load};
 use super::model::{Body, Material, Model, Motion, Outline, Solid, Weight};
 use super::rubbing::{Gazebo, drake, friction, gazebo};
 use super::turns;
 use super::xml::{Source, element, elements};
+use crate::asset::foreign::Files;
 
 /// The link that stands for the world.
 const WORLD: &str = Body::WORLD;

@@ -35,7 +35,7 @@ pub use evaluate::{Evaluation, evaluate};
 pub use field::Field;
 pub use found::{Found, kinds};
 pub use infeasible::Infeasible;
-pub use preference::{Cost, preferred};
+pub use preference::{Cost, in_order, preferred};
 pub use qp::{QpProblem, QpSolution, QpSolver, QpStatus};
 pub use refine::{FOUND_RADIUS, RefineSettings, Refined, refine};
 pub use rollouts::Rollouts;

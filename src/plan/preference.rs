@@ -6,7 +6,7 @@
 
 use std::cmp::Ordering;
 
-use crate::scene::Situation;
+use crate::scene::{JointKind, Situation};
 
 use super::{Evaluation, Refined, Workspace};
 
@@ -29,9 +29,12 @@ pub struct Cost {
 impl Cost {
     /// Of a plan as it is predicted.
     pub fn of(plan: &Evaluation, workspace: &Workspace, situation: &Situation) -> Self {
-        let goals: Vec<usize> = workspace.task.goals().map(|goal| goal.object).collect();
+        // What is one with an object that has a goal moves with it.
+        let rigid = situation.physics.groups(|joint| joint.kind == JointKind::Fixed);
+        let goals: Vec<usize> = workspace.task.goals().map(|goal| rigid[goal.object]).collect();
         let before = &situation.start.poses;
-        let others = situation.scene.things().map(|(k, _)| k).filter(|k| !goals.contains(k));
+        let others =
+            situation.scene.things().map(|(k, _)| k).filter(|k| !goals.contains(&rigid[*k]));
         let ways = others.map(|k| (plan.outcome.poses[k].position - before[k].position).norm());
         let moved = (ways.sum::<f64>() / COUNTED).round() as usize;
         Self { moved, pieces: workspace.tools[plan.candidate.tool].outline().len() }
@@ -50,4 +53,14 @@ pub fn preferred(
     let cost = |one: &Refined| Cost::of(&one.best, workspace, situation);
     let near = far(a).total_cmp(&far(b)).then_with(|| cost(a).cmp(&cost(b)));
     near.then(a.worst.total_cmp(&b.worst))
+}
+
+/// Sorts refined plans as they are verified: the preferred one, next to it the nearest, which most likely
+/// works, and then the others as they are [`preferred`]. Equal ones keep their order.
+pub fn in_order(refined: &mut [Refined], workspace: &Workspace, situation: &Situation) {
+    refined.sort_by(|a, b| preferred(a, b, workspace, situation));
+    let nearest = (0..refined.len()).min_by(|a, b| refined[*a].worst.total_cmp(&refined[*b].worst));
+    if let Some(nearest) = nearest.filter(|nearest| *nearest > 1) {
+        refined[1..=nearest].rotate_right(1);
+    }
 }

@@ -128,28 +128,29 @@ pub(super) fn outcome_table<'a>(
 fn goals_table(task: &Task, outcomes: Vec<(String, &Outcome, Option<&Warning>)>) -> Table {
     let rows = outcomes.into_iter().flat_map(|(source, outcome, fault)| {
         let goal = |(k, goal): (usize, &Goal)| {
-            let first = (k == 0).then(|| (source.clone(), reached(outcome, fault)));
-            (goal.object, goal.error(&outcome.state), goal.heading_error(&outcome.state), first)
+            let first = if k == 0 { source.clone() } else { String::new() };
+            let error = (goal.error(&outcome.state), goal.heading_error(&outcome.state));
+            // What went wrong on the way went wrong for all of them.
+            let there = fault.is_none() && goal.reached(&outcome.state);
+            let there = if there { "yes".to_owned() } else { reached(outcome, fault) };
+            (first, goal.object, error, there)
         };
         let ends = &outcome.state.poses;
         let known = |goal: &&Goal| goal.object < ends.len();
         let rows: Vec<_> = task.goals().filter(known).enumerate().map(goal).collect();
         rows.into_iter().map(|row| (row, ends)).collect::<Vec<_>>()
     });
-    let of = |first: &Option<(String, String)>, told: fn(&(String, String)) -> &String| {
-        first.as_ref().map_or(String::new(), |first| told(first).clone())
-    };
     Table::of(
         rows,
         &[
-            ("", Left, &|((.., first), _)| of(first, |(source, _)| source)),
-            ("object", Left, &|((k, ..), _)| task.scene.objects[*k].name.clone()),
-            ("final position", Left, &|((k, ..), ends)| point(ends[*k].position)),
-            ("error", Right, &|((_, error, ..), _)| millimetres(*error)),
-            ("heading error", Right, &|((_, _, turned, _), _)| {
+            ("", Left, &|((source, ..), _)| source.clone()),
+            ("object", Left, &|((_, k, ..), _)| task.scene.objects[*k].name.clone()),
+            ("final position", Left, &|((_, k, ..), ends)| point(ends[*k].position)),
+            ("error", Right, &|((_, _, (error, _), _), _)| millimetres(*error)),
+            ("heading error", Right, &|((_, _, (_, turned), _), _)| {
                 turned.map_or(NONE.to_owned(), degrees)
             }),
-            ("reached", Left, &|((.., first), _)| of(first, |(_, reached)| reached)),
+            ("reached", Left, &|((.., there), _)| there.clone()),
         ],
     )
 }

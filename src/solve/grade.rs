@@ -64,16 +64,6 @@ impl Grade {
         Self { class, robustness, score }
     }
 
-    /// The share of its disturbed replays that a plan must reach to be better than this one, if as written
-    /// it is worth `other`.
-    pub fn needed(&self, task: &Task, other: &Self) -> f64 {
-        match self.class {
-            Class::Fails => 0.0,
-            Class::Edge if other.class > Class::Edge => task.robustness,
-            _ => self.robustness,
-        }
-    }
-
     /// Whether this plan comes before, equal with or after another, of two that were not disturbed yet and
     /// whose costs compare so: among those that may be safe the cheaper one comes first, then the better.
     pub fn before(&self, other: &Self, costs: Ordering) -> Ordering {

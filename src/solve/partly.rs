@@ -34,9 +34,9 @@ impl Planner {
             if found.status != PlanStatus::Solved {
                 continue;
             }
-            let before = solution.statistics.timing;
+            let before = std::mem::take(&mut solution.statistics);
             *solution = Solution { status: PlanStatus::Partial, ..found };
-            solution.statistics.timing.add(&before);
+            solution.statistics.add(&before);
             // Others were judged by some goals only.
             solution.plans.truncate(1);
             let mut robustness = None;

@@ -135,16 +135,6 @@ pub struct Timing {
     pub total: f64,
 }
 
-impl Timing {
-    /// Adds what was spent before.
-    pub(super) fn add(&mut self, before: &Self) {
-        self.search += before.search;
-        self.refinement += before.refinement;
-        self.verification += before.verification;
-        self.total += before.total;
-    }
-}
-
 /// What solving cost.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Statistics {
@@ -166,6 +156,20 @@ pub struct Statistics {
     /// Of lever-ups, where a task allows them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub levers: Option<LeverStatistics>,
+}
+
+impl Statistics {
+    /// Adds what was spent before on the same question.
+    pub(super) fn add(&mut self, before: &Self) {
+        self.rollouts += before.rollouts;
+        self.decided += before.decided;
+        self.verified += before.verified;
+        let (timing, spent) = (&mut self.timing, &before.timing);
+        timing.search += spent.search;
+        timing.refinement += spent.refinement;
+        timing.verification += spent.verification;
+        timing.total += spent.total;
+    }
 }
 
 /// What a plan is worth that meets some of several goals.

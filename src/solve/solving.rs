@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::plan::{
     Candidate, FOUND_RADIUS, RefineSettings, Refined, Rollouts, ScoredPush, Search, Workspace,
-    alone, bare, is_behind, preferred, refine,
+    alone, bare, in_order, is_behind, refine,
 };
 use crate::scene::{ArmFault, Goal, Job, Situation, Task, Tool, Verdict};
 use crate::verify::{Verifier, VerifySettings};
@@ -316,7 +316,7 @@ impl<'a> Solving<'a> {
 
     /// Keeps what was refined towards `aims`; the indices of those worth verifying, best first.
     fn worth_verifying(&mut self, mut refined: Vec<Refined>, aims: &[Goal]) -> Vec<usize> {
-        refined.sort_by(|a, b| preferred(a, b, &self.workspace, self.situation));
+        in_order(&mut refined, &self.workspace, self.situation);
         let aimed = self.task.aiming(aims);
         let mut worth = Vec::new();
         for refined in refined {
@@ -365,14 +365,13 @@ impl<'a> Solving<'a> {
         // Stable, so equal ones keep the order of their predictions.
         let cost = |k: usize| self.tried[k].cost;
         working.sort_by(|a, b| a.0.before(&b.0, cost(a.1).cmp(&cost(b.1))));
-        for (as_written, k) in working.into_iter().take(DISTURBED_AT_ONCE) {
-            let needed = self.best.map_or(0.0, |(best, _)| best.needed(self.task, &as_written));
+        for (_, k) in working.into_iter().take(DISTURBED_AT_ONCE) {
             let tried = &mut self.tried[k];
             if let Some(verdict) = tried.verdict.take() {
                 self.disturbed += 1;
                 let (tools, plan) = (std::slice::from_ref(&tried.tool), &tried.plan);
-                let verifier = self.verifier.clone().while_above(needed);
-                let verdict = verifier.disturb(self.task, self.situation, tools, plan, verdict);
+                let verdict =
+                    self.verifier.disturb(self.task, self.situation, tools, plan, verdict);
                 let grade = Grade::of(self.task, &verdict);
                 tried.verdict = Some(verdict);
                 if self.best.is_none_or(|(best, _)| grade.compare(&best).is_gt()) {

@@ -1,5 +1,6 @@
 //! The verifier: plan in, verdict out.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -51,8 +52,6 @@ pub struct Verifier<'a> {
     watch: &'a dyn Watch,
     /// Whether replays are added until the answer is clear.
     until_clear: bool,
-    /// Replays end when less than this share can reach the goal.
-    least: f64,
     /// How an arm carries the plan out, if that was made with it.
     joints: Option<&'a JointTrajectory>,
 }
@@ -62,15 +61,7 @@ impl<'a> Verifier<'a> {
     pub fn new(settings: VerifySettings) -> Self {
         let [planar, spatial] =
             [Simulator::planar(), Simulator::spatial()].map(Simulator::retreating);
-        Self {
-            settings,
-            planar,
-            spatial,
-            watch: &Unwatched,
-            until_clear: false,
-            least: 0.0,
-            joints: None,
-        }
+        Self { settings, planar, spatial, watch: &Unwatched, until_clear: false, joints: None }
     }
 
     /// The same, which `watch` can stop. Replays that are not over then say so, and the plan does
@@ -84,12 +75,6 @@ impl<'a> Verifier<'a> {
     /// on average, see `clear`.
     pub fn until_clear(self) -> Self {
         Self { until_clear: true, ..self }
-    }
-
-    /// The same, which disturbs a plan only as long as at least the share `least` of its replays may still
-    /// reach the goal: what is no better than another plan need not be known better.
-    pub(crate) fn while_above(self, least: f64) -> Self {
-        Self { least, ..self }
     }
 
     /// The same of plans that came with this motion of an arm's joints: it is judged rather than another
@@ -183,12 +168,11 @@ impl<'a> Verifier<'a> {
         }
         let (mut evidence, mut replays): (Vec<Evidence>, Vec<Evidence>) =
             evidence.into_iter().partition(|one| one.disturbance == Disturbance::Nominal);
-        let mut next = self.settings.disturbed.max(replays.len() / Engine::ALL.len());
+        let mut done = replays.len() / Engine::ALL.len();
+        let mut next = self.settings.disturbed.max(done);
         loop {
-            let moves = (&scene, &motion);
-            self.disturbed(task, situation, tool, moves, &mut replays, next);
-            let done = next;
-            next = (next + clear::LOOK).min(clear::MOST);
+            replays.extend(self.disturbed(task, situation, tool, (&scene, &motion), done..next));
+            (done, next) = (next, (next + clear::LOOK).min(clear::MOST));
             let over = !self.until_clear || done == 0 || done >= next || self.watch.cancelled();
             if over || clear::is_clear(&replays, task.robustness) {
                 break;
@@ -200,51 +184,30 @@ impl<'a> Verifier<'a> {
         Verdict::judge(forbidden, evidence, task.robustness)
     }
 
-    /// Adds disturbed replays until there are `count` in both engines, or fewer where too many of them fail.
+    /// These disturbed replays in both engines.
     fn disturbed(
         &self,
         task: &Task,
         situation: &Situation,
         tool: &Arc<Tool>,
         (scene, motion): (&Scene, &ToolMotion),
-        replays: &mut Vec<Evidence>,
-        count: usize,
-    ) {
-        let left = |replays: &[Evidence], engine: &Simulator| -> Vec<usize> {
-            let done = replays.iter().filter(|one| one.engine == engine.engine()).count();
-            (done..count).collect()
-        };
-        let all: Vec<(&Simulator, usize)> = [&self.planar, &self.spatial]
+        draws: Range<usize>,
+    ) -> Vec<Evidence> {
+        let draws: Vec<(&Simulator, usize)> = [&self.planar, &self.spatial]
             .into_iter()
-            .flat_map(|engine| left(replays, engine).into_iter().map(move |draw| (engine, draw)))
+            .flat_map(|engine| draws.clone().map(move |draw| (engine, draw)))
             .collect();
-        // Of what may end early the cheap ones first, and few of the dear ones at a time.
-        let planar = all.iter().filter(|(engine, _)| engine.engine() == Engine::Planar).count();
-        let rounds: Vec<&[(&Simulator, usize)]> = match self.least > 0.0 {
-            true => {
-                std::iter::once(&all[..planar]).chain(all[planar..].chunks(clear::LOOK)).collect()
-            }
-            false => vec![&all[..]],
-        };
-        for round in rounds {
-            let more = round.par_iter().map(|&(engine, draw)| {
+        draws
+            .into_par_iter()
+            .map(|(engine, draw)| {
                 let disturbance = Disturbance::Disturbed { draw: draw + 1 };
                 if self.watch.cancelled() {
                     return stopped(engine, task, situation, disturbance);
                 }
                 let job = Disturbed::draw(situation, tool, self.settings.seed, draw).job(motion);
                 self.replay(engine, task, scene, &job, disturbance)
-            });
-            replays.extend(more.collect::<Vec<Evidence>>());
-            let fails = |engine: Engine| {
-                let of_engine = replays.iter().filter(|one| one.engine == engine);
-                of_engine.filter(|one| !one.outcome.reached).count()
-            };
-            let most = Engine::ALL.map(fails).into_iter().max().unwrap_or(0);
-            if ((count - most.min(count)) as f64) < self.least * count as f64 {
-                break;
-            }
-        }
+            })
+            .collect()
     }
 
     /// All replays of a plan: nominal, then disturbed.

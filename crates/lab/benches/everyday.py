@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Writes tasks of what people have: doors, drawers, things of several solids, regions, several goals.
+"""Writes tasks of what people have: doors, drawers, compounds, regions, several goals, things in the way.
 
     python3 crates/lab/benches/everyday.py --out everyday --solve target/release/pushplan
     pushplan export everyday/plans/*.plan.json --out everyday/mjcf
     python3 everyday/mjcf/replay.py everyday/mjcf > everyday/mujoco.jsonl
 
-All of them can be solved: doors and drawers are asked for what their joints allow, and the other goals are
-where pushes in the planar engine have brought things, so the program is needed to write them. A plan that is
+All but those with things in the way can be solved: doors and drawers are asked for what their joints allow, and
+the other goals are where pushes in the planar engine have brought things, so the program is needed to write them. A plan that is
 not solved has another name (`.failed.plan.json` and so on): leave it out of the export. Lengths are in
 metres, masses in kilograms, angles in degrees where a key says so. Files are JSON, which is YAML. Nothing but
 Python is needed.
@@ -212,9 +212,37 @@ def several(count):
     return goals
 
 
+def aside(count):
+    """A can, the place before a wall where it is to go, and crates there and before it."""
+
+    def blocked(d):
+        x, y = d.u(0.75, 0.86), d.u(-0.15, 0.15)
+        can = d.solid("o0") | {"shape": {"cylinder": {"radius": d.u(0.03, 0.04), "height": 0.1}}}
+        can["position"] = [d.u(0.53, 0.6), round(y + d.u(-0.12, 0.12), 3)]
+        objects, placed, back = [can], [], round(x + 0.09, 3)
+        for k in range(count):
+            size = [d.u(0.06, 0.1), d.u(0.06, 0.11), 0.08]
+            around = math.hypot(*size[:2]) / 2
+            spread = [(-0.01, 0.01), (-0.02, 0.02)] if k == 0 else [(-0.16, 0.02), (-0.16, 0.16)]
+            at = [round(centre + d.u(*span), 3) for centre, span in zip([x, y], spread)]
+            near = any(math.dist(at, other) < around + room + 0.01 for other, room in placed)
+            if near or at[0] + size[0] / 2 > back - 0.012 or math.dist(at, can["position"]) < around + 0.09:
+                raise Retry
+            placed.append((at, around))
+            crate = {"name": f"o{k + 1}", "shape": {"cuboid": {"size": size}}, "mass": d.u(0.2, 0.8), "friction": 0.4}
+            objects.append(crate | {"position": at})
+        wall = {"name": "wall", "size": [0.02, 0.34, 0.1], "position": [back, y]}
+        goal = {"object": "o0", "position": [x, y], "tolerance": 0.02}
+        made = task({"objects": objects, "obstacles": [wall]}, goal)
+        return made | {"pushes": {"length": 0.25, "max_count": count + 3}}
+
+    return blocked
+
+
 KINDS = {
     "door": doors, "drawer": drawers, "compound": compounds, "heading": headings, "region": regions, "relative": relative,
     "two-goals": several(2), "three-goals": several(3),
+    "one-aside": aside(1), "two-aside": aside(2), "three-aside": aside(3),
 }
 
 

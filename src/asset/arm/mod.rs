@@ -5,8 +5,6 @@
 //! gripper beyond the flange, is not. Without the feature `formats` only plan files have arms.
 
 mod build;
-#[cfg(feature = "formats")]
-mod mesh;
 mod spec;
 #[cfg(feature = "formats")]
 mod urdf;

@@ -5,20 +5,22 @@ use std::path::Path;
 
 use roxmltree::{Document, Node};
 
+use crate::asset::foreign::{Files, load};
 use crate::asset::text::read_text;
-use crate::geometry::{Hull, Pose3, Turn3, Vector3};
+use crate::geometry::{Footprint, Hull, Pose3, Turn3, Vector3};
 use crate::scene::{Arm, ArmBody, ArmJoint, Places, ToolMount};
 
 use super::build::Wrong;
-use super::mesh;
 
-/// Sides of the prism that stands for a cylinder.
-const SIDES: usize = 16;
+/// No corner of a mesh is farther from its origin, in the mesh's own unit.
+const FARTHEST: f64 = 1e5;
 
 /// A file that is being read.
 struct File<'a> {
     path: &'a Path,
     document: &'a Document<'a>,
+    /// Packages of meshes stand anywhere above it.
+    files: Files,
 }
 
 /// The arm in a file from its root to the link `flange`; it stands at the origin, and what is mounted on
@@ -28,7 +30,8 @@ pub(super) fn chain(path: &Path, flange: &str) -> Result<Arm, Wrong> {
     let document = Document::parse(&text).map_err(|error| {
         (format!("{}: no XML: {error}", path.display()), "is this the right file?".to_owned())
     })?;
-    let file = File { path, document: &document };
+    let files = Files::of(path, Some(Path::new("/")));
+    let file = File { path, document: &document, files };
     let root = document.root_element();
     if !root.has_tag_name("robot") {
         return Err(file.wrong(
@@ -212,28 +215,24 @@ impl<'a> File<'a> {
                 Ok(Hull::cuboid(0.5 * size, &own))
             }
             "sphere" => Ok(Hull { points: vec![own.position], radius: size("radius")? }),
-            tag @ ("cylinder" | "capsule") => {
+            "cylinder" => {
                 let (radius, half) = (size("radius")?, 0.5 * size("length")?);
-                let ends = [half, -half];
-                let points = match tag {
-                    "capsule" => ends.map(|z| own.point(Vector3::z() * z)).to_vec(),
-                    _ => {
-                        let step = std::f64::consts::TAU / SIDES as f64;
-                        let out = radius / (0.5 * step).cos();
-                        let at = |k: usize, z: f64| {
-                            let turn = k as f64 * step;
-                            own.point(Vector3::new(out * turn.cos(), out * turn.sin(), z))
-                        };
-                        ends.iter().flat_map(|z| (0..SIDES).map(move |k| at(k, *z))).collect()
-                    }
-                };
-                Ok(Hull { points, radius: if tag == "capsule" { radius } else { 0.0 } })
+                Ok(Hull::prism(&Footprint::Disc { radius }, [-half, half], &own))
+            }
+            "capsule" => {
+                let (radius, half) = (size("radius")?, 0.5 * size("length")?);
+                let points = [half, -half].map(|z| own.point(Vector3::z() * z)).to_vec();
+                Ok(Hull { points, radius })
             }
             "mesh" => {
                 let scale = self.three(shape, "scale", [1.0; 3])?;
                 let name = shape.attribute("filename").unwrap_or_default();
-                let corners = mesh::corners(self.path, name)
-                    .map_err(|(message, advice)| self.wrong(shape, message, advice))?;
+                let found = self.files.find("", name).and_then(|path| load(&path));
+                let (corners, _) =
+                    found.map_err(|refused| self.wrong(shape, refused.message, refused.advice))?;
+                if corners.iter().flatten().any(|number| !(number.abs() < FARTHEST)) {
+                    return Err(self.wrong(shape, "this mesh is damaged", "export it again"));
+                }
                 let corners: Vec<Vector3> =
                     corners.iter().map(|corner| own.point(corner.component_mul(&scale))).collect();
                 Hull::around(&corners)

@@ -12,7 +12,7 @@ use super::upright::Upright;
 /// The most pieces of a thing: itself and its parts.
 pub(super) const MOST: usize = 17;
 
-/// So many exact solids stay as they are.
+/// Up to this many exact solids are kept as they are.
 const FEW: usize = 8;
 
 /// Cells along the longer side of what a body covers.

@@ -65,7 +65,7 @@ impl Mesh {
         })
     }
 
-    /// Volume of its convex hull, cubic metres; nothing where it is flat.
+    /// Volume of its convex hull, cubic metres; zero if it is flat.
     pub fn hull_volume(&self) -> f64 {
         hull(&self.points)
             .map_or(0.0, |(corners, faces)| bulk(&corners, &faces, Counted::Enclosed).0)

@@ -11,7 +11,7 @@ use crate::import::Language;
 use crate::import::model::{Body, Material, Model, Motion, Outline, Place, Solid, Weight};
 
 use super::bulk::{Counted, Mesh};
-use super::files::load;
+use super::read::load;
 
 /// The largest and the smallest thing that is pushed about on a table, metres along its longest side.
 const SIZES: [f64; 2] = [0.004, 2.0];

@@ -17,7 +17,7 @@ pub(super) struct Compiler {
     pub letters: [char; 3],
     /// Whether masses follow from geoms even where a body states one; none: only where it does not.
     pub from_geoms: Option<bool>,
-    /// Geoms of other groups than these weigh nothing where masses follow from geoms.
+    /// The groups of geoms that have mass, where a body states none.
     pub groups: [f64; 2],
     /// The folder of meshes.
     pub meshes: String,

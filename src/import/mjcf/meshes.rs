@@ -8,7 +8,7 @@ use std::sync::Arc;
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion};
 use roxmltree::{Attribute, Node};
 
-use crate::import::files::Files;
+use crate::asset::foreign::Files;
 use crate::import::mesh::{Counted, Mesh, load};
 use crate::import::model::Outline;
 use crate::import::turns;

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use roxmltree::Node;
 
-use crate::import::files::Files;
+use crate::asset::foreign::Files;
 use crate::import::model::{Body, Model};
 use crate::import::xml::{Source, elements};
 use crate::scene::GRAVITY;

@@ -9,6 +9,9 @@ use crate::geometry::Vector;
 /// No arm over a table reaches farther, metres.
 const FARTHEST: f64 = 10.0;
 
+/// Nobody tries distances that are nearer to each other, metres.
+const FINEST: f64 = 1e-3;
+
 /// By distance from the base and by how the tool is turned against the way there. No arm has any until
 /// they are found.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -32,7 +35,7 @@ impl Places {
         let [near, far] = self.ring;
         let sound = near >= 0.0 && near < far && far <= FARTHEST;
         let counted = self.turns > 0 && self.free.len().is_multiple_of(self.turns);
-        sound && (self.free.is_empty() || self.step > 0.0 && counted)
+        sound && (self.free.is_empty() || self.step >= FINEST && counted)
     }
 
     /// Whether a tool may be held at a position, its end effector turned by `yaw` radians: no where none

@@ -118,7 +118,7 @@ fn five_shipped_plans_work_in_mujoco() {
     for result in replay(&python, &texts) {
         assert_eq!(result["reached"], true, "{result:#}");
         let difference = result["difference"].as_f64().expect("our own replay is known");
-        assert!(difference < 7e-3, "{result:#}");
+        assert!(difference < 5e-3, "{result:#}");
     }
 }
 

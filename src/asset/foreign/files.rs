@@ -9,14 +9,16 @@ const LONGEST: u64 = 64 << 20;
 
 /// What keeps a file from being read, and what to do.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Refused {
+pub struct Refused {
+    /// What is wrong.
     pub message: String,
+    /// What to do.
     pub advice: String,
 }
 
 /// Where the files are that a file names.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Files {
+pub struct Files {
     /// The folder of the file; none if there is a text alone.
     folder: Option<PathBuf>,
     /// The folder that they must be in or below.

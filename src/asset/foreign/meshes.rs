@@ -3,18 +3,21 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use nalgebra::Point3;
+use crate::geometry::Vector3;
 
-use crate::import::files::{Files, Refused};
+use super::{Files, Refused};
 
-/// Corners as they are written, and triangles.
-pub(in crate::import) type Raw = (Vec<Point3<f64>>, Vec<[u32; 3]>);
+/// Corners, in the unit of the file, and triangles that name them.
+pub(super) type Triangles = (Vec<Vector3>, Vec<[u32; 3]>);
 
 /// The most triangles of a mesh.
 const MOST: usize = 1_000_000;
 
-/// Corners, in the unit of the file, and triangles of a mesh file.
-pub(in crate::import) fn load(path: &Path) -> Result<Raw, Refused> {
+/// The triangles of a mesh file.
+///
+/// # Errors
+/// A file that cannot be read, is none of these kinds, or has too many triangles.
+pub fn load(path: &Path) -> Result<Triangles, Refused> {
     let refused = |message: String, advice: &str| Refused { message, advice: advice.to_owned() };
     let bytes = Files::bytes(path)?;
     let end = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
@@ -44,7 +47,7 @@ pub(in crate::import) fn load(path: &Path) -> Result<Raw, Refused> {
     }
 }
 
-fn stl(mut bytes: Vec<u8>) -> Result<Raw, String> {
+fn stl(mut bytes: Vec<u8>) -> Result<Triangles, String> {
     // Some programs begin binary files with the word that text begins with: their length tells.
     let count = bytes.get(80..84).and_then(|four| four.try_into().ok()).map(u32::from_le_bytes);
     let binary = count.is_some_and(|count| 84 + 50 * u64::from(count) == bytes.len() as u64);
@@ -52,12 +55,12 @@ fn stl(mut bytes: Vec<u8>) -> Result<Raw, String> {
         bytes[..5].fill(b' ');
     }
     let mesh = stl_io::read_stl(&mut Cursor::new(bytes)).map_err(|error| error.to_string())?;
-    let points = mesh.vertices.iter().map(|vertex| point(vertex.0.map(f64::from)));
+    let points = mesh.vertices.iter().map(|vertex| Vector3::from(vertex.0.map(f64::from)));
     let faces = mesh.faces.iter().map(|face| face.vertices.map(|corner| corner as u32));
     Ok((points.collect(), faces.collect()))
 }
 
-fn obj(bytes: &[u8]) -> Result<Raw, String> {
+fn obj(bytes: &[u8]) -> Result<Triangles, String> {
     let options = tobj::LoadOptions { triangulate: true, ..tobj::LoadOptions::default() };
     // Materials are only seen.
     let none = |_: &Path| Err(tobj::LoadError::GenericFailure);
@@ -66,7 +69,8 @@ fn obj(bytes: &[u8]) -> Result<Raw, String> {
     let (mut points, mut faces) = (Vec::new(), Vec::new());
     for mesh in models.iter().map(|model| &model.mesh) {
         let first = points.len() as u32;
-        points.extend(mesh.positions.chunks_exact(3).map(|xyz| point([xyz[0], xyz[1], xyz[2]])));
+        points
+            .extend(mesh.positions.chunks_exact(3).map(|xyz| Vector3::new(xyz[0], xyz[1], xyz[2])));
         let corners = mesh.indices.chunks_exact(3);
         faces.extend(corners.map(|face| [face[0], face[1], face[2]].map(|corner| first + corner)));
     }
@@ -74,7 +78,7 @@ fn obj(bytes: &[u8]) -> Result<Raw, String> {
 }
 
 /// Four counts, of corners, normals, texture coordinates and triangles; then each of those.
-fn msh(bytes: &[u8]) -> Result<Raw, String> {
+fn msh(bytes: &[u8]) -> Result<Triangles, String> {
     let word = |k: usize| {
         let four = bytes.get(4 * k..4 * k + 4)?;
         Some([four[0], four[1], four[2], four[3]])
@@ -93,13 +97,10 @@ fn msh(bytes: &[u8]) -> Result<Raw, String> {
     }
     let number = |k: usize| f64::from(word(k).map_or(0.0, f32::from_le_bytes));
     let index = |k: usize| word(k).map_or(0, u32::from_le_bytes);
-    let points = (0..corners).map(|k| point([0, 1, 2].map(|axis| number(4 + 3 * k + axis))));
+    let points =
+        (0..corners).map(|k| Vector3::from([0, 1, 2].map(|axis| number(4 + 3 * k + axis))));
     let faces = (0..triangles).map(|k| [0, 1, 2].map(|corner| index(first_face + 3 * k + corner)));
     Ok((points.collect(), faces.collect()))
-}
-
-fn point(xyz: [f64; 3]) -> Point3<f64> {
-    Point3::from(xyz)
 }
 
 #[cfg(test)]
