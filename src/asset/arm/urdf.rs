@@ -230,7 +230,11 @@ impl<'a> File<'a> {
                 let found = self.files.find("", name).and_then(|path| load(&path));
                 let (corners, _) =
                     found.map_err(|refused| self.wrong(shape, refused.message, refused.advice))?;
-                if corners.iter().flatten().any(|number| !(number.abs() < FARTHEST)) {
+                if corners
+                    .iter()
+                    .flatten()
+                    .any(|number| number.is_nan() || number.abs() >= FARTHEST)
+                {
                     return Err(self.wrong(shape, "this mesh is damaged", "export it again"));
                 }
                 let corners: Vec<Vector3> =
