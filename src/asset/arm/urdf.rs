@@ -227,9 +227,13 @@ impl<'a> File<'a> {
             "mesh" => {
                 let scale = self.three(shape, "scale", [1.0; 3])?;
                 let name = shape.attribute("filename").unwrap_or_default();
-                let found = self.files.find("", name).and_then(|path| load(&path));
-                let (corners, _) =
-                    found.map_err(|refused| self.wrong(shape, refused.message, refused.advice))?;
+                let advice =
+                    "put it where the URDF says, or write boxes and cylinders instead of meshes";
+                let path = self.files.find("", name);
+                let path = path
+                    .map_err(|_| self.wrong(shape, format!("there is no mesh `{name}`"), advice))?;
+                let (corners, _) = load(&path)
+                    .map_err(|refused| self.wrong(shape, refused.message, refused.advice))?;
                 if corners
                     .iter()
                     .flatten()
