@@ -5,7 +5,7 @@ use std::collections::HashSet;
 
 use rayon::prelude::*;
 
-use crate::scene::{Offsets, Push};
+use crate::scene::{Offsets, Push, Scene, Surface, pair_friction};
 
 use super::field::Field;
 use super::scored::Scores;
@@ -149,6 +149,11 @@ fn extend(
 ) -> Result<Extension, Infeasible> {
     let depth = node.candidate.as_ref().map_or(0, |c| c.pushes.len());
     let start = workspace.place(pair, &node.state, &planned, node.end)?;
+    if workspace.is_placed()
+        && topples(&workspace.task.scene, planned.object, workspace.task.pushes.lift)
+    {
+        return Err(Infeasible::Topples);
+    }
     planned.length = workspace.free_travel(pair, start, planned.direction, planned.length)?;
     let push = Push {
         start,
@@ -165,6 +170,18 @@ fn extend(
         .map(|k| field.carried(pushed, push.heading() * (push.length * k as f64 / 2.0)))
         .fold(f64::INFINITY, f64::min);
     Ok(Extension { node: index, pair, planned, push, scored: None, promise })
+}
+
+/// Whether an object that is pushed at least so high turns over, in whatever direction it is pushed:
+/// friction with the table then has a larger moment than the weight about the farthest edge. The models
+/// that search are of the plane and cannot see it. What hangs together is left to the 3-D engine.
+fn topples(scene: &Scene, object: usize, height: f64) -> bool {
+    let one = &scene.objects[object];
+    let joined = scene.joints.iter().any(|joint| joint.between.contains(&object))
+        || scene.mounts.iter().any(|mount| mount.object == object);
+    let values = [one.friction, scene.table_friction];
+    let friction = pair_friction(&scene.frictions, object, Surface::Table, values);
+    !joined && !one.may_fall && height * friction > one.shape.footprint().bounding_radius()
 }
 
 /// Cuts a list to the budget, keeping the most promising and the order; returns how many fell

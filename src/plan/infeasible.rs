@@ -24,6 +24,9 @@ pub enum Infeasible {
     /// The hand or the handle of the tool would meet an obstacle, or something taller than the tool.
     #[error("the hand would meet something")]
     Hand,
+    /// The object would topple rather than slide.
+    #[error("the object would topple, pushed so high: see `pushes.lift`")]
+    Topples,
     /// The end effector would leave the robot's reach.
     #[error("the end effector would leave the robot's reach")]
     Reach,

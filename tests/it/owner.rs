@@ -112,6 +112,29 @@ fn an_arm_does_not_push_what_is_too_heavy_for_it() {
 }
 
 #[test]
+fn what_would_topple_is_not_pushed_in_a_plane_either() {
+    let post = |lift: f64| {
+        task(&format!(
+            "
+scene:
+  table: {{friction: 1}}
+  objects: [{{name: post, shape: {{cuboid: {{size: [0.03, 0.03, 0.28]}}}}, mass: 0.3, friction: 0.4, position: [0.5, 0]}}]
+unknown: [masses]
+robot: {{reach: {{min: 0.25, max: 0.95}}}}
+tools: all
+pushes: {{lift: {lift}}}
+goal: {{object: post, position: [0.6, 0], tolerance: 0.02}}
+"
+        ))
+    };
+    // It slides where the moment of friction, 0.7 of the weight, is less than that of the weight.
+    for (lift, slides) in [(0.002, true), (0.2, false)] {
+        assert_eq!(matches!(solved(&post(lift)).status, PlanStatus::Solved), slides, "{lift}");
+        assert_eq!(run(&post(lift), |_| ()).0.end == Some(End::Reached), slides, "{lift}");
+    }
+}
+
+#[test]
 fn what_stands_elsewhere_than_the_task_says_is_pushed_where_it_stands() {
     let elsewhere = |truth: &mut Truth| truth.scene.objects[0].pose.position.y = 0.11;
     let (trace, world) = run(&task(CAN), elsewhere);
