@@ -73,6 +73,7 @@ fn written(
 ) -> String {
     let mut xml = Xml::default();
     xml.open("mujoco", &[("model", name.into())]);
+    xml.comment("Written by pushplan. Metres, kilograms, seconds, radians. Play it with lever.py.");
     xml.leaf("compiler", &[("angle", "radian".into()), ("autolimits", "true".into())]);
     let option = [
         ("timestep", numbers(&[STEP])),

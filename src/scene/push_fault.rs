@@ -20,6 +20,8 @@ pub enum PushFault {
     Direction(f64),
     /// It is longer than refinement may make it, metres.
     Length(f64),
+    /// It is faster than the task says, m/s.
+    Speed(f64),
 }
 
 impl fmt::Display for PushFault {
@@ -53,6 +55,7 @@ impl fmt::Display for PushFault {
             Self::Length(length) => {
                 write!(f, "is {:.1} mm long, longer than the task allows", length * 1e3)
             }
+            Self::Speed(speed) => write!(f, "goes at {speed} m/s, faster than the task says"),
         }
     }
 }

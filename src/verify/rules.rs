@@ -100,7 +100,10 @@ fn forms(task: &Task, plan: &Plan) -> Vec<Warning> {
         if !allowed.iter().any(turned) {
             return Some(PushFault::Direction(push.direction));
         }
-        (push.length > LONGER * rules.length + SLACK).then_some(PushFault::Length(push.length))
+        if push.length > LONGER * rules.length + SLACK {
+            return Some(PushFault::Length(push.length));
+        }
+        (push.speed > rules.speed + SLACK).then_some(PushFault::Speed(push.speed))
     };
     let faults: Vec<Option<PushFault>> = plan.push_steps().map(fault).collect();
     let faults = faults.into_iter().enumerate();

@@ -191,6 +191,8 @@ fn pushes_that_are_not_of_the_allowed_form_do_not_pass() {
     };
     let lift = placed.pushes.lift;
     assert_eq!(faults(forbidden(&placed, PushForm::Placed, lift, &one)), []);
+    let slow = task(&CAN.replace("max_count: 2", "max_count: 2, speed: 0.05"));
+    assert_eq!(faults(forbidden(&slow, PushForm::Placed, lift, &one)), [PushFault::Speed(0.1)]);
     assert_eq!(faults(forbidden(&placed, PushForm::Chained, lift, &one)), [PushFault::Form]);
     assert_eq!(faults(forbidden(&placed, PushForm::Placed, 0.01, &one)), [PushFault::Lift(0.01)]);
     let long = [([0.4, 0.0], 0.0, 0.4)];

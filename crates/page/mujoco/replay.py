@@ -31,6 +31,7 @@ SET_DOWN = 1e-4  # overlap that is still touching when the tool comes down
 TOPPLED = math.cos(math.radians(10))  # an object's axis leans further than this
 ANYWHERE = 1e6  # the tolerance of a goal that asks for no place
 KINDS = ["object", "obstacle", "tool", "table", "region"]
+BASE = "obstacle/robot base"
 SOLIDS = {
     mujoco.mjtGeom.mjGEOM_BOX: "cuboid",
     mujoco.mjtGeom.mjGEOM_CYLINDER: "cylinder",
@@ -54,6 +55,7 @@ class Replay:
         self.bodies = list(self.objects.values())
         geoms = [self.model.geom(k).name for k in range(self.model.ngeom)]
         self.kind = np.array([KINDS.index(name.split("/")[0]) for name in geoms])
+        self.obstacles = sum(name.startswith("obstacle/") and name != BASE for name in geoms)
         joints = [self.model.joint(k) for k in range(self.model.njnt)]
         joints = [joint for joint in joints if joint.name.startswith("tool ")]
         self.tool_height = [joint for joint in joints if joint.name == "tool z"]
@@ -238,7 +240,7 @@ def replay(path):
         "deepest": dict(zip(KINDS, scene.deepest.tolist())),
         "poses": poses,
         "pushes": len(scene.pushes),
-        "obstacles": int(np.sum(scene.kind == KINDS.index("obstacle"))),
+        "obstacles": scene.obstacles,
         "goal_object": solid,
     }
 
@@ -280,7 +282,9 @@ def main():
     arguments = parser.parse_args()
     scenes = []
     for path in arguments.scenes:
-        scenes += sorted(path.glob("*.xml")) if path.is_dir() else [path]
+        # Lever-ups of the same folder are played by another script.
+        ours = (scene for scene in path.glob("*.xml") if "lever.py" not in scene.read_text())
+        scenes += sorted(ours) if path.is_dir() else [path]
     results = []
     with multiprocessing.Pool(arguments.jobs) as pool:
         for result in pool.imap(replay, scenes):

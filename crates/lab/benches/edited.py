@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+"""Edits plans that work so that they break a rule or miss the goal, and counts those that still pass.
+
+    crates/lab/benches/mujoco OUT 300 7
+    python3 crates/lab/benches/edited.py OUT/plans --out edited --verify target/release/pushplan
+
+Every edit is wrong by construction: `verify` has to say so, or refuse the file. Lengths are in metres. Nothing
+but Python is needed. The exit code is 0 if none passes.
+"""
+
+import argparse
+import copy
+import json
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+
+def end(push):
+    return [s + push["length"] * f(push["direction"]) for s, f in zip(push["start"], (math.cos, math.sin))]
+
+
+def longer(plan, task, push):
+    """The same end, from farther behind than refinement may go."""
+    at, length = end(push), 1.6 * task["pushes"]["length"]
+    push["start"] = [e - length * f(push["direction"]) for e, f in zip(at, (math.cos, math.sin))]
+    push["length"] = length
+
+
+def blocked(plan, task, push):
+    size = {"size": [0.01, 0.01, 0.4], "position": end(push)}
+    task["scene"]["obstacles"].append({"name": "in-the-hand", **size})
+
+
+def in_the_base(plan, task, push):
+    task["robot"]["base"] = "none"
+    push["start"] = [0.0, 0.0]
+
+
+def split(plan, task, push):
+    """As many pushes more as make one too many, each of the last millimetre of the way."""
+    at = plan["steps"][-1]["push"]
+    short = dict(at, start=[e - 0.001 * f(at["direction"]) for e, f in zip(end(at), (math.cos, math.sin))], length=0.001)
+    plan["steps"] += [{"push": dict(short)} for _ in range(task["pushes"]["max_count"] + 1 - len(plan["steps"]))]
+
+
+def goal(plan, task, push):
+    for one in task["goal"] if isinstance(task["goal"], list) else [task["goal"]]:
+        one["position"][0] += 3 * one["tolerance"]
+
+
+EDITS = {
+    "lift": lambda plan, task, push: push.update(lift=push["lift"] + 0.01),
+    "lift-a-little": lambda plan, task, push: push.update(lift=push["lift"] + 0.0002),
+    "form": lambda plan, task, push: push.update(form="chained"),
+    "yaw": lambda plan, task, push: push.update(grip_yaw=push["grip_yaw"] + 0.02),
+    "speed": lambda plan, task, push: push.update(speed=3 * push["speed"]),
+    "turned-round": lambda plan, task, push: push.update(direction=push["direction"] + math.pi),
+    "too-far": lambda plan, task, push: push.update(start=[2.0, 0.0]),
+    "weak-arm": lambda plan, task, push: task["robot"].update(max_force=0.01),
+    "heavy": lambda plan, task, push: (
+        task["robot"].update(max_force=30.0),
+        [thing.update(mass=500.0) for thing in task["scene"]["objects"]],
+    ),
+    "another-tool": lambda plan, task, push: task.update(tools=["no-such-tool"]),
+    "nothing": lambda plan, task, push: plan.update(steps=[]),
+    "longer": longer, "blocked": blocked, "in-the-base": in_the_base, "split": split, "goal": goal,
+}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("plans", type=Path, help="folder of plans that work")
+    parser.add_argument("--out", type=Path, required=True, help="folder of the edited plans")
+    parser.add_argument("--verify", required=True, help="the program that is asked")
+    parser.add_argument("--count", type=int, default=20, help="plans that every edit is made of; default 20")
+    arguments = parser.parse_args()
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    # `NAME.failed.plan.json` and the like are not solved.
+    plans = [path for path in sorted(arguments.plans.glob("*.plan.json")) if path.name.count(".") == 2]
+    plans = plans[:: max(1, len(plans) // arguments.count)][: arguments.count]
+    wrong = 0
+    for name, edit in EDITS.items():
+        codes = {}
+        for path in plans:
+            document = json.loads(path.read_text())
+            edited = copy.deepcopy(document)
+            edit(edited["plan"], edited["task"], edited["plan"]["steps"][0]["push"])
+            at = arguments.out / f"{name}-{path.name}"
+            at.write_text(json.dumps(edited))
+            done = subprocess.run([arguments.verify, "verify", at, "--quiet"], capture_output=True, text=True)
+            codes[done.returncode] = codes.get(done.returncode, 0) + 1
+            if done.returncode == 0:
+                wrong += 1
+                print(f"  {at.name}: passes", flush=True)
+        said = {0: "pass", 3: "refused", 5: "fail", 7: "fragile"}
+        print(f"{name}: {', '.join(f'{count} {said.get(code, code)}' for code, count in sorted(codes.items()))}", flush=True)
+    print(f"{wrong} of {len(EDITS) * len(plans)} pass")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
