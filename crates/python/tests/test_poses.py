@@ -120,7 +120,8 @@ def drawn(rng: np.random.Generator) -> tuple[Any, Any]:
 
 def test_rendered_tags_are_found_within_what_is_said(tmp_path: Path) -> None:
     task = pushplan.Task.of(TASK)
-    rng = np.random.default_rng(5)
+    # Not among those that poses.PIXELS was chosen on.
+    rng = np.random.default_rng(1000)
     squares = []
     for _ in range(12):
         eye, at = drawn(rng)
