@@ -9,7 +9,8 @@ use std::sync::Arc;
 
 use crate::geometry::{PlacedHull, Pose3};
 use crate::scene::{
-    Arm, ArmFault, JointTrajectory, Plan, PushForm, PushStep, Scene, State, Stroke, Task, Tool,
+    Arm, ArmFault, JointTrajectory, Object, Plan, PushForm, PushStep, Scene, State, Stroke, Task,
+    Tool,
 };
 
 use super::inverse::postures;
@@ -44,7 +45,7 @@ pub fn follow(
     let room = Room::new(arm, scene, Some(tool));
     let motion = plan.motion(tool);
     let mount = arm.flange_of_tool();
-    let tallest = scene.objects.iter().map(|one| one.shape.height()).fold(0.0, f64::max);
+    let tallest = scene.objects.iter().map(Object::top).fold(0.0, f64::max);
     let mut pieces = Pieces::new(arm);
     let mut pushes = Vec::new();
     let steps: Vec<&PushStep> = plan.push_steps().collect();

@@ -1,7 +1,7 @@
 //! What an arm with a tool runs into: itself, the table, and what stands there.
 
 use crate::geometry::{Hull, PlacedHull, Pose3, Vector3};
-use crate::scene::{Arm, Robot, Scene, State, Tool};
+use crate::scene::{Arm, Object, Robot, Scene, State, Tool};
 
 use super::inverse::start;
 use super::kinematics::{flange, frames};
@@ -42,7 +42,7 @@ pub(super) struct Room<'a> {
     tool: Vec<Hull>,
     /// Obstacles, without what the arm stands on.
     obstacles: Vec<(&'a str, PlacedHull)>,
-    /// Objects at their turn, with their height.
+    /// Objects at their turn, with their heights.
     objects: Vec<(&'a str, Hull)>,
 }
 
@@ -55,9 +55,8 @@ pub(super) struct Stance {
 impl<'a> Room<'a> {
     pub fn new(arm: &'a Arm, scene: &'a Scene, tool: Option<&Tool>) -> Self {
         let flat = |pose, height| Pose3::upright(pose, height);
-        let upright = |shape: &crate::geometry::Shape| {
-            Hull::prism(&shape.footprint(), [0.0, shape.height()], &Pose3::default())
-        };
+        let upright =
+            |one: &Object| Hull::prism(&one.shape.footprint(), one.span(), &Pose3::default());
         let obstacles = scene.obstacles.iter().filter(|one| one.name != Robot::BASE);
         let obstacles = obstacles.map(|one| {
             let half = 0.5 * Vector3::from(one.size);
@@ -69,7 +68,7 @@ impl<'a> Room<'a> {
             above: 1,
             tool: tool.map(|tool| of_tool(arm, tool)).unwrap_or_default(),
             obstacles: obstacles.collect(),
-            objects: scene.objects.iter().map(|one| (&*one.name, upright(&one.shape))).collect(),
+            objects: scene.objects.iter().map(|one| (&*one.name, upright(one))).collect(),
         };
         let home = Self { tool: Vec::new(), ..Self::empty(arm) }.stance(&arm.home);
         let count = arm.bodies.len();

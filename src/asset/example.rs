@@ -21,6 +21,7 @@ const SHIPPED: &[(&str, &str)] = shipped! {
     "coupled-or-not"
     "crowd"
     "diagonal"
+    "drawer-above-a-saucer"
     "drawer-or-box"
     "drawer"
     "everything-hidden"

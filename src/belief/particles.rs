@@ -7,8 +7,6 @@
 //! around those, with the mean and the variance that they have (Liu and West 2001,
 //! doi:10.1007/978-1-4757-3437-9_10).
 
-use std::sync::Arc;
-
 use rand::Rng;
 use serde::{Deserialize, Serialize};
 
@@ -213,7 +211,7 @@ impl Particles {
         let friction = |value: f64, place: f64| {
             (value * factor(Unknowns::FRICTION_FACTOR, place)).clamp(FRICTIONS[0], FRICTIONS[1])
         };
-        for (k, object) in scene.objects.iter().enumerate() {
+        for k in 0..scene.objects.len() {
             // All solids of a thing are of one kind.
             let thing = scene.thing(k);
             let [mass, rubs, rests] = [0, 1, 2].map(|which| place[which * self.objects + thing]);
@@ -230,8 +228,7 @@ impl Particles {
                 let share = 1.0 / (1.0 + (-LOGISTIC * rests).exp());
                 let spread = Unknowns::SPREADS.low
                     + share * (Unknowns::SPREADS.high - Unknowns::SPREADS.low);
-                let feet = Feet::new(&Support::Spread(spread), &object.shape.footprint());
-                physics.feet[k] = Arc::new(feet);
+                physics.support(scene, k, &Support::Spread(spread));
             }
         }
         physics.supports_known &= !self.unknown.support;

@@ -39,6 +39,10 @@ pub struct Movable {
     pub friction: f64,
     /// Vertical extent, metres.
     pub height: f64,
+    /// Heights above the table between which it is, metres.
+    pub span: (f64, f64),
+    /// What the table carries of it, and of parts above the table, as a share of its own weight.
+    pub carried: f64,
     /// How far the load moves when it is pressed as hard as friction resists, metres.
     pub lean: f64,
     /// Mean height of where the tool can press on it, metres; zero where it passes over.
@@ -48,7 +52,12 @@ pub struct Movable {
 impl Movable {
     /// Largest friction of the table, N.
     pub fn load(&self) -> f64 {
-        self.mass * self.deceleration
+        self.mass * self.deceleration * self.carried
+    }
+
+    /// Whether what is between these two heights is as high as some of it.
+    pub fn meets(&self, (low, high): (f64, f64)) -> bool {
+        low < self.span.1 && self.span.0 < high
     }
 }
 
@@ -247,8 +256,10 @@ impl Bodies {
                     mass: physics.masses[k],
                     friction: physics.frictions[k],
                     height: object.shape.height(),
-                    lean: physics.lean(object, friction, (tool, lift)),
-                    face_height: face_height(object, (tool, lift)),
+                    span: object.span().into(),
+                    carried: physics.feet[k].share,
+                    lean: physics.lean(scene, k, (tool, lift)),
+                    face_height: face_height(scene, k, (tool, lift))[1],
                 }
             })
             .collect();

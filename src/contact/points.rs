@@ -85,17 +85,18 @@ pub(super) fn find_contacts(scenery: Scenery, contacts: &mut Vec<Contact>) {
             scenery.meet(&tool, (object, &placed), (with, reach), contacts);
         };
         for (index, part) in bodies.parts.iter().enumerate() {
-            if part.span.0 < body.height {
+            if body.meets(part.span) {
                 meet(Partner::Part(index));
             }
         }
         for (index, obstacle) in bodies.obstacles.iter().enumerate() {
-            if obstacle.span.0 < body.height {
+            if body.meets(obstacle.span) {
                 meet(Partner::Obstacle(index));
             }
         }
         for other in object + 1..bodies.objects.len() {
-            if bodies.groups.of[object] != bodies.groups.of[other] {
+            let apart = bodies.groups.of[object] != bodies.groups.of[other];
+            if apart && body.meets(bodies.objects[other].span) {
                 meet(Partner::Object(other));
             }
         }

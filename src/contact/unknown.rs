@@ -302,7 +302,7 @@ impl Unknown {
             let arm = state.poses[k].position - self.centre;
             let (rub, arm_then) = match reach {
                 Some(moved) => {
-                    let drag = bodies.feet(k).even_drag(moved.max(quantity.stuck()));
+                    let drag = bodies.feet(k).even_drag(*axis, moved.max(quantity.stuck()));
                     (Rub::new(body, drag), arm)
                 }
                 None => {

@@ -29,8 +29,9 @@ fn rubbing(scene: &Scene, mount: &Mount) -> f64 {
             JointKind::Revolute { .. } => share * (object.pose.point(at) - hinge.position).norm(),
             _ => share,
         };
-        let arms: f64 = object.feet().each().map(drag).sum();
-        object.mass * GRAVITY * scene.support_friction(k) * arms
+        let feet = scene.feet(k, &object.support);
+        let arms: f64 = feet.each().map(drag).sum();
+        feet.share * object.mass * GRAVITY * scene.support_friction(k) * arms
     };
     scene.parts_of(mount.object).chain([mount.object]).map(of).sum()
 }

@@ -178,7 +178,7 @@ fn transforms(plan: &PlanFile, frame: &Frame, at: u64) -> Vec<Json> {
         let name = format!("object/{}", object.name);
         found.push(match frame.state.space.as_ref().and_then(|space| space.get(k)) {
             Some(pose) => transform_in_space(at, &name, pose),
-            None => transform(at, &name, pose, object.shape.height() / 2.0),
+            None => transform(at, &name, pose, object.middle()),
         });
     }
     let steps = &plan.plan.steps;

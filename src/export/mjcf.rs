@@ -236,12 +236,12 @@ fn wanted(xml: &mut Xml, file: &PlanFile) {
 /// An object and everything attached to it.
 fn body(xml: &mut Xml, scene: &Scene, node: &Node<'_>) {
     let object = &scene.objects[node.object];
-    let half = object.shape.height() / 2.0;
+    let middle = object.middle();
     let (pose, height) = match node.parent {
-        None => (object.pose, half),
+        None => (object.pose, middle),
         Some((parent, _)) => {
             let parent = &scene.objects[parent];
-            (parent.pose.inverse() * object.pose, half - parent.shape.height() / 2.0)
+            (parent.pose.inverse() * object.pose, middle - parent.middle())
         }
     };
     let name = object_name(object);
@@ -255,7 +255,7 @@ fn body(xml: &mut Xml, scene: &Scene, node: &Node<'_>) {
         },
         Some((_, link)) => hinges::joint(xml, scene, node.object, link),
     }
-    let (shape, rise) = raised(&object.shape);
+    let (shape, rise) = clear(object);
     if let Shape::Prism { base, height } = &shape {
         mesh::inertial(xml, base, *height, rise, object.mass);
     }
@@ -263,7 +263,7 @@ fn body(xml: &mut Xml, scene: &Scene, node: &Node<'_>) {
     let feet = feet(scene, node.object);
     let stands = scene.mount(node.object).is_none();
     for (index, (at, _)) in feet.each().enumerate().filter(|_| stands) {
-        let at = numbers(&[at.x, at.y, FOOT - half]);
+        let at = numbers(&[at.x, at.y, FOOT - middle]);
         let name = foot_name(object, index);
         xml.leaf("geom", &[("class", "foot".into()), ("name", name), ("pos", at)]);
     }
@@ -276,7 +276,7 @@ fn body(xml: &mut Xml, scene: &Scene, node: &Node<'_>) {
 /// The points that an object stands on: all contacts of a body are loaded alike, so of a thing of several
 /// solids as many as are right for each.
 pub(super) fn feet(scene: &Scene, index: usize) -> Feet {
-    let feet = scene.objects[index].feet();
+    let feet = scene.feet(index, &scene.objects[index].support);
     if !scene.is_compound(index) {
         return feet;
     }
@@ -285,8 +285,9 @@ pub(super) fn feet(scene: &Scene, index: usize) -> Feet {
 }
 
 /// The part of an object that is clear of the table, and how far that moves its middle up, metres.
-fn raised(shape: &Shape) -> (Shape, f64) {
-    match *shape {
+fn clear(object: &Object) -> (Shape, f64) {
+    match object.shape {
+        above if object.is_raised() => (above, 0.0),
         Shape::Cuboid { size: [x, y, z] } => {
             (Shape::Cuboid { size: [x, y, z - CLEAR] }, CLEAR / 2.0)
         }
@@ -300,7 +301,7 @@ fn raised(shape: &Shape) -> (Shape, f64) {
 /// The solids that objects and tool are made of, by their names.
 fn solids(scene: &Scene, motion: &ToolMotion) -> Vec<(String, Shape)> {
     let objects = scene.objects.iter();
-    let objects = objects.map(|object| (object_name(object), raised(&object.shape).0));
+    let objects = objects.map(|object| (object_name(object), clear(object).0));
     let tool = seamless(motion.tool.outline()).into_iter();
     let tool = tool.map(|(name, shape, _)| (format!("tool/{name}"), shape));
     objects.chain(tool).chain(regions::solids(scene)).collect()

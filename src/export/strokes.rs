@@ -1,6 +1,6 @@
 //! What a tool does, as numbers that a script reads.
 
-use crate::scene::{COAST_FRAME, MAX_COAST_FRAMES, REST_SPEED, Scene, ToolMotion};
+use crate::scene::{COAST_FRAME, MAX_COAST_FRAMES, Object, REST_SPEED, Scene, ToolMotion};
 
 use super::xml::{Xml, numbers};
 
@@ -39,7 +39,7 @@ pub(super) fn retreats(xml: &mut Xml, scene: &Scene, motion: &ToolMotion) {
             );
         }
     }
-    let heights = scene.objects.iter().map(|object| object.shape.height());
+    let heights = scene.objects.iter().map(Object::top);
     numeric(xml, "rise", &[heights.fold(0.0, f64::max) + ABOVE]);
 }
 

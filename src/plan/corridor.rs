@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use crate::geometry::{Footprint, Pose, contact_points};
-use crate::scene::{Situation, State, Task, ToolMotion, Trajectory};
+use crate::scene::{Object, Situation, State, Task, ToolMotion, Trajectory};
 
 use super::Workspace;
 
@@ -38,9 +38,18 @@ fn others(task: &Task, groups: &[usize]) -> Vec<usize> {
 /// All that a plan passes.
 #[derive(Clone, Debug)]
 pub struct Corridor {
-    passed: Vec<(Footprint, Pose)>,
-    /// The objects that may stand in it, each with its footprint.
-    others: Vec<(usize, Footprint)>,
+    passed: Vec<Passed>,
+    /// The objects that may stand in it.
+    others: Vec<(usize, Object)>,
+}
+
+/// A place that something passes.
+#[derive(Clone, Copy, Debug)]
+struct Passed {
+    footprint: Footprint,
+    pose: Pose,
+    /// Heights above the table between which it is, metres.
+    span: [f64; 2],
 }
 
 /// A task as it would be without all that is not joined to a goal's object, with fewer pushes by one;
@@ -72,14 +81,22 @@ impl Corridor {
     ) -> Self {
         let objects = &situation.scene.objects;
         let groups = situation.physics.groups(|_| true);
-        let footprint = |k: usize| objects[k].shape.footprint();
+        let object = |k: usize, pose| {
+            let (footprint, span) = (objects[k].shape.footprint(), objects[k].span());
+            Passed { footprint, pose, span }
+        };
         let mut passed = Vec::new();
         for stroke in &motion.strokes {
             let steps = (stroke.travel() / SAMPLE).ceil().max(1.0);
             for step in 0..=steps as usize {
                 let tool = stroke.from.towards(&stroke.to, step as f64 / steps);
                 let parts = motion.tool.parts().iter();
-                passed.extend(parts.map(|part| (part.footprint(), tool * part.pose)));
+                passed.extend(parts.map(|part| {
+                    let (footprint, pose) = (part.footprint(), tool * part.pose);
+                    // It comes down from above.
+                    let top = if step == 0 { f64::INFINITY } else { part.shape.height() };
+                    Passed { footprint, pose, span: [motion.lift, motion.lift + top] }
+                }));
             }
         }
         let others = others(workspace.task, &groups);
@@ -91,15 +108,15 @@ impl Corridor {
                     (pose.position - last.position).norm() < SAMPLE && turned < TURNED
                 };
                 if !last.as_ref().is_some_and(same) {
-                    passed.push((footprint(k), pose));
+                    passed.push(object(k, pose));
                     last = Some(pose);
                 }
             }
-            passed.push((footprint(k), trajectory.outcome().poses[k]));
+            passed.push(object(k, trajectory.outcome().poses[k]));
         }
-        let low = |k: usize| objects[k].shape.height() <= workspace.task.pushes.lift;
+        let low = |k: usize| objects[k].top() <= workspace.task.pushes.lift;
         let others = others.into_iter().filter(|&k| !low(k));
-        Self { passed, others: others.map(|k| (k, footprint(k))).collect() }
+        Self { passed, others: others.map(|k| (k, objects[k].clone())).collect() }
     }
 
     /// What stands in it.
@@ -110,21 +127,23 @@ impl Corridor {
 
     /// How far all that may stand in it would have to move to leave room, metres.
     pub(super) fn depths(&self, state: &State) -> impl Iterator<Item = (usize, f64)> {
-        self.others.iter().map(|(k, footprint)| (*k, self.depth(footprint, &state.poses[*k])))
+        self.others.iter().map(|(k, object)| (*k, self.depth(object, &state.poses[*k])))
     }
 
     /// How far an object at `pose` would have to move, metres; 0 beside it, with room.
-    fn depth(&self, footprint: &Footprint, pose: &Pose) -> f64 {
-        let into = |(shape, at): &(Footprint, Pose)| {
-            let (points, _) = contact_points((footprint, pose), (shape, at), ROOM);
+    fn depth(&self, object: &Object, pose: &Pose) -> f64 {
+        let own = object.shape.footprint();
+        let into = |passed: &Passed| {
+            let (points, _) = contact_points((&own, pose), (&passed.footprint, &passed.pose), ROOM);
             points[0].map_or(0.0, |point| ROOM - point.gap)
         };
-        self.passed.iter().map(into).fold(0.0, f64::max)
+        let met = self.passed.iter().filter(|passed| object.meets(passed.span));
+        met.map(into).fold(0.0, f64::max)
     }
 
     /// The same of object `k`, if that may stand in it.
     pub(super) fn depth_of(&self, k: usize, pose: &Pose) -> f64 {
         let own = self.others.iter().find(|(other, _)| *other == k);
-        own.map_or(0.0, |(_, footprint)| self.depth(footprint, pose))
+        own.map_or(0.0, |(_, object)| self.depth(object, pose))
     }
 }

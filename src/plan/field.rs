@@ -138,8 +138,12 @@ fn distance(goal: &Goal, grid: &Option<Grid>, position: Vector) -> f64 {
 
 /// The obstacles that a goal's object does not pass below.
 fn in_the_way<'a>(task: &'a Task, goal: &Goal) -> Vec<&'a Obstacle> {
-    let height = task.scene.objects[goal.object].shape.height();
-    task.scene.obstacles.iter().filter(|obstacle| obstacle.meets([0.0, height])).collect()
+    let scene = &task.scene;
+    let raised = scene.parts_of(goal.object).filter(|&k| scene.objects[k].is_raised());
+    let solids: Vec<usize> = raised.chain([goal.object]).collect();
+    let met =
+        |obstacle: &&Obstacle| solids.iter().any(|&k| obstacle.meets(scene.objects[k].span()));
+    scene.obstacles.iter().filter(met).collect()
 }
 
 struct Grid {

@@ -120,9 +120,11 @@ impl Workspace<'_> {
             return Ok(previous.unwrap_or(self.task.robot.home));
         };
         let tool = &*self.tools[tool];
-        let (footprint, height, at) = self.object(push.object, state);
+        let (footprint, at) = self.object(push.object, state);
         let (ahead, left) = axes(push.direction);
-        if !self.meets(height) {
+        let object = &self.task.scene.objects[push.object];
+        let meets = |k: usize| object.meets(self.span_of(&tool.parts()[k]));
+        if !meets(part) {
             return Err(Infeasible::NoContact);
         }
         // The end effector at the world's origin; everything below is shifted from there.
@@ -142,7 +144,7 @@ impl Workspace<'_> {
         for (other, (face, pose)) in parts.iter().enumerate() {
             let there = Pose { position: pose.position + start, ..*pose };
             let first = travel_to_contact((face, &there), ahead, (&footprint, &at));
-            if other != part && first.is_some_and(|t| t < stand_off - ROUNDING) {
+            if other != part && meets(other) && first.is_some_and(|t| t < stand_off - ROUNDING) {
                 return Err(Infeasible::OtherPartFirst);
             }
         }
@@ -241,14 +243,15 @@ impl Workspace<'_> {
             }
             let objects = task.scene.objects.iter().zip(&state.poses).enumerate();
             for (k, (object, pose)) in objects {
-                if carried.span[0] >= object.shape.height() {
+                // What comes down from above passes all that is above where it goes.
+                if carried.span[0] >= object.top() {
                     continue;
                 }
                 let still = (&object.shape.footprint(), pose);
                 if set_down {
                     least = least.min(clearance((&carried.footprint, &from), still, most));
                 }
-                if k != pushed {
+                if k != pushed && object.meets(carried.span) {
                     least = least.min(swept_clearance(&carried.footprint, &from, &to, still, most));
                 }
             }
@@ -286,7 +289,7 @@ impl Workspace<'_> {
             if let Some(room) = set_down {
                 let clear = SET_DOWN_CLEARANCE + room.min(MOST_ASIDE);
                 for (other, pose) in task.scene.objects.iter().zip(&state.poses) {
-                    if self.meets(other.shape.height()) {
+                    if task.pushes.lift < other.top() {
                         let still = (&other.shape.footprint(), pose);
                         let gap = clearance((&shape, &from), still, FAR + clear);
                         object = object.min(gap - clear);
@@ -340,7 +343,7 @@ impl Workspace<'_> {
         overhang: f64,
     ) -> f64 {
         let tool = &*self.tools[tool];
-        let (footprint, _, at) = self.object(object, state);
+        let (footprint, at) = self.object(object, state);
         let (_, left) = axes(direction);
         let frame = tool.pose(Pose { position: Vector::zeros(), heading: grip_yaw });
         let face = tool.part_pose(part, &frame).local_vector(left);
@@ -350,20 +353,14 @@ impl Workspace<'_> {
             + overhang * wide(&footprint, at.local_vector(left))
     }
 
-    fn object(&self, index: usize, state: &State) -> (Footprint, f64, Pose) {
-        let shape = self.task.scene.objects[index].shape;
-        (shape.footprint(), shape.height(), state.poses[index])
+    fn object(&self, index: usize, state: &State) -> (Footprint, Pose) {
+        (self.task.scene.objects[index].shape.footprint(), state.poses[index])
     }
 
     /// Heights above the table between which a part of a tool is, metres.
     fn span_of(&self, part: &Part) -> [f64; 2] {
         let lift = self.task.pushes.lift;
         [lift, lift + part.shape.height()]
-    }
-
-    /// Whether the tool's parts and a body of this height standing on the table can touch.
-    fn meets(&self, height: f64) -> bool {
-        self.task.pushes.lift < height
     }
 }
 

@@ -196,7 +196,7 @@ impl Recording {
             for (index, (object, pose)) in self.scene.objects.iter().zip(&frame.poses).enumerate() {
                 let solid = object.shape.footprint().shrunk(Self::NOISE);
                 let mut parts = self.tool.parts().iter().enumerate();
-                let on = self.lift < object.shape.height()
+                let on = self.lift < object.top()
                     && parts.any(|(part, solids)| {
                         let at = self.tool.part_pose(part, &frame.tool);
                         clearance((&solids.footprint(), &at), (&solid, pose), Self::NOISE) <= 0.0

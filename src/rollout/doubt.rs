@@ -57,17 +57,18 @@ impl Depths {
         };
         for (object, body) in bodies.objects.iter().enumerate().filter(|(k, _)| moved(*k)) {
             for (k, other) in bodies.objects.iter().enumerate() {
-                if bodies.mechanisms[k] != bodies.mechanisms[object] && !(moved(k) && k < object) {
+                let apart = bodies.mechanisms[k] != bodies.mechanisms[object];
+                if apart && body.meets(other.span) && !(moved(k) && k < object) {
                     meet(object, Body::Object(k), &other.footprint, &state.poses[k]);
                 }
             }
             for (k, obstacle) in bodies.obstacles.iter().enumerate() {
-                if obstacle.span.0 < body.height {
+                if body.meets(obstacle.span) {
                     meet(object, Body::Obstacle(k), &obstacle.footprint, &obstacle.pose);
                 }
             }
             for (k, part) in bodies.parts.iter().enumerate() {
-                if part.span.0 < body.height {
+                if body.meets(part.span) {
                     meet(object, Body::Part(k), &part.footprint, &(*tool * part.pose));
                 }
             }

@@ -109,7 +109,7 @@ impl Reach {
                 continue;
             }
             let swept = |sweep: &Sweep| {
-                sweep.underside < body.height && sweep.square_gap(pose.position) <= room * room
+                sweep.underside < body.span.1 && sweep.square_gap(pose.position) <= room * room
             };
             let lost = !pose.is_finite();
             if moves || lost || sweeps.iter().any(swept) {
@@ -142,7 +142,7 @@ impl Reach {
                 || objects.iter().any(|&SceneIndex(k)| {
                     let (sweep, body) = (&sweeps[part], &whole.objects[k]);
                     let room = body.radius + near;
-                    sweep.underside < body.height
+                    sweep.underside < body.span.1
                         && sweep.square_gap(state.poses[k].position) <= room * room
                 })
         }));
@@ -151,7 +151,7 @@ impl Reach {
             let obstacle = &whole.obstacles[index];
             objects.iter().any(|&SceneIndex(k)| {
                 let gap = gap(&obstacle.footprint, &obstacle.pose, state.poses[k].position);
-                obstacle.span.0 < whole.objects[k].height && gap <= whole.objects[k].radius + near
+                obstacle.span.0 < whole.objects[k].span.1 && gap <= whole.objects[k].radius + near
             })
         }));
         subset.gather(whole);
@@ -182,7 +182,7 @@ impl Reach {
         for &part in &subset.parts {
             let sweep = &self.sweeps[part];
             for (body, pose) in subset.bodies.objects.iter().zip(&state.poses) {
-                if sweep.underside >= body.height {
+                if sweep.underside >= body.span.1 {
                     continue;
                 }
                 let room = body.radius + self.near;

@@ -62,8 +62,10 @@ impl Feet {
     }
 
     /// The same where every point moves by `moved`.
-    pub fn even_drag(&self, moved: f64) -> Drag {
-        let first = Vector::zeros();
+    #[inline]
+    pub fn even_drag(&self, axis: Vector, moved: f64) -> Drag {
+        let (x, y) = (self.centre.x, self.centre.y);
+        let first = Vector::new(axis.x * x - axis.y * y, axis.y * x + axis.x * y) / moved;
         Drag { sum: 1.0 / moved, first, second: self.mean_square / moved }
     }
 

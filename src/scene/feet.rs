@@ -9,6 +9,9 @@ use super::underside::underside;
 /// Most points of a support.
 pub const MAX_FEET: usize = 16;
 
+/// Loads whose centre is nearer to the middle than this are about it, metres: rounding.
+const MIDDLE: f64 = 1e-9;
+
 /// Points under an object with their shares of its weight, which together stand for a [`Support`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Feet {
@@ -20,6 +23,11 @@ pub struct Feet {
     pub load: [f64; MAX_FEET],
     /// How many there are.
     pub count: usize,
+    /// What they carry together, as a share of the object's weight: one but of things with parts above
+    /// the table.
+    pub share: f64,
+    /// Where the centre of the load is, metres: the object's but of such things.
+    pub centre: Vector,
     /// Whether they stand for an object that looks the same at every turn.
     pub round: bool,
     /// Whether they stand for even pressure, so that other points would do as well.
@@ -134,6 +142,22 @@ impl Feet {
         feet
     }
 
+    /// The points of a solid that carries nothing.
+    pub fn none() -> Self {
+        Self::of([])
+    }
+
+    /// The same points where they carry this share of the object's weight, with its centre there.
+    pub(super) fn loaded(&self, share: f64, centre: Vector) -> Self {
+        if centre.norm() < MIDDLE {
+            return Self { share, ..self.clone() };
+        }
+        let loads = self.leaning(centre);
+        let points = || self.each().map(|(at, _)| at).zip(loads);
+        let centre = points().map(|(at, load)| load * at).sum();
+        Self { share, centre, even: self.even, ..Self::of(points()) }
+    }
+
     /// These points with loads that leave the centre of mass where it is, as equal as can be; see
     /// [`carries`].
     fn on(points: &[Vector]) -> Self {
@@ -169,6 +193,8 @@ impl Feet {
             y: none,
             load: none,
             count: 0,
+            share: 1.0,
+            centre: Vector::zeros(),
             round: false,
             even: false,
             mean_radius: 0.0,

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Footprint, Pose, Vector, clearance, contact_points};
 
-use super::{LeverUp, Part, Plate, Scene, State, TOUCHING, Tool};
+use super::{LeverUp, Object, Part, Plate, Scene, State, TOUCHING, Tool};
 
 /// Tool travel per frame while it moves, metres. A stroke is cut into equal frames of at most
 /// this travel, so a slow and a fast push cost the same number of frames.
@@ -246,15 +246,18 @@ impl ToolMotion {
     }
 
     /// How the tool goes back after stroke `index` before it is lifted: the way it came, by [`RETREAT`],
-    /// or all of it where something is above it, as it was set down at the start; `None` where it is
-    /// not lifted.
+    /// or all of it where something is above it, or a part of an object may be, as it was set down at the
+    /// start; `None` where it is not lifted.
     pub fn retreat(&self, scene: &Scene, index: usize) -> Option<Stroke> {
         let stroke = self.strokes.get(index).filter(|stroke| stroke.settle)?;
         let travel = stroke.travel();
         let below = |shape: &Footprint, pose: &Pose, top: f64| {
-            scene.above(top).any(|above| {
-                clearance((shape, pose), (&above.footprint, &above.pose), RETREAT) < RETREAT
-            })
+            // Where objects are by now is not known here.
+            let hangs = |object: &Object| object.is_raised() && object.z >= top;
+            scene.objects.iter().any(hangs)
+                || scene.above(top).any(|above| {
+                    clearance((shape, pose), (&above.footprint, &above.pose), RETREAT) < RETREAT
+                })
         };
         let is_below = |part: &Part| {
             let top = self.lift + part.shape.height();
@@ -292,7 +295,7 @@ impl ToolMotion {
                 let part = (&part.footprint(), &(tool * part.pose));
                 contact_points(own, part, -TOUCHING).1 > 0
             };
-            self.lift < shape.height() && self.tool.parts().iter().any(overlaps)
+            self.lift < scene.objects[object].top() && self.tool.parts().iter().any(overlaps)
         };
         (0..scene.objects.len()).filter(stands_on)
     }

@@ -44,18 +44,22 @@ impl Physics {
             frictions: scene.objects.iter().map(|object| object.friction).collect(),
             table_friction: scene.table_friction,
             pairs: scene.frictions.clone(),
-            feet: scene.objects.iter().map(|object| Arc::new(object.feet())).collect(),
+            feet: (0..scene.objects.len())
+                .map(|k| Arc::new(scene.feet(k, &scene.objects[k].support)))
+                .collect(),
             supports_known: true,
             push_height: scene.push_height,
             joints: scene.joints.clone(),
         }
     }
 
-    /// How far the centre of the load of `object` moves ahead when this tool, `lift` metres above
-    /// the table, pushes it as hard as `friction` resists, metres. A push R at height z must not
+    /// How far the centre of the load of object `index` moves ahead when this tool, `lift` metres above
+    /// the table, pushes it as hard as friction resists, metres. A push R at height z must not
     /// tip the object of mass m, so its load moves by z R / (m g).
-    pub fn lean(&self, object: &Object, friction: f64, (tool, lift): (&Tool, f64)) -> f64 {
-        self.push_height.unwrap_or(Self::PUSH_HEIGHT) * face_height(object, (tool, lift)) * friction
+    pub fn lean(&self, scene: &Scene, index: usize, tool: (&Tool, f64)) -> f64 {
+        let [low, middle] = face_height(scene, index, tool);
+        let height = low + self.push_height.unwrap_or(Self::PUSH_HEIGHT) * (middle - low);
+        height * self.support_friction(index)
     }
 
     /// What an object may rest on: its underside cannot be seen, but most are somewhere in this
@@ -84,8 +88,7 @@ impl Physics {
 
     /// Lets object `index` rest on the table in this way.
     pub fn support(&mut self, scene: &Scene, index: usize, support: &Support) {
-        let footprint = scene.objects[index].shape.footprint();
-        self.feet[index] = Arc::new(Feet::new(support, &footprint));
+        self.feet[index] = Arc::new(scene.feet(index, support));
     }
 
     /// Coefficient of friction between object `index` and the table.
@@ -94,10 +97,21 @@ impl Physics {
     }
 }
 
-/// Mean height of where the faces of an object and a tool `lift` metres above the table meet,
-/// metres; zero where the tool passes over it.
-pub fn face_height(object: &Object, (tool, lift): (&Tool, f64)) -> f64 {
+/// Least and mean height at which object `index` and a tool `lift` metres above the table meet, metres:
+/// the first is the underside of what the tool meets. Where it passes over what stands and meets a part
+/// above the table, it is there; where it passes over everything, both are zero.
+pub fn face_height(scene: &Scene, index: usize, (tool, lift): (&Tool, f64)) -> [f64; 2] {
     let tallest = tool.outline().iter().map(|piece| piece.shape.height()).fold(0.0, f64::max);
-    let top = object.shape.height().min(lift + tallest);
-    if top > lift { 0.5 * (lift + top) } else { 0.0 }
+    let of = |object: &Object| {
+        let [underside, top] = object.span();
+        let (low, top) = (underside.max(lift), top.min(lift + tallest));
+        if top > low { [underside, 0.5 * (low + top)] } else { [0.0; 2] }
+    };
+    let own = of(&scene.objects[index]);
+    if own[1] > 0.0 || !scene.has_raised(index) {
+        return own;
+    }
+    let parts = scene.parts_of(scene.thing(index)).map(|k| &scene.objects[k]);
+    let raised = parts.filter(|part| part.is_raised()).map(of).find(|face| face[1] > 0.0);
+    raised.unwrap_or(own)
 }

@@ -57,7 +57,7 @@ impl Task {
     /// kept where they are.
     fn way(&self, scene: &Scene, (tool, yaw): (&Tool, f64), ends: [Vector; 2]) -> Way {
         let kept = scene.objects.iter().filter(|object| object.keep.is_some());
-        let tall = kept.filter(|object| object.shape.height() > self.robot.travel);
+        let tall = kept.filter(|object| object.top() > self.robot.travel);
         let tall = tall.map(|object| Fixed {
             name: &object.name,
             footprint: object.shape.footprint(),

@@ -161,11 +161,15 @@ impl Scene {
     }
 
     /// The points that object `index` stands on in engines that load all points of a body alike, where
-    /// it stands on `feet`: as few as there should be of a part, see [`Feet::fewer`].
+    /// it stands on `feet`: as few as there should be of a part, see [`Feet::fewer`], and none of one above
+    /// the table.
     pub fn contacts(&self, index: usize, feet: &Feet, masses: &[f64]) -> Feet {
+        if self.objects[index].is_raised() {
+            return Feet::none();
+        }
         let footprint = self.objects[index].shape.footprint();
         let thing = self.thing(index);
-        let solids = self.parts_of(thing).chain([thing]);
+        let solids = self.parts_of(thing).chain([thing]).filter(|&k| !self.objects[k].is_raised());
         let heaviest = solids.map(|k| masses[k]).fold(0.0, f64::max);
         feet.fewer(&footprint, masses[index] / heaviest)
     }

@@ -40,7 +40,8 @@ pub struct Object {
     /// higher one lies on obstacles.
     #[serde(with = "planar_only", default, skip_serializing_if = "is_zero")]
     pub clearance: f64,
-    /// Height of its underside above the table at the start, metres.
+    /// Height of its underside above the table at the start, metres; of a part above its object's, see
+    /// [`Self::is_raised`].
     #[serde(with = "planar_only", default, skip_serializing_if = "is_zero")]
     pub z: f64,
     /// What it is a part of, if it is no thing of its own.
@@ -136,7 +137,8 @@ impl Object {
 
     /// Whether it is more than an upright solid on the table.
     pub fn in_space(&self) -> bool {
-        self.z != 0.0 || self.clearance != 0.0 || !self.parts.is_empty()
+        let above = self.z != 0.0 && !self.is_part();
+        above || self.clearance != 0.0 || !self.parts.is_empty()
     }
 
     /// The object with its centre at (`x`, `y`), metres, turned by `heading`, radians.

@@ -110,7 +110,7 @@ impl World for PlanarWorld {
             this.add_object(scene, physics, motion, index, member);
         }
         this.add_obstacles(scene);
-        this.seams.pass(&this.labels, scene);
+        this.seams.pass(&this.labels, scene, motion);
         for label in this.seams.rub(&this.labels, physics) {
             this.ask_for_contacts(label);
         }
@@ -293,18 +293,23 @@ impl PlanarWorld {
         index: usize,
         member: Member,
     ) {
-        let (shape, friction) = (&scene.objects[index].shape, physics.frictions[index]);
-        let footprint = shape.footprint();
-        // All parts have their underside at the same height, so the object alone decides.
-        let own = if shape.height() > motion.lift { TALL } else { LOW };
+        let (object, friction) = (&scene.objects[index], physics.frictions[index]);
+        let footprint = object.shape.footprint();
+        // All parts have their underside at the same height, so what stands alone decides.
+        let own = if object.top() > motion.lift { TALL } else { LOW };
+        // What is above the table may pass over anything.
+        let hooks = match object.is_raised() {
+            true => ActiveHooks::FILTER_CONTACT_PAIRS,
+            false => ActiveHooks::empty(),
+        };
         let collider = weighing(collider(&footprint, friction), &footprint, physics.masses[index])
             .position(to_rapier(&member.local, Vector::zeros()))
+            .active_hooks(hooks)
             .collision_groups(groups(own, Layer::ALL));
         self.insert(collider, Body::Object(index), self.bodies[member.body].handle);
         let table = physics.support_friction(index);
         let (feet, mass) = (&physics.feet[index], physics.masses[index]);
-        let (object, lift) = (&scene.objects[index], motion.lift);
-        let lean = physics.lean(object, table, (&motion.tool, lift));
+        let lean = physics.lean(scene, index, (&motion.tool, motion.lift));
         let support = Support::new(feet, &footprint, table, mass, lean);
         let support = if is_articulated(scene, physics) { support.in_joints() } else { support };
         self.bodies[member.body].pressed.add(&support);
@@ -327,7 +332,8 @@ impl PlanarWorld {
         let labelled = |collider: &&mut Collider| collider.user_data == label as u128;
         let mut colliders = self.world.colliders.iter_mut().map(|(_, collider)| collider);
         if let Some(collider) = colliders.find(labelled) {
-            collider.set_active_hooks(ActiveHooks::MODIFY_SOLVER_CONTACTS);
+            let hooks = collider.active_hooks() | ActiveHooks::MODIFY_SOLVER_CONTACTS;
+            collider.set_active_hooks(hooks);
         }
     }
 

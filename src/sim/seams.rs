@@ -11,7 +11,7 @@ use rapier2d::prelude as planar;
 use rapier3d_f64::prelude as spatial;
 
 use crate::geometry::{Rim, Vector};
-use crate::scene::{Body, Physics, Scene, Surface};
+use crate::scene::{Body, Physics, Scene, Surface, ToolMotion};
 
 /// Normals that rise more steeply than this (sine) are those of top or underside.
 const STEEP: f64 = 0.5;
@@ -23,7 +23,7 @@ pub(super) struct Seams {
     rims: Vec<Option<Rim>>,
     /// Coefficients of friction of pairs.
     frictions: Vec<([u128; 2], f64)>,
-    /// Obstacles and what passes below them, seen from above.
+    /// What is above the table and what passes below or over it, seen from above.
     passing: HashSet<[u128; 2]>,
 }
 
@@ -56,14 +56,29 @@ impl Seams {
         asking
     }
 
-    /// Lets objects pass below what is above them, where all is seen from above.
-    pub fn pass(&mut self, labels: &[Body], scene: &Scene) {
-        for (first, above) in labels.iter().enumerate() {
-            let Body::Obstacle(above) = *above else { continue };
+    /// Lets all pass below what is above it, obstacles and parts of objects, where all is seen from above.
+    pub fn pass(&mut self, labels: &[Body], scene: &Scene, motion: &ToolMotion) {
+        let span = |body: &Body| match *body {
+            Body::Object(index) => scene.objects[index].span(),
+            Body::Obstacle(index) => {
+                let obstacle = &scene.obstacles[index];
+                [obstacle.z, obstacle.top()]
+            }
+            Body::Part(index) => {
+                let height = motion.tool.outline()[index].shape.height();
+                [motion.lift, motion.lift + height]
+            }
+        };
+        let hangs = |body: &Body| match *body {
+            Body::Object(index) => scene.objects[index].is_raised(),
+            Body::Obstacle(_) => true,
+            Body::Part(_) => false,
+        };
+        for (first, above) in labels.iter().enumerate().filter(|(_, body)| hangs(body)) {
+            let [low, high] = span(above);
             for (second, below) in labels.iter().enumerate() {
-                let Body::Object(below) = *below else { continue };
-                let height = scene.objects[below].shape.height();
-                if !scene.obstacles[above].meets([0.0, height]) {
+                let [underside, top] = span(below);
+                if !(low < top && underside < high) {
                     self.passing
                         .extend([[first, second], [second, first]].map(|k| k.map(|k| k as u128)));
                 }

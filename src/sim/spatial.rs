@@ -277,13 +277,20 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
         member: Member,
     ) {
         let object = &scene.objects[index];
-        let (footprint, height) = (object.shape.footprint(), object.shape.height());
+        let footprint = object.shape.footprint();
         let Tracked { handle, first_position, .. } = self.bodies[member.body];
         let friction = physics.support_friction(index);
         let points = &physics.feet[index];
         let feet = match TIPS {
             true => scene.contacts(index, points, &physics.masses),
-            false => Feet::clone(points),
+            // What carries nothing has none.
+            false => {
+                if object.is_raised() {
+                    Feet::none()
+                } else {
+                    Feet::clone(points)
+                }
+            }
         };
         let place = |at: Vector| {
             let pose = member.local * Pose { position: at, heading: 0.0 };
@@ -294,18 +301,21 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
             .map(|(at, _)| self.insert(foot(place(at), friction), Body::Object(index), handle))
             .collect();
         if !TIPS {
-            let lean = physics.lean(object, friction, (&motion.tool, motion.lift));
+            let lean = physics.lean(scene, index, (&motion.tool, motion.lift));
             let mass = physics.masses[index];
             let support = Support::new(points, &footprint, friction, mass, lean);
             self.upright.add(Standing { support, feet, friction });
         }
-        let rise = height / 2.0 - first_position.z;
-        let placed = to_rapier(&member.local, &LOCAL, rise + CLEAR / 2.0);
+        let rise = object.middle() - first_position.z;
+        let (shape, clear) = match object.is_raised() {
+            true => (object.shape, 0.0),
+            false => (raised(&object.shape), CLEAR),
+        };
+        let placed = to_rapier(&member.local, &LOCAL, rise + clear / 2.0);
         let (own, mass) = (physics.frictions[index], physics.masses[index]);
-        let raised = raised(&object.shape);
-        let solid = weighing(solid(&raised, placed, own), &raised, mass);
+        let solid = weighing(solid(&shape, placed, own), &shape, mass);
         self.insert(solid, Body::Object(index), handle);
-        for underside in undersides(&raised, placed, own) {
+        for underside in undersides(&shape, placed, own) {
             self.insert(underside, Body::Object(index), handle);
         }
         self.objects.push((member, rise));

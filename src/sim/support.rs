@@ -82,9 +82,14 @@ impl Support {
         self.feet.leaning(Vector::new(cos * lean.x + sin * lean.y, cos * lean.y - sin * lean.x))
     }
 
-    /// Largest friction, N.
+    /// What the points carry as a share of the object's own weight.
+    pub(super) fn share(&self) -> f64 {
+        self.feet.share
+    }
+
+    /// Largest friction, N; none of a part above the table.
     pub(super) fn load(&self) -> f64 {
-        self.mass * self.deceleration
+        self.mass * self.deceleration * self.feet.share
     }
 }
 

@@ -76,7 +76,7 @@ impl Upright {
                 against.add(support.load(), &drag, Vector::zeros());
                 pressed.rub(&against.against(&twist));
                 for (foot, load) in handles.iter().zip(support.loads(heading, pressing)) {
-                    colliders[*foot].set_friction(friction * load * mass * *feet);
+                    colliders[*foot].set_friction(friction * load * mass * *feet * support.share());
                 }
             }
         }

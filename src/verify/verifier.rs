@@ -7,8 +7,8 @@ use rayon::prelude::*;
 
 use crate::geometry::Pose;
 use crate::scene::{
-    Disturbance, Engine, Evidence, Job, JointTrajectory, LeverScene, Outcome, Plan, Record, Scene,
-    Situation, Task, Tool, ToolMotion, Trajectory, Verdict, Warning,
+    Disturbance, Engine, Evidence, Job, JointTrajectory, LeverScene, Object, Outcome, Plan, Record,
+    Scene, Situation, Task, Tool, ToolMotion, Trajectory, Verdict, Warning,
 };
 use crate::sim::{LeverSimulator, Simulator};
 use crate::watch::{Unwatched, Watch};
@@ -279,10 +279,17 @@ fn wary(scene: &Scene) -> Scene {
     scene
 }
 
-/// Whether a tool that is held a little higher passes over an object that it meets as planned.
+/// Whether a tool that is held a little higher passes over an object that it meets as planned, or meets
+/// one that it passes below.
 fn misses_by_a_hair(scene: &Scene, motion: &ToolMotion) -> bool {
-    let over = |height: f64| motion.lift < height && motion.lift + HAIR >= height;
-    scene.objects.iter().any(|object| over(object.shape.height()))
+    let heights = || motion.tool.parts().iter().map(|part| part.shape.height());
+    let meets = |object: &Object, height: f64, more: f64| {
+        let lift = motion.lift + more;
+        object.meets([lift, lift + height])
+    };
+    scene.objects.iter().any(|object| {
+        heights().any(|height| meets(object, height, 0.0) != meets(object, height, HAIR))
+    })
 }
 
 /// Whether a plan is replayed in space.

@@ -42,6 +42,7 @@ mod plan_page;
 mod planning;
 mod prisms;
 mod program;
+mod raised;
 mod random_network;
 mod random_regulator;
 mod readme;

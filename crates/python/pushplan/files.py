@@ -119,13 +119,14 @@ class TableKeys(TypedDict, total=False):
 
 
 class ObjectPartKeys(TypedDict):
-    """A part of an object; mass in kilograms, position [x, y] in the object's frame in metres; in a task
-    of levering it may have a third number."""
+    """A part of an object; mass in kilograms, position [x, y] in the object's frame and z, the height of
+    its underside above the object's, in metres; in a task of levering the position's third number is that."""
 
     shape: ObjectShapeKeys
     position: Numbers
     name: NotRequired[str]
     yaw_deg: NotRequired[float]
+    z: NotRequired[float]
     mass: NotRequired[float]
     friction: NotRequired[float]
     support: NotRequired[Union[Literal["even", "corners"], SupportKeys]]

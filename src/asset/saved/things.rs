@@ -19,10 +19,11 @@ pub(super) fn parts(scene: &Scene, index: usize) -> (f64, Vec<Json>) {
     let whole = by_volume(&solids);
     let part = |(k, part): (usize, &&Object)| {
         let place = part.whole.map_or_else(Default::default, |Whole { place, .. }| place);
-        let mut fields = json!({
-            "shape": shape(&part.shape), "support": support(&part.support),
-            "friction": part.friction,
-        });
+        let mut fields = json!({"shape": shape(&part.shape), "friction": part.friction});
+        match part.is_raised() {
+            true => fields["z"] = json!(part.z),
+            false => fields["support"] = support(&part.support),
+        }
         // A number is what a part without a name is called.
         let name = part.name.strip_prefix(&format!("{}/", own.name)).unwrap_or(&part.name);
         if name != (k + 1).to_string() {

@@ -114,7 +114,8 @@ pub(super) fn table_top(table: &Node) -> Option<TableTop> {
     Some(TableTop { size: [size.x, size.y], middle })
 }
 
-fn object(node: &Node) -> Option<Object> {
+/// An object without its parts.
+pub(super) fn object(node: &Node) -> Option<Object> {
     Some(Object {
         support: support(node)?,
         mass: node.get("mass")?.number()?,

@@ -10,7 +10,7 @@ use crate::scene::{Goal, JointKind, Scene};
 use super::keep::{AREA, AREA_POSITION, AREA_YAW, area, check_area};
 use super::mounts::moving;
 use super::parts::parts;
-use super::rules::{SLACK, body, is_below, known_object};
+use super::rules::{SLACK, body, known_object, passes};
 use super::spec::default;
 
 /// One goal.
@@ -177,7 +177,7 @@ pub(super) fn check(goal: &Node, scene: &Node, ledger: &mut Ledger) {
     let solid = object.get("shape").and_then(shape);
     if let Some(solid) = solid {
         // In the frame of the goal: what does not move, or what it is relative to.
-        let fixed = obstacles.iter().filter(|fixed| !is_below(object, fixed, SLACK));
+        let fixed = obstacles.iter().filter(|fixed| !passes(object, fixed, SLACK));
         let there: Vec<(&Node, Footprint, Pose)> = match (relative, other) {
             (None, _) => fixed
                 .filter_map(|fixed| body(fixed).map(|(solid, pose)| (fixed, solid, pose)))

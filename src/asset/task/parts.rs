@@ -4,13 +4,13 @@
 //! [`crate::scene::Whole`].
 
 use crate::asset::node::{Content, Node};
-use crate::asset::spec::{ANGLE, FRICTION, Key, MASS, POSITION, SHAPE, Value};
+use crate::asset::spec::{ANGLE, FRICTION, Key, MASS, POSITION, Range, SHAPE, Value};
 use crate::asset::strict::Ledger;
 use crate::asset::take::{angle, name_of, number_or, position, shape};
 use crate::geometry::Pose;
-use crate::scene::{Object, Whole};
+use crate::scene::{Object, Whole, bearings, hanging};
 
-use super::build::support;
+use super::build::{self, support};
 use super::spec::OBJECT_SUPPORT;
 
 /// What else belongs to an object.
@@ -20,19 +20,33 @@ pub(super) const PARTS: Key = Key::optional(
     "Further solids that are one with it, as a mug's handle is; by default none.",
 );
 
+/// How high above its object's underside a part may begin: as high as solids may be.
+const RISE: Value = Value::Number(Range {
+    what: "a height in metres",
+    low: 0.0,
+    high: 10.0,
+    advice: "heights are in metres, upward from the underside of the object: 60 mm is 0.06",
+});
+
 const PART: Value = Value::Map(&[
     Key::optional(
         "name",
         Value::Name,
         "What messages call it, after the object's name and a slash; by default its number.",
     ),
-    Key::required("shape", SHAPE, "The part's solid, standing upright on the table."),
+    Key::required("shape", SHAPE, "The part's solid, upright."),
     Key::required(
         "position",
         POSITION,
         "Its centre in the object's frame, [x, y] in metres; [0, 0] is the object's position.",
     ),
     Key::optional("yaw_deg", ANGLE, "Its turn in the object's frame, degrees; default 0."),
+    Key::optional(
+        "z",
+        RISE,
+        "Height of its underside above the object's, metres; default 0. What is higher than 0 carries \
+         no weight, and lower things pass below it.",
+    ),
     Key::optional(
         "mass",
         MASS,
@@ -89,6 +103,7 @@ fn solids(node: &Node, object: Object, index: usize) -> Option<Vec<Object>> {
             pose: object.pose * place,
             support: support(part)?,
             may_fall: object.may_fall,
+            z: number_or(part, "z", 0.0)?,
             whole: Some(Whole { object: index, place }),
             ..Object::new(part_name(&object.name, part, k), shape(part.get("shape")?)?)
         })
@@ -130,6 +145,7 @@ pub(super) fn check(object: &Node, ledger: &mut Ledger) {
         }
         names.push(name);
     }
+    above(object, ledger);
     let stated = parts.iter().filter_map(|part| part.get("mass").and_then(Node::number));
     let (stated, whole) = (stated.sum::<f64>(), object.get("mass"));
     if let (Some(node), Some(mass)) = (whole, whole.and_then(Node::number))
@@ -141,6 +157,36 @@ pub(super) fn check(object: &Node, ledger: &mut Ledger) {
                 "the parts alone have {stated} kg, so nothing is left for the object's own solid"
             ),
             "`mass` is that of everything, parts included",
+        );
+    }
+}
+
+/// What is above the table is held by what stands there, and does not bring it down.
+fn above(object: &Node, ledger: &mut Ledger) {
+    let parts = parts(object);
+    let Some(solids) = build::object(object).and_then(|own| solids(object, own, 0)) else { return };
+    if !solids.iter().any(Object::is_raised) {
+        return;
+    }
+    let hanging = hanging(&solids);
+    for (k, part) in parts.iter().enumerate() {
+        let solid = &solids[k + 1];
+        if hanging.contains(&(k + 1)) {
+            let message =
+                format!("`{}` hangs in the air: it touches nothing of its object", solid.name);
+            let advice = "move it until it touches another part, seen from above and from the side";
+            ledger.fault(part.get("z").unwrap_or(part), message, advice);
+        }
+        if let Some(support) = part.get("support").filter(|_| solid.is_raised()) {
+            let message = format!("`{}` is above the table and rests on nothing", solid.name);
+            ledger.fault(support, message, "leave `support` out, or `z`");
+        }
+    }
+    if bearings(&solids.iter().collect::<Vec<_>>()).is_none() {
+        ledger.fault(
+            object.get("parts").unwrap_or(object),
+            "the object would fall: its centre of mass does not lie above what it stands on",
+            "what is above the table carries nothing; make it lighter, or let more stand",
         );
     }
 }
@@ -159,11 +205,12 @@ pub(super) fn apart(objects: &[Node]) -> Vec<(Node, usize)> {
             let node = |content| Node { id: part.id, content };
             let text = |text: &str| node(Content::Text(text.to_owned()));
             let number_of = |value: f64| node(Content::Number(value));
-            let position = vec![number_of(pose.position.x), number_of(pose.position.y)];
+            let z = number_or(part, "z", 0.0).unwrap_or(0.0);
+            let position = vec![pose.position.x, pose.position.y, z].into_iter().map(number_of);
             let pairs = vec![
                 (text("name"), text(&part_name(name, part, number))),
                 (text("shape"), shape.clone()),
-                (text("position"), node(Content::List(position))),
+                (text("position"), node(Content::List(position.collect()))),
                 (text("yaw_deg"), number_of(pose.heading.to_degrees())),
             ];
             all.push((node(Content::Map(pairs)), k));

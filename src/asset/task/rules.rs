@@ -163,7 +163,7 @@ fn overlaps(objects: &[(Node, usize)], obstacles: &[Node], slack: f64, ledger: &
     for (k, (node, thing, solid)) in solids.iter().enumerate() {
         for (other, other_thing, other_solid) in &solids[..k.min(objects.len())] {
             let (Some((a, at)), Some((b, bt))) = (solid, other_solid) else { continue };
-            if thing == other_thing || is_below(other, node, slack) {
+            if thing == other_thing || passes(other, node, slack) {
                 continue;
             }
             if clearance((a, at), (b, bt), slack) <= 0.0 {
@@ -178,11 +178,21 @@ fn overlaps(objects: &[(Node, usize)], obstacles: &[Node], slack: f64, ledger: &
     }
 }
 
-/// Whether an object ends below an obstacle.
-pub(super) fn is_below(object: &Node, obstacle: &Node, slack: f64) -> bool {
-    let height = object.get("shape").and_then(shape).map(|shape| shape.height());
-    let above = fixed::obstacle(obstacle).zip(height);
-    above.is_some_and(|(above, height)| !above.meets([0.0, height - slack]))
+/// Whether one of two bodies ends below the other.
+pub(super) fn passes(one: &Node, other: &Node, slack: f64) -> bool {
+    let heights = heights(one).zip(heights(other));
+    let ends_below = |one: [f64; 2], other: [f64; 2]| other[0] > 0.0 && one[1] - slack <= other[0];
+    heights.is_some_and(|(one, other)| ends_below(one, other) || ends_below(other, one))
+}
+
+/// The heights above the table between which a body is, metres.
+fn heights(node: &Node) -> Option<[f64; 2]> {
+    let height = match node.get("shape") {
+        Some(solid) => shape(solid)?.height(),
+        None => triple(node, "size")?[2],
+    };
+    let low = fixed::height(node.get("position")?, 0.0)?;
+    Some([low, low + height])
 }
 
 /// What a body covers, and where.

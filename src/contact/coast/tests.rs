@@ -21,6 +21,8 @@ fn body() -> Movable {
         mass: 1.0,
         friction: 0.4,
         height: 0.1,
+        span: (0.0, 0.1),
+        carried: 1.0,
         lean: 0.0,
         face_height: 0.0,
     }

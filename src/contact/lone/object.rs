@@ -174,7 +174,8 @@ impl<const N: usize> Moves<N> {
         let (mut sum, mut second) = (Lanes::ZERO, Lanes::ZERO);
         for k in 0..N {
             if let Some(feet) = object.feet[k] {
-                let drag = feet.even_drag(moved.0[k]);
+                // A lone object has no parts, so its load is about its middle.
+                let drag = feet.even_drag(Vector::x(), moved.0[k]);
                 (sum.0[k], second.0[k]) = (drag.sum, drag.second);
             }
         }

@@ -58,18 +58,28 @@ impl Table<'_> {
     ) -> [Option<ContactPoint>; 2] {
         let object = &self.scene.objects[index];
         let footprint = match other.0 {
-            Body::Object(other) => self.scene.objects[other].shape.footprint(),
+            Body::Object(other) => {
+                let other = &self.scene.objects[other];
+                if !object.meets(other.span()) {
+                    return [None, None];
+                }
+                other.shape.footprint()
+            }
             Body::Obstacle(other) => {
                 let obstacle = &self.scene.obstacles[other];
-                if !obstacle.meets([0.0, object.shape.height()]) {
+                if !obstacle.meets(object.span()) {
                     return [None, None];
                 }
                 obstacle.shape().footprint()
             }
-            Body::Part(other) if self.motion.lift < object.shape.height() => {
-                self.tool().parts()[other].footprint()
+            Body::Part(other) => {
+                let part = &self.tool().parts()[other];
+                let lift = self.motion.lift;
+                if !object.meets([lift, lift + part.shape.height()]) {
+                    return [None, None];
+                }
+                part.footprint()
             }
-            Body::Part(_) => return [None, None],
         };
         let first = (&object.shape.footprint(), pose);
         contact_points(first, (&footprint, other.1), reach).0

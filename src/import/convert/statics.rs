@@ -233,7 +233,7 @@ fn obstacle<'a>(
         Obstacle { name: names.take(what), size: [size[0], size[1], tall], pose, z, friction };
     let own = obstacle.shape().footprint();
     let touches = |object: &Object, pose: &Pose| {
-        obstacle.z < object.shape.height()
+        obstacle.meets(object.span())
             && clearance((&own, &obstacle.pose), (&object.shape.footprint(), pose), 1.0) <= 0.0
     };
     let within = drafts.iter().find(|draft| {

@@ -1,9 +1,9 @@
 //! Bodies that are fixed to each other as one thing: an object, with parts where it has several solids.
 
-use crate::geometry::{Pose, Vector};
+use crate::geometry::{Pose, Shape, Vector};
 use crate::import::fault::Ledger;
 use crate::import::model::{Body, Model, Outline, Solid};
-use crate::scene::{Object, Support};
+use crate::scene::{Object, Support, Whole, bearings, hanging};
 
 use super::draft::{Standing, draft};
 use super::names::{Names, bare};
@@ -87,7 +87,7 @@ pub(super) fn of_group<'a>(
         return Vec::new();
     }
     if model.ours && !single {
-        return apart(model, group, found, wanted, names, ledger);
+        return one_where_raised(apart(model, group, found, wanted, names, ledger));
     }
     let Some(weighed) = together(model, bodies, wanted.density, ledger) else { return Vec::new() };
     if weighed.0 <= NOTHING {
@@ -157,6 +157,29 @@ fn apart<'a>(
     drafts
 }
 
+/// One object of those where some are above the table, these as its parts: fixed to each other, all would
+/// have to stand.
+fn one_where_raised(mut drafts: Vec<Draft<'_>>) -> Vec<Draft<'_>> {
+    let low = drafts.iter().map(|draft| draft.low).fold(f64::MAX, f64::min);
+    if drafts.iter().all(|draft| draft.low - low <= HANGS) {
+        return drafts;
+    }
+    drafts.sort_by_key(|draft| draft.low - low > HANGS);
+    let mut drafts = drafts.into_iter();
+    let Some(mut first) = drafts.next() else { return Vec::new() };
+    let (pose, thing) = (first.object.pose.inverse(), first.object.name.clone());
+    first.parts = drafts
+        .map(|Draft { object, low: own, .. }| {
+            let z = if own - low > HANGS { own - low } else { 0.0 };
+            // As it was before names lost their slashes.
+            let own = object.name.strip_prefix(&format!("{thing}-")).unwrap_or(&object.name);
+            let part = Object { name: format!("{thing}/{own}"), z, ..object.clone() };
+            (part, pose * object.pose)
+        })
+        .collect();
+    vec![first]
+}
+
 /// Several solids as one object with parts.
 fn compound<'a>(
     model: &'a Model,
@@ -174,7 +197,7 @@ fn compound<'a>(
     let body = found[0].2;
     let before = found.len();
     let weighed = found.into_iter().map(|(standing, share, _)| (standing, share)).collect();
-    let (pieces, more) = fewer(weighed);
+    let (mut pieces, more) = fewer(weighed);
     if pieces.len() > MOST {
         let message = format!("`{name}` has {} solids, and {MOST} can be said", pieces.len());
         ledger.fault(place, message, "leave out those that matter least");
@@ -189,14 +212,8 @@ fn compound<'a>(
     }
     let lows = pieces.iter().map(|(piece, _)| piece.upright.low);
     let low = lows.clone().fold(f64::INFINITY, f64::min);
-    let hangs = lows.map(|own| own - low).fold(0.0, f64::max);
-    if hangs > HANGS {
-        let note = format!(
-            "solids of `{name}` begin up to {:.0} mm above the lowest one: here all reach down",
-            1e3 * hangs
-        );
-        ledger.note(place, note);
-    }
+    // What stands comes first.
+    pieces.sort_by_key(|(piece, _)| piece.upright.low - low > HANGS);
     let friction = pieces[0].0.solid.material.friction.unwrap_or(wanted.friction);
     let other = pieces.iter().map(|(piece, _)| piece.solid.material.friction);
     if other.flatten().any(|other| other != friction) {
@@ -214,10 +231,10 @@ fn compound<'a>(
         }
         heavier(&mut masses);
     }
-    let mut objects: Vec<Object> = Vec::new();
+    let (mut objects, mut undersides): (Vec<Object>, Vec<f64>) = (Vec::new(), Vec::new());
     for ((mut piece, _), mass) in pieces.into_iter().zip(masses) {
         let upright = &mut piece.upright;
-        if upright.low > low {
+        if upright.low > low && upright.low - low <= HANGS {
             upright.height = upright.top() - low;
             upright.low = low;
         }
@@ -225,13 +242,22 @@ fn compound<'a>(
             0 => name.to_owned(),
             number => format!("{name}/{number}"),
         };
-        let (object, _) = draft(&called, &piece, (mass, None, None), friction, ledger)?;
+        let (object, underside) = draft(&called, &piece, (mass, None, None), friction, ledger)?;
         objects.push(Object { support: Support::Even, ..object });
+        undersides.push(underside);
         if objects.len() == 1 {
             objects[0].name = name.to_owned();
         }
     }
     by_volume(&mut objects);
+    if let Some(hangs) = raised(&mut objects, &undersides) {
+        let note = format!(
+            "solids of `{name}` begin up to {:.0} mm above the lowest one and would not stay there: \
+             here all reach down",
+            1e3 * hangs
+        );
+        ledger.note(place, note);
+    }
     if let Some(centre) = centre {
         let moment = objects.iter().zip(&middles).map(|(solid, middle)| solid.mass * middle);
         let off = (moment.sum::<Vector>() / mass - centre).norm();
@@ -254,6 +280,33 @@ fn compound<'a>(
         .flat_map(|body| model.bodies[*body].solids.iter().map(move |solid| (body, solid)))
         .find(|(_, solid)| solid.touches)?;
     Some(Draft { object, parts, place, body, group, solid, feet: Vec::new(), low })
+}
+
+/// Raises solids to where their undersides are above that of the first, metres; where they would hang in
+/// the air or bring the thing down, they reach down instead, and it says how far.
+fn raised(solids: &mut [Object], undersides: &[f64]) -> Option<f64> {
+    let lowest = undersides.iter().copied().fold(f64::MAX, f64::min);
+    let first = solids.first()?.pose;
+    for (solid, underside) in solids.iter_mut().zip(undersides).skip(1) {
+        let z = underside - lowest;
+        let whole = Whole { object: 0, place: first.inverse() * solid.pose };
+        solid.whole = Some(whole);
+        solid.z = if z > HANGS { z } else { 0.0 };
+    }
+    let stays = || bearings(&solids.iter().collect::<Vec<_>>()).is_some();
+    let most = solids.iter().map(|solid| solid.z).fold(0.0, f64::max);
+    if most == 0.0 || hanging(solids).is_empty() && stays() {
+        return None;
+    }
+    for solid in solids.iter_mut() {
+        let top = solid.top();
+        match &mut solid.shape {
+            Shape::Cuboid { size } => size[2] = top,
+            Shape::Cylinder { height, .. } | Shape::Prism { height, .. } => *height = top,
+        }
+        solid.z = 0.0;
+    }
+    Some(most)
 }
 
 /// Masses (kg) that a task can state: what is too light for it gets more from the others.

@@ -44,7 +44,7 @@ pub fn table(scene: &Scene) -> Stage {
         name: object.name.clone(),
         shape: outline(&object.shape),
         height: length(object.shape.height()),
-        under: 0,
+        under: length(object.span()[0]),
         more: object.parts.iter().map(slab).collect(),
         at: pose(&object.pose),
     });
