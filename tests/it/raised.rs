@@ -77,7 +77,9 @@ fn a_low_tool_passes_below_a_handle_and_a_tall_one_takes_it_along() {
     let (_, planar) = ends[1];
     for (name, pose) in ends {
         let (off, turned) = (pose.position - planar.position, pose.heading - planar.heading);
-        assert!(off.norm() < 6e-3 && turned.abs() < 0.08, "{name}: {pose:?} {planar:?}");
+        // The table's load goes ahead as if the body were pressed; in 3-D it is the handle, which is higher.
+        let (far, askew) = if name == "spatial" { (8e-3, 0.05) } else { (1e-3, 0.01) };
+        assert!(off.norm() < far && turned.abs() < askew, "{name}: {pose:?} {planar:?}");
     }
 }
 
