@@ -17,7 +17,9 @@
 
 use crate::asset::PlanFile;
 use crate::geometry::{Footprint, Pose, Shape};
-use crate::scene::{Carried, Engine, Feet, GRAVITY, Object, SHOWN_HAND, Scene, ToolMotion};
+use crate::scene::{
+    Body, Carried, Engine, Feet, GRAVITY, Gap, Object, SHOWN_HAND, Scene, ToolMotion,
+};
 
 use super::ExportError;
 use super::forest::{Node, forest};
@@ -207,7 +209,8 @@ fn wanted(xml: &mut Xml, file: &PlanFile) {
     for goal in file.task.goals() {
         let name = &scene.objects[goal.object].name;
         // MJCF has no infinity; no table is as large.
-        let tolerance = if goal.has_place() { goal.tolerance } else { ANYWHERE };
+        let placed = goal.has_place() && goal.gap.is_none();
+        let tolerance = if placed { goal.tolerance } else { ANYWHERE };
         let mut wanted = vec![goal.position.x, goal.position.y, tolerance];
         let alike = goal.alike as f64;
         let heading = goal.heading.into_iter();
@@ -217,6 +220,9 @@ fn wanted(xml: &mut Xml, file: &PlanFile) {
             xml.comment("Where it may lie instead: the corners of a region, x, y, x, y and so on.");
             let corners = area.corners().into_iter().flat_map(|corner| [corner.x, corner.y]);
             numeric(xml, &format!("region of object/{name}"), &corners.collect::<Vec<_>>());
+        }
+        if let Some(gap) = &goal.gap {
+            outlines(xml, scene, name, gap);
         }
         if let Some(other) = goal.relative {
             xml.comment("The body in whose frame all of this is.");
@@ -230,6 +236,26 @@ fn wanted(xml: &mut Xml, file: &PlanFile) {
             let values = [pose.position.x, pose.position.y, pose.heading];
             numeric(xml, &format!("3-D replay of object/{}", object.name), &values);
         }
+    }
+}
+
+/// How far an object is to be from something else.
+fn outlines(xml: &mut Xml, scene: &Scene, name: &str, gap: &Gap) {
+    xml.comment(
+        "The smallest and largest gap to something else, and the corners of all outlines of both, x, y, x, y \
+         and so on, each in the frame of its body.",
+    );
+    numeric(xml, &format!("gap of object/{name}"), &[gap.min, gap.max.min(ANYWHERE)]);
+    for (whose, areas) in ["own", "other"].into_iter().zip(gap.outlines()) {
+        for (k, area) in areas.enumerate() {
+            let corners = area.corners().into_iter().flat_map(|corner| [corner.x, corner.y]);
+            let title = format!("{whose} outline {} of object/{name}", k + 1);
+            numeric(xml, &title, &corners.collect::<Vec<_>>());
+        }
+    }
+    if let Body::Object(other) = gap.to {
+        let data = object_name(&scene.objects[other]);
+        xml.leaf("text", &[("name", format!("other of object/{name}")), ("data", data)]);
     }
 }
 

@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use crate::geometry::{Footprint, Pose, contact_points};
-use crate::scene::{Object, Situation, State, Task, ToolMotion, Trajectory};
+use crate::scene::{Goal, Object, Situation, State, Task, ToolMotion, Trajectory};
 
 use super::Workspace;
 
@@ -29,9 +29,10 @@ const TURNED: f64 = 0.2;
 /// Where things that are not to be in the way are put, metres from the robot: no push comes there.
 const FAR_AWAY: f64 = 1e3;
 
-/// What is not joined to a goal's object, when `groups` says what is joined.
+/// What is not joined to an object that a goal speaks of, when `groups` says what is joined.
 fn others(task: &Task, groups: &[usize]) -> Vec<usize> {
-    let own = |k: usize| task.goals().any(|goal| groups[goal.object] == groups[k]);
+    let named: Vec<usize> = task.goals().flat_map(Goal::objects).collect();
+    let own = |k: usize| named.iter().any(|named| groups[*named] == groups[k]);
     (0..groups.len()).filter(|&k| !own(k)).collect()
 }
 

@@ -54,7 +54,8 @@ impl<'a> Field<'a> {
         let start = task.scene.start();
         let goals: Vec<Goal> = task.goals().map(|goal| goal.in_world(&start)).collect();
         let grid = |goal: &Goal| {
-            let met = in_the_way(task, goal);
+            // Of a gap no single place is the right one.
+            let met = if goal.gap.is_some() { Vec::new() } else { in_the_way(task, goal) };
             (!met.is_empty()).then(|| Grid::new(task, goal, &met))
         };
         Self { task, grids: goals.iter().map(grid).collect(), goals: goals.into(), corridor: None }
@@ -93,21 +94,25 @@ impl<'a> Field<'a> {
         let there = Pose { position: position + shift, heading };
         match &self.corridor {
             Some(corridor) if !self.task.wants(object) => corridor.depth_of(object, &there),
-            _ => self.ways(|k| if k == object { there.position } else { state.poses[k].position }),
+            _ => {
+                let mut carried = state.clone();
+                carried.poses[object] = there;
+                self.ways(&carried)
+            }
         }
     }
 
-    /// The ways of all goals' objects, metres, each from where `position` has it.
-    fn ways(&self, position: impl Fn(usize) -> Vector) -> f64 {
+    /// The ways of all goals' objects, metres, each from where it is in `state`.
+    fn ways(&self, state: &State) -> f64 {
         let goals = self.goals.iter().zip(self.grids.iter());
-        goals.map(|(goal, grid)| distance(goal, grid, position(goal.object))).sum()
+        goals.map(|(goal, grid)| distance(goal, grid, state)).sum()
     }
 
     /// The way left and the turn left, in units of the tolerances, the larger of both, of all goals
     /// together; and how far what stands in the way has to go.
     pub fn cost(&self, state: &State) -> f64 {
         let cost = |(goal, grid): (&Goal, &Option<Grid>)| {
-            let way = distance(goal, grid, state.poses[goal.object].position) / goal.tolerance;
+            let way = distance(goal, grid, state) / goal.tolerance;
             match (goal.heading, goal.heading_error(state)) {
                 (Some((_, tolerance)), Some(error)) => way.max(HEADING_WEIGHT * error / tolerance),
                 _ => way,
@@ -123,11 +128,12 @@ impl<'a> Field<'a> {
     }
 }
 
-/// Length of the way from `position` to a goal, metres.
-fn distance(goal: &Goal, grid: &Option<Grid>, position: Vector) -> f64 {
-    if !goal.has_place() {
-        return 0.0;
+/// Length of the way of a goal's object to it, metres.
+fn distance(goal: &Goal, grid: &Option<Grid>, state: &State) -> f64 {
+    if !goal.has_place() || goal.gap.is_some() {
+        return goal.error(state);
     }
+    let position = state.poses[goal.object].position;
     let to = goal.area.map_or(goal.position, |area| area.nearest(position));
     let straight = (to - position).norm();
     match grid {
@@ -304,7 +310,9 @@ goal: {object: can, position: [0.6, 0.0], tolerance: 0.02}
         // Around the wall's end, grown by the can's radius on all sides.
         let half_wall = Vector::new(0.01 + 0.03, 0.20 + 0.03);
         let around = 2.0 * (0.1 - half_wall.x).hypot(half_wall.y) + 2.0 * half_wall.x;
-        let distance = |field: &Field, at: Vector| field.ways(|_| at);
+        let distance = |field: &Field, at: Vector| {
+            field.ways(&State::at_rest(vec![Pose { position: at, heading: 0.0 }]))
+        };
         let found = distance(&field, Vector::new(0.4, 0.0));
         assert!((found - around).abs() < 0.05, "{found} against {around}");
         // In sight of the goal the distance is exact.

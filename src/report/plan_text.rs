@@ -223,7 +223,16 @@ fn one_goal(task: &Task, goal: &Goal) -> String {
     let of = goal.relative.and_then(|other| task.scene.objects.get(other));
     let of = of.map_or(String::new(), |other| format!(" as {} sees it", other.name));
     let at = point(goal.position);
-    match (&goal.area, goal.has_place()) {
+    if let Some(gap) = &goal.gap {
+        let [min, max] = [gap.min, gap.max].map(millimetres);
+        let far = match (gap.min > 0.0, gap.max.is_finite()) {
+            (_, false) => format!("at least {min}"),
+            (false, true) => format!("at most {max}"),
+            (true, true) => format!("{min} to {max}"),
+        };
+        demands.push(format!("{far} from {}", gap.name(&task.scene)));
+    }
+    match (&goal.area, goal.has_place() && goal.gap.is_none()) {
         (Some(area), _) => {
             let outline = match area.shape.footprint() {
                 Footprint::Disc { radius } => format!("a circle of {}", millimetres(radius)),

@@ -2,16 +2,17 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Pose, Shape, Vector, wrap_angle};
+use crate::geometry::{ContactPoint, Pose, Shape, Vector, wrap_angle};
 
-use super::{Area, Joint, Scene, State};
+use super::{Area, Body, Gap, Joint, Scene, State};
 
 /// Where an object must come to rest, and how; every stated demand counts.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Goal {
     /// Index into [`Scene::objects`](super::Scene::objects).
     pub object: usize,
-    /// Wanted position of its centre, metres.
+    /// Wanted position of its centre, metres; with a gap, how far the object may be from where the gap is
+    /// right.
     pub position: Vector,
     /// Largest distance that still counts as success, metres; infinite where it may lie anywhere.
     #[serde(with = "anywhere")]
@@ -21,6 +22,9 @@ pub struct Goal {
     /// Where its centre may be instead of near the position, which is then the middle of it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub area: Option<Area>,
+    /// How far it is from another thing, instead of near the position.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gap: Option<Box<Gap>>,
     /// Index of the object in whose frame position, heading and area are, wherever that has come to; in
     /// the world where none is named.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -58,7 +62,7 @@ fn one() -> usize {
 }
 
 /// JSON has no infinity.
-mod anywhere {
+pub(super) mod anywhere {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
     pub fn serialize<S: Serializer>(tolerance: &f64, serializer: S) -> Result<S::Ok, S::Error> {
@@ -92,6 +96,7 @@ impl Goal {
             tolerance: f64::INFINITY,
             heading: None,
             area: None,
+            gap: None,
             relative: None,
             alike: 1,
             outside: None,
@@ -117,6 +122,22 @@ impl Goal {
         Self { position: pose.position, tolerance, area: Some(area), ..Self::of(object) }
     }
 
+    /// Object `object` so far from another thing, wherever both come to.
+    ///
+    /// ```
+    /// use pushplan::{Body, Gap, Goal, Object, Pose, Scene, State};
+    ///
+    /// let [can, cup] = ["can", "cup"].map(|name| Object::cylinder(name, 0.04, 0.10));
+    /// let scene = Scene::new([can.at(0.5, 0.1, 0.0), cup.at(0.5, -0.1, 0.0)]);
+    /// let gap = Gap::between(&scene, 0, Body::Object(1), [0.0, 0.002]).expect("they exist");
+    /// let touching = Goal::beside(0, gap);
+    /// let at = |y: f64| State::at_rest(vec![Pose::new(0.5, y, 0.0), Pose::new(0.5, -0.1, 0.0)]);
+    /// assert!(touching.reached(&at(-0.019)) && !touching.reached(&at(-0.01)));
+    /// ```
+    pub fn beside(object: usize, gap: Box<Gap>) -> Self {
+        Self { tolerance: gap.depth(), gap: Some(gap), ..Self::of(object) }
+    }
+
     /// The same in the frame of another object, wherever that has come to.
     pub fn relative_to(self, other: usize) -> Self {
         Self { relative: Some(other), ..self }
@@ -125,21 +146,25 @@ impl Goal {
     /// The same goal in the world, with everything where it is in `state`.
     pub fn in_world(&self, state: &State) -> Self {
         let Some(frame) = self.relative.and_then(|other| state.poses.get(other)) else {
-            return *self;
+            return self.clone();
+        };
+        let position = match self.gap {
+            Some(_) => self.position,
+            None => frame.point(self.position),
         };
         Self {
-            position: frame.point(self.position),
+            position,
             heading: self.heading.map(|(heading, within)| (frame.heading + heading, within)),
             area: self.area.map(|area| area.seen_from(frame)),
             relative: None,
-            ..*self
+            ..self.clone()
         }
     }
 
     /// The same goal moved by `shift`, metres, of its own frame.
     pub fn shifted(&self, shift: Vector) -> Self {
         let area = self.area.map(|area| area.shifted(shift));
-        Self { position: self.position + shift, area, ..*self }
+        Self { position: self.position + shift, area, ..self.clone() }
     }
 
     /// A goal that is harder to reach: by these shares of tolerances (metres and radians) or, of an area,
@@ -147,8 +172,18 @@ impl Goal {
     pub fn stricter(&self, place: f64, turn: f64) -> Self {
         let less = |tolerance: f64, by: f64| (tolerance - by).max(0.5 * tolerance);
         let area = self.area.map(|area| area.shrunk(place));
+        let gap = self.gap.as_ref().map(|gap| Box::new(gap.tighter(place)));
         let heading = self.heading.map(|(heading, tolerance)| (heading, less(tolerance, turn)));
-        Self { tolerance: less(self.tolerance, place), heading, area, ..*self }
+        Self { tolerance: less(self.tolerance, place), heading, area, gap, ..self.clone() }
+    }
+
+    /// The objects that it speaks of: its own, and the one to which there is to be a gap.
+    pub fn objects(&self) -> impl Iterator<Item = usize> {
+        let other = self.gap.as_ref().and_then(|gap| match gap.to {
+            Body::Object(other) => Some(other),
+            _ => None,
+        });
+        std::iter::once(self.object).chain(other)
     }
 
     /// Whether the object must come to a place.
@@ -208,8 +243,8 @@ impl Goal {
         wrap_angle(turn * alike) / alike
     }
 
-    /// Distance of the object's centre from the goal, metres; of an area, from what lies deep enough
-    /// inside; 0 where it may lie anywhere.
+    /// Distance of the object's centre from the goal, metres; of an area or a gap, from what lies deep
+    /// enough inside; 0 where it may lie anywhere.
     pub fn error(&self, state: &State) -> f64 {
         self.off(state).norm()
     }
@@ -220,15 +255,35 @@ impl Goal {
         if !self.has_place() {
             return Vector::zeros();
         }
+        if let Some(gap) = &self.gap {
+            let Some(nearest) = self.nearest(state) else { return Vector::zeros() };
+            return gap.beyond(nearest.gap, gap.depth()) * nearest.normal;
+        }
         let goal = self.in_world(state);
         let at = state.poses[self.object].position;
         at - goal.area.map_or(goal.position, |area| area.nearest(at))
     }
 
+    /// The gap that is asked for, where the object may be as far from it as the position says.
+    fn nearest(&self, state: &State) -> Option<ContactPoint> {
+        let mut shifted = state.poses.get(self.object).copied()?;
+        shifted.position -= self.position;
+        self.gap.as_ref()?.nearest(&shifted, state)
+    }
+
+    /// The nearest place that is asked for, or the middle of its area, metres in the world.
+    pub fn place(&self, state: &State) -> Vector {
+        match self.gap {
+            Some(_) => state.poses[self.object].position - self.off(state),
+            None => self.in_world(state).position,
+        }
+    }
+
     /// The same as seen from the goal's own frame, metres along its axes.
     pub fn off_as_seen(&self, state: &State) -> Vector {
         let off = self.off(state);
-        let frame = self.relative.and_then(|other| state.poses.get(other));
+        let relative = self.relative.filter(|_| self.gap.is_none());
+        let frame = relative.and_then(|other| state.poses.get(other));
         frame.map_or(off, |frame| frame.local_vector(off))
     }
 
@@ -250,9 +305,10 @@ impl Goal {
             (Some((_, tolerance)), Some(error)) => error <= tolerance,
             _ => true,
         };
-        let there = match self.in_world(state).area {
-            Some(area) => area.holds(state.poses[self.object].position),
-            None => self.error(state) <= self.tolerance,
+        let there = match (&self.gap, self.in_world(state).area) {
+            (Some(gap), _) => self.nearest(state).is_some_and(|nearest| gap.holds(nearest.gap)),
+            (None, Some(area)) => area.holds(state.poses[self.object].position),
+            (None, None) => self.error(state) <= self.tolerance,
         };
         there && turned
     }

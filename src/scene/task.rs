@@ -266,12 +266,15 @@ impl Task {
         std::iter::once(&self.goal).chain(&self.further)
     }
 
-    /// All goals in the world as things stand at the start, for pictures: what asks for no place is shown
-    /// where its object is.
+    /// All goals in the world as things stand at the start, for pictures: what asks for no place of its
+    /// own is shown where its object is.
     pub fn shown_goals(&self) -> Vec<Goal> {
         let start = self.scene.start();
         let shown = |goal: &Goal| {
-            let goal = goal.in_world(&start);
+            let mut goal = goal.in_world(&start);
+            if goal.gap.take().is_some() {
+                goal.tolerance = f64::INFINITY;
+            }
             let position = match start.poses.get(goal.object) {
                 Some(pose) if !goal.has_place() => pose.position,
                 _ => goal.position,
@@ -285,14 +288,14 @@ impl Task {
     pub fn aiming(&self, goals: &[Goal]) -> Self {
         let mut task = self.clone();
         let own = std::iter::once(&mut task.goal).chain(&mut task.further);
-        own.zip(goals).for_each(|(own, goal)| *own = *goal);
+        own.zip(goals).for_each(|(own, goal)| *own = goal.clone());
         task
     }
 
     /// The same with these of its goals alone, by their indices, in order; `None` for none.
     pub fn only(&self, goals: &[usize]) -> Option<Self> {
-        let all: Vec<Goal> = self.goals().copied().collect();
-        let mut kept = goals.iter().filter_map(|k| all.get(*k).copied());
+        let all: Vec<&Goal> = self.goals().collect();
+        let mut kept = goals.iter().filter_map(|k| all.get(*k).copied().cloned());
         Some(Self { goal: kept.next()?, further: kept.collect(), ..self.clone() })
     }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::scene::{JointKind, Offsets, Situation, Surface, Task, Tool};
+use crate::scene::{Body, Gap, JointKind, Offsets, Situation, Surface, Task, Tool};
 
 use super::SolveError;
 
@@ -77,6 +77,11 @@ pub(super) fn check(
             goal.alike > 0 && goal.heading.is_none_or(|(h, t)| h.is_finite() && positive(t));
         if !goal.has_place() && goal.heading.is_none() {
             return fault("the goal asks for nothing".into());
+        }
+        let between =
+            |gap: &Gap| gap.min >= 0.0 && gap.max > gap.min && gap.to != Body::Object(goal.object);
+        if goal.gap.as_ref().is_some_and(|gap| !between(gap)) {
+            return fault("a gap is to something else, its limits are in order".into());
         }
         if goal.relative.is_some_and(|other| other >= scene.objects.len() || other == goal.object) {
             return fault("a goal is relative to another object of the scene".into());

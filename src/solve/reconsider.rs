@@ -203,7 +203,9 @@ impl Solving<'_> {
             let next_aims: Vec<Option<Goal>> =
                 aims.clone().map(|(goal, aimed)| aim(goal, aimed, verdict)).collect();
             if next_aims.iter().any(Option::is_some) {
-                let kept = aims.zip(next_aims).map(|((_, aimed), next)| next.unwrap_or(*aimed));
+                let kept = aims
+                    .zip(next_aims)
+                    .map(|((_, aimed), next)| next.unwrap_or_else(|| aimed.clone()));
                 next.extend(self.refined_again(&[candidate], &kept.collect::<Vec<_>>(), pushes));
             }
         }

@@ -152,7 +152,7 @@ impl<'a> Solving<'a> {
 
     /// The task's goals.
     pub(super) fn goals(&self) -> Vec<Goal> {
-        self.task.goals().copied().collect()
+        self.task.goals().cloned().collect()
     }
 
     /// Whether plans of more than `depth` pushes are looked at: longer ones are no better than one that

@@ -34,7 +34,8 @@ impl Solving<'_> {
             refinement: Refinement {
                 before,
                 after,
-                aimed_at: (!self.task.goals().eq(aims)).then(|| aims[0].position),
+                aimed_at: (!self.task.goals().eq(aims) && aims[0].gap.is_none())
+                    .then(|| aims[0].position),
                 rounds: rounds.into_iter().skip(1).map(bare).collect(),
             },
             aims: aims.to_vec(),

@@ -11,7 +11,7 @@ use crate::scene::{Job, Push, Situation, State, Task, Tool, ToolMotion};
 pub(super) fn typical(task: &Task, start: &State, tool: &Arc<Tool>) -> ToolMotion {
     let (rules, goal) = (&task.pushes, &task.goal);
     let object = start.poses[goal.object].position;
-    let way = goal.in_world(start).position - object;
+    let way = goal.place(start) - object;
     let part = tool.part_pose(0, &tool.pose(Pose::default()));
     let push = Push {
         start: object - part.position,

@@ -228,10 +228,10 @@ fn wider<'a>(task: &'a Task, tools: &[Arc<Tool>], library: &ToolLibrary) -> Vec<
 /// The obstacles that stand nearest to the goal and to its object.
 fn nearest(task: &Task) -> Vec<&Obstacle> {
     let from = task.scene.objects[task.goal.object].pose.position;
-    let goal = task.goal.in_world(&task.scene.start());
+    let goal = task.goal.place(&task.scene.start());
     let far = |obstacle: &Obstacle| {
         let at = obstacle.pose.position;
-        (at - goal.position).norm().min((at - from).norm())
+        (at - goal).norm().min((at - from).norm())
     };
     let mut obstacles: Vec<&Obstacle> = task.scene.obstacles.iter().collect();
     obstacles.sort_by(|a, b| far(a).total_cmp(&far(b)));
@@ -245,8 +245,11 @@ fn least(ways: &[Way], of: impl Fn(&Way) -> f64) -> f64 {
     (least / STEP).ceil() * STEP
 }
 
-/// What is rigidly joined to the goal's object, and where from it.
+/// What is rigidly joined to the goal's object, and where from it: it could be brought to the same place.
 fn joined(task: &Task) -> Vec<(usize, Pose)> {
+    if task.goal.gap.is_some() {
+        return Vec::new();
+    }
     let mut found = vec![task.goal.object];
     let mut next = 0;
     while let Some(&one) = found.get(next) {

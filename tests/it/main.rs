@@ -21,6 +21,7 @@ mod fitting;
 mod fixtures;
 mod foreseen;
 mod formats;
+mod gaps;
 #[cfg(unix)]
 #[allow(dead_code)]
 mod interrupted;

@@ -46,7 +46,7 @@ fn the_order_in_which_they_are_written_does_not_matter_to_whether_they_are_reach
 fn a_list_is_read_as_it_is_written_and_a_plan_file_keeps_it() {
     let task = Task::parse(TWO, "two-places.yaml").unwrap();
     assert_eq!(Task::parse(&task.to_yaml().unwrap(), "two-places.yaml").unwrap(), task);
-    let made = Task { further: Vec::new(), ..task.clone() }.and(task.further[0]);
+    let made = Task { further: Vec::new(), ..task.clone() }.and(task.further[0].clone());
     assert_eq!(made, task);
     let one = Task { further: Vec::new(), ..task.clone() };
     assert_eq!(Task::parse(&one.to_yaml().unwrap(), "two-places.yaml").unwrap(), one);

@@ -14,6 +14,7 @@ object, and no object was 2 mm inside an obstacle. Lengths are in metres, angles
 """
 
 import argparse
+import itertools
 import json
 import math
 import multiprocessing
@@ -77,6 +78,7 @@ class Replay:
 
     def run(self):
         """Makes all pushes, in order."""
+        mujoco.mj_forward(self.model, self.data)  # a plan may have none
         lifted = True
         for index, push in enumerate(self.pushes):
             start, end, duration, settle = push[0:2], push[2:4], push[4], push[5]
@@ -190,14 +192,53 @@ def beyond(point, corners):
     return float(np.max(np.sum((np.asarray(point) - ends) * outwards, axis=1)))
 
 
-def miss(pose, goal, region):
-    """How far from its goal an object ends, the heading error where one counts, and whether both are
+def gap(poses, name, numbers, texts):
+    """The smallest distance between the outlines of a goal's object and of what it is to be near, or away
+    from; 0 where they overlap."""
+
+    def outlines(whose, pose):
+        x, y, turn = pose
+        turned = np.array([[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]])
+        titles = (f"{whose} outline {k} of {name}" for k in itertools.count(1))
+        found = itertools.takewhile(lambda title: title in numbers, titles)
+        return [np.reshape(numbers[title], (-1, 2)) @ turned + [x, y] for title in found]
+
+    other = texts.get(f"other of {name}")
+    there = outlines("other", [0, 0, 0] if other is None else poses[other])
+    return min(apart(a, b) for a in outlines("own", poses[name]) for b in there)
+
+
+def apart(first, second):
+    """Distance of two convex polygons."""
+
+    def from_sides(points, corners):
+        sides = np.roll(corners, -1, axis=0) - corners
+        off = points[:, None] - corners
+        along = np.clip(np.sum(off * sides, axis=2) / np.sum(sides * sides, axis=1), 0.0, 1.0)
+        return np.linalg.norm(off - along[..., None] * sides, axis=2).min()
+
+    def separates(corners, points):  # whether a side of the first has all of the second on its outside
+        sides = np.roll(corners, -1, axis=0) - corners
+        outwards = np.stack([sides[:, 1], -sides[:, 0]], axis=1)
+        beyond = np.sum((points[:, None] - corners) * outwards, axis=2)
+        return np.any(np.min(beyond, axis=0) > 0.0)
+
+    if not (separates(first, second) or separates(second, first)):
+        return 0.0
+    return float(min(from_sides(first, second), from_sides(second, first)))
+
+
+def miss(pose, goal, region, found, limits):
+    """How far from its goal an object ends, its gap to something else being `found`, the heading error where one counts, and whether both are
     within tolerance."""
     x, y, tolerance, *heading = goal
     error, turned = math.dist(pose[:2], (x, y)), None
     within = error <= tolerance
     if region is not None:
         error = max(0.0, beyond(pose[:2], region))
+        within = error == 0.0
+    elif limits is not None:
+        error = max(limits[0] - found, found - limits[1], 0.0)
         within = error == 0.0
     elif tolerance >= ANYWHERE:
         error = 0.0
@@ -217,11 +258,13 @@ def replay(path):
         failure = str(failed)
     poses = {name: scene.pose(body) for name, body in scene.objects.items()}
     wanted = {name: scene.numbers.get(f"goal of {name}") for name in scene.objects}
-    misses = {
-        name: miss(scene.seen(name, poses), goal, scene.numbers.get(f"region of {name}"))
-        for name, goal in wanted.items()
-        if goal is not None
-    }
+    misses = {}
+    for name, goal in wanted.items():
+        limits = scene.numbers.get(f"gap of {name}")
+        found = None if limits is None else gap(poses, name, scene.numbers, scene.frames)
+        region = scene.numbers.get(f"region of {name}")
+        if goal is not None:
+            misses[name] = miss(scene.seen(name, poses), goal, region, found, limits)
     if failure is None and not all(within for *_, within in misses.values()):
         failure = "misses the goal"
     # Of several objects with goals the first is told of.

@@ -275,6 +275,14 @@ class GoalRegionKeys(TypedDict):
     yaw_deg: NotRequired[float]
 
 
+class GapKeys(TypedDict):
+    """How far an object is from something else, metres; at least one of the limits."""
+
+    to: str
+    min: NotRequired[float]
+    max: NotRequired[float]
+
+
 class GoalKeys(TypedDict):
     """Where an object must come to rest, and how; position [x, y] and lengths in metres."""
 
@@ -282,6 +290,7 @@ class GoalKeys(TypedDict):
     position: NotRequired[Numbers]
     tolerance: NotRequired[float]
     region: NotRequired[GoalRegionKeys]
+    gap: NotRequired[GapKeys]
     heading_deg: NotRequired[float]
     heading_tolerance_deg: NotRequired[float]
     symmetric: NotRequired[bool]

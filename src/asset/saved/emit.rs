@@ -3,7 +3,7 @@
 use serde_json::{Value as Json, json};
 
 use super::things;
-use crate::asset::task::{WORLD, area_of, emitted_obstacle, name_of_surface};
+use crate::asset::task::{WORLD, area_of, emitted_gap, emitted_obstacle, name_of_surface};
 use crate::geometry::{Pose, Shape, Vector};
 use crate::scene::{
     Blade, Directions, DisjointSets, Goal, Hand, Joint, JointKind, LeverRules, Mount, Object,
@@ -298,7 +298,9 @@ pub(in crate::asset) fn pushes(rules: &PushRules) -> Json {
 
 fn goal(goal: &Goal, scene: &Scene) -> Json {
     let mut json = json!({"object": scene.objects[goal.object].name});
-    if let Some(area) = &goal.area {
+    if let Some(gap) = &goal.gap {
+        json["gap"] = emitted_gap(gap, scene);
+    } else if let Some(area) = &goal.area {
         json["region"] = posed(json!({"area": area_of(&area.shape)}), &area.pose);
     } else if goal.has_place() {
         json["position"] = json!(vector(goal.position));
@@ -322,7 +324,7 @@ fn goal(goal: &Goal, scene: &Scene) -> Json {
     if let Some((heading, tolerance)) = goal.heading {
         json["heading_deg"] = json!(degrees(heading));
         json["heading_tolerance_deg"] = json!(degrees(tolerance));
-        if goal.alike != goal.looking_alike(scene).alike {
+        if goal.alike != goal.clone().looking_alike(scene).alike {
             json["symmetric"] = json!(false);
         }
     }

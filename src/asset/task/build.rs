@@ -50,7 +50,7 @@ pub(super) fn task(root: &Node, file: &str, arm: Option<Standing>) -> Option<Tas
             None => PushRules::default(),
         },
         levers: None,
-        goal: *goal,
+        goal: goal.clone(),
         further: further.to_vec(),
         robustness: number_or(root, "robustness", Task::ROBUSTNESS)?,
     })

@@ -1,4 +1,4 @@
-//! Goals of a task file: a place, a region, a heading, how far a joint has come.
+//! Goals of a task file: a place, a region, a gap, a heading, how far a joint has come.
 
 use crate::asset::node::{Content, Node};
 use crate::asset::spec::{ANGLE, Key, POSITION, Range, SHIFT_LIMIT, Value};
@@ -7,6 +7,7 @@ use crate::asset::take::{angle, angle_of, name_of, number_or, position, shape, v
 use crate::geometry::{Footprint, Pose, clearance};
 use crate::scene::{Goal, JointKind, Scene};
 
+use super::gap::{GAP, check_gap, gap};
 use super::keep::{AREA, AREA_POSITION, AREA_YAW, area, check_area};
 use super::mounts::moving;
 use super::parts::parts;
@@ -37,6 +38,7 @@ pub(super) const GOAL: Value = Value::Map(&[
         "Where its centre may lie instead, a circle, rectangle or polygon; by default nowhere in \
          particular.",
     ),
+    GAP,
     Key::optional("heading_deg", ANGLE, "Wanted heading, degrees; by default any."),
     Key::optional(
         "heading_tolerance_deg",
@@ -98,12 +100,13 @@ pub(super) fn each(node: &Node) -> &[Node] {
 pub(super) fn goal(node: &Node, scene: &Scene) -> Option<Goal> {
     let object = scene.object(node.get("object")?.text()?)?;
     let within = angle(node, "heading_tolerance_deg", default::HEADING_TOLERANCE)?;
-    let mut goal = match node.get("region") {
-        Some(region) => {
+    let mut goal = match (node.get("region"), node.get("gap")) {
+        (Some(region), _) => {
             let (shape, pose) = area(region)?;
             Goal::within(object, shape, pose)
         }
-        None => Goal::of(object),
+        (None, Some(node)) => Goal::beside(object, gap(node, object, scene)?),
+        (None, None) => Goal::of(object),
     };
     goal.weight = number_or(node, "weight", goal.weight)?;
     if node.get("position").is_some() {
@@ -166,6 +169,9 @@ pub(super) fn check(goal: &Node, scene: &Node, ledger: &mut Ledger) {
         check_area(region, ledger);
     }
     let Some(name) = goal.get("object") else { return };
+    if let Some(gap) = goal.get("gap") {
+        check_gap(gap, name, [objects, obstacles], ledger);
+    }
     let Some(object) = known_object(name, objects, obstacles, ledger) else { return };
     let relative = goal.get("relative_to");
     let other = relative.and_then(|other| known_object(other, objects, obstacles, ledger));
@@ -220,7 +226,7 @@ fn demands(goal: &Node, ledger: &mut Ledger) {
             ledger.fault(node, message, "add `tolerance: 0.02`, in metres");
         }
     }
-    let places = ["position", "region", "joint"].into_iter().filter(|key| has(key));
+    let places = ["position", "region", "gap", "joint"].into_iter().filter(|key| has(key));
     let turns = ["heading_deg", "joint_deg"].into_iter().filter(|key| has(key));
     let (places, turns): (Vec<_>, Vec<_>) = (places.collect(), turns.collect());
     for twice in [&places, &turns].into_iter().filter(|keys| keys.len() > 1) {
@@ -233,8 +239,8 @@ fn demands(goal: &Node, ledger: &mut Ledger) {
             !matches!(&GOAL, Value::Map(keys) if keys.iter().any(|known| key.text() == Some(known.name)))
         });
         if !strange {
-            let advice = "add `position: [x, y]` and `tolerance`, `region`, `heading_deg`, `joint_deg` or \
-                          `joint`";
+            let advice = "add `position: [x, y]` and `tolerance`, `region`, `gap`, `heading_deg`, \
+                          `joint_deg` or `joint`";
             ledger.fault(goal, "this goal asks for nothing", advice);
         }
     }

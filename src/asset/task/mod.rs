@@ -3,6 +3,7 @@
 mod build;
 mod emit;
 mod frictions;
+mod gap;
 mod goals;
 mod joints;
 mod keep;
@@ -18,6 +19,7 @@ pub(super) use build::{
     unknown as unknown_of,
 };
 pub(super) use frictions::{FRICTIONS, name_of_surface};
+pub(super) use gap::emitted_gap;
 pub(super) use joints::joint as joint_of;
 pub(super) use keep::{emitted as region, emitted_area as area_of};
 pub use load::{load_task, parse_task};

@@ -228,7 +228,7 @@ impl MovingPicture<'_> {
 
     fn entries(&self) -> Vec<(Sample, String)> {
         let goal = &self.task.goal;
-        let tolerance = match (&goal.area, goal.has_place()) {
+        let tolerance = match (&goal.area, goal.has_place() && goal.gap.is_none()) {
             (None, true) => format!("goal, tolerance {}", millimetres(goal.tolerance)),
             _ => "goal".to_owned(),
         };

@@ -77,7 +77,7 @@ impl Story<'_> {
         stage.loops.animate("ring", &keys, [0.01; 2], |[size, shown]| {
             format!("transform:scale({});opacity:{}", short(size, 2), short(shown, 2))
         });
-        let place = stage.view.map(self.goal().position);
+        let place = stage.view.map(self.goal().place(&self.task.scene.start()));
         let radius = stage.view.length(self.goal().tolerance).max(14.0);
         stage.svg.open_moved("goal", place, 0.0);
         stage.svg.open_shown("ring", 0.0);

@@ -142,7 +142,7 @@ impl Steps<'_> {
             hopeful.retain(|k| !batch.contains(k));
             tried.extend(&batch);
             // The goal is that of this lever-up: what pushes are to bring comes later.
-            let goal = Task { goal: task.goal, ..self.task.clone() };
+            let goal = Task { goal: task.goal.clone(), ..self.task.clone() };
             let verdicts: Vec<_> = batch
                 .par_iter()
                 .map(|&k| self.verify(&goal, &plans[k].plan, &plans[k].tools))

@@ -171,7 +171,7 @@ impl<'a> Steps<'a> {
     /// Plans of what was `made`, a lever-up of `task`, and pushes that follow.
     fn followed(&mut self, task: &Task, made: &Made) -> Result<Vec<RankedPlan>, SolveError> {
         // The place is left to the pushes.
-        let goal = Goal { tolerance: f64::INFINITY, ..task.goal };
+        let goal = Goal { tolerance: f64::INFINITY, ..task.goal.clone() };
         let lifted = Task { goal, ..task.clone() };
         let levered = self.lever_up(&lifted, made);
         let began = Instant::now();
@@ -203,7 +203,8 @@ impl<'a> Steps<'a> {
     fn after_pushes(&mut self) -> Result<Vec<RankedPlan>, SolveError> {
         let start: Vec<Pose3> =
             self.task.scene.objects.iter().map(|object| Plate::of(object).start()).collect();
-        let (goal, at) = (self.task.goal, self.task.scene.objects[self.task.goal.object].pose);
+        let (goal, at) =
+            (self.task.goal.clone(), self.task.scene.objects[self.task.goal.object].pose);
         let mut plans = Vec::new();
         let mut tried = 0;
         let ways = AWAY

@@ -1,0 +1,97 @@
+//! Goals that are a relation between two things: touching, beside each other, clear of each other.
+
+use serde_json::{Value as Json, json};
+
+use crate::asset::fault::did_you_mean;
+use crate::asset::node::Node;
+use crate::asset::spec::{Key, Range, Value};
+use crate::asset::strict::Ledger;
+use crate::asset::take::{name_of, number_or};
+use crate::scene::{Body, Gap, Scene};
+
+/// Limits are at least so far apart, metres: simulators themselves differ by millimetres.
+const PLAY: f64 = 0.001;
+
+/// How far apart two things are to be.
+pub(super) const GAP: Key = Key::optional(
+    "gap",
+    Value::Map(&[
+        Key::required("to", Value::Name, "The other object, or an obstacle."),
+        Key::optional(
+            "min",
+            Value::Number(Range {
+                what: "a distance in metres",
+                low: 0.0,
+                high: 10.0,
+                advice: "10 cm apart is 0.10",
+            }),
+            "Smallest distance in metres; default 0.",
+        ),
+        Key::optional(
+            "max",
+            Value::Number(Range {
+                what: "a distance in metres",
+                low: PLAY,
+                high: 10.0,
+                advice: "touching is 0.002; simulators themselves differ by millimetres",
+            }),
+            "Largest distance in metres; by default any.",
+        ),
+    ]),
+    "How far apart the object and another thing are to be instead, wherever both come to: the smallest \
+     distance between their outlines seen from above, with all parts; by default any.",
+);
+
+/// The gap of a goal of `object`.
+pub(super) fn gap(node: &Node, object: usize, scene: &Scene) -> Option<Box<Gap>> {
+    let name = node.get("to")?.text()?;
+    let obstacle = || scene.obstacles.iter().position(|obstacle| obstacle.name == name);
+    let to = scene.object(name).map(Body::Object).or_else(|| obstacle().map(Body::Obstacle))?;
+    let limits = [number_or(node, "min", 0.0)?, number_or(node, "max", f64::INFINITY)?];
+    Gap::between(scene, object, to, limits)
+}
+
+/// As in a file.
+pub(in crate::asset) fn emitted_gap(gap: &Gap, scene: &Scene) -> Json {
+    let mut json = json!({"to": gap.name(scene)});
+    if gap.min > 0.0 || gap.max.is_infinite() {
+        json["min"] = json!(gap.min);
+    }
+    if gap.max.is_finite() {
+        json["max"] = json!(gap.max);
+    }
+    json
+}
+
+/// Notes what is wrong with the gap of a goal of the object that `name` names.
+pub(super) fn check_gap(gap: &Node, name: &Node, bodies: [&[Node]; 2], ledger: &mut Ledger) {
+    let others = || bodies.iter().flat_map(|bodies| bodies.iter()).filter_map(name_of);
+    if let Some((node, to)) = gap.get("to").and_then(|node| Some((node, node.text()?))) {
+        if Some(to) == name.text() {
+            ledger.fault(
+                node,
+                "an object has no gap to itself",
+                "name another object, or an obstacle",
+            );
+        } else if !others().any(|other| other == to) {
+            let advice = did_you_mean(to, others());
+            ledger.fault(node, format!("no object and no obstacle is called `{to}`"), advice);
+        }
+    }
+    let limit = |key| gap.get(key).and_then(Node::number);
+    match (gap.get("min"), gap.get("max")) {
+        (None, None) => {
+            let advice = "add `min: 0.10` for 10 cm apart, or `max: 0.002` for touching";
+            ledger.fault(gap, "any gap would do", advice);
+        }
+        (Some(node), Some(_)) => {
+            if let (Some(min), Some(max)) = (limit("min"), limit("max"))
+                && max - min < PLAY
+            {
+                let message = format!("no gap is at least {min} and at most {max} m");
+                ledger.fault(node, message, "leave 0.001 m between `min` and `max`, or more");
+            }
+        }
+        _ => {}
+    }
+}

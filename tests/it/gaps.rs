@@ -1,0 +1,132 @@
+//! Goals that are a relation between two things: touching, beside each other, clear of each other.
+
+use std::process::Command;
+
+use pushplan::asset::{PlanFile, ToolLibrary};
+use pushplan::report::REPLAY_SCRIPT;
+use pushplan::scene::{Body, Engine, State, Task};
+use pushplan::solve::{Effort, PlanStatus, Planner, Solution};
+
+use crate::mujoco_python::python;
+
+/// A box, a mug whose handle points at it, and a wall; `goal` is the box's.
+fn task(mug: [f64; 2], goal: &str) -> Task {
+    let text = format!(
+        "
+scene:
+  objects:
+    - {{name: box, shape: {{cuboid: {{size: [0.08, 0.06, 0.08]}}}}, mass: 0.5, friction: 0.4, position: [0.45, 0.12]}}
+    - name: mug
+      shape: {{cylinder: {{radius: 0.035, height: 0.1}}}}
+      parts: [{{name: handle, shape: {{cuboid: {{size: [0.03, 0.015, 0.08]}}}}, position: [-0.045, 0]}}]
+      mass: 0.4
+      friction: 0.4
+      position: {mug:?}
+  obstacles:
+    - {{name: wall, size: [0.02, 0.4, 0.1], position: [0.75, 0.0]}}
+robot: {{reach: {{min: 0.1, max: 0.9}}}}
+tools: [stick, l-hook]
+pushes: {{directions: 16}}
+goal: {{object: box, {goal}}}
+"
+    );
+    Task::parse(&text, "gap.yaml").unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+fn solved(task: &Task) -> Solution {
+    let planner = Planner::for_effort(Effort::Draft).expect("its models").build();
+    planner.solve(task, &ToolLibrary::embedded().expect("the shipped tools")).expect("a sound task")
+}
+
+/// The gap that the goal speaks of, metres.
+fn gap(task: &Task, state: &State) -> f64 {
+    let gap = task.goal.gap.as_ref().expect("a goal of a gap");
+    gap.nearest(&state.poses[task.goal.object], state).expect("both exist").gap
+}
+
+fn file(task: &Task, solution: &Solution) -> PlanFile {
+    let best = &solution.plans[0];
+    PlanFile {
+        predicted: Some(best.outcome.clone()),
+        verdict: best.verdict.clone(),
+        ..PlanFile::new(task.clone(), best.tools.clone(), best.plan.clone())
+    }
+}
+
+/// Whether MuJoCo says that the plan works.
+fn works_in_mujoco(file: &PlanFile) {
+    let Some(python) = python() else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let [script, scene] = ["replay.py", "plan.xml"].map(|name| folder.path().join(name));
+    std::fs::write(&script, REPLAY_SCRIPT).expect("written");
+    std::fs::write(&scene, pushplan::export::plan_mjcf(file).expect("a scene")).expect("written");
+    let output = Command::new(python).args([&script, &scene]).output().expect("Python");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+}
+
+#[test]
+fn things_are_brought_to_touch_apart_and_beside_each_other_whatever_is_a_little_different() {
+    for (mug, goal, [min, max]) in [
+        ([0.6, -0.1], "gap: {to: mug, max: 0.002}", [f64::NEG_INFINITY, 0.002]),
+        ([0.6, 0.12], "gap: {to: mug, min: 0.10}", [0.10, f64::INFINITY]),
+        ([0.6, -0.1], "gap: {to: mug, min: 0.01, max: 0.04}, heading_deg: 0", [0.01, 0.04]),
+        ([0.6, -0.1], "gap: {to: wall, max: 0.005}", [f64::NEG_INFINITY, 0.005]),
+    ] {
+        let task = task(mug, goal);
+        assert!(!task.reached(&task.scene.start()), "{goal}");
+        let solution = solved(&task);
+        assert_eq!(solution.status, PlanStatus::Solved, "{goal}");
+        let verdict = solution.plans[0].verdict.as_ref().expect("replayed");
+        for engine in Engine::ALL {
+            let ends: Vec<f64> = verdict
+                .nominal(engine)
+                .into_iter()
+                .chain(verdict.disturbed(engine).filter(|evidence| evidence.outcome.reached))
+                .map(|evidence| gap(&task, &evidence.outcome.state))
+                .collect();
+            assert!(ends.len() > 4 && ends.iter().all(|gap| (min..=max).contains(gap)), "{ends:?}");
+        }
+        works_in_mujoco(&file(&task, &solution));
+    }
+}
+
+#[test]
+fn what_is_met_already_needs_no_push() {
+    let solution = solved(&task([0.6, -0.1], "gap: {to: mug, min: 0.05}"));
+    assert_eq!(solution.status, PlanStatus::Solved);
+    assert!(solution.plans[0].plan.is_empty());
+}
+
+#[test]
+fn it_is_read_as_it_is_written_and_a_plan_file_keeps_it() {
+    for (goal, to) in [
+        ("gap: {to: mug, min: 0.10}", Body::Object(1)),
+        ("gap: {to: wall, max: 0.002}", Body::Obstacle(0)),
+        ("gap: {to: mug, min: 0.01, max: 0.04}, heading_deg: 30", Body::Object(1)),
+    ] {
+        let task = task([0.6, -0.1], goal);
+        assert_eq!(task.goal.gap.as_ref().map(|gap| gap.to), Some(to));
+        let again = Task::parse(&task.to_yaml().expect("as text"), "gap.yaml").expect("sound");
+        assert_eq!(again, task);
+        let json = serde_json::to_string(&task).expect("as JSON");
+        assert_eq!(serde_json::from_str::<Task>(&json).expect("the same"), task);
+    }
+}
+
+/// Moving the mug changes the goal's error as moving the box does: only their distance counts.
+#[test]
+fn only_where_they_are_to_each_other_counts() {
+    let task = task([0.6, -0.1], "gap: {to: mug, min: 0.01, max: 0.04}");
+    let start = task.scene.start();
+    for k in 0..24 {
+        let by = pushplan::Vector::new(0.1 * f64::from(k).sin(), 0.01 * f64::from(k));
+        let mut own = start.clone();
+        own.poses[0].position += by;
+        let mut other = start.clone();
+        other.poses[1].position -= by;
+        assert!((task.goal.error(&own) - task.goal.error(&other)).abs() < 1e-9, "{by}");
+        assert_eq!(task.reached(&own), task.reached(&other));
+        assert_eq!(task.reached(&own), (0.01..=0.04).contains(&gap(&task, &own)));
+        assert_eq!(task.score(&own) <= 1.0 + 1e-9, task.reached(&own), "{by}");
+    }
+}
