@@ -272,7 +272,7 @@ impl Task {
         let start = self.scene.start();
         let shown = |goal: &Goal| {
             let mut goal = goal.in_world(&start);
-            if goal.gap.take().is_some() {
+            if goal.gap.is_some() {
                 goal.tolerance = f64::INFINITY;
             }
             let position = match start.poses.get(goal.object) {

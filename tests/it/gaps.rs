@@ -3,7 +3,7 @@
 use std::process::Command;
 
 use pushplan::asset::{PlanFile, ToolLibrary};
-use pushplan::report::REPLAY_SCRIPT;
+use pushplan::export::{REPLAY_SCRIPT, mjcf};
 use pushplan::scene::{Body, Engine, State, Task};
 use pushplan::solve::{Effort, PlanStatus, Planner, Solution};
 
@@ -59,7 +59,7 @@ fn works_in_mujoco(file: &PlanFile) {
     let folder = tempfile::tempdir().expect("a folder");
     let [script, scene] = ["replay.py", "plan.xml"].map(|name| folder.path().join(name));
     std::fs::write(&script, REPLAY_SCRIPT).expect("written");
-    std::fs::write(&scene, pushplan::export::plan_mjcf(file).expect("a scene")).expect("written");
+    std::fs::write(&scene, mjcf(file).expect("a scene")).expect("written");
     let output = Command::new(python).args([&script, &scene]).output().expect("Python");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
 }

@@ -72,6 +72,19 @@ pub fn goal(svg: &mut Svg, view: &View, goal: &Goal) {
     }
 }
 
+/// The gap that a goal speaks of, as it is at the start.
+pub fn gap(svg: &mut Svg, view: &View, goal: &Goal, scene: &Scene) {
+    let object = scene.objects.get(goal.object);
+    let nearest = goal
+        .gap
+        .as_ref()
+        .zip(object)
+        .and_then(|(gap, object)| gap.nearest(&object.pose, &scene.start()));
+    if let Some(nearest) = nearest {
+        svg.line(view.map(nearest.on_first), view.map(nearest.on_second), palette::GOAL_MISS);
+    }
+}
+
 /// Where a missed goal lies from where the object ended.
 pub fn miss(svg: &mut Svg, view: &View, goal: &Goal, end: Vector) {
     if goal.has_place() {

@@ -106,6 +106,7 @@ impl MovingPicture<'_> {
         bodies::overhead(&mut stage.svg, &view, &self.task.scene);
         for goal in &self.task.shown_goals() {
             bodies::goal(&mut stage.svg, &view, goal);
+            bodies::gap(&mut stage.svg, &view, goal, &self.task.scene);
         }
         self.story().reached(stage);
         stage.open_layer();
