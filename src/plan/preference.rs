@@ -1,8 +1,8 @@
 //! Which of several plans that are as good is preferred: stated here, once.
 //!
 //! Among plans with the same verdict and robustness, in this order: fewer pushes, as longer plans are only
-//! looked for where no shorter one is safe; less moved besides what has a goal; the simpler tool; the
-//! smaller error. Errors well inside of the tolerance are no reason to prefer one: models differ by as much.
+//! looked for where no shorter one is safe; the tool of less cost; less moved besides what has a goal; the
+//! simpler tool; the smaller error. Errors well inside of the tolerance are no reason to prefer one: models differ by as much.
 
 use std::cmp::Ordering;
 
@@ -20,6 +20,8 @@ const COUNTED: f64 = 0.01;
 /// What a plan costs besides its pushes; compared in this order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Cost {
+    /// What its tool costs in the task, in thousandths.
+    tool: u64,
     /// By how much all that has no goal is moved, in whole units of [`COUNTED`].
     moved: usize,
     /// Pieces of the tool, flush parts taken together: a bar in four parts is a bar.
@@ -37,7 +39,9 @@ impl Cost {
             situation.scene.things().map(|(k, _)| k).filter(|k| !goals.contains(&rigid[*k]));
         let ways = others.map(|k| (plan.outcome.poses[k].position - before[k].position).norm());
         let moved = (ways.sum::<f64>() / COUNTED).round() as usize;
-        Self { moved, pieces: workspace.tools[plan.candidate.tool].outline().len() }
+        let tool = &workspace.tools[plan.candidate.tool];
+        let cost = workspace.task.tool_costs.get(&tool.name).copied().unwrap_or_default();
+        Self { tool: (1e3 * cost).round() as u64, moved, pieces: tool.outline().len() }
     }
 }
 

@@ -1,5 +1,7 @@
 //! A task: a scene, a robot, what pushes are allowed, and a goal.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Vector;
@@ -197,6 +199,10 @@ pub struct Task {
     pub arm: Option<Box<Arm>>,
     /// Allowed tools.
     pub tools: ToolChoice,
+    /// What using a tool costs, by its name, nothing where it is not named: of plans of as many pushes that
+    /// are as good the one that costs less is preferred.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub tool_costs: BTreeMap<String, f64>,
     /// Allowed pushes.
     pub pushes: PushRules,
     /// Allowed lever-ups, if any are.
@@ -237,6 +243,7 @@ impl Task {
             robot,
             arm: None,
             tools: ToolChoice::All,
+            tool_costs: BTreeMap::new(),
             pushes: PushRules::default(),
             levers: None,
             goal,

@@ -306,7 +306,7 @@ fn row(name: &str, solution: &Solution) -> String {
 }
 
 #[test]
-fn among_tools_that_do_as_well_the_simpler_one_is_taken() {
+fn among_tools_that_do_as_well_the_one_that_costs_less_is_taken_or_the_simpler() {
     // Each of these brings a can that stands free to a place ahead of it.
     let text = "
 scene:
@@ -317,10 +317,20 @@ tools: [NAMES]
 goal: {object: can, position: [0.75, 0.0], tolerance: 0.02}
 ";
     let library = ToolLibrary::embedded().unwrap();
-    for names in ["fork, l-hook, stick", "stick, l-hook, fork", "l-hook, fork, stick"] {
+    for (names, wanted) in [
+        ("fork, l-hook, stick", "stick"),
+        ("stick, l-hook, fork", "stick"),
+        ("l-hook, fork, stick", "stick"),
+        // What costs less comes before what is simpler.
+        ("{name: stick, cost: 2}, {name: fork, cost: 3}, {name: l-hook, cost: 1}", "l-hook"),
+        ("{name: stick, cost: 0.002}, {name: l-hook, cost: 0.001}", "l-hook"),
+        ("{name: stick, cost: 2}, {name: l-hook, cost: 2}", "stick"),
+        ("{name: stick, cost: 2}", "stick"),
+    ] {
         let task = Task::parse(&text.replace("NAMES", names), "can.yaml").unwrap();
+        assert_eq!(Task::parse(&task.to_yaml().unwrap(), "can.yaml").unwrap(), task);
         let solution = planner().solve(&task, &library).unwrap();
         let tool = &solution.plans[0].tool().name;
-        assert_eq!((solution.status, tool.as_str()), (PlanStatus::Solved, "stick"));
+        assert_eq!((solution.status, tool.as_str()), (PlanStatus::Solved, wanted), "{names}");
     }
 }

@@ -342,11 +342,18 @@ RegionKeys = TypedDict(
 
 
 class TaskFile(TypedDict):
+class CostedToolKeys(TypedDict):
+    """A tool that costs something to use."""
+
+    name: str
+    cost: NotRequired[float]
+
+
     """The keys of a task file."""
 
     scene: SceneKeys
     robot: RobotKeys
-    tools: Union[Literal["all"], Sequence[str]]
+    tools: Union[Literal["all"], Sequence[Union[str, CostedToolKeys]]]
     goal: Union[GoalKeys, Sequence[GoalKeys], LeverGoalKeys]
     name: NotRequired[str]
     description: NotRequired[str]

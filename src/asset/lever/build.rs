@@ -1,5 +1,6 @@
 //! From a checked tree to a [`Task`] of levering.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::asset::node::Node;
@@ -40,6 +41,7 @@ pub(super) fn lever_task(root: &Node, file: &str) -> Option<Task> {
         robot: Robot { base: 0.0, ..reach_of(root.get("robot")?)? },
         arm: None,
         tools: named_tools(root.get("tools")?),
+        tool_costs: BTreeMap::new(),
         levers: Some(match root.get("levers") {
             Some(node) => levers(node)?,
             None => LeverRules::default(),

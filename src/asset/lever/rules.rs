@@ -34,6 +34,7 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
     task::check_unknown(section("unknown"), scene, ledger);
     task::check_robot(section("robot"), &empty, ledger);
     task::check_tools(section("tools"), ledger);
+    task::check_free(section("tools"), ledger);
     ranges(section("levers"), ledger);
     if let Some(pushes) = root.get("pushes") {
         follow_up(pushes, section("goal"), ledger);

@@ -3,12 +3,14 @@
 use serde_json::{Value as Json, json};
 
 use super::things;
-use crate::asset::task::{WORLD, area_of, emitted_gap, emitted_obstacle, name_of_surface};
+use crate::asset::task::{
+    WORLD, area_of, emitted_gap, emitted_obstacle, emitted_tools, name_of_surface,
+};
 use crate::geometry::{Pose, Shape, Vector};
 use crate::scene::{
     Blade, Directions, DisjointSets, Goal, Hand, Joint, JointKind, LeverRules, Mount, Object,
     Obstacle, Offsets, PairFriction, Pivot, Plate, PushForm, PushRules, Robot, Scene, Slab, Span,
-    Support, TableTop, Task, Tool, ToolChoice,
+    Support, TableTop, Task, Tool,
 };
 
 /// The most pairs of parts that a tool file names.
@@ -52,10 +54,7 @@ pub(in crate::asset) fn task(task: &Task) -> Json {
             None => scene(&task.scene),
         },
         "robot": robot,
-        "tools": match &task.tools {
-            ToolChoice::All => json!("all"),
-            ToolChoice::Named(names) => json!(names),
-        },
+        "tools": emitted_tools(task),
         "goal": match task.further.is_empty() {
             true => goal(&task.goal, &task.scene),
             false => task.goals().map(|one| goal(one, &task.scene)).collect(),

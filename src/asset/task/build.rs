@@ -11,10 +11,11 @@ use crate::asset::text::apart_by_name;
 use crate::geometry::Vector;
 use crate::scene::{
     Directions, Goal, Hand, Joint, Object, Obstacle, Offsets, PushForm, PushRules, Robot, Scene,
-    Support, TableTop, Task, ToolChoice, Unknowns,
+    Support, TableTop, Task, Unknowns,
 };
 
 use super::spec::default;
+use super::tools::{costs, tools};
 use super::{frictions, goals, joints, keep, mounts, obstacles, parts};
 
 /// The task, or `None` if anything needed is missing or was faulty.
@@ -45,6 +46,7 @@ pub(super) fn task(root: &Node, file: &str, arm: Option<Standing>) -> Option<Tas
         robot,
         arm: arm.map(|arm| arm.arm),
         tools: tools(root.get("tools")?),
+        tool_costs: costs(root.get("tools")?),
         pushes: match root.get("pushes") {
             Some(node) => pushes(node)?,
             None => PushRules::default(),
@@ -196,16 +198,6 @@ fn standing(node: &Node, standing: &Standing) -> Option<Robot> {
 /// The `home` of a robot, metres.
 pub(super) fn home(robot: &Node) -> Option<Vector> {
     vector(robot.get("home")?)
-}
-
-/// The tools that a task names.
-pub(in crate::asset) fn tools(node: &Node) -> ToolChoice {
-    match node.text() {
-        Some(_) => ToolChoice::All,
-        None => {
-            ToolChoice::Named(node.items().iter().filter_map(Node::text).map(Into::into).collect())
-        }
-    }
 }
 
 pub(in crate::asset) fn pushes(node: &Node) -> Option<PushRules> {

@@ -13,6 +13,7 @@ use crate::asset::node::Node;
 use crate::asset::strict::{Ledger, check};
 use crate::asset::text::Source;
 
+use super::tools::tool_name;
 use super::{build, rules, spec::TASK_FILE};
 
 impl Task {
@@ -145,7 +146,7 @@ fn check_tools(root: &Node, library: &ToolLibrary, ledger: &mut Ledger) {
     }
     let pushes = |name: &str| library.get(name).is_some_and(|tool| tool.pushes());
     for node in root.get("tools").map(Node::items).unwrap_or_default() {
-        if let Some(name) = node.text().filter(|name| !pushes(name)) {
+        if let Some(name) = tool_name(node).filter(|name| !pushes(name)) {
             let (message, advice) = unknown_tool(name, library);
             ledger.fault(node, message, advice);
         }

@@ -13,10 +13,10 @@ mod obstacles;
 mod parts;
 mod rules;
 mod spec;
+mod tools;
 
 pub(super) use build::{
-    pushes as pushes_of, robot as reach_of, support as support_of, tools as named_tools,
-    unknown as unknown_of,
+    pushes as pushes_of, robot as reach_of, support as support_of, unknown as unknown_of,
 };
 pub(super) use frictions::{FRICTIONS, name_of_surface};
 pub(super) use gap::emitted_gap;
@@ -30,10 +30,10 @@ pub(super) use obstacles::{
 };
 pub(super) use parts::shares as shares_of_mass;
 pub(super) use rules::{
-    push_rules as check_pushes, robot as check_robot, tools as check_tools,
-    unknown as check_unknown,
+    push_rules as check_pushes, robot as check_robot, unknown as check_unknown,
 };
 pub(super) use spec::{
     JOINTS, LIFT, MAX_FORCE, OBJECT_NAME, OBJECT_SHAPE, OBJECT_SUPPORT, PUSH_HEIGHT, PUSHES,
-    REACH_KEY, ROBUSTNESS, TABLE, TASK_FILE, TASK_KEYS, TOOLS, UNKNOWN_KEY,
+    REACH_KEY, ROBUSTNESS, TABLE, TASK_FILE, TASK_KEYS, UNKNOWN_KEY,
 };
+pub(super) use tools::{TOOLS, check_free, check_tools, emitted_tools, tools as named_tools};

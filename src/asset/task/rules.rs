@@ -10,6 +10,7 @@ use crate::geometry::{Footprint, Pose, Shape, clearance};
 use crate::scene::{PushForm, PushRules, Support, carries};
 
 use super::spec::REACH_KEY;
+use super::tools::check_tools;
 use super::{build, frictions, goals, joints, keep as regions, obstacles as fixed, parts};
 
 /// Bodies may sink into each other by this much before it is a fault, metres: the rounding of
@@ -37,7 +38,7 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
         without_arm(section("robot"), ledger);
         robot(section("robot"), pushes, ledger);
     }
-    tools(section("tools"), ledger);
+    check_tools(section("tools"), ledger);
     push_rules(pushes, objects, ledger);
     let goals = goals::each(section("goal"));
     goals.iter().for_each(|one| goals::check(one, scene, ledger));
@@ -297,15 +298,6 @@ fn form(pushes: &Node) -> Option<PushForm> {
         None | Some(Some("placed")) => Some(PushForm::Placed),
         Some(Some(_)) => Some(PushForm::Chained),
         Some(None) => None,
-    }
-}
-
-/// Tools are named once.
-pub(in crate::asset) fn tools(tools: &Node, ledger: &mut Ledger) {
-    for (k, node) in tools.items().iter().enumerate() {
-        if node.text().is_some() && tools.items()[..k].iter().any(|t| t.content == node.content) {
-            ledger.fault(node, "this tool is named twice", "remove one of the two");
-        }
     }
 }
 

@@ -13,6 +13,7 @@ use super::joints::JOINT;
 use super::keep::{KEEP, KEEP_OUT};
 use super::obstacles::OBSTACLES;
 use super::parts::PARTS;
+use super::tools::TOOLS;
 
 /// Defaults of optional keys; the words of the keys below repeat them.
 pub(in crate::asset) mod default {
@@ -50,16 +51,6 @@ pub(in crate::asset) const TASK_KEYS: &[Key] = &[
     KEEP_OUT,
     ROBUSTNESS,
 ];
-
-/// What tools a task allows.
-pub(in crate::asset) const TOOLS: Key = Key::required(
-    "tools",
-    Value::Either(&[
-        Value::Word(&["all"]),
-        Value::List { of: &Value::Name, items: "tool names", min: 1, max: 64 },
-    ]),
-    "Names of the tools to choose from, or `all`.",
-);
 
 /// How often a plan must work.
 pub(in crate::asset) const ROBUSTNESS: Key = Key::optional(

@@ -56,6 +56,7 @@ impl Task {
             unknown: Unknowns::NONE,
             arm: None,
             robot: self.robot,
+            tool_costs: self.tool_costs.clone(),
             tools: self.tools.clone(),
             pushes: self.pushes.clone(),
             levers: None,

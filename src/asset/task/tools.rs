@@ -1,0 +1,88 @@
+//! The tools of a task file: which there are, and what they cost.
+
+use std::collections::BTreeMap;
+
+use serde_json::{Value as Json, json};
+
+use crate::asset::node::Node;
+use crate::asset::spec::{Key, Range, Value};
+use crate::asset::strict::Ledger;
+use crate::scene::{Task, ToolChoice};
+
+/// What tools a task allows.
+pub(in crate::asset) const TOOLS: Key = Key::required(
+    "tools",
+    Value::Either(&[
+        Value::Word(&["all"]),
+        Value::List {
+            of: &Value::Either(&[Value::Name, Value::Map(&[NAME, COST])]),
+            items: "tools",
+            min: 1,
+            max: 64,
+        },
+    ]),
+    "Names of the tools to choose from, or `all`; instead of a name `{name: hook, cost: 2}`.",
+);
+
+const NAME: Key = Key::required("name", Value::Name, "The tool's name.");
+
+const COST: Key = Key::optional(
+    "cost",
+    Value::Number(Range {
+        what: "a cost",
+        low: 0.0,
+        high: 1e6,
+        advice: "only which of two tools costs more matters",
+    }),
+    "What using it costs: of plans of as many pushes that are as good the one that costs less comes first; \
+     default 0. Tools of levering have none.",
+);
+
+/// The name of a tool in the list.
+pub(super) fn tool_name(node: &Node) -> Option<&str> {
+    node.text().or_else(|| node.get("name")?.text())
+}
+
+/// Which tools there are.
+pub(in crate::asset) fn tools(node: &Node) -> ToolChoice {
+    match node.text() {
+        Some(_) => ToolChoice::All,
+        None => {
+            ToolChoice::Named(node.items().iter().filter_map(tool_name).map(Into::into).collect())
+        }
+    }
+}
+
+/// What they cost, by name, where that is more than nothing.
+pub(super) fn costs(node: &Node) -> BTreeMap<String, f64> {
+    let cost = |node: &Node| Some((tool_name(node)?.to_owned(), node.get("cost")?.number()?));
+    node.items().iter().filter_map(cost).filter(|(_, cost)| *cost > 0.0).collect()
+}
+
+/// As in a file.
+pub(in crate::asset) fn emitted_tools(task: &Task) -> Json {
+    let ToolChoice::Named(names) = &task.tools else { return json!("all") };
+    let tool = |name: &String| match task.tool_costs.get(name) {
+        Some(cost) => json!({"name": name, "cost": cost}),
+        None => json!(name),
+    };
+    names.iter().map(tool).collect()
+}
+
+/// Notes tools that are named twice.
+pub(in crate::asset) fn check_tools(tools: &Node, ledger: &mut Ledger) {
+    for (k, node) in tools.items().iter().enumerate() {
+        let name = tool_name(node);
+        if name.is_some() && tools.items()[..k].iter().any(|other| tool_name(other) == name) {
+            ledger.fault(node, "this tool is named twice", "remove one of the two");
+        }
+    }
+}
+
+/// Notes costs where nothing would come of them.
+pub(in crate::asset) fn check_free(tools: &Node, ledger: &mut Ledger) {
+    for tool in tools.items().iter().filter(|node| node.get("name").is_some()) {
+        let advice = "write its name alone: only tools of tasks of pushes have costs";
+        ledger.fault(tool, "a tool of levering has no cost", advice);
+    }
+}
