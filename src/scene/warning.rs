@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::planar::planar_only;
 use super::{ArmFault, LeverFault, ModelSpec, PushFault, Quantity, Unknowns};
 
 mod words;
@@ -85,11 +86,14 @@ pub enum Warning {
         /// Its name.
         object: String,
     },
-    /// The tool pressed harder than the robot's arm can.
+    /// The tool pressed harder than the robot's arm can, or an object may be pressed.
     TooMuchForce {
+        /// The object, where it is the one that may not be.
+        #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
+        object: Option<String>,
         /// How hard, newtons; to within a factor of two.
         needed: f64,
-        /// What the arm can, newtons.
+        /// What the arm can, or the object may, newtons.
         limit: f64,
     },
     /// The tool pressed harder than an ordinary arm can, and the task does not say what its can.

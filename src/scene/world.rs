@@ -32,6 +32,10 @@ pub struct Object {
     /// Whether it may topple or leave the table.
     #[serde(with = "planar_only", default, skip_serializing_if = "std::ops::Not::not")]
     pub may_fall: bool,
+    /// The largest force that may act on it through the tool for longer than an impact, newtons; any by
+    /// default.
+    #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
+    pub max_force: Option<f64>,
     /// Solids that are fixed on it, of the same density.
     #[serde(with = "planar_only", default, skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<Slab>,
@@ -79,6 +83,7 @@ impl Object {
             pose: Pose::default(),
             keep: None,
             may_fall: false,
+            max_force: None,
             parts: Vec::new(),
             clearance: 0.0,
             z: 0.0,

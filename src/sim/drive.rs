@@ -35,8 +35,8 @@ pub struct Arm {
 impl Arm {
     /// That the arm gives up, if it does.
     fn gives_up(&self, strain: &Strain) -> Option<Warning> {
-        let (needed, limit) = (strain.force.lasting, self.max_force?);
-        (needed > limit).then_some(Warning::TooMuchForce { needed, limit })
+        let (needed, limit) = (strain.force().lasting, self.max_force?);
+        (needed > limit).then_some(Warning::TooMuchForce { object: None, needed, limit })
     }
 }
 
@@ -79,8 +79,9 @@ pub(super) trait World: Sized {
     /// step.
     fn overlaps(&self, found: &mut dyn FnMut(Overlap));
 
-    /// Force with which contacts pressed against the tool during the last step, newtons.
-    fn force_on_tool(&self) -> f64;
+    /// Force with which the objects that `of` holds of pressed against the tool during the last step,
+    /// newtons.
+    fn force_on_tool(&self, of: &dyn Fn(usize) -> bool) -> f64;
 }
 
 /// Plays `job` in a world `W` with the simulator's steps; with an `arm`, until that cannot go on.
@@ -96,9 +97,7 @@ pub(super) fn drive<W: World>(
     let step = simulator.step();
     let tool = motion.strokes.first().map_or(Pose::default(), |stroke| stroke.from);
     let mut recorder = Recorder::new(simulator.spec(), record, start, tool);
-    if arm.is_some() {
-        recorder.strain = Strain::strict();
-    }
+    recorder.strain = Strain::new(scene, arm.is_some());
     if !start.is_finite() {
         recorder.trajectory.warnings.push(Warning::NotFinite);
         return recorder.finish(scene, motion);
@@ -133,7 +132,9 @@ pub(super) fn drive<W: World>(
             let recorded = recorder.record(world, time, index, tool);
             let strays = scene.strays(&recorder.last().state, 0.0);
             let jam = played.jam.map(|jam| jammed(scene, motion, jam));
-            let weak = arm.and_then(|arm| arm.gives_up(&recorder.strain));
+            let weak = arm.and_then(|arm| {
+                arm.gives_up(&recorder.strain).or_else(|| recorder.strain.too_hard(scene).next())
+            });
             let stopped = || watch.cancelled().then_some(Warning::Stopped);
             let ends = jam.or(strays).or(weak).or_else(stopped);
             let goes_on = recorded && ends.is_none();
@@ -258,7 +259,12 @@ impl Recorder {
         self.trajectory.warnings.extend(toppled);
         let fallen = scene.fallen(self.trajectory.outcome(), &self.toppled);
         self.trajectory.warnings.extend(fallen);
-        self.trajectory.force = Some(self.strain.force);
+        // What an arm stopped for has been said.
+        let harmed: Vec<Warning> = self.strain.too_hard(scene).collect();
+        let warnings = &mut self.trajectory.warnings;
+        warnings
+            .extend(harmed.into_iter().filter(|one| !warnings.contains(one)).collect::<Vec<_>>());
+        self.trajectory.force = Some(self.strain.force());
         self.trajectory.tell_parts(scene, &motion.tool);
         self.trajectory
     }

@@ -222,13 +222,13 @@ impl World for PlanarWorld {
         }
     }
 
-    fn force_on_tool(&self) -> f64 {
+    fn force_on_tool(&self, of: &dyn Fn(usize) -> bool) -> f64 {
         let mut impulse = RapierVector::ZERO;
         for pair in self.world.narrow_phase.contact_pairs() {
             let (a, b) = (self.label(pair.collider1), self.label(pair.collider2));
             let sign = match (a, b) {
-                (Body::Part(_), _) => -1.0,
-                (_, Body::Part(_)) => 1.0,
+                (Body::Part(_), Body::Object(object)) if of(object) => -1.0,
+                (Body::Object(object), Body::Part(_)) if of(object) => 1.0,
                 _ => continue,
             };
             for (manifold, point) in pair.manifolds.iter().flat_map(solved) {

@@ -199,12 +199,12 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
         }
     }
 
-    fn force_on_tool(&self) -> f64 {
+    fn force_on_tool(&self, of: &dyn Fn(usize) -> bool) -> f64 {
         let mut impulse = RapierVector::ZERO;
         for pair in self.world.narrow_phase.contact_pairs() {
             let sign = match (self.label(pair.collider1), self.label(pair.collider2)) {
-                (Some(Body::Part(_)), Some(_)) => -1.0,
-                (Some(_), Some(Body::Part(_))) => 1.0,
+                (Some(Body::Part(_)), Some(Body::Object(object))) if of(object) => -1.0,
+                (Some(Body::Object(object)), Some(Body::Part(_))) if of(object) => 1.0,
                 _ => continue,
             };
             for (manifold, point) in pair.manifolds.iter().flat_map(solved) {

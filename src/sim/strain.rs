@@ -1,5 +1,5 @@
 //! What rigid bodies cannot do, looked for in every time step: objects inside something that does
-//! not give way, and the force that the tool needs.
+//! not give way, and the force that the tool needs and that acts on what is fragile.
 //!
 //! Tool and obstacles do not yield, so when the tool travels farther than an object has room, the
 //! engines' soft contacts let the object sink into one of them, and in the end through it, at any
@@ -12,7 +12,7 @@
 //! thinner: what is inside two obstacles that face each other is jammed, however little.
 
 use crate::geometry::Vector;
-use crate::scene::{Body, Force};
+use crate::scene::{Body, Force, Scene, Warning};
 
 use super::drive::World;
 
@@ -47,31 +47,69 @@ pub(super) struct Strain {
     excused: Option<Vec<Overlap>>,
     /// Whether nothing is excused.
     strict: bool,
+    /// How hard the tool presses on all objects together.
+    all: Pressed,
+    /// On what is fragile, each with the indices of its solids, its own first.
+    fragile: Vec<(Vec<usize>, Pressed)>,
+}
+
+/// How hard something is pressed.
+#[derive(Debug, Default)]
+struct Pressed {
     /// Forces in the last steps, newest first, newtons.
     recent: [f64; LASTING],
     /// The largest forces so far.
-    pub force: Force,
+    force: Force,
+}
+
+impl Pressed {
+    fn note(&mut self, force: f64) {
+        self.recent.rotate_right(1);
+        self.recent[0] = force;
+        let lasting = self.recent.iter().copied().fold(f64::INFINITY, f64::min);
+        self.force.peak = self.force.peak.max(force);
+        self.force.lasting = self.force.lasting.max(lasting);
+    }
 }
 
 impl Strain {
-    /// One that excuses nothing: the state it begins in is one that rigid bodies can be in.
-    pub fn strict() -> Self {
-        Self { strict: true, ..Self::default() }
+    /// Of a motion in `scene`; a `strict` one excuses nothing: the state it begins in is one that rigid
+    /// bodies can be in.
+    pub fn new(scene: &Scene, strict: bool) -> Self {
+        let fragile = scene.things().filter(|(_, object)| object.max_force.is_some());
+        let solids = |k: usize| std::iter::once(k).chain(scene.parts_of(k)).collect();
+        let fragile = fragile.map(|(k, _)| (solids(k), Pressed::default())).collect();
+        Self { strict, fragile, ..Self::default() }
+    }
+
+    /// The largest forces of the tool so far.
+    pub fn force(&self) -> Force {
+        self.all.force
+    }
+
+    /// What the tool has pressed harder than it may.
+    pub fn too_hard<'a>(&'a self, scene: &'a Scene) -> impl Iterator<Item = Warning> + 'a {
+        self.fragile.iter().filter_map(|(solids, pressed)| {
+            let object = scene.objects.get(*solids.first()?)?;
+            let (needed, limit) = (pressed.force.lasting, object.max_force?);
+            let object = Some(object.name.clone());
+            (needed > limit).then_some(Warning::TooMuchForce { object, needed, limit })
+        })
     }
 
     /// The world is built again, from the state it had reached.
     pub fn begin(&mut self) {
         self.excused = None;
-        self.recent = [0.0; LASTING];
+        let fragile = self.fragile.iter_mut().map(|(_, pressed)| pressed);
+        fragile.chain([&mut self.all]).for_each(|pressed| pressed.recent = [0.0; LASTING]);
     }
 
     /// Looks at the step that was just made; an object that is jammed, if there is one.
     pub fn look<W: World>(&mut self, world: &W) -> Option<Overlap> {
-        self.recent.rotate_right(1);
-        self.recent[0] = world.force_on_tool();
-        let lasting = self.recent.iter().copied().fold(f64::INFINITY, f64::min);
-        self.force.peak = self.force.peak.max(self.recent[0]);
-        self.force.lasting = self.force.lasting.max(lasting);
+        self.all.note(world.force_on_tool(&|_| true));
+        for (solids, pressed) in &mut self.fragile {
+            pressed.note(world.force_on_tool(&|object| solids.contains(&object)));
+        }
         let mut overlaps = Vec::new();
         world.overlaps(&mut |found| overlaps.push(found));
         // The engines report depths from before the step: the first are those of the start.

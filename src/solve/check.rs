@@ -40,8 +40,14 @@ pub(super) fn check(
     if task.robustness > 1.0 {
         return fault(format!("the robustness is {}, but must be a share", task.robustness));
     }
-    if robot.max_force.is_some_and(|force| !(force.is_finite() && force > 0.0)) {
-        return fault("the largest force of the robot must be a positive number".into());
+    let forces = scene.objects.iter().map(|object| object.max_force).chain([robot.max_force]);
+    if forces.flatten().any(|force| !(force.is_finite() && force > 0.0)) {
+        return fault(
+            "the largest force of the robot, or on an object, must be a positive number".into(),
+        );
+    }
+    if task.tool_costs.values().any(|cost| !(cost.is_finite() && *cost >= 0.0)) {
+        return fault("the cost of a tool must not be negative".into());
     }
     let ends = scene.table_top;
     if ends.is_some_and(|top| !top.size.iter().chain(top.middle.iter()).all(|v| v.is_finite())) {

@@ -310,7 +310,7 @@ fn evidence(
         && force.lasting > limit
     {
         let needed = force.lasting;
-        trajectory.warnings.push(Warning::TooMuchForce { needed, limit });
+        trajectory.warnings.push(Warning::TooMuchForce { object: None, needed, limit });
     }
     if let (Some(force), None) = (trajectory.force, task.robot.max_force)
         && force.lasting > ORDINARY_ARM

@@ -130,3 +130,20 @@ fn only_where_they_are_to_each_other_counts() {
         assert_eq!(task.score(&own) <= 1.0 + 1e-9, task.reached(&own), "{by}");
     }
 }
+
+/// Where things are to touch, pushing on presses on both; a fragile one is brought there and no farther.
+#[test]
+fn what_is_fragile_is_brought_to_touch_without_pushing_on() {
+    let text = task([0.6, -0.1], "gap: {to: mug, max: 0.004}").to_yaml().expect("as text");
+    let mut task = Task::parse(&text, "gap.yaml").expect("sound");
+    task.scene.objects[0].max_force = Some(1.0);
+    let solution = solved(&task);
+    assert_ne!(solution.status, PlanStatus::Solved, "less than its friction");
+    task.scene.objects[0].max_force = Some(3.0);
+    let solution = solved(&task);
+    assert_eq!(solution.status, PlanStatus::Solved);
+    let verdict = solution.plans[0].verdict.as_ref().expect("replayed");
+    assert!(Engine::ALL.iter().all(|engine| {
+        verdict.nominal(*engine).and_then(|one| one.force).is_some_and(|force| force.lasting < 3.0)
+    }));
+}

@@ -173,6 +173,47 @@ fn a_safe_is_not_moved_by_an_arm_that_has_a_limit() {
     }
 }
 
+/// What lasts is friction, coefficient times weight, whichever solid of the can is pushed; what another
+/// object does to it is not the tool's doing.
+#[test]
+fn what_is_fragile_is_pressed_no_harder_than_it_may() {
+    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let handle = "parts: [{name: handle, shape: {cuboid: {size: [0.02, 0.01, 0.1]}}, position: [-0.045, 0]}], mass";
+    let weight = 0.45 * 0.4 * 9.81;
+    let moved = plan(vec![push([0.21, 0.0], 0.0, 0.155)]);
+    let verdict = |text: &str, limit: f64| {
+        let text = text.replace("mass: 0.4", &format!("max_force: {limit}, mass: 0.4"));
+        let task = Task::parse(&text, "fragile.yaml").unwrap();
+        assert_eq!(Task::parse(&task.to_yaml().unwrap(), "fragile.yaml").unwrap(), task);
+        verifier.verify(&task, &Situation::stated(&task.scene), &[paddle()], &moved)
+    };
+    for text in [TASK.to_owned(), TASK.replace("mass", handle)] {
+        let text = text.replace("tolerance: 0.02", "tolerance: 0.05");
+        assert!(verdict(&text, 3.0 * weight).passed);
+        let harmed = verdict(&text, 0.5 * weight);
+        assert!(!harmed.passed);
+        for evidence in &harmed.evidence {
+            let [Warning::TooMuchForce { object, needed, limit }] = &evidence.warnings[..] else {
+                panic!("{:?}", evidence.warnings)
+            };
+            assert_eq!((object.as_deref(), *limit), (Some("can"), 0.5 * weight));
+            assert!((0.5..2.0).contains(&(needed / weight)), "{needed} N of {weight} N");
+        }
+        let said = harmed.reason.map(|reason| format!("{reason:?}")).unwrap_or_default();
+        assert!(said.contains("TooMuchForce") && said.contains("can"), "{said}");
+    }
+    let ahead = "{name: box, shape: {cuboid: {size: [0.04, 0.08, 0.08]}}, mass: 0.3, friction: 0.4, position: [0.42, 0]}";
+    let behind = TASK
+        .replace("objects:\n", &format!("objects:\n    - {ahead}\n"))
+        .replace("[0.65, 0.0]", "[0.6, 0.0]")
+        .replace("tolerance: 0.02", "tolerance: 0.1");
+    let pushed = verdict(&behind, 0.5 * weight);
+    assert!(pushed.evidence.iter().all(|evidence| {
+        let moved = evidence.outcome.state.poses[1].position.x > 0.51;
+        moved && !evidence.warnings.iter().any(|w| matches!(w, Warning::TooMuchForce { .. }))
+    }));
+}
+
 #[test]
 fn an_object_pushed_beyond_the_table_falls() {
     let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });

@@ -143,6 +143,7 @@ class ObjectKeys(TypedDict):
     yaw_deg: NotRequired[float]
     support: NotRequired[Union[Literal["even", "corners"], SupportKeys]]
     may_fall: NotRequired[bool]
+    max_force: NotRequired[float]
     parts: NotRequired[Sequence[ObjectPartKeys]]
     clearance: NotRequired[float]
     z: NotRequired[float]

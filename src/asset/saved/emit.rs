@@ -157,6 +157,9 @@ pub(in crate::asset) fn scene(scene: &Scene) -> Json {
         if !parts.is_empty() {
             fields["parts"] = json!(parts);
         }
+        if let Some(force) = object.max_force {
+            fields["max_force"] = json!(force);
+        }
         if object.may_fall {
             fields["may_fall"] = json!(true);
         }

@@ -127,8 +127,17 @@ pub(super) fn object(node: &Node) -> Option<Object> {
             Some(may_fall) => may_fall.switch()?,
             None => false,
         },
+        max_force: max_force(node)?,
         ..Object::new(name_of(node)?, shape(node.get("shape")?)?)
     })
+}
+
+/// The largest force of an arm, or on an object, newtons; any where none is stated.
+fn max_force(node: &Node) -> Option<Option<f64>> {
+    match node.get("max_force") {
+        Some(force) => force.number().map(Some),
+        None => Some(None),
+    }
 }
 
 /// What an object stands on.
@@ -156,10 +165,7 @@ pub(in crate::asset) fn robot(node: &Node) -> Option<Robot> {
         },
         reach_min,
         reach_max: reach.get("max")?.number()?,
-        max_force: match node.get("max_force") {
-            Some(force) => Some(force.number()?),
-            None => None,
-        },
+        max_force: max_force(node)?,
         hand: match node.get("hand").map(|hand| (hand, hand.text())) {
             None => Some(Hand::default()),
             Some((_, Some(_))) => None,
@@ -186,10 +192,7 @@ fn standing(node: &Node, standing: &Standing) -> Option<Robot> {
     let home = flange(arm, &frames(arm, &arm.home)).position;
     Some(Robot {
         home: home.xy(),
-        max_force: match node.get("max_force") {
-            Some(force) => Some(force.number()?),
-            None => None,
-        },
+        max_force: max_force(node)?,
         travel: number_or(node, "travel", Robot::TRAVEL)?,
         ..Robot::reaching(*near, *far)
     })

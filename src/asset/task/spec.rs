@@ -148,6 +148,12 @@ const OBJECT: Value = Value::Map(&[
         Value::Switch,
         "Whether it may topple or be pushed off the table; default false.",
     ),
+    Key::optional(
+        "max_force",
+        FORCE,
+        "Largest force in newtons with which a tool may press on it, parts included, for longer than an \
+         impact; by default any.",
+    ),
     Key::required("position", POSITION, "Centre at the start, [x, y] in metres."),
     Key::optional("yaw_deg", ANGLE, "Heading at the start, degrees; default 0."),
 ]);
@@ -229,15 +235,17 @@ const ROBOT: Value = Value::Map(&[
 /// How hard the arm can press.
 pub(in crate::asset) const MAX_FORCE: Key = Key::optional(
     "max_force",
-    Value::Number(Range {
-        what: "a force in newtons",
-        low: 0.1,
-        high: 1e6,
-        advice: "pushing 1 kg over wood takes about 5 N; small arms press with 50 to 150 N",
-    }),
+    FORCE,
     "Largest force in newtons that the arm can keep up; what strikes at first touch is not limited. By \
      default any, with a warning above 150.",
 );
+
+const FORCE: Value = Value::Number(Range {
+    what: "a force in newtons",
+    low: 0.1,
+    high: 1e6,
+    advice: "pushing 1 kg over wood takes about 5 N; small arms press with 50 to 150 N",
+});
 
 /// Where the end effector can be.
 pub(in crate::asset) const REACH_KEY: Key = Key::required(

@@ -112,6 +112,7 @@ impl Plate {
             friction: self.friction,
             keep: None,
             may_fall: false,
+            max_force: None,
             pose: self.pose,
             parts: slabs.collect(),
             clearance: self.clearance,

@@ -105,7 +105,12 @@ impl fmt::Display for Warning {
                 write!(f, "{object} comes into {region}, which objects keep out of")
             }
             Warning::Fell { object } => write!(f, "{object} falls, which it may"),
-            Warning::TooMuchForce { needed, limit } => write!(
+            Warning::TooMuchForce { object: Some(object), needed, limit } => write!(
+                f,
+                "the tool presses on {object} with about {needed:.1} N for longer than an impact, and may \
+                 with {limit:.1}"
+            ),
+            Warning::TooMuchForce { object: None, needed, limit } => write!(
                 f,
                 "pushing takes about {needed:.0} N for longer than an impact, and the robot has {limit:.0}"
             ),
