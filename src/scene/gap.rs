@@ -149,31 +149,24 @@ mod tests {
         assert!(Gap::between(&scene, 0, Body::Part(0), [0.0, 0.1]).is_none());
     }
 
-    /// With the mug turned away the body of it is nearest; moved by what is missing it is where it is
-    /// aimed at, deep enough inside of the limits.
+    /// Moved by what is missing, the mug comes to where it is aimed at, deep enough inside of the limits: in
+    /// a few steps, as other parts may be nearest on the way.
     #[test]
     fn what_is_missing_leads_to_where_the_gap_is_right() {
         let scene = scene();
         for limits in [[0.1, f64::INFINITY], [0.0, 0.002], [0.03, 0.05], [0.0, 0.3]] {
-            let gap = Gap::between(&scene, 0, Body::Object(1), limits).unwrap();
-            let depth = gap.depth();
-            let goal = Goal::beside(0, gap);
+            let goal = Goal::beside(0, Gap::between(&scene, 0, Body::Object(1), limits).unwrap());
             for turn in [0.0, 0.4, 1.5, 3.1] {
                 for distance in [0.08, 0.16, 0.2, 0.5] {
                     let mut state = scene.start();
                     state.poses[0] = Pose::new(0.7 - distance, 0.02, turn);
-                    let gap = goal.gap.as_ref().unwrap();
-                    let before = gap.nearest(&state.poses[0], &state).unwrap().gap;
-                    state.poses[0].position -= goal.off(&state);
-                    let after = gap.nearest(&state.poses[0], &state).unwrap().gap;
-                    let wanted = match (limits[0] > 0.0, before) {
-                        (true, before) => before.max(limits[0] + depth),
-                        (false, before) => before,
-                    };
-                    let wanted = wanted.min(limits[1] - depth);
-                    // The nearest points change on the way where corners are nearest.
-                    assert!((after - wanted).abs() < 1e-3, "{limits:?} {turn} {distance}: {after}");
-                    assert!(goal.reached(&state), "{limits:?} {turn} {distance}: {after}");
+                    for _ in 0..6 {
+                        let off = goal.off(&state);
+                        state.poses[0].position -= off;
+                    }
+                    let error = goal.error(&state);
+                    assert!(error < 1e-4, "{limits:?} {turn} {distance}: {error}");
+                    assert!(goal.reached(&state), "{limits:?} {turn} {distance}");
                 }
             }
         }

@@ -342,7 +342,6 @@ RegionKeys = TypedDict(
 )
 
 
-class TaskFile(TypedDict):
 class CostedToolKeys(TypedDict):
     """A tool that costs something to use."""
 
@@ -350,6 +349,7 @@ class CostedToolKeys(TypedDict):
     cost: NotRequired[float]
 
 
+class TaskFile(TypedDict):
     """The keys of a task file."""
 
     scene: SceneKeys
