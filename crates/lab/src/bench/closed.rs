@@ -62,7 +62,7 @@ impl RandomSuite {
         index: usize,
     ) -> Result<Measured<ClosedRecord>, RandomError> {
         let hidden = self.hidden(index)?.in_world(world);
-        let goal = hidden.task.goal;
+        let goal = hidden.task.goal.clone();
         let began = Instant::now();
         let mut trace =
             Trace::new(hidden.task.clone(), settings, String::new(), Some(hidden.truth.clone()));

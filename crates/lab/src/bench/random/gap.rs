@@ -79,6 +79,7 @@ pub(super) fn gap_task(rng: &mut Pcg64, ordinal: usize) -> Task {
         robot: Robot::reaching(0.1, 0.9),
         arm: None,
         tools: ToolChoice::All,
+        tool_costs: Default::default(),
         pushes: pushes(2),
         levers: None,
         goal: Goal::new(0, place(behind, 0.0, 0.0).position.into(), TOLERANCE),
