@@ -214,9 +214,13 @@ fn either_advice(text: &str, values: &[Value]) -> String {
         _ => &[],
     });
     let advice = did_you_mean(text, words.copied());
-    let names = values.iter().any(
-        |value| matches!(value, Value::List { of, .. } if matches!(of, Value::Name | Value::Text)),
-    );
+    let is_text = |value: &Value| match value {
+        Value::Either(values) => {
+            values.iter().any(|value| matches!(value, Value::Name | Value::Text))
+        }
+        value => matches!(value, Value::Name | Value::Text),
+    };
+    let names = values.iter().any(|value| matches!(value, Value::List { of, .. } if is_text(of)));
     match advice.starts_with("did you mean") {
         false if names => format!("write a list: [{text}]"),
         _ => advice,

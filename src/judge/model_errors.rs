@@ -102,6 +102,9 @@ pub struct OneError {
     pub motion: f64,
     /// Heading error, degrees; `None` without a known heading.
     pub heading_deg: Option<f64>,
+    /// How far the model itself says that positions will be off, metres; `None` where it says nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub expected: Option<f64>,
 }
 
 /// Errors at the final frame and over all frames; `None` where there are no objects.
@@ -187,15 +190,20 @@ struct Judged {
     overlap: f64,
     drift: DriftSums,
     failed: bool,
+    /// How far the model says that it is off on average, metres.
+    expected: Option<f64>,
 }
 
 impl Judged {
     fn of(comparison: &Comparison) -> Self {
+        let stated = comparison.predicted().spreads.iter().map(|spread| spread.position);
+        let stated: Vec<f64> = stated.collect();
         Self {
             moments: comparison.moments(),
             overlap: comparison.overlap(),
             drift: comparison.drift(),
             failed: !comparison.is_finite(),
+            expected: (!stated.is_empty()).then(|| mean(&stated)),
         }
     }
 
@@ -214,6 +222,7 @@ impl Judged {
             error: of(&|error| error.position),
             motion: of(&|error| error.motion),
             heading_deg: (!headings.is_empty()).then(|| mean(&headings)),
+            expected: self.expected,
         }
     }
 

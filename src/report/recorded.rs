@@ -22,7 +22,7 @@ pub fn recorded_document(reports: &[RecordedErrors]) -> Document {
     let told = |name| before.iter().any(|report| report.names.contains(name));
     if newest.names.len() > 1 && !newest.names.iter().any(told) {
         sections.extend(newest.errors.models.first().map(|model| Section {
-            title: format!("{} by recording", model.model),
+            title: format!("{} by recording, beside the error that it expects", model.model),
             table: each_table(&newest.names, &model.each),
             ..Section::default()
         }));
@@ -111,6 +111,7 @@ fn each_table(names: &[String], each: &[OneError]) -> Table {
             ("recording", Left, &|(name, _)| (*name).clone()),
             ("motion", Right, &|(_, one)| millimetres(one.motion)),
             ("error", Right, &|(_, one)| fine_millimetres(one.error)),
+            ("expected", Right, &|(_, one)| one.expected.map_or(NONE.to_owned(), fine_millimetres)),
             ("heading", Right, &|(_, one)| angle(one.heading_deg)),
             ("of motion", Right, &|(_, one)| match one.motion > 0.0 {
                 true => percent(one.error / one.motion),

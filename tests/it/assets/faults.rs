@@ -93,7 +93,7 @@ fn wrong_kinds_of_values() {
     t.yaml:7:13: error: expected a mass in kg from 0.001 to 1000, found the text "0.5"
       help: remove the quotes
     t.yaml:9:17: error: expected a list of 2 numbers, found a list of 1 item
-    t.yaml:13:8: error: expected `all` or a list of 1 to 64 tool names, found the text "every"
+    t.yaml:13:8: error: expected `all` or a list of 1 to 64 tools, found the text "every"
       help: write a list: [every]
     t.yaml:14:36: error: expected `principal`, a number of directions from 1 to 64 or a list of 1 to 64 angles in degrees, found an empty map
     t.yaml:14:76: error: expected a number of pushes from 1 to 8, found the number 1.5
@@ -146,7 +146,7 @@ fn empty_values_and_lists() {
     t.yaml:4:26: error: expected a map with one key, `cylinder`, `cuboid` or `prism`, found an empty map
     t.yaml:7:12: error: expected a mass in kg from 0.001 to 1000, found nothing
       help: remove the key, or write its value after it
-    t.yaml:13:8: error: expected a list of 1 to 64 tool names, found an empty list
+    t.yaml:13:8: error: expected a list of 1 to 64 tools, found an empty list
     "#);
 }
 
@@ -338,7 +338,7 @@ fn control_characters_are_shown_and_not_sent_to_the_terminal() {
     t.yaml:4:7: error: missing key `mass`
       help: Mass in kg, parts included.
     t.yaml:4:68: error: unknown key `ma\u001b[31mss`
-      help: use `name`, `shape`, `parts`, `mass`, `friction`, `support`, `may_fall`, `position` or `yaw_deg`
+      help: use `name`, `shape`, `parts`, `mass`, `friction`, `support`, `may_fall`, `max_force`, `position` or `yaw_deg`
     t.yaml:15:16: error: expected a name, found the text "can\u202e\u000at.yaml:1:1: error: forged"
       help: use letters, digits, `-` and `_`, at most 64
     "#);
