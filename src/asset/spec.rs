@@ -113,8 +113,8 @@ pub(super) const ANGLE: Value =
 /// knows which limit is near.
 pub(super) const ANGLE_LIMIT: Value = Value::Number(Range {
     what: "a limit in degrees",
-    low: -170.0,
-    high: 170.0,
+    low: -340.0,
+    high: 340.0,
     advice: "limits are in degrees from the start; leave them out where a joint turns freely",
 });
 

@@ -272,7 +272,8 @@ fn rows(joints: &[Held], places: &[Pose], groups: &[Group], limited: &mut [bool]
             continue;
         }
         let separation = joint.separation(groups, places);
-        let (on, apart, turned) = (separation.ends, separation.apart(), separation.turned());
+        let (on, apart) = (separation.ends, separation.apart());
+        let turned = separation.turned(&joint.kind);
         let arms = between.map(|group| on[1].position - groups[group.0].pose.position);
         let mut beyond = |value: f64| {
             let held = joint.limits.map(|limits| value.clamp(limits.low, limits.high) - value);

@@ -74,8 +74,11 @@ impl Held {
         }
         let (start, slides) = joint.separation_turned(&state.poses, turns);
         // A gap at a guessed joint is an error of the guess, not of the objects.
-        let (apart, turned) =
-            if joint.guessed { (Vector::zeros(), 0.0) } else { (start.apart(), start.turned()) };
+        let (apart, turned) = if joint.guessed {
+            (Vector::zeros(), 0.0)
+        } else {
+            (start.apart(), start.turned(&joint.kind))
+        };
         Some(Self {
             between: (Some(first), second),
             kind: joint.kind,
@@ -97,7 +100,7 @@ impl Held {
             ends: start.ends.map(|end| end.position),
             slides: start.ends[0].vector(Vector::x()),
             apart: start.apart(),
-            turned: start.turned(),
+            turned: start.turned(&mount.kind),
         }
     }
 

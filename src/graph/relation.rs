@@ -113,7 +113,7 @@ pub(super) fn add_joint(
     };
     let now = match joint.kind {
         JointKind::Prismatic { .. } => separation.seen().x,
-        _ => separation.turned(),
+        _ => separation.turned(&joint.kind),
     };
     let room = joint
         .limits

@@ -1,5 +1,7 @@
 //! Joints between objects: how two of them may move against each other.
 
+use std::f64::consts::PI;
+
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Pose, Vector};
@@ -35,6 +37,19 @@ impl JointKind {
         match *self {
             JointKind::Fixed => None,
             JointKind::Revolute { limits, .. } | JointKind::Prismatic { limits, .. } => limits,
+        }
+    }
+
+    /// Turns are told from those a full turn away by being nearest to this one, radians: the middle of
+    /// limits that go beyond half a turn, else none.
+    pub fn middle(&self) -> f64 {
+        match *self {
+            JointKind::Revolute { limits: Some(Span { low, high }), .. }
+                if low < -PI || high > PI =>
+            {
+                0.5 * (low + high)
+            }
+            _ => 0.0,
         }
     }
 }

@@ -98,7 +98,8 @@ impl Scene {
             let start = &self.objects[object].pose;
             let mut now = scene.objects[object].pose;
             // Sights do not count turns.
-            now.heading = start.heading + wrap_angle(now.heading - start.heading);
+            let middle = mount.kind.middle();
+            now.heading = start.heading + middle + wrap_angle(now.heading - start.heading - middle);
             *mount = mount.carried(start, &now);
         }
         scene

@@ -41,16 +41,18 @@ impl Separation {
         self.ends[0].local_vector(self.apart())
     }
 
-    /// Turn of the second end against the first, radians in (-pi, pi].
-    pub fn turned(&self) -> f64 {
-        wrap_angle(self.ends[1].heading - self.ends[0].heading)
+    /// Turn of the second end against the first, radians within half a turn of the
+    /// [middle](JointKind::middle) of what a joint of this kind allows.
+    pub fn turned(&self, kind: &JointKind) -> f64 {
+        let middle = kind.middle();
+        middle + wrap_angle(self.ends[1].heading - self.ends[0].heading - middle)
     }
 
     /// What a joint of this kind does not allow, `limits` included.
     pub fn misfit(&self, kind: &JointKind, limits: Option<Span>) -> Misfit {
         let beyond =
             |value: f64| limits.map_or(0.0, |limits| value - value.clamp(limits.low, limits.high));
-        let (seen, turned) = (self.seen(), self.turned());
+        let (seen, turned) = (self.seen(), self.turned(kind));
         match kind {
             JointKind::Fixed => Misfit { offset: seen, turn: turned },
             JointKind::Revolute { .. } => Misfit { offset: seen, turn: beyond(turned) },
@@ -82,6 +84,12 @@ mod tests {
         let revolute = JointKind::Revolute { at, limits };
         assert!(close(misfit(revolute, None), 0.04, 0.01, 0.0));
         assert!(close(misfit(revolute, limits), 0.04, 0.01, 0.17));
+        // Limits beyond half a turn: the same heading is a turn of 0.2, 17 degrees short of where it may be.
+        let wide = |low, high| JointKind::Revolute { at, limits: Some(Span::new(low, high)) };
+        for (low, high, beyond) in [(-0.1, 4.4, 0.0), (-6.1, -0.2, 0.0), (-0.1, 0.1, 0.1)] {
+            let kind = wide(low, high);
+            assert!(close(misfit(kind, kind.limits()), 0.04, 0.01, beyond), "{low} {high}");
+        }
         let prismatic = JointKind::Prismatic { axis, limits };
         assert!(close(misfit(prismatic, None), 0.0, 0.01, 0.2));
         assert!(close(misfit(prismatic, limits), 0.01, 0.01, 0.2));

@@ -27,6 +27,7 @@ mod slowing;
 mod solids;
 mod solved;
 mod spatial;
+mod stops;
 mod strain;
 mod support;
 mod upright;

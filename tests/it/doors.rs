@@ -1,5 +1,7 @@
 //! Joints to the world, and the goals that speak of them.
 
+use std::f64::consts::FRAC_PI_2;
+
 use pushplan::effect::EffectModels;
 use pushplan::scene::{Engine, ModelKind, Rate, Record, Situation};
 use pushplan::{
@@ -108,4 +110,65 @@ fn faults_of_joints_to_the_world_are_told() {
     assert!(text.contains("`heading_deg` and `joint_deg` ask for the same"), "{text}");
     let text = faults("joint_deg: 40, heading_tolerance_deg: 5", "position: [0.6, 0]");
     assert!(text.contains("`position` needs a `tolerance`"), "{text}");
+}
+
+/// A door that opens by up to 225 degrees counter-clockwise, of which it stands free.
+const WIDE: &str = "
+scene:
+  objects:
+    - {name: door, shape: {cuboid: {size: [0.20, 0.02, 0.15]}}, mass: 0.6, friction: 0.3, position: [0.5, 0.0]}
+  joints:
+    - {between: [world, door], kind: revolute, at: [0.6, 0.0], limits_deg: [-10, 225]}
+robot: {reach: {min: 0.1, max: 0.95}}
+tools: [stick, l-hook]
+goal: {object: door, joint_deg: 200, heading_tolerance_deg: 10}
+";
+
+/// Where the side of the door that faces the robot's right meets the end of a stick from there, which
+/// reaches from 8 to 16 cm beyond the hinge, metres; the door stands open by `turn` degrees.
+fn face(turn: f64) -> f64 {
+    let (sin, cos) = (turn - 180.0).to_radians().sin_cos();
+    [0.08, 0.16].map(|x| (x * sin - 0.01) / cos).into_iter().fold(f64::INFINITY, f64::min)
+}
+
+/// How far the door is open after such a stick has been pushed on to `y`, degrees; it stood open by `from`.
+fn opened(task: &Task, model: &dyn EffectModel, from: f64, y: f64) -> f64 {
+    let library = ToolLibrary::embedded().expect("tools");
+    let stick = library.get("stick").expect("a stick");
+    let mut situation = Situation::stated(&task.scene);
+    let closed = task.scene.objects[0].pose;
+    situation.start.poses[0] = task.scene.mounts[0].pose(&closed, from.to_radians());
+    // Its end is 0.61 m before the grip; it is set down a centimetre before the door.
+    let below = face(from) - 0.01;
+    let start = Vector::new(0.72, below - 0.61);
+    let push = Push { start, direction: FRAC_PI_2, length: y - below, speed: 0.1 };
+    let motion = ToolMotion::pushes(stick.clone(), 0.002, FRAC_PI_2, &[push], true);
+    let job = Job::new(&situation, motion);
+    let end = model.rollout(&task.scene, &[job], Record::Outcome).remove(0).outcome().clone();
+    (end.poses[0].heading - closed.heading).to_degrees()
+}
+
+#[test]
+fn a_door_turns_on_beyond_half_a_turn_and_stops_at_its_limit_in_every_model() {
+    let task = task(WIDE);
+    let again = Task::parse(&task.to_yaml().expect("YAML"), "furniture.yaml").expect("a task");
+    assert_eq!(again.scene, task.scene);
+    let engine = |engine| Simulated::new(Simulator::new(engine, Rate::DEFAULT));
+    let prior = EffectModels::build(&ModelKind::PRIOR.into()).expect("a model");
+    let (planar, spatial) = (engine(Engine::Planar), engine(Engine::Spatial));
+    for model in [&prior as &dyn EffectModel, &planar, &spatial] {
+        for (from, to) in [(165.0, 175.0), (165.0, 200.0), (185.0, 220.0)] {
+            let open = opened(&task, model, from, face(to));
+            assert!((open - to).abs() < 1.5, "{}: {open} of {to}", model.spec());
+        }
+        let open = opened(&task, model, 200.0, face(225.0) + 0.008);
+        assert!((open - 225.0).abs() < 4.0, "{}: {open} at the limit", model.spec());
+    }
+}
+
+#[test]
+fn limits_of_turns_leave_something_out() {
+    let text = WIDE.replace("[-10, 225]", "[-120, 225]");
+    let faults = Task::parse(&text, "furniture.yaml").expect_err("a fault").to_string();
+    assert!(faults.contains("from -120 to 225 is more than 340 degrees"), "{faults}");
 }

@@ -221,6 +221,10 @@ fn check_keys(joint: &Node, ledger: &mut Ledger) {
     }
 }
 
+/// Limits of turns are no farther apart than this, degrees: what is beyond one is told from what is beyond
+/// the other.
+const MOST_TURN: f64 = 340.0;
+
 /// Limits are in order and hold the start.
 fn check_limits(joint: &Node, ledger: &mut Ledger) {
     for (key, what) in [("limits_deg", "turn"), ("limits", "shift")] {
@@ -234,6 +238,12 @@ fn check_limits(joint: &Node, ledger: &mut Ledger) {
                 node,
                 format!("the lower limit, {low}, is not below the upper, {high}"),
                 "write [low, high]; a joint that cannot move is `kind: fixed`",
+            );
+        } else if key == "limits_deg" && high - low > MOST_TURN {
+            ledger.fault(
+                node,
+                format!("from {low} to {high} is more than {MOST_TURN} degrees"),
+                "leave the limits out where a joint turns freely",
             );
         } else if low > 0.0 || high < 0.0 {
             ledger.fault(

@@ -10,8 +10,8 @@ use crate::scene::{Joint, JointKind, Mount, Span};
 use super::groups::held_by;
 use super::objects::Draft;
 
-/// Farthest that a limit of turns may be from the start, radians.
-const FARTHEST: f64 = 170.0 * PI / 180.0;
+/// Farthest that limits of turns may be apart, radians.
+const WIDEST: f64 = 340.0 * PI / 180.0;
 
 /// Joints of everything that is attached to an object by one that is not fixed.
 pub(super) fn joints(
@@ -93,7 +93,7 @@ fn kind(motion: &Motion, name: &str, place: Place, ledger: &mut Ledger) -> Optio
     }
 }
 
-/// Limits of turns as a task can say them: within 170 degrees of the start, or none.
+/// Limits of turns as a task can say them: at most 340 degrees apart, or none.
 fn turns(limits: Span, name: &str, place: Place, ledger: &mut Ledger) -> Option<Span> {
     let Span { low, high } = limits;
     let degrees = |angle: f64| (angle.to_degrees() * 10.0).round() / 10.0;
@@ -103,10 +103,12 @@ fn turns(limits: Span, name: &str, place: Place, ledger: &mut Ledger) -> Option<
         ledger.note(place, note);
         return None;
     }
-    let kept = Span { low: low.max(-FARTHEST), high: high.min(FARTHEST) };
+    // The start stays within them.
+    let low = low.max(-(WIDEST - high).max(0.5 * WIDEST));
+    let kept = Span { low, high: high.min(low + WIDEST) };
     if kept != limits {
-        let note =
-            format!("`{name}` may turn by {stated}: here by at most 170 degrees to each side");
+        let [low, high] = [kept.low, kept.high].map(degrees);
+        let note = format!("`{name}` may turn by {stated}: here by {low} to {high} degrees");
         ledger.note(place, note);
     }
     Some(kept)

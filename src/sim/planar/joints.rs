@@ -3,7 +3,8 @@
 use rapier2d::prelude::{GenericJointBuilder, JointAxesMask, JointAxis, Real, RigidBodyBuilder};
 
 use crate::geometry::Vector;
-use crate::scene::{JointKind, Physics, Scene, Span};
+use crate::scene::{JointKind, Physics, Scene};
+use crate::sim::stops::{within, zero};
 
 use super::{PlanarWorld, to_rapier};
 
@@ -24,11 +25,14 @@ impl PlanarWorld {
             let [first, second] = joint.between.map(|index| &self.objects[index].0);
             let [at_first, at_second] = joint.frames(&scene.objects);
             let mut built = GenericJointBuilder::new(axes)
-                .local_frame1(to_rapier(&(first.local * at_first), Vector::zeros()))
+                .local_frame1(to_rapier(
+                    &(first.local * at_first * zero(&joint.kind)),
+                    Vector::zeros(),
+                ))
                 .local_frame2(to_rapier(&(second.local * at_second), Vector::zeros()));
-            // The frames coincide where the scene states its objects, so zero is there.
-            if let Some(Span { low, high }) = joint.limits() {
-                built = built.limits(free, [low as Real, high as Real]);
+            // The frames coincide where the scene states its objects, so zero is there, or before it.
+            if let Some(limits) = within(&joint.kind) {
+                built = built.limits(free, limits.map(|limit| limit as Real));
             }
             let [first, second] = [first, second].map(|member| self.bodies[member.body].handle);
             self.world.insert_impulse_joint(first, second, built);
@@ -38,10 +42,10 @@ impl PlanarWorld {
             let member = &self.objects[mount.object].0;
             let [world, own] = mount.frames(&scene.objects);
             let mut built = GenericJointBuilder::new(axes)
-                .local_frame1(to_rapier(&world, self.origin))
+                .local_frame1(to_rapier(&(world * zero(&mount.kind)), self.origin))
                 .local_frame2(to_rapier(&(member.local * own), Vector::zeros()));
-            if let Some(Span { low, high }) = mount.limits() {
-                built = built.limits(free, [low as Real, high as Real]);
+            if let Some(limits) = within(&mount.kind) {
+                built = built.limits(free, limits.map(|limit| limit as Real));
             }
             let fixed = self.world.insert_body(RigidBodyBuilder::fixed());
             self.world.insert_impulse_joint(fixed, self.bodies[member.body].handle, built);

@@ -7,7 +7,8 @@ use rapier3d_f64::prelude::{
 };
 
 use crate::geometry::Pose;
-use crate::scene::{JointKind, Physics, Scene, Span};
+use crate::scene::{JointKind, Physics, Scene};
+use crate::sim::stops::{within, zero};
 
 use super::{LOCAL, SpatialWorld, to_rapier};
 
@@ -36,11 +37,11 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
             let ([first, second], [at_first, at_second]) =
                 (joint.between, joint.frames(&scene.objects));
             let mut built = GenericJointBuilder::new(axes)
-                .local_frame1(frame(first, at_first))
+                .local_frame1(frame(first, at_first * zero(&joint.kind)))
                 .local_frame2(frame(second, at_second));
             // The frames coincide where the scene states its objects, so zero is there.
-            if let Some(Span { low, high }) = joint.limits() {
-                built = built.limits(free, [low, high]);
+            if let Some(limits) = within(&joint.kind) {
+                built = built.limits(free, limits);
             }
             let [first, second] =
                 [first, second].map(|object| self.bodies[self.objects[object].0.body].handle);
@@ -60,10 +61,10 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
             let [world, own] = mount.frames(&scene.objects);
             let own = to_rapier(&(member.local * own), &LOCAL, -body.first_position.z);
             let mut built = GenericJointBuilder::new(axes)
-                .local_frame1(turned(to_rapier(&world, &self.frame, 0.0)))
+                .local_frame1(turned(to_rapier(&(world * zero(&mount.kind)), &self.frame, 0.0)))
                 .local_frame2(turned(own));
-            if let Some(Span { low, high }) = mount.limits() {
-                built = built.limits(free, [low, high]);
+            if let Some(limits) = within(&mount.kind) {
+                built = built.limits(free, limits);
             }
             let handle = body.handle;
             let fixed = self.world.insert_body(RigidBodyBuilder::fixed());

@@ -161,7 +161,7 @@ fn limits_that_are_violated_or_empty() {
       help: write [low, high]; a joint that cannot move is `kind: fixed`
     "#);
     assert_snapshot!(faults(&[("[-30, 45]", "[-400, 45]"), ("[-0.05, 0.10]", "[-50]")]), @r#"
-    t.yaml:9:72: error: expected a limit in degrees from -170 to 170, found the number -400
+    t.yaml:9:72: error: expected a limit in degrees from -340 to 340, found the number -400
       help: limits are in degrees from the start; leave them out where a joint turns freely
     t.yaml:10:64: error: expected a list of 2 numbers, found a list of 1 item
     t.yaml:10:65: error: expected a limit in metres from -10 to 10, found the number -50
