@@ -13,8 +13,8 @@ pub struct SolvedTask {
     pub task: String,
     /// How it ended.
     pub status: PlanStatus,
-    /// Largest error that counts as success, metres.
-    pub tolerance: f64,
+    /// Largest distance that counts as success, metres; `None` where no place is asked for.
+    pub tolerance: Option<f64>,
     /// The plan to use, or the nearest one; `None` if no push can be made at all.
     pub plan: Option<Plan>,
     /// Where it ends as predicted by the effect model.
@@ -59,7 +59,7 @@ impl SolvedTask {
         Self {
             task: task.name.clone(),
             status: solution.status,
-            tolerance: task.goal.tolerance,
+            tolerance: Some(task.goal.tolerance).filter(|tolerance| tolerance.is_finite()),
             plan: best.map(|best| best.plan.clone()),
             predicted: best.map(|best| End::of(&best.outcome)),
             planar: end(Engine::Planar),

@@ -88,7 +88,7 @@ fn task_table(tasks: &[Finished<SolvedTask>]) -> Table {
             error(record.predicted),
             error(record.planar),
             error(record.spatial),
-            millimetres(record.tolerance),
+            record.tolerance.map_or(String::new(), millimetres),
             record.robustness.map_or(String::new(), |share| format!("{:.0} %", share * 100.0)),
             times.get("total").map_or(String::new(), |total| seconds(*total)),
         ]);
@@ -111,7 +111,7 @@ pub fn solved_cells(index: usize, record: &SolvedTask, times: &Seconds) -> Vec<S
         status(record.status).to_owned(),
         plan.map_or(String::new(), |plan| plan.tool().to_owned()),
         plan.map_or(String::new(), |plan| plan.pushes().len().to_string()),
-        record.tolerance.to_string(),
+        number(record.tolerance),
     ];
     cells.extend(ends.map(error));
     cells.extend(ends.map(turned));

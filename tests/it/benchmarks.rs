@@ -96,6 +96,17 @@ fn an_interrupted_benchmark_keeps_its_tasks_and_goes_on_to_the_same_bytes() {
     assert_eq!(compared(&broken), compared(&whole));
 }
 
+#[test]
+fn tasks_that_ask_for_no_place_are_kept() {
+    let folder = TempDir::new().expect("a folder");
+    let out = folder.path().to_str().expect("UTF-8");
+    let task = "tasks/open-door.yaml";
+    let output = run(&[&BENCH[..], &[task, "--out", out]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let kept = fs::read_to_string(folder.path().join("records.jsonl")).expect("a record");
+    assert!(kept.contains("\"tolerance\":null"), "{kept}");
+}
+
 /// The files that are the same for every way to the same run.
 fn compared(dir: &Path) -> [String; 2] {
     ["manifest.json", "records.jsonl"]

@@ -128,7 +128,7 @@ impl RefinementReport {
             model: model.to_owned(),
             seed,
             tasks: done.len(),
-            tolerance: after.first().map_or(0.0, |task| task.solved.tolerance),
+            tolerance: after.first().map_or(0.0, |task| task.solved.tolerance.unwrap_or_default()),
             before: plan_errors(&before),
             after: plan_errors(&after),
             worse: sum(&|one| one.worse),
