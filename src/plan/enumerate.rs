@@ -5,7 +5,7 @@ use std::collections::HashSet;
 
 use rayon::prelude::*;
 
-use crate::scene::{Offsets, Push, Scene, Surface, pair_friction};
+use crate::scene::{Offsets, Push, Surface, Task, pair_friction};
 
 use super::field::Field;
 use super::scored::Scores;
@@ -149,9 +149,7 @@ fn extend(
 ) -> Result<Extension, Infeasible> {
     let depth = node.candidate.as_ref().map_or(0, |c| c.pushes.len());
     let start = workspace.place(pair, &node.state, &planned, node.end)?;
-    if workspace.is_placed()
-        && topples(&workspace.task.scene, planned.object, workspace.task.pushes.lift)
-    {
+    if workspace.is_placed() && topples(workspace, (pair.0, planned.object)) {
         return Err(Infeasible::Topples);
     }
     planned.length = workspace.free_travel(pair, start, planned.direction, planned.length)?;
@@ -172,16 +170,22 @@ fn extend(
     Ok(Extension { node: index, pair, planned, push, scored: None, promise })
 }
 
-/// Whether an object that is pushed at least so high turns over, in whatever direction it is pushed:
-/// friction with the table then has a larger moment than the weight about the farthest edge. The models
-/// that search are of the plane and cannot see it. What hangs together is left to the 3-D engine.
-fn topples(scene: &Scene, object: usize, height: f64) -> bool {
+/// Whether an object turns over rather than slide, in whatever direction the tool pushes it at its lowest:
+/// the models that search are of the plane and cannot see it. With a force F at height z, friction m with
+/// the table and t with the tool, and the farthest edge at d, moments about that edge hold the object down
+/// while F z <= W d + 2 d t F, where F = m (W + t F): while m z <= d (1 + m t). What hangs together is left to
+/// the 3-D engine.
+fn topples(workspace: &Workspace, (tool, object): (usize, usize)) -> bool {
+    let Task { scene, pushes, .. } = workspace.task;
     let one = &scene.objects[object];
     let joined = scene.joints.iter().any(|joint| joint.between.contains(&object))
         || scene.mounts.iter().any(|mount| mount.object == object);
-    let values = [one.friction, scene.table_friction];
-    let friction = pair_friction(&scene.frictions, object, Surface::Table, values);
-    !joined && !one.may_fall && height * friction > one.shape.footprint().bounding_radius()
+    let friction =
+        |with, value| pair_friction(&scene.frictions, object, with, [one.friction, value]);
+    let table = friction(Surface::Table, scene.table_friction);
+    let held = 1.0 + table * friction(Surface::Tool, workspace.tools[tool].friction);
+    let edge = one.shape.footprint().bounding_radius();
+    !joined && !one.may_fall && table * pushes.lift > edge * held
 }
 
 /// Cuts a list to the budget, keeping the most promising and the order; returns how many fell

@@ -1,8 +1,9 @@
 //! Which of several plans that are as good is preferred: stated here, once.
 //!
 //! Among plans with the same verdict and robustness, in this order: fewer pushes, as longer plans are only
-//! looked for where no shorter one is safe; the tool of less cost; less moved besides what has a goal; the
-//! simpler tool; the smaller error. Errors well inside of the tolerance are no reason to prefer one: models differ by as much.
+//! looked for where no shorter one is safe; the cheaper tool; less moved besides what has a goal; the simpler
+//! tool; the smaller error. Errors well inside the tolerance are no reason to prefer one: models differ by
+//! as much.
 
 use std::cmp::Ordering;
 

@@ -84,7 +84,7 @@ impl Gap {
             .map(|solids| solids.iter().map(|(shape, pose)| Area { shape: *shape, pose: *pose }))
     }
 
-    /// Whether a gap of so many metres is allowed; what touches may be pressed into by a hair.
+    /// Whether a gap of this many metres is allowed; things that touch may overlap slightly in a simulation.
     pub fn holds(&self, gap: f64) -> bool {
         self.beyond(gap, 0.0) == 0.0
     }

@@ -199,8 +199,8 @@ pub struct Task {
     pub arm: Option<Box<Arm>>,
     /// Allowed tools.
     pub tools: ToolChoice,
-    /// What using a tool costs, by its name, nothing where it is not named: of plans of as many pushes that
-    /// are as good the one that costs less is preferred.
+    /// Cost of using a tool, by its name; 0 where it is not named. Of equally good plans with as many pushes
+    /// the cheaper is preferred.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub tool_costs: BTreeMap<String, f64>,
     /// Allowed pushes.

@@ -124,21 +124,21 @@ tools: [stick, l-hook]
 goal: {object: door, joint_deg: 200, heading_tolerance_deg: 10}
 ";
 
-/// Where the side of the door that faces the robot's right meets the end of a stick from there, which
-/// reaches from 8 to 16 cm beyond the hinge, metres; the door stands open by `turn` degrees.
+/// The y, metres, at which a stick that comes from the robot's right meets the door, open by `turn` degrees.
+/// Its end covers 8 to 16 cm beyond the hinge along x.
 fn face(turn: f64) -> f64 {
     let (sin, cos) = (turn - 180.0).to_radians().sin_cos();
     [0.08, 0.16].map(|x| (x * sin - 0.01) / cos).into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// How far the door is open after such a stick has been pushed on to `y`, degrees; it stood open by `from`.
+/// How far such a stick opens the door by moving to `y`, degrees; it was open by `from` before.
 fn opened(task: &Task, model: &dyn EffectModel, from: f64, y: f64) -> f64 {
     let library = ToolLibrary::embedded().expect("tools");
     let stick = library.get("stick").expect("a stick");
     let mut situation = Situation::stated(&task.scene);
     let closed = task.scene.objects[0].pose;
     situation.start.poses[0] = task.scene.mounts[0].pose(&closed, from.to_radians());
-    // Its end is 0.61 m before the grip; it is set down a centimetre before the door.
+    // The stick reaches 0.61 m beyond the grip, and comes down one centimetre from the door.
     let below = face(from) - 0.01;
     let start = Vector::new(0.72, below - 0.61);
     let push = Push { start, direction: FRAC_PI_2, length: y - below, speed: 0.1 };

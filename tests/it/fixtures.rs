@@ -2,11 +2,28 @@
 
 use std::sync::Arc;
 
+use pushplan::effect::{EffectModel, Prior, Simulated};
 use pushplan::geometry::{Pose, Shape, Vector, wrap_angle};
 use pushplan::scene::{
-    Joint, JointKind, Object, Part, Push, Scene, State, Tool, ToolMotion, Trajectory,
+    Job, Joint, JointKind, Object, Part, Push, Record, Scene, State, Tool, ToolMotion, Trajectory,
 };
 use pushplan::sim::Simulator;
+
+/// The prior and the engines, by name.
+pub fn models() -> [(&'static str, Box<dyn EffectModel>); 4] {
+    [
+        ("prior", Box::new(Prior::default())),
+        ("planar", Box::new(Simulated::new(Simulator::planar()))),
+        ("upright", Box::new(Simulated::new(Simulator::upright()))),
+        ("spatial", Box::new(Simulated::new(Simulator::spatial()))),
+    ]
+}
+
+/// Where everything is at the end of a motion.
+pub fn end(model: &dyn EffectModel, scene: &Scene, motion: &ToolMotion) -> State {
+    let job = Job::stated(scene, motion.clone());
+    model.rollout(scene, &[job], Record::Outcome)[0].outcome().clone()
+}
 
 /// A cylinder of 10 cm diameter and height at the origin.
 pub fn can() -> Object {

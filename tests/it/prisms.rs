@@ -4,15 +4,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use pushplan::asset::ToolLibrary;
-use pushplan::effect::{EffectModel, Prior, Simulated};
+use pushplan::effect::Prior;
 use pushplan::geometry::{ConvexPolygon, Pose, Vector, wrap_angle};
-use pushplan::scene::{
-    Job, Object, Obstacle, Part, Push, Record, Scene, State, Support, Task, Tool, ToolMotion,
-};
-use pushplan::sim::Simulator;
+use pushplan::scene::{Object, Obstacle, Part, Push, Scene, Support, Task, Tool, ToolMotion};
 use pushplan::solve::{Effort, PlanStatus, Planner};
 
-use crate::fixtures::push;
+use crate::fixtures::{end, models, push};
 
 fn polygon(corners: &[[f64; 2]]) -> ConvexPolygon {
     let corners: Vec<Vector> = corners.iter().map(|[x, y]| Vector::new(*x, *y)).collect();
@@ -40,20 +37,6 @@ fn loaded() -> Object {
 
 fn square() -> ConvexPolygon {
     polygon(&[[0.0, 0.0], [0.07, 0.0], [0.07, 0.07], [0.0, 0.07]])
-}
-
-fn models() -> [(&'static str, Box<dyn EffectModel>); 4] {
-    [
-        ("prior", Box::new(Prior::default())),
-        ("planar", Box::new(Simulated::new(Simulator::planar()))),
-        ("upright", Box::new(Simulated::new(Simulator::upright()))),
-        ("spatial", Box::new(Simulated::new(Simulator::spatial()))),
-    ]
-}
-
-fn end(model: &dyn EffectModel, scene: &Scene, motion: &ToolMotion) -> State {
-    let job = Job::stated(scene, motion.clone());
-    model.rollout(scene, &[job], Record::Outcome)[0].outcome().clone()
 }
 
 /// A narrow finger that pushes along x by 15 cm, `aside` metres off the origin.

@@ -5,34 +5,19 @@ use std::process::Command;
 use std::sync::Arc;
 
 use pushplan::asset::{PlanFile, ToolLibrary};
-use pushplan::effect::{EffectModel, Prior, Simulated};
 use pushplan::export::{REPLAY_SCRIPT, mjcf};
 use pushplan::geometry::{Pose, Vector};
 use pushplan::import::{Wanted, objects, parse};
 use pushplan::scene::{
-    Job, Object, Obstacle, Part, Physics, Plan, Push, PushForm, Record, Scene, State, Stroke,
-    Support, Task, Tool, ToolMotion,
+    Object, Obstacle, Part, Physics, Plan, Push, PushForm, Scene, Stroke, Support, Task, Tool,
+    ToolMotion,
 };
-use pushplan::sim::Simulator;
 use pushplan::solve::{Effort, PlanStatus, Planner};
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
+use crate::fixtures::{end, models};
 use crate::mujoco_python::python;
-
-fn models() -> [(&'static str, Box<dyn EffectModel>); 4] {
-    [
-        ("prior", Box::new(Prior::default())),
-        ("planar", Box::new(Simulated::new(Simulator::planar()))),
-        ("upright", Box::new(Simulated::new(Simulator::upright()))),
-        ("spatial", Box::new(Simulated::new(Simulator::spatial()))),
-    ]
-}
-
-fn end(model: &dyn EffectModel, scene: &Scene, motion: &ToolMotion) -> State {
-    let job = Job::stated(scene, motion.clone());
-    model.rollout(scene, &[job], Record::Outcome)[0].outcome().clone()
-}
 
 /// A bar across that is this high and moves along x.
 fn pushed(height: f64, width: f64, from: [f64; 2], length: f64) -> ToolMotion {
