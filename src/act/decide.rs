@@ -9,7 +9,7 @@ use crate::solve::{AskedPush, AskedStart, SolveError, asked_plan};
 use crate::watch::Watch;
 
 use super::error::ActError;
-use super::judge::{Chance, Reach, Samples};
+use super::judge::{Chance, Reach, Samples, Tooled};
 use super::probe::{pays, probe};
 use super::runner::Runner;
 use super::trace::{Step, Trace, Why};
@@ -30,13 +30,13 @@ pub(super) enum Decision {
 
 /// Plans with their expected outcomes.
 struct Judged {
-    plans: Vec<(Plan, Arc<Tool>)>,
+    plans: Vec<Tooled>,
     reach: Vec<Vec<Reach>>,
 }
 
 impl Judged {
     /// The best; the first of equals, as the planner ranks them.
-    fn best(&self) -> Option<(&(Plan, Arc<Tool>), Chance)> {
+    fn best(&self) -> Option<(&Tooled, Chance)> {
         let mut best: Option<(usize, Chance)> = None;
         for (k, reach) in self.reach.iter().enumerate() {
             let chance = Chance::of(reach);
@@ -59,10 +59,10 @@ impl Runner<'_> {
         let Trace { task, settings, steps, .. } = trace;
         let model = self.planner.model();
         if let Some((plan, tool)) = steps.last().and_then(|last| rest(task, &samples.now, last)) {
-            let plans = [(plan, tool)];
+            let plans = [(plan, vec![Arc::clone(&tool)])];
             let chance = Chance::of(&samples.reach(model, task, &plans)[0]);
             if chance.share >= settings.enough {
-                let [(plan, tool)] = plans;
+                let [(plan, _)] = plans;
                 return Ok(Decision::Do { why: Why::Rest, plan, tool, chance });
             }
         }
@@ -92,17 +92,17 @@ impl Runner<'_> {
             let index = steps.len() as u64;
             let found = probe(model, task, settings, (belief, samples), known, index);
             if let Some((plan, tool)) = found {
-                let plans = [(plan, tool)];
+                let plans = [(plan, vec![Arc::clone(&tool)])];
                 let chance = Chance::of(&samples.reach(model, task, &plans)[0]);
-                let [(plan, tool)] = plans;
+                let [(plan, _)] = plans;
                 return Ok(Decision::Do { why: Why::Probe, plan, tool, chance });
             }
         }
         let nothing = task.score(&samples.now.start);
-        let Some(((plan, tool), chance)) = judged.best() else { return Ok(Decision::Nothing) };
+        let Some(((plan, tools), chance)) = judged.best() else { return Ok(Decision::Nothing) };
         let why = if chance.share >= settings.enough { Why::Plan } else { Why::Best };
         let helps = chance.share > 0.0 || chance.score < (1.0 - NEARER) * nothing;
-        let (plan, tool) = (plan.clone(), Arc::clone(tool));
+        let (plan, tool) = (plan.clone(), Arc::clone(&tools[0]));
         Ok(if helps { Decision::Do { why, plan, tool, chance } } else { Decision::Nothing })
     }
 
@@ -119,11 +119,11 @@ impl Runner<'_> {
         if solution.best().is_some_and(|best| best.plan.is_empty() && best.outcome.reached) {
             return Ok(None);
         }
-        let plans: Vec<(Plan, Arc<Tool>)> = solution
+        let plans: Vec<Tooled> = solution
             .plans
             .into_iter()
             .filter(|ranked| !ranked.plan.is_empty())
-            .filter_map(|ranked| Some((ranked.plan, ranked.tools.into_iter().next()?)))
+            .map(|ranked| (ranked.plan, ranked.tools))
             .collect();
         let reach = samples.reach(self.planner.model(), task, &plans);
         Ok(Some(Judged { plans, reach }))
@@ -149,6 +149,12 @@ fn probes(steps: &[Step]) -> usize {
 fn rest(task: &Task, now: &Situation, last: &Step) -> Option<(Plan, Arc<Tool>)> {
     let made = last.plan.pushes();
     let left = made.get(last.pushes..).filter(|left| !left.is_empty())?;
+    let mut steps = last.plan.push_steps().skip(last.pushes);
+    let grip_yaw = steps.next()?.grip_yaw;
+    // Another tool, or another grip, is for another plan.
+    if last.plan.tools().len() > 1 || steps.any(|step| step.grip_yaw != grip_yaw) {
+        return None;
+    }
     // Of several goals it is not known which object the next push is for.
     let several = !task.further.is_empty();
     if last.why == Why::Probe || last.plan.form() == PushForm::Chained || several {
@@ -163,6 +169,6 @@ fn rest(task: &Task, now: &Situation, last: &Step) -> Option<(Plan, Arc<Tool>)> 
     };
     let pushes: Vec<AskedPush> = left.iter().map(asked).collect();
     let tool = Arc::new(last.tool.clone());
-    let asked = asked_plan(task, now, &tool, &[last.plan.grip_yaw()], &pushes).ok()?;
+    let asked = asked_plan(task, now, &tool, &[grip_yaw], &pushes).ok()?;
     asked.broken.is_empty().then_some((asked.plan, tool))
 }

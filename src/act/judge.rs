@@ -6,12 +6,15 @@ use serde::{Deserialize, Serialize};
 
 use crate::effect::EffectModel;
 use crate::scene::{
-    Job, Outcome, Physics, Plan, Record, Situation, Task, Tool, ToolMotion, Trajectory,
+    Job, Outcome, Physics, Plan, Record, Situation, Task, Tool, ToolMotion, Trajectory, in_turn,
 };
 
 /// A miss by more tolerances than this is no worse: one sample in which everything goes wrong must
 /// not outweigh the others.
 const WORST: f64 = 10.0;
+
+/// A plan with the tools that it names, the first one first.
+pub(super) type Tooled = (Plan, Vec<Arc<Tool>>);
 
 /// What is expected of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -42,15 +45,20 @@ impl Samples {
     }
 
     /// The outcome of plans with at least one push each, in every sample.
-    pub fn reach(
-        &self,
-        model: &dyn EffectModel,
-        task: &Task,
-        plans: &[(Plan, Arc<Tool>)],
-    ) -> Vec<Vec<Reach>> {
-        let jobs: Vec<Job> =
-            plans.iter().flat_map(|(plan, tool)| self.jobs(&plan.motion(tool))).collect();
-        let rolled = model.rollout(&self.now.scene, &jobs, Record::Outcome);
+    pub fn reach(&self, model: &dyn EffectModel, task: &Task, plans: &[Tooled]) -> Vec<Vec<Reach>> {
+        let under = |physics: &Arc<Physics>, motions: &[ToolMotion]| {
+            let now = Situation { physics: Arc::clone(physics), ..self.now.clone() };
+            Job::sequence(&now, motions)
+        };
+        let all: Vec<Vec<Job>> = plans
+            .iter()
+            .flat_map(|(plan, tools)| {
+                let motions = plan.slides(tools).unwrap_or_default();
+                self.physics.iter().map(|physics| under(physics, &motions)).collect::<Vec<_>>()
+            })
+            .collect();
+        let run = |jobs: &[Job]| model.rollout(&self.now.scene, jobs, Record::Outcome);
+        let rolled = in_turn(&all, Record::Outcome, run);
         let reach = |trajectory: &Trajectory| {
             let outcome = Outcome::judge(&task.scene, task, trajectory);
             let score = task.score(&outcome.state);

@@ -218,6 +218,9 @@ impl<'a> Runner<'a> {
         let rest = predicted.outcome();
         let motion = done.motion(&tool);
         let scene = &trace.task.scene;
+        if trace.steps.last().is_none_or(|last| last.tool.name != tool.name) {
+            world.change_tool(&tool)?;
+        }
         let looks: Vec<Look> =
             world.act(&motion)?.into_iter().map(|look| look.with_parts(scene)).collect();
         let stop = world.stopped();

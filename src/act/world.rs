@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::scene::{Scene, Sight, State, ToolMotion};
+use crate::scene::{Scene, Sight, State, Tool, ToolMotion};
 
 /// A table on which objects can be pushed and looked at; a robot can implement it.
 pub trait World {
@@ -12,6 +12,16 @@ pub trait World {
     /// # Errors
     /// If nothing can be seen at all.
     fn look(&mut self) -> Result<Look, WorldError>;
+
+    /// Takes another tool, before the first motion with it; what a robot does that changes tools by itself.
+    /// By default nothing, as every motion says which tool makes it.
+    ///
+    /// # Errors
+    /// If the tool was not taken.
+    fn change_tool(&mut self, tool: &Tool) -> Result<(), WorldError> {
+        let _ = tool;
+        Ok(())
+    }
 
     /// Carries out a motion, of whose strokes only the last one settles: sets the tool down where
     /// the first stroke begins, moves it along all of them, waits until everything rests, goes

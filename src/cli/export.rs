@@ -166,19 +166,20 @@ fn carried_out(
     session: &Session,
 ) -> Result<Trajectory, CliError> {
     use crate::effect::EffectModel;
-    use crate::scene::{Job, Record};
+    use crate::scene::{Job, Motion, Record};
     let scene = &plan.task.scene;
     let motions = plan.plan.motions(&plan.tools).unwrap_or_default();
     let trajectory =
-        match &motions[..] {
-            [motion] => {
-                let (model, job) = (model::load(spec)?, Job::stated(scene, motion.clone()));
-                let jobs = std::slice::from_ref(&job);
-                session.compute(|| model.rollout(scene, jobs, Record::Frames)).pop()
+        // What follows something levered is for the engine alone.
+        match motions.len() > 1 && plan.plan.levers() {
+            false => {
+                let model = model::load(spec)?;
+                let job = |motion: &Motion| Job::stated(scene, motion.clone());
+                let jobs: Vec<Job> = motions.iter().map(job).collect();
+                session.compute(|| model.in_turn(scene, &jobs, Record::Frames))
             }
-            // What several tools do in turn is for the engine alone.
-            motions => Some(session.compute(|| {
-                crate::sim::Simulator::spatial().run_plan(scene, motions, Record::Frames)
+            true => Some(session.compute(|| {
+                crate::sim::Simulator::spatial().run_plan(scene, &motions, Record::Frames)
             })),
         };
     let trajectory =

@@ -38,9 +38,11 @@ fn predict(
     spec: &ModelSpec,
 ) -> Result<Option<Trajectory>, CliError> {
     let motions = file.plan.motions(&file.tools).unwrap_or_default();
-    // What several tools do in turn no model of one motion tells.
-    let [motion] = &motions[..] else { return Ok(None) };
-    let (model, job) = (model::load(spec)?, Job::stated(&file.task.scene, motion.clone()));
-    let jobs = std::slice::from_ref(&job);
-    Ok(session.compute(|| model.rollout(&file.task.scene, jobs, Record::Frames)).pop())
+    // What follows something levered no model of the plane tells.
+    if motions.len() > 1 && file.plan.levers() {
+        return Ok(None);
+    }
+    let (model, scene) = (model::load(spec)?, &file.task.scene);
+    let jobs: Vec<Job> = motions.into_iter().map(|motion| Job::stated(scene, motion)).collect();
+    Ok(session.compute(|| model.in_turn(scene, &jobs, Record::Frames)))
 }

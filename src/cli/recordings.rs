@@ -53,14 +53,14 @@ fn load(file: &Path) -> Result<Recording, Faults> {
     match asset::check(file, None)? {
         Kind::Trajectory => {
             let file = TrajectoryFile::load(file)?;
-            let flat = file.tools.first().filter(|_| !file.task.in_space() && !file.plan.levers());
-            let Some(tool) = flat else {
-                let message = "what leaves the plane is no recording of pushes";
+            let slides = file.plan.slides(&file.tools).filter(|_| !file.task.in_space());
+            let Some([motion]) = slides.as_deref() else {
+                let message =
+                    "what leaves the plane, or changes the tool, is no recording of pushes";
                 return Err(Fault::of_file(&file.task.name, message, "leave it out").into());
             };
-            let motion = file.plan.motion(tool);
             let frames = &file.trajectory.frames;
-            Ok(Recording::of_frames(&file.task.name, &file.task.scene, &motion, frames))
+            Ok(Recording::of_frames(&file.task.name, &file.task.scene, motion, frames))
         }
         _ => Recording::load(file),
     }

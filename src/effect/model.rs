@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::scene::{Job, ModelSpec, Record, Scene, Trajectory};
+use crate::scene::{Job, ModelSpec, Record, Scene, Trajectory, in_turn};
 
 use super::Trust;
 
@@ -26,6 +26,11 @@ pub trait EffectModel: Send + Sync {
     /// Rolls every job out until everything rests. Every trajectory says which model made it,
     /// which may be one of several that this one chooses among.
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory>;
+
+    /// Rolls jobs out in turn as one trajectory, see [`in_turn`]; nothing without jobs.
+    fn in_turn(&self, scene: &Scene, jobs: &[Job], record: Record) -> Option<Trajectory> {
+        in_turn(&[jobs.to_vec()], record, |jobs| self.rollout(scene, jobs, record)).pop()
+    }
 }
 
 /// A pointer to a model is one itself.

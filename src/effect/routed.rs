@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::scene::{Job, ModelSpec, Record, Scene, State, Trajectory, Warning};
 use crate::sim::Simulator;
+use crate::watch::Unwatched;
 
 use super::{EffectModel, Quantiles, Simulated, Trust};
 
@@ -181,11 +182,12 @@ impl Routed {
     }
 }
 
-/// How far the planar engine ends from what is predicted for `job`, as a warning, for the object on
+/// How far the planar engine ends from what is predicted for `jobs` in turn, as a warning, for the object on
 /// which the two differ most: what it means for this motion that the model is outside its range.
-pub fn consequence(scene: &Scene, job: &Job, predicted: &State) -> Option<Warning> {
-    let run = Simulator::planar().run(scene, job, Record::Outcome);
-    let apart = |k: usize| (run.outcome().poses[k].position - predicted.poses[k].position).norm();
+pub fn consequence(scene: &Scene, jobs: &[Job], predicted: &State) -> Option<Warning> {
+    let run = Simulator::planar().run_in_turn(scene, jobs, Record::Outcome, &Unwatched);
+    let simulated = run.outcome();
+    let apart = |k: usize| (simulated.poses[k].position - predicted.poses[k].position).norm();
     let far = (0..scene.objects.len()).max_by(|&a, &b| apart(a).total_cmp(&apart(b)))?;
     let object = scene.objects[far].name.clone();
     (apart(far) >= SAME).then(|| Warning::Differs { object, distance: apart(far) })

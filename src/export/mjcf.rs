@@ -16,10 +16,8 @@
 //! eight shipped plans by at most 0.3 mm.
 
 use crate::asset::PlanFile;
-use crate::geometry::{Footprint, Pose, Shape};
-use crate::scene::{
-    Body, Carried, Engine, Feet, GRAVITY, Gap, Object, SHOWN_HAND, Scene, ToolMotion,
-};
+use crate::geometry::{Pose, Shape};
+use crate::scene::{Body, Engine, Feet, GRAVITY, Gap, Object, Scene, Tool, ToolMotion};
 
 use super::ExportError;
 use super::forest::{Node, forest};
@@ -30,6 +28,7 @@ use super::regions;
 use super::seamless::seamless;
 use super::space::plan_mjcf;
 use super::strokes::{numeric, retreats, strokes, turns};
+use super::tools::{Lifts, Taken, taken, tool};
 use super::xml::{Xml, numbers};
 
 /// Carries out any number of scenes that [`mjcf()`] wrote and says how they end: Python 3.11 with
@@ -55,9 +54,6 @@ const CONTACT: [(&str, &str); 4] = [
     ("solreffriction", "0.2 1"),
 ];
 
-/// So heavy that nothing moves it, kg.
-const TOOL_MASS: f64 = 1e5;
-
 /// Radius of the points that an object stands on, metres. It never stands on its solid, which MuJoCo
 /// would rest on corners.
 const FOOT: f64 = 1e-3;
@@ -77,11 +73,9 @@ pub fn mjcf(file: &PlanFile) -> Result<String, ExportError> {
     if file.task.in_space() || file.plan.levers() {
         return plan_mjcf(file);
     }
-    let own = file.tools.first().ok_or(ExportError::Tools)?;
-    let motion = file.plan.motion(own);
-    let hand = file.task.robot.carried(own, motion.lift)[0];
-    let lifts = Lifts { hand, retreats: true };
-    written(&file.task.name, &file.task.scene, (&motion, lifts), |xml| wanted(xml, file))
+    let motions = file.plan.slides(&file.tools).ok_or(ExportError::Tools)?;
+    let lifts = Lifts { robot: Some(&file.task.robot), retreats: true };
+    written(&file.task.name, &file.task.scene, (&motions, lifts), |xml| wanted(xml, file))
 }
 
 /// The scene with the tool and its strokes, as MJCF, without a goal: for learning from what happens.
@@ -90,21 +84,15 @@ pub fn mjcf(file: &PlanFile) -> Result<String, ExportError> {
 /// # Errors
 /// [`ExportError::JointLoop`].
 pub fn motion_mjcf(name: &str, scene: &Scene, motion: &ToolMotion) -> Result<String, ExportError> {
-    written(name, scene, (motion, Lifts { hand: None, retreats: false }), |_| ())
-}
-
-/// What a tool is held by, and whether it is lifted off as it would be.
-#[derive(Clone, Copy)]
-struct Lifts {
-    hand: Option<Carried>,
-    retreats: bool,
+    let motions = std::slice::from_ref(motion);
+    written(name, scene, (motions, Lifts { robot: None, retreats: false }), |_| ())
 }
 
 /// The scene, with what `wanted` says of it.
 fn written(
     name: &str,
     scene: &Scene,
-    (motion, lifts): (&ToolMotion, Lifts),
+    (motions, lifts): (&[ToolMotion], Lifts),
     wanted: impl FnOnce(&mut Xml),
 ) -> Result<String, ExportError> {
     let trees = forest(scene)?;
@@ -113,13 +101,22 @@ fn written(
     xml.comment(
         "Written by pushplan. Metres, kilograms, seconds, radians. Play it with replay.py.",
     );
-    let solids = solids(scene, motion);
+    let tools = taken(motions);
+    let solids = solids(scene, &tools);
     settings(&mut xml, mesh::are_among(&solids));
     xml.open("custom", &[]);
     wanted(&mut xml);
-    strokes(&mut xml, motion);
+    strokes(&mut xml, motions);
+    if tools.len() > 1 {
+        let number = |motion: &ToolMotion| {
+            let own = |one: &Taken| one.motion.tool.name == motion.tool.name;
+            vec![tools.iter().position(own).unwrap_or(0) as f64 + 1.0; motion.strokes.len()]
+        };
+        xml.comment("Which tool makes each push.");
+        numeric(&mut xml, "tools", &motions.iter().flat_map(number).collect::<Vec<_>>());
+    }
     if lifts.retreats {
-        retreats(&mut xml, scene, motion);
+        retreats(&mut xml, scene, motions);
     }
     xml.close();
     mesh::meshes(&mut xml, &solids);
@@ -142,11 +139,14 @@ fn written(
     for tree in &trees {
         body(&mut xml, scene, tree);
     }
-    tool(&mut xml, motion, lifts);
+    let turns = turns(motions);
+    tools.iter().for_each(|one| tool(&mut xml, one, turns, lifts));
     xml.close();
     xml.comment("Friction is the mean of the two values; nothing else touches.");
     xml.open("contact", &[]);
-    for pair in pairs::pairs(scene, &motion.tool) {
+    let named: Vec<(&str, &Tool)> =
+        tools.iter().map(|one| (one.prefix.as_str(), &*one.motion.tool)).collect();
+    for pair in pairs::pairs(scene, &named) {
         let friction = numbers(&[pair.friction, pair.friction]);
         let [a, b] = pair.geoms;
         xml.leaf("pair", &[("geom1", a), ("geom2", b), ("friction", friction)]);
@@ -324,53 +324,19 @@ fn clear(object: &Object) -> (Shape, f64) {
     }
 }
 
-/// The solids that objects and tool are made of, by their names.
-fn solids(scene: &Scene, motion: &ToolMotion) -> Vec<(String, Shape)> {
+/// The solids that objects and tools are made of, by their names.
+fn solids(scene: &Scene, tools: &[Taken]) -> Vec<(String, Shape)> {
     let objects = scene.objects.iter();
     let objects = objects.map(|object| (object_name(object), clear(object).0));
-    let tool = seamless(motion.tool.outline()).into_iter();
-    let tool = tool.map(|(name, shape, _)| (format!("tool/{name}"), shape));
-    objects.chain(tool).chain(regions::solids(scene)).collect()
-}
-
-fn tool(xml: &mut Xml, motion: &ToolMotion, Lifts { hand, retreats }: Lifts) {
-    let start = motion.strokes.first().map(|stroke| stroke.from).unwrap_or_default();
-    let at = start.position;
-    xml.open("body", &[("name", "tool".into()), ("pos", numbers(&[at.x, at.y, 0.0]))]);
-    let mass = numbers(&[TOOL_MASS]);
-    let inertia = numbers(&[TOOL_MASS; 3]);
-    xml.leaf("inertial", &[("pos", "0 0 0".into()), ("mass", mass), ("diaginertia", inertia)]);
-    let slides = [("tool x", "slide", "1 0 0", at.x), ("tool y", "slide", "0 1 0", at.y)];
-    let hinge = ("tool heading", "hinge", "0 0 1", start.heading);
-    let lift = ("tool z", "slide", "0 0 1", 0.0);
-    let more = [turns(motion).then_some(hinge), retreats.then_some(lift)].into_iter().flatten();
-    for (name, kind, axis, here) in slides.into_iter().chain(more) {
-        // `ref` makes the joint's position the tool's on the table.
-        let attributes = [
-            ("name", name.into()),
-            ("type", kind.into()),
-            ("axis", axis.into()),
-            ("ref", numbers(&[here])),
-        ];
-        xml.leaf("joint", &attributes);
-    }
-    let turned = Pose { heading: start.heading, ..Pose::default() };
-    for (name, shape, pose) in seamless(motion.tool.outline()) {
-        let height = motion.lift + shape.height() / 2.0;
-        let material = (0.0, motion.tool.friction);
-        solid(xml, format!("tool/{name}"), &shape, &(turned * pose), height, material);
-    }
-    // It touches nothing: where it would, no plan goes.
-    if let Some(Carried { footprint: Footprint::Disc { radius }, pose, span: [from, _] }) = hand {
-        let shape = Shape::Cylinder { radius, height: SHOWN_HAND };
-        let middle = from + 0.5 * SHOWN_HAND;
-        solid(xml, "tool/hand".into(), &shape, &(turned * pose), middle, (0.0, 0.0));
-    }
-    xml.close();
+    let tools = tools.iter().flat_map(|Taken { motion, prefix, .. }| {
+        let tool = seamless(motion.tool.outline()).into_iter();
+        tool.map(move |(name, shape, _)| (format!("{prefix}{name}"), shape))
+    });
+    objects.chain(tools).chain(regions::solids(scene)).collect()
 }
 
 /// A solid of a mass and a friction value. Only pairs rub; the value is for readers of the file.
-fn solid(
+pub(super) fn solid(
     xml: &mut Xml,
     name: String,
     shape: &Shape,

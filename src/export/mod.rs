@@ -22,6 +22,7 @@ mod regions;
 mod seamless;
 mod space;
 mod strokes;
+mod tools;
 mod xml;
 
 #[cfg(feature = "formats")]

@@ -12,8 +12,8 @@ pub(super) struct Pair {
     pub friction: f64,
 }
 
-/// Every pair of which at least one can move by itself.
-pub(super) fn pairs(scene: &Scene, tool: &Tool) -> Vec<Pair> {
+/// Every pair of which at least one can move by itself; the names of a tool's solids begin with its prefix.
+pub(super) fn pairs(scene: &Scene, tools: &[(&str, &Tool)]) -> Vec<Pair> {
     let physics = Physics::stated(scene);
     let rigid = physics.rigid_groups().of;
     let mut pairs = Vec::new();
@@ -34,8 +34,10 @@ pub(super) fn pairs(scene: &Scene, tool: &Tool) -> Vec<Pair> {
             let name = format!("obstacle/{}", obstacle.name);
             add(own(), name, Surface::Obstacle(k), obstacle.friction);
         }
-        for piece in tool.outline() {
-            add(own(), format!("tool/{}", piece.name), Surface::Tool, tool.friction);
+        for (prefix, tool) in tools {
+            for piece in tool.outline() {
+                add(own(), format!("{prefix}{}", piece.name), Surface::Tool, tool.friction);
+            }
         }
         for (other, body) in scene.objects.iter().enumerate().skip(index + 1) {
             if rigid[index] != rigid[other] {

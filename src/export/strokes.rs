@@ -8,13 +8,14 @@ use super::xml::{Xml, numbers};
 const ABOVE: f64 = 0.01;
 
 /// What the tool does.
-pub(super) fn strokes(xml: &mut Xml, motion: &ToolMotion) {
+pub(super) fn strokes(xml: &mut Xml, motions: &[ToolMotion]) {
     xml.comment(
         "Where the tool begins and ends (x, y, x, y), how long it takes, whether it then waits; \
          where it turns, its headings there.",
     );
-    let turns = turns(motion);
-    for (index, stroke) in motion.strokes.iter().enumerate() {
+    let turns = turns(motions);
+    let strokes = motions.iter().flat_map(|motion| &motion.strokes);
+    for (index, stroke) in strokes.enumerate() {
         let (from, to) = (stroke.from.position, stroke.to.position);
         let settle = if stroke.settle { 1.0 } else { 0.0 };
         let mut values = vec![from.x, from.y, to.x, to.y, stroke.duration, settle];
@@ -28,10 +29,13 @@ pub(super) fn strokes(xml: &mut Xml, motion: &ToolMotion) {
 }
 
 /// How far the tool goes back before it is lifted, and how high it then goes.
-pub(super) fn retreats(xml: &mut Xml, scene: &Scene, motion: &ToolMotion) {
+pub(super) fn retreats(xml: &mut Xml, scene: &Scene, motions: &[ToolMotion]) {
     xml.comment("How far it goes back then, the way it came, before it is lifted, and how high.");
-    for index in 0..motion.strokes.len() {
-        if let Some(back) = motion.retreat(scene, index) {
+    let each = motions.iter().flat_map(|motion| {
+        (0..motion.strokes.len()).map(move |stroke| motion.retreat(scene, stroke))
+    });
+    for (index, back) in each.enumerate() {
+        if let Some(back) = back {
             numeric(
                 xml,
                 &format!("retreat {}", index + 1),
@@ -43,10 +47,14 @@ pub(super) fn retreats(xml: &mut Xml, scene: &Scene, motion: &ToolMotion) {
     numeric(xml, "rise", &[heights.fold(0.0, f64::max) + ABOVE]);
 }
 
-/// Whether the tool has more than one heading. All strokes of a plan have one.
-pub(super) fn turns(motion: &ToolMotion) -> bool {
-    let heading = motion.strokes.first().map_or(0.0, |stroke| stroke.from.heading);
-    motion.strokes.iter().any(|s| s.from.heading != heading || s.to.heading != heading)
+/// Whether a tool has more than one heading.
+pub(super) fn turns(motions: &[ToolMotion]) -> bool {
+    motions.iter().any(|motion| {
+        let heading = motion.strokes.first().map_or(0.0, |stroke| stroke.from.heading);
+        let all = motions.iter().filter(|other| other.tool.name == motion.tool.name);
+        let mut strokes = all.flat_map(|motion| &motion.strokes);
+        strokes.any(|s| s.from.heading != heading || s.to.heading != heading)
+    })
 }
 
 /// Named numbers.

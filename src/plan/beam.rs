@@ -43,7 +43,7 @@ impl Stop {
             length,
             cost,
             known,
-            grip: (extension.pair.0, extension.pair.1.to_bits()),
+            grip: (extension.planned.tool, extension.planned.grip_yaw.to_bits()),
             way: (object, extension.push.direction.to_bits()),
             cell: (cell(at.x), cell(at.y)),
         }

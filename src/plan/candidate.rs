@@ -1,4 +1,4 @@
-//! Candidates: a tool, how it is held, and pushes described against the object they push.
+//! Candidates: pushes described against the object they push, each with its tool and how that is held.
 //!
 //! A placed push is described by what decides its effect: the part of the tool whose leading
 //! face makes contact, the direction, the lateral offset and the length. Where the end effector
@@ -25,6 +25,10 @@ pub enum Start {
 /// One push of a candidate.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CandidatePush {
+    /// Index of its tool among those that were offered.
+    pub tool: usize,
+    /// Turn of the end effector against world +x, radians.
+    pub grip_yaw: f64,
     /// Index of the object that a placed push is meant for.
     pub object: usize,
     /// Where it starts.
@@ -38,13 +42,16 @@ pub struct CandidatePush {
     pub room: f64,
 }
 
-/// A tool, its grip yaw and the pushes to make with it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+impl CandidatePush {
+    /// Its tool and grip yaw.
+    pub fn grip(&self) -> (usize, f64) {
+        (self.tool, self.grip_yaw)
+    }
+}
+
+/// Pushes to make.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Candidate {
-    /// Index into the tools that were offered.
-    pub tool: usize,
-    /// Turn of the end effector against world +x, radians.
-    pub grip_yaw: f64,
     /// In order.
     pub pushes: Vec<CandidatePush>,
 }
@@ -57,20 +64,33 @@ impl Candidate {
         next
     }
 
-    /// Whether both push the same objects with the same tool, grip yaw, faces and directions, and so
+    /// Tool and grip yaw of its first push, if there is one.
+    pub fn grip(&self) -> Option<(usize, f64)> {
+        self.pushes.first().map(CandidatePush::grip)
+    }
+
+    /// Whether all pushes are made with one tool, held in one way.
+    pub fn has_one_grip(&self) -> bool {
+        self.pushes.windows(2).all(|pair| pair[0].grip() == pair[1].grip())
+    }
+
+    /// How often another tool is taken.
+    pub fn tool_changes(&self) -> usize {
+        self.pushes.windows(2).filter(|pair| pair[0].tool != pair[1].tool).count()
+    }
+
+    /// Whether both push the same objects with the same tools, grip yaws, faces and directions, and so
     /// differ only in offsets and lengths, which refinement changes anyway.
     pub fn is_variant_of(&self, other: &Self) -> bool {
         let face = |push: &CandidatePush| match push.start {
             Start::Placed { part, .. } => Some(part),
             Start::Chained => None,
         };
-        self.tool == other.tool
-            && self.grip_yaw == other.grip_yaw
-            && self.pushes.len() == other.pushes.len()
-            && self
-                .pushes
-                .iter()
-                .zip(&other.pushes)
-                .all(|(a, b)| (a.object, a.direction, face(a)) == (b.object, b.direction, face(b)))
+        let alike = |a: &CandidatePush, b: &CandidatePush| {
+            a.grip() == b.grip()
+                && (a.object, a.direction, face(a)) == (b.object, b.direction, face(b))
+        };
+        self.pushes.len() == other.pushes.len()
+            && self.pushes.iter().zip(&other.pushes).all(|(a, b)| alike(a, b))
     }
 }

@@ -73,11 +73,11 @@ pub fn alone(task: &Task, situation: &Situation) -> Option<(Task, Situation)> {
 }
 
 impl Corridor {
-    /// Of `motion`, in which the goals' objects move as `trajectory` says.
+    /// Of `motions`, in which the goals' objects move as `trajectory` says.
     pub fn of(
         workspace: &Workspace,
         situation: &Situation,
-        motion: &ToolMotion,
+        motions: &[ToolMotion],
         trajectory: &Trajectory,
     ) -> Self {
         let objects = &situation.scene.objects;
@@ -87,7 +87,9 @@ impl Corridor {
             Passed { footprint, pose, span }
         };
         let mut passed = Vec::new();
-        for stroke in &motion.strokes {
+        let strokes =
+            motions.iter().flat_map(|motion| motion.strokes.iter().map(move |one| (motion, one)));
+        for (motion, stroke) in strokes {
             let steps = (stroke.travel() / SAMPLE).ceil().max(1.0);
             for step in 0..=steps as usize {
                 let tool = stroke.from.towards(&stroke.to, step as f64 / steps);

@@ -20,13 +20,36 @@ const SAME_PLACE: f64 = 1e-4;
 /// it only bounds what a file with thousands of directions or offsets can ask for.
 const MOST_PER_GRIP: usize = 20_000;
 
+/// How tools are held in a search.
+#[derive(Clone, Debug)]
+pub(super) struct Grips {
+    /// Each a tool and a grip yaw.
+    pub all: Vec<(usize, f64)>,
+    /// Whether another one may be taken before every push, and how often another tool.
+    pub changes: Option<usize>,
+}
+
+impl Grips {
+    /// Those that may continue a node: all at the start.
+    fn next(&self, node: &Node) -> Vec<(usize, f64)> {
+        let last = node.candidate.as_ref().and_then(|candidate| candidate.pushes.last());
+        let (Some(last), Some(candidate)) = (last, &node.candidate) else {
+            return self.all.clone();
+        };
+        let left = |most: usize| most > candidate.tool_changes();
+        let may_follow = |grip: &(usize, f64)| match self.changes {
+            None => *grip == last.grip(),
+            Some(most) => grip.0 == last.tool || left(most),
+        };
+        self.all.iter().copied().filter(may_follow).collect()
+    }
+}
+
 /// A push that may continue a node of the search.
 #[derive(Clone, Debug)]
 pub(super) struct Extension {
     /// Index of the node.
     pub node: usize,
-    /// Tool and grip yaw.
-    pub pair: (usize, f64),
     /// The push, its length cut to what reach and obstacles allow.
     pub planned: CandidatePush,
     /// The same with its start.
@@ -38,13 +61,13 @@ pub(super) struct Extension {
     pub promise: f64,
 }
 
-/// All pushes that can continue the given nodes; a node that has no grip yet takes every one of
-/// `grips`. In the order of nodes, grips, directions, parts and offsets.
+/// All pushes that can continue the given nodes. In the order of nodes, grips, directions, parts and
+/// offsets.
 pub(super) fn extensions(
     workspace: &Workspace,
     field: &Field,
     nodes: &[Node],
-    grips: &[(usize, f64)],
+    grips: &Grips,
     offsets: usize,
     statistics: &mut SearchStatistics,
     scores: &mut Scores,
@@ -52,28 +75,25 @@ pub(super) fn extensions(
     let work: Vec<(usize, (usize, f64))> = nodes
         .iter()
         .enumerate()
-        .flat_map(|(k, node)| {
-            let own = node.candidate.as_ref().map(|c| vec![(c.tool, c.grip_yaw)]);
-            own.unwrap_or_else(|| grips.to_vec()).into_iter().map(move |pair| (k, pair))
-        })
+        .flat_map(|(k, node)| grips.next(node).into_iter().map(move |grip| (k, grip)))
         .collect();
     let found: Vec<Vec<(CandidatePush, Result<Extension, Infeasible>)>> = work
         .par_iter()
-        .map(|&(node, pair)| {
+        .map(|&(node, grip)| {
             let movers = field.movers(&nodes[node].state);
             // A thing can be pushed at any of its solids.
             let scene = &workspace.task.scene;
             let movers = movers.into_iter().flat_map(|k| [k].into_iter().chain(scene.parts_of(k)));
-            let tried = |object| pushes(workspace, &nodes[node], (pair, object), offsets);
+            let tried = |object| pushes(workspace, &nodes[node], (grip, object), offsets);
             movers
                 .flat_map(tried)
-                .map(|push| (push, extend(workspace, field, &nodes[node], node, pair, push)))
+                .map(|push| (push, extend(workspace, field, &nodes[node], node, push)))
                 .collect()
         })
         .collect();
     let mut kept = Vec::new();
-    for ((_, pair), group) in work.into_iter().zip(found) {
-        let first = scores.place(pair, group.iter().map(|(push, _)| *push));
+    for ((_, grip), group) in work.into_iter().zip(found) {
+        let first = scores.place(grip, group.iter().map(|(push, _)| *push));
         let mut places = HashSet::new();
         for (k, (_, result)) in group.into_iter().enumerate() {
             statistics.considered += 1;
@@ -103,7 +123,7 @@ pub(super) fn extensions(
 fn pushes(
     workspace: &Workspace,
     node: &Node,
-    (pair, object): ((usize, f64), usize),
+    (grip, object): ((usize, f64), usize),
     count: usize,
 ) -> Vec<CandidatePush> {
     let rules = &workspace.task.pushes;
@@ -111,21 +131,22 @@ fn pushes(
     for direction in rules.directions.headings() {
         let mut add = |start| {
             if list.len() < MOST_PER_GRIP {
-                let room = node.room;
-                list.push(CandidatePush { object, start, direction, length: rules.length, room });
+                let ((tool, grip_yaw), room, length) = (grip, node.room, rules.length);
+                let push = CandidatePush { tool, grip_yaw, object, start, direction, length, room };
+                list.push(push);
             }
         };
         if !workspace.is_placed() {
             add(Start::Chained);
             continue;
         }
-        for part in 0..workspace.tools[pair.0].parts().len() {
+        for part in 0..workspace.tools[grip.0].parts().len() {
             match &rules.offsets {
                 Offsets::List(offsets) => {
                     offsets.iter().for_each(|&offset| add(Start::Placed { part, offset }));
                 }
                 Offsets::Effort => {
-                    let span = workspace.offset_span(pair, (&node.state, object), part, direction);
+                    let span = workspace.offset_span(grip, (&node.state, object), part, direction);
                     for k in 0..count {
                         let share = (2 * k + 1) as f64 / count as f64 - 1.0;
                         // Ends included from two offsets on.
@@ -144,15 +165,15 @@ fn extend(
     field: &Field,
     node: &Node,
     index: usize,
-    pair: (usize, f64),
     mut planned: CandidatePush,
 ) -> Result<Extension, Infeasible> {
     let depth = node.candidate.as_ref().map_or(0, |c| c.pushes.len());
-    let start = workspace.place(pair, &node.state, &planned, node.end)?;
-    if workspace.is_placed() && topples(workspace, (pair.0, planned.object)) {
+    let start = workspace.place(&node.state, &planned, node.end)?;
+    if workspace.is_placed() && topples(workspace, &planned) {
         return Err(Infeasible::Topples);
     }
-    planned.length = workspace.free_travel(pair, start, planned.direction, planned.length)?;
+    planned.length =
+        workspace.free_travel(planned.grip(), start, planned.direction, planned.length)?;
     let push = Push {
         start,
         direction: planned.direction,
@@ -161,13 +182,13 @@ fn extend(
     };
     let set_down = (workspace.is_placed() || depth == 0).then_some(planned.room);
     let pushed = (&node.state, planned.object);
-    if let Some(reason) = workspace.margins(pair, pushed, &push, set_down).broken() {
+    if let Some(reason) = workspace.margins(planned.grip(), pushed, &push, set_down).broken() {
         return Err(reason);
     }
     let promise = (0..=2)
         .map(|k| field.carried(pushed, push.heading() * (push.length * k as f64 / 2.0)))
         .fold(f64::INFINITY, f64::min);
-    Ok(Extension { node: index, pair, planned, push, scored: None, promise })
+    Ok(Extension { node: index, planned, push, scored: None, promise })
 }
 
 /// Whether an object turns over rather than slide, in whatever direction the tool pushes it at its lowest:
@@ -175,7 +196,8 @@ fn extend(
 /// the table and t with the tool, and the farthest edge at d, moments about that edge hold the object down
 /// while F z <= W d + 2 d t F, where F = m (W + t F): while m z <= d (1 + m t). What hangs together is left to
 /// the 3-D engine.
-fn topples(workspace: &Workspace, (tool, object): (usize, usize)) -> bool {
+fn topples(workspace: &Workspace, push: &CandidatePush) -> bool {
+    let object = push.object;
     let Task { scene, pushes, .. } = workspace.task;
     let one = &scene.objects[object];
     let joined = scene.joints.iter().any(|joint| joint.between.contains(&object))
@@ -183,7 +205,7 @@ fn topples(workspace: &Workspace, (tool, object): (usize, usize)) -> bool {
     let friction =
         |with, value| pair_friction(&scene.frictions, object, with, [one.friction, value]);
     let table = friction(Surface::Table, scene.table_friction);
-    let held = 1.0 + table * friction(Surface::Tool, workspace.tools[tool].friction);
+    let held = 1.0 + table * friction(Surface::Tool, workspace.tools[push.tool].friction);
     let edge = one.shape.footprint().bounding_radius();
     !joined && !one.may_fall && table * pushes.lift > edge * held
 }

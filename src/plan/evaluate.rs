@@ -4,11 +4,13 @@
 use std::sync::Arc;
 
 use crate::effect::Job;
-use crate::scene::{Push, Record, Spread, State, ToolMotion};
+use crate::scene::{
+    Plan, Push, PushRules, PushStep, Record, Spread, State, Step, Tool, ToolMotion,
+};
 
 use super::rollouts::single_push;
 use super::score::{behind, final_score, is_behind};
-use super::{Candidate, Infeasible, Margins, Rollouts, Workspace};
+use super::{Candidate, CandidatePush, Infeasible, Margins, Rollouts, Workspace};
 
 /// A candidate with its pushes placed and its outcome predicted.
 #[derive(Clone, Debug)]
@@ -40,15 +42,30 @@ impl Evaluation {
         self.score.is_finite() && !is_behind(self.score)
     }
 
-    /// What the end effector does, all pushes one after another.
-    pub fn motion(&self, workspace: &Workspace) -> ToolMotion {
-        ToolMotion::pushes(
-            Arc::clone(&workspace.tools[self.candidate.tool]),
-            workspace.task.pushes.lift,
-            self.candidate.grip_yaw,
-            &self.pushes,
-            workspace.is_placed(),
-        )
+    /// Its tools, each once, in the order in which they are used.
+    pub fn tools(&self, workspace: &Workspace) -> Vec<Arc<Tool>> {
+        let mut used: Vec<usize> = Vec::new();
+        for push in &self.candidate.pushes {
+            if !used.contains(&push.tool) {
+                used.push(push.tool);
+            }
+        }
+        used.into_iter().map(|tool| Arc::clone(&workspace.tools[tool])).collect()
+    }
+
+    /// The plan to make its pushes.
+    pub fn plan(&self, workspace: &Workspace) -> Plan {
+        let PushRules { form, lift, .. } = workspace.task.pushes;
+        let step = |(planned, push): (&CandidatePush, &Push)| {
+            let tool = workspace.tools[planned.tool].name.clone();
+            Step::Push(PushStep { tool, grip_yaw: planned.grip_yaw, form, lift, push: *push })
+        };
+        Plan { steps: self.candidate.pushes.iter().zip(&self.pushes).map(step).collect() }
+    }
+
+    /// What its tools do, one after another.
+    pub fn motions(&self, workspace: &Workspace) -> Vec<ToolMotion> {
+        self.plan(workspace).slides(&self.tools(workspace)).unwrap_or_default()
     }
 }
 
@@ -91,7 +108,7 @@ pub fn evaluate(
             }
         }
         run(workspace, rollouts, &mut results, |evaluation, workspace| {
-            (!evaluation.pushes.is_empty()).then(|| evaluation.motion(workspace))
+            evaluation.motions(workspace).pop()
         });
     }
     results
@@ -109,11 +126,11 @@ fn advance(
     }
     run(workspace, rollouts, results, |evaluation, workspace| {
         let push = evaluation.pushes.get(stage)?;
-        let candidate = &evaluation.candidate;
+        let planned = &evaluation.candidate.pushes[stage];
         Some(single_push(
-            &workspace.tools[candidate.tool],
+            &workspace.tools[planned.tool],
             workspace.task.pushes.lift,
-            candidate.grip_yaw,
+            planned.grip_yaw,
             push,
         ))
     });
@@ -122,9 +139,8 @@ fn advance(
 fn add_push(workspace: &Workspace, result: &mut Result<Evaluation, Infeasible>, stage: usize) {
     let Ok(evaluation) = result else { return };
     let Some(planned) = evaluation.candidate.pushes.get(stage).copied() else { return };
-    let pair = (evaluation.candidate.tool, evaluation.candidate.grip_yaw);
     let previous = evaluation.pushes.last().map(Push::end);
-    match workspace.place(pair, &evaluation.outcome, &planned, previous) {
+    match workspace.place(&evaluation.outcome, &planned, previous) {
         Ok(start) => {
             let push = Push {
                 start,
@@ -133,8 +149,8 @@ fn add_push(workspace: &Workspace, result: &mut Result<Evaluation, Infeasible>, 
                 speed: workspace.task.pushes.speed,
             };
             let set_down = (workspace.is_placed() || stage == 0).then_some(planned.room);
-            let margins =
-                workspace.margins(pair, (&evaluation.outcome, planned.object), &push, set_down);
+            let pushed = (&evaluation.outcome, planned.object);
+            let margins = workspace.margins(planned.grip(), pushed, &push, set_down);
             evaluation.pushes.push(push);
             evaluation.margins.push(margins);
         }

@@ -45,7 +45,6 @@ pub(super) struct Parameters(Vec<Parameter>);
 impl Parameters {
     /// Parameters and bounds around a candidate as searched.
     pub fn new(workspace: &Workspace, start: &State, candidate: &Candidate) -> Self {
-        let pair = (candidate.tool, candidate.grip_yaw);
         let longest = workspace.task.pushes.length;
         let mut list = Vec::new();
         for (k, push) in candidate.pushes.iter().enumerate() {
@@ -55,8 +54,8 @@ impl Parameters {
             let mut longest = longest;
             if let Start::Placed { part, offset } = push.start {
                 // The span depends on the object's heading only, and little on that.
-                let span =
-                    workspace.largest_offset(pair, (start, push.object), part, push.direction);
+                let object = (start, push.object);
+                let span = workspace.largest_offset(push.grip(), object, part, push.direction);
                 let span = span.max(offset.abs());
                 add(Quantity::Offset, OFFSET_STEP, -span, span);
                 longest *= LONGEST;

@@ -6,8 +6,9 @@
 //! as much.
 
 use std::cmp::Ordering;
+use std::sync::Arc;
 
-use crate::scene::{JointKind, Situation};
+use crate::scene::{JointKind, Situation, Tool};
 
 use super::{Evaluation, Refined, Workspace};
 
@@ -21,11 +22,13 @@ const COUNTED: f64 = 0.01;
 /// What a plan costs besides its pushes; compared in this order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Cost {
-    /// What its tool costs in the task, in thousandths.
-    tool: u64,
+    /// How often another tool is taken.
+    changes: usize,
+    /// What its tools cost in the task, in thousandths.
+    tools: u64,
     /// By how much all that has no goal is moved, in whole units of [`COUNTED`].
     moved: usize,
-    /// Pieces of the tool, flush parts taken together: a bar in four parts is a bar.
+    /// Pieces of the tools, flush parts taken together: a bar in four parts is a bar.
     pieces: usize,
 }
 
@@ -40,9 +43,15 @@ impl Cost {
             situation.scene.things().map(|(k, _)| k).filter(|k| !goals.contains(&rigid[*k]));
         let ways = others.map(|k| (plan.outcome.poses[k].position - before[k].position).norm());
         let moved = (ways.sum::<f64>() / COUNTED).round() as usize;
-        let tool = &workspace.tools[plan.candidate.tool];
-        let cost = workspace.task.tool_costs.get(&tool.name).copied().unwrap_or_default();
-        Self { tool: (1e3 * cost).round() as u64, moved, pieces: tool.outline().len() }
+        let tools = plan.tools(workspace);
+        let cost = |tool: &Arc<Tool>| workspace.task.tool_costs.get(&tool.name).copied();
+        let cost: f64 = tools.iter().filter_map(cost).sum();
+        Self {
+            changes: plan.candidate.tool_changes(),
+            tools: (1e3 * cost).round() as u64,
+            moved,
+            pieces: tools.iter().map(|tool| tool.outline().len()).sum(),
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::effect::{EffectModel, Job};
-use crate::scene::{Push, Record, Situation, State, Stroke, Tool, ToolMotion, Trajectory};
+use crate::scene::{Push, Record, Situation, State, Stroke, Tool, ToolMotion, Trajectory, in_turn};
 
 /// An effect model in one situation, with a count of the rollouts made.
 pub struct Rollouts<'a> {
@@ -36,6 +36,11 @@ impl<'a> Rollouts<'a> {
     /// `motion`, beginning in `start`.
     pub(super) fn job(&self, motion: ToolMotion, start: State) -> Job {
         Job { start, motion: motion.into(), physics: Arc::clone(&self.situation.physics) }
+    }
+
+    /// Rolls out sequences of jobs, each as one trajectory, and counts the jobs: see [`in_turn`].
+    pub fn in_turn(&mut self, sequences: &[Vec<Job>], record: Record) -> Vec<Trajectory> {
+        in_turn(sequences, record, |jobs| self.run(jobs, record))
     }
 
     /// Rolls out a batch, in parallel, and counts it.

@@ -14,7 +14,7 @@ use crate::scene::{Job, Push, PushForm, Record, Situation, State, ToolMotion, Tr
 use crate::watch::Watch;
 
 use super::beam::{Stop, choose};
-use super::enumerate::{Extension, extensions, keep_promising};
+use super::enumerate::{Extension, Grips, extensions, keep_promising};
 use super::field::Field;
 use super::rollouts::{single_push, stops};
 use super::score::{final_score, finite_score, is_blocked};
@@ -67,7 +67,7 @@ pub struct Search<'a> {
     situation: Situation,
     settings: SearchSettings,
     field: Field<'a>,
-    grips: Vec<(usize, f64)>,
+    grips: Grips,
     nodes: Vec<Node>,
     /// Where the last pushes may stop, and those pushes: from some of these the next level starts. They
     /// become nodes when it is asked for, as rolling them out is wasted where shorter plans work.
@@ -86,7 +86,24 @@ impl<'a> Search<'a> {
             .flat_map(|tool| yaws.iter().map(move |&yaw| (tool, yaw)))
             .collect();
         let (field, spread) = (Field::new(workspace.task), Spread::around(situation));
+        let grips = Grips { all: grips, changes: None };
         Self::from_start(workspace, situation, settings, (field, spread), grips)
+    }
+
+    /// The same search from its start for plans that may take another tool, and hold it otherwise, before
+    /// every push; `None` where that makes no difference.
+    pub fn changing(&self) -> Option<Self> {
+        let changes = self.workspace.task.tool_changes();
+        let any = match changes {
+            0 => self.workspace.task.pushes.grip_yaws.len() > 1,
+            _ => self.grips.all.len() > 1,
+        };
+        if !any || !self.workspace.is_placed() || self.workspace.task.pushes.max_count < 2 {
+            return None;
+        }
+        let kept = (self.field.clone(), self.spread.clone());
+        let grips = Grips { changes: Some(changes), ..self.grips.clone() };
+        Some(Self::from_start(self.workspace, &self.situation, self.settings, kept, grips))
     }
 
     /// The same search from its start for plans that first move aside what stands in `corridor`, with the
@@ -94,7 +111,8 @@ impl<'a> Search<'a> {
     pub fn clearing(&self, corridor: Corridor, grip: (usize, f64)) -> Self {
         let field = self.field.clone().clearing(corridor);
         let kept = (field, self.spread.clone());
-        Self::from_start(self.workspace, &self.situation, self.settings, kept, vec![grip])
+        let grips = Grips { all: vec![grip], changes: None };
+        Self::from_start(self.workspace, &self.situation, self.settings, kept, grips)
     }
 
     fn from_start(
@@ -102,7 +120,7 @@ impl<'a> Search<'a> {
         situation: &Situation,
         settings: SearchSettings,
         (field, spread): (Field<'a>, Spread),
-        grips: Vec<(usize, f64)>,
+        grips: Grips,
     ) -> Self {
         let start = Node {
             candidate: None,
@@ -191,7 +209,11 @@ impl<'a> Search<'a> {
                 if let Some((score, length)) = best {
                     self.statistics.improve(self.statistics.rollouts + index + 1, score);
                     self.scores.improve(extension.scored, score);
-                    found.push(Found { candidate: self.candidate(extension, length), score });
+                    let candidate = self.candidate(extension, length);
+                    // Those with one grip are what the search without changes finds.
+                    if self.grips.changes.is_none() || !candidate.has_one_grip() {
+                        found.push(Found { candidate, score });
+                    }
                 }
                 offers.extend(stops.into_iter().map(|stop| stop.of(index)));
             }
@@ -214,17 +236,15 @@ impl<'a> Search<'a> {
 
     fn motion(&self, extension: &Extension) -> ToolMotion {
         single_push(
-            &self.workspace.tools[extension.pair.0],
+            &self.workspace.tools[extension.planned.tool],
             self.workspace.task.pushes.lift,
-            extension.pair.1,
+            extension.planned.grip_yaw,
             &extension.push,
         )
     }
 
     fn candidate(&self, extension: &Extension, length: f64) -> Candidate {
-        let (tool, grip_yaw) = extension.pair;
-        let before = self.nodes[extension.node].candidate.clone();
-        let before = before.unwrap_or(Candidate { tool, grip_yaw, pushes: Vec::new() });
+        let before = self.nodes[extension.node].candidate.clone().unwrap_or_default();
         before.then(super::CandidatePush { length, ..extension.planned })
     }
 

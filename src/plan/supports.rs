@@ -10,7 +10,7 @@ use std::sync::Arc;
 use nalgebra::Vector3;
 
 use crate::effect::Job;
-use crate::scene::{Physics, Record, Situation};
+use crate::scene::{Physics, Record, Situation, ToolMotion};
 
 use super::misses::{apart, misses};
 use super::score::final_score;
@@ -60,14 +60,17 @@ impl Supports {
         let start = rollouts.situation().start.clone();
         let mut jobs = Vec::with_capacity(evaluations.len() * self.0.len());
         for evaluation in evaluations {
-            let motion = evaluation.motion(workspace);
-            jobs.extend(self.0.iter().map(|physics| Job {
-                start: start.clone(),
-                motion: motion.clone().into(),
-                physics: Arc::clone(physics),
+            let motions = evaluation.motions(workspace);
+            jobs.extend(self.0.iter().map(|physics| {
+                let job = |motion: &ToolMotion| Job {
+                    start: start.clone(),
+                    motion: motion.clone().into(),
+                    physics: Arc::clone(physics),
+                };
+                motions.iter().map(job).collect::<Vec<Job>>()
             }));
         }
-        let trajectories = rollouts.run(&jobs, Record::Outcome);
+        let trajectories = rollouts.in_turn(&jobs, Record::Outcome);
         let task = workspace.task;
         let of = |k: usize, evaluation: &Evaluation| {
             let others = &trajectories[k * self.0.len()..(k + 1) * self.0.len()];

@@ -111,7 +111,6 @@ impl Workspace<'_> {
     /// not checked here, see [`Workspace::margins`].
     pub fn place(
         &self,
-        (tool, grip_yaw): (usize, f64),
         state: &State,
         push: &CandidatePush,
         previous: Option<Vector>,
@@ -119,7 +118,7 @@ impl Workspace<'_> {
         let Start::Placed { part, offset } = push.start else {
             return Ok(previous.unwrap_or(self.task.robot.home));
         };
-        let tool = &*self.tools[tool];
+        let (tool, grip_yaw) = (&*self.tools[push.tool], push.grip_yaw);
         let (footprint, at) = self.object(push.object, state);
         let (ahead, left) = axes(push.direction);
         let object = &self.task.scene.objects[push.object];

@@ -28,14 +28,14 @@ pub fn plan_figures(
             space_figures(task, plan, replay, &[line], (name, animate))
         });
     }
-    let motion = plan.plan.motion(plan.tool());
-    let still = still(task, plan, &motion, replays).to_svg();
+    let motions = plan.plan.slides(&plan.tools).unwrap_or_default();
+    let still = still(task, plan, &motions, replays).to_svg();
     let mut figures = vec![Figure::svg(name, still)];
     if let Some(replay) = replay.filter(|_| animate) {
         figures.push(moving_figure(
             task,
             &plan.plan,
-            &motion,
+            &motions,
             (Source::Simulated(Engine::Spatial), replay),
             name,
         ));
@@ -73,7 +73,7 @@ pub fn space_figures(
 pub fn moving_figure(
     task: &Task,
     plan: &Plan,
-    motion: &ToolMotion,
+    motions: &[ToolMotion],
     (source, trajectory): (Source, &Trajectory),
     name: &str,
 ) -> Figure {
@@ -86,7 +86,7 @@ pub fn moving_figure(
         plan: plan_line(plan),
         source,
         task,
-        motion,
+        motions,
         trajectory,
     };
     Figure::svg(format!("{name}.animated"), picture.to_svg())
@@ -95,13 +95,13 @@ pub fn moving_figure(
 fn still<'a>(
     task: &'a Task,
     plan: &'a RankedPlan,
-    motion: &'a ToolMotion,
+    motions: &'a [ToolMotion],
     replays: &'a Verdict,
 ) -> ScenePicture<'a> {
     let mut errors = vec![format!("predicted {}", millimetres(plan.outcome.error))];
     let mut tracks = Vec::new();
     // An object that does not move has no path to draw.
-    for evidence in nominal(replays).filter(|_| !motion.strokes.is_empty()) {
+    for evidence in nominal(replays).filter(|_| !plan.plan.is_empty()) {
         let (engine, error) = (engine_name(evidence.engine), evidence.outcome.error);
         errors.push(format!("{engine} {}", millimetres(error)));
         let source = Source::Simulated(evidence.engine);
@@ -118,7 +118,7 @@ fn still<'a>(
         scene: &task.scene,
         goals: task.shown_goals(),
         robot: Some(&task.robot),
-        motion: Some(motion),
+        motions,
         tracks,
     }
 }

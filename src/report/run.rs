@@ -1,15 +1,11 @@
 //! A run: what was done, what was believed meanwhile, and how it ended.
 
-use std::sync::Arc;
-
 use serde_json::json;
 
 use crate::act::{End, Step, Trace, Why};
 use crate::belief::JointType;
-use crate::geometry::{Pose, Shape};
-use crate::scene::{
-    Frame, JOINABLE, ModelKind, Part, Physics, Scene, State, Stroke, Tool, ToolMotion, Trajectory,
-};
+use crate::geometry::Pose;
+use crate::scene::{Frame, ModelKind, Physics, Scene, State, ToolMotion, Trajectory};
 
 use super::chart::{Axis, Chart, Mark, Series};
 use super::document::{Document, Figure, Section};
@@ -250,12 +246,13 @@ fn picture(trace: &Trace) -> Figure {
         None => step.state.clone(),
     });
     let states: Vec<State> = std::iter::once(start).chain(states).collect();
-    let motion = motion(trace);
+    let motions: Vec<ToolMotion> = trace.steps.iter().map(Step::motion).collect();
+    let first = motions.iter().find_map(|motion| motion.strokes.first());
     let frames = states.iter().enumerate().map(|(k, state)| Frame {
         blade: None,
         time: k as f64,
         stroke: k.saturating_sub(1),
-        tool: motion.as_ref().map_or(Pose::default(), |motion| motion.strokes[0].from),
+        tool: first.map_or(Pose::default(), |stroke| stroke.from),
         state: state.clone(),
     });
     let trajectory =
@@ -273,38 +270,8 @@ fn picture(trace: &Trace) -> Figure {
         scene: &scene,
         goals: task.shown_goals(),
         robot: Some(&task.robot),
-        motion: motion.as_ref(),
+        motions: &motions,
         tracks: vec![Track { source, trajectory: &trajectory }],
     };
     Figure::svg(format!("{}.run", task.name), picture.to_svg())
-}
-
-/// All pushes as those of one tool; of several tools the end effector alone is shown.
-fn motion(trace: &Trace) -> Option<ToolMotion> {
-    let last = trace.steps.last()?;
-    let one = trace.steps.iter().all(|step| step.tool == last.tool);
-    let pin = || {
-        let shape = Shape::Cylinder { radius: 0.5 * JOINABLE.min(0.01), height: 0.05 };
-        Tool::new("end effector", [Part::new("pin", shape, Pose::default())]).ok()
-    };
-    let tool = if one { last.tool.clone() } else { pin()? };
-    let strokes = trace.steps.iter().flat_map(|step| {
-        let made = step.plan.pushes();
-        let done = made.get(..step.pushes).unwrap_or_default();
-        let at = |position| tool.pose(Pose { position, heading: step.plan.grip_yaw() });
-        done.iter()
-            .map(move |push| Stroke {
-                from: at(push.start),
-                to: at(push.end()),
-                duration: push.length / push.speed,
-                settle: true,
-            })
-            .collect::<Vec<_>>()
-    });
-    let strokes: Vec<Stroke> = strokes.collect();
-    (!strokes.is_empty()).then(|| ToolMotion {
-        tool: Arc::new(tool),
-        lift: last.plan.lift(),
-        strokes,
-    })
 }

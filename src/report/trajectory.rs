@@ -12,11 +12,10 @@ use super::plan_text::plan_line;
 /// A picture of a trajectory, whose file is named `name`; `animate` adds one that moves.
 pub fn trajectory_figures(file: &TrajectoryFile, name: &str, animate: bool) -> Vec<Figure> {
     let TrajectoryFile { task, tools, plan, trajectory, .. } = file;
-    let (false, Some(tool)) = (task.in_space() || plan.levers(), tools.first()) else {
+    let (false, Some(motions)) = (task.in_space() || plan.levers(), plan.slides(tools)) else {
         return space_figures(task, (plan, tools), trajectory, &[], (name, animate));
     };
     let error = task.goal.error(trajectory.outcome());
-    let motion = plan.motion(tool);
     let source = source(trajectory);
     let picture = ScenePicture {
         title: format!("{}: {}", task.name, plan_line(plan)),
@@ -24,12 +23,12 @@ pub fn trajectory_figures(file: &TrajectoryFile, name: &str, animate: bool) -> V
         scene: &task.scene,
         goals: task.shown_goals(),
         robot: Some(&task.robot),
-        motion: Some(&motion),
+        motions: &motions,
         tracks: vec![Track { source, trajectory }],
     };
     let mut figures = vec![Figure::svg(name, picture.to_svg())];
     if animate {
-        figures.push(moving_figure(task, plan, &motion, (source, trajectory), name));
+        figures.push(moving_figure(task, plan, &motions, (source, trajectory), name));
     }
     figures
 }

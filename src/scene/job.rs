@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Motion, Physics, Scene, Situation, State};
+use super::{Motion, Physics, Record, Scene, Situation, State, ToolMotion, Trajectory};
 
 /// One rollout to compute.
 #[derive(Clone, Debug)]
@@ -31,8 +31,43 @@ impl Job {
         }
     }
 
+    /// `motions` in turn, the first beginning in `situation`: see [`in_turn`].
+    pub fn sequence(situation: &Situation, motions: &[ToolMotion]) -> Vec<Self> {
+        motions.iter().map(|motion| Self::new(situation, motion.clone())).collect()
+    }
+
     /// Whether it leaves the plane, or begins out of it: for models in space.
     pub fn in_space(&self) -> bool {
         self.motion.is_lever() || self.start.space.is_some()
     }
+}
+
+/// Rolls out sequences of jobs with `run`, as one trajectory each: of every sequence a job begins as the one
+/// before has left everything.
+pub fn in_turn(
+    sequences: &[Vec<Job>],
+    record: Record,
+    mut run: impl FnMut(&[Job]) -> Vec<Trajectory>,
+) -> Vec<Trajectory> {
+    let longest = sequences.iter().map(Vec::len).max().unwrap_or(0);
+    let mut made: Vec<Option<Trajectory>> = vec![None; sequences.len()];
+    for turn in 0..longest {
+        let (indices, jobs): (Vec<usize>, Vec<Job>) = (0..sequences.len())
+            .filter_map(|k| {
+                let job = sequences[k].get(turn)?.clone();
+                let start = made[k].as_ref().map(|before| before.outcome().clone());
+                Some((k, Job { start: start.unwrap_or(job.start), ..job }))
+            })
+            .unzip();
+        for (k, next) in indices.into_iter().zip(run(&jobs)) {
+            made[k] = Some(match made[k].take() {
+                None => next,
+                Some(before) => {
+                    let strokes = |job: &Job| job.motion.slide().strokes.len();
+                    before.then(next, record, sequences[k][..turn].iter().map(strokes).sum())
+                }
+            });
+        }
+    }
+    made.into_iter().flatten().collect()
 }

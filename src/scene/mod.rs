@@ -72,7 +72,7 @@ pub use goal::Goal;
 pub use groups::RigidGroups;
 pub use guess::NEARLY_TOUCHING;
 pub use hand::{Carried, Hand, SHOWN_HAND};
-pub use job::Job;
+pub use job::{Job, in_turn};
 pub use joint::{Joint, JointKind};
 pub use lever::{
     Blade, Ending, LEVER_FRAMES, LeverFault, LeverFeatures, LeverFrame, LeverJob, LeverRecord,

@@ -70,6 +70,17 @@ pub struct Stroke {
 }
 
 impl Stroke {
+    /// A push with `tool`, held at `grip_yaw` (radians).
+    pub fn push(tool: &Tool, grip_yaw: f64, push: &Push, settle: bool) -> Self {
+        let pose = |position| tool.pose(Pose { position, heading: grip_yaw });
+        Self {
+            from: pose(push.start),
+            to: pose(push.end()),
+            duration: push.length / push.speed,
+            settle,
+        }
+    }
+
     /// Travel of the tool frame, metres.
     pub fn travel(&self) -> f64 {
         (self.to.position - self.from.position).norm()
@@ -215,19 +226,8 @@ impl ToolMotion {
         placed: bool,
     ) -> Self {
         let last = pushes.len().saturating_sub(1);
-        let strokes = pushes
-            .iter()
-            .enumerate()
-            .map(|(k, push)| {
-                let pose = |position| tool.pose(Pose { position, heading: grip_yaw });
-                Stroke {
-                    from: pose(push.start),
-                    to: pose(push.end()),
-                    duration: push.length / push.speed,
-                    settle: placed || k == last,
-                }
-            })
-            .collect();
+        let stroke = |(k, push)| Stroke::push(&tool, grip_yaw, push, placed || k == last);
+        let strokes = pushes.iter().enumerate().map(stroke).collect();
         Self { tool, lift, strokes }
     }
 

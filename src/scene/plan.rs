@@ -6,7 +6,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::geometry::Pose;
 
-use super::{LeverMotion, LeverUp, Motion, Push, PushForm, Tool, ToolMotion};
+use super::{LeverMotion, LeverUp, Motion, Push, PushForm, Stroke, Tool, ToolMotion};
 
 /// A physics engine of the simulator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -43,12 +43,10 @@ pub struct PushStep {
 }
 
 impl PushStep {
-    /// Whether the tool is held as in another push, and need not be taken anew.
+    /// Whether the tool is the same as in another push, and need not be taken anew.
     fn goes_on(&self, other: &Self) -> bool {
-        self.tool == other.tool
-            && self.grip_yaw == other.grip_yaw
-            && self.form == other.form
-            && self.lift == other.lift
+        let turned = self.form == PushForm::Chained && self.grip_yaw != other.grip_yaw;
+        self.tool == other.tool && self.form == other.form && self.lift == other.lift && !turned
     }
 }
 
@@ -202,6 +200,20 @@ impl Plan {
         run(tool, &steps)
     }
 
+    /// What its tools do where nothing is levered, one motion for pushes in a row with one tool; where
+    /// nothing is done the first tool stands still. None where one of its tools is not among `tools`, or has
+    /// a blade.
+    pub fn slides(&self, tools: &[Arc<Tool>]) -> Option<Vec<ToolMotion>> {
+        if self.is_empty() {
+            return Some(vec![run(tools.first()?, &[])]);
+        }
+        let slide = |motion| match motion {
+            Motion::Slide(motion) if motion.tool.pushes() => Some(motion),
+            _ => None,
+        };
+        self.motions(tools)?.into_iter().map(slide).collect()
+    }
+
     /// What its tools do, one motion for each lever-up and for pushes in a row with one tool. None
     /// where one of its tools is not among `tools`, or a lever-up has one without a blade.
     pub fn motions(&self, tools: &[Arc<Tool>]) -> Option<Vec<Motion>> {
@@ -233,11 +245,13 @@ impl Plan {
 
 /// Pushes in a row with one tool.
 fn run(tool: &Arc<Tool>, steps: &[&PushStep]) -> ToolMotion {
-    let first = steps.first();
-    let (lift, grip_yaw) = first.map_or((0.0, 0.0), |step| (step.lift, step.grip_yaw));
-    let placed = first.is_none_or(|step| step.form == PushForm::Placed);
-    let pushes: Vec<Push> = steps.iter().map(|step| step.push).collect();
-    ToolMotion::pushes(Arc::clone(tool), lift, grip_yaw, &pushes, placed)
+    let lift = steps.first().map_or(0.0, |step| step.lift);
+    let stroke = |(k, step): (usize, &&PushStep)| {
+        let settle = step.form == PushForm::Placed || k + 1 == steps.len();
+        Stroke::push(tool, step.grip_yaw, &step.push, settle)
+    };
+    let strokes = steps.iter().enumerate().map(stroke).collect();
+    ToolMotion { tool: Arc::clone(tool), lift, strokes }
 }
 
 /// Plans used to be pushes of one tool, or one lever-up: such are read as well.

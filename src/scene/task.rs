@@ -136,7 +136,7 @@ pub struct PushRules {
     pub directions: Directions,
     /// Coarse lateral offsets (placed pushes only).
     pub offsets: Offsets,
-    /// Turns of the end effector about z against world +x, radians; one per plan.
+    /// Turns of the end effector about z against world +x, radians.
     pub grip_yaws: Vec<f64>,
     /// Travel of a push, metres; refinement may shorten or lengthen a placed push by half.
     pub length: f64,
@@ -144,6 +144,8 @@ pub struct PushRules {
     pub speed: f64,
     /// Largest number of pushes in a row; none are allowed where it is 0.
     pub max_count: usize,
+    /// Largest number of changes to another tool in a plan; any where it is `None`.
+    pub tool_changes: Option<usize>,
     /// Height of the tool's underside above the table, metres.
     pub lift: f64,
 }
@@ -175,6 +177,7 @@ impl Default for PushRules {
             length: Self::LENGTH,
             speed: Self::SPEED,
             max_count: Self::MAX_COUNT,
+            tool_changes: None,
             lift: Self::LIFT,
         }
     }

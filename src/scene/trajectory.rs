@@ -164,6 +164,48 @@ impl Trajectory {
         Self { frames: vec![frame], ..Self::new(by) }
     }
 
+    /// This and what came after it, which began as this ended; `strokes` were made before.
+    #[must_use]
+    pub(super) fn then(mut self, next: Self, record: Record, strokes: usize) -> Self {
+        let began = self.frames.last().map_or(0.0, |frame| frame.time);
+        // How it began is how this ended.
+        let known = match record {
+            Record::Frames => 1,
+            Record::Outcome => 0,
+        };
+        let before = self.frames.len().saturating_sub(1);
+        if record == Record::Outcome {
+            self.frames.clear();
+        }
+        self.frames.extend(next.frames.into_iter().skip(known).map(|mut frame| {
+            frame.time += began;
+            frame.stroke += strokes;
+            frame
+        }));
+        self.contacts.extend(next.contacts.into_iter().map(|mut contact| {
+            contact.frame += before;
+            contact
+        }));
+        for warning in next.warnings {
+            if !self.warnings.contains(&warning) {
+                self.warnings.push(warning);
+            }
+        }
+        self.force = match (self.force, next.force) {
+            (Some(a), Some(b)) => {
+                Some(Force { peak: a.peak.max(b.peak), lasting: a.lasting.max(b.lasting) })
+            }
+            (a, b) => a.or(b),
+        };
+        match self.spreads.is_empty() {
+            true => self.spreads = next.spreads,
+            // Errors of one motion go on into the next.
+            false => self.spreads.iter_mut().zip(next.spreads).for_each(|(a, b)| *a += b),
+        }
+        self.lifts.extend(next.lifts);
+        self
+    }
+
     /// Says which parts of `tool` its contacts are with, where they were noted with pieces of its outline,
     /// in which flush parts are one: the part that is nearest then.
     pub fn tell_parts(&mut self, scene: &Scene, tool: &Tool) {

@@ -151,6 +151,13 @@ pub enum Warning {
         /// How many are allowed.
         allowed: usize,
     },
+    /// The task does not allow to take another tool so often.
+    TooManyToolChanges {
+        /// How often.
+        changes: usize,
+        /// How often it is allowed.
+        allowed: usize,
+    },
     /// A push that is not of the form that the task allows.
     ForbiddenPush {
         /// Index of the push.
@@ -244,6 +251,7 @@ impl Warning {
             | Warning::Stopped
             | Warning::Toppled { .. }
             | Warning::TooManyPushes { .. }
+            | Warning::TooManyToolChanges { .. }
             | Warning::ForbiddenPush { .. }
             | Warning::CannotLever { .. }
             | Warning::Strained
@@ -326,6 +334,7 @@ impl Warning {
             Warning::ForbiddenTool { .. }
             | Warning::ForbiddenYaw { .. }
             | Warning::TooManyPushes { .. }
+            | Warning::TooManyToolChanges { .. }
             | Warning::ForbiddenPush { .. }
             | Warning::CannotLever { .. } => "forbidden",
             Warning::Slipped { .. } => "slipped off the blade",

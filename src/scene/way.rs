@@ -34,6 +34,13 @@ pub enum Way {
 }
 
 impl Task {
+    /// Largest number of changes to another tool in a plan: none with an arm, of which nobody says where it
+    /// would fetch one.
+    pub fn tool_changes(&self) -> usize {
+        let stated = self.pushes.tool_changes.unwrap_or(usize::MAX);
+        if self.arm.is_some() { 0 } else { stated }
+    }
+
     /// The way from where `tool` is lifted after a push to where it is set down for the next; `None` where
     /// it is not lifted between them.
     pub fn way_between(

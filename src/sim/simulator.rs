@@ -2,7 +2,8 @@
 
 use crate::geometry::Pose;
 use crate::scene::{
-    Engine, Job, LeverScene, ModelKind, ModelSpec, Motion, Rate, Record, Scene, Trajectory, Warning,
+    Engine, Job, LeverScene, ModelKind, ModelSpec, Motion, Rate, Record, Scene, Trajectory,
+    Warning, in_turn,
 };
 use crate::watch::{Unwatched, Watch};
 
@@ -103,6 +104,20 @@ impl Simulator {
         self.drive(scene, job, record, (None, watch))
     }
 
+    /// Plays jobs in turn as one trajectory, see [`in_turn`].
+    pub fn run_in_turn(
+        &self,
+        scene: &Scene,
+        jobs: &[Job],
+        record: Record,
+        watch: &dyn Watch,
+    ) -> Trajectory {
+        let run = |job: &Job| self.run_watched(scene, job, record, watch);
+        let made = in_turn(&[jobs.to_vec()], record, |jobs| jobs.iter().map(run).collect());
+        let standing = || Trajectory::standing(self.spec(), Pose::default(), scene.start());
+        made.into_iter().next().unwrap_or_else(standing)
+    }
+
     /// Plays a job in the plane as an arm carries it out: it ends where the arm cannot go on, with a
     /// warning that says why.
     pub fn run_by(&self, arm: &Arm, scene: &Scene, job: &Job, record: Record) -> Trajectory {
@@ -124,13 +139,14 @@ impl Simulator {
         play(scene, job, self, record, by)
     }
 
-    /// Plays motions one after another until everything rests: in the plane those of one tool, which
-    /// are one motion, in space any.
+    /// Plays motions one after another until everything rests.
     pub fn run_plan(&self, scene: &Scene, motions: &[Motion], record: Record) -> Trajectory {
         match motions {
             [] => Trajectory::standing(self.spec(), Pose::default(), scene.start()),
-            [Motion::Slide(motion)] if !scene.in_space() => {
-                self.run(scene, &Job::stated(scene, motion.clone()), record)
+            motions if !scene.in_space() && !motions.iter().any(Motion::is_lever) => {
+                let job = |motion: &Motion| Job::stated(scene, motion.clone());
+                let jobs: Vec<Job> = motions.iter().map(job).collect();
+                self.run_in_turn(scene, &jobs, record, &Unwatched)
             }
             motions => {
                 let first = motions.iter().find(|motion| motion.is_lever());

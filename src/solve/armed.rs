@@ -12,13 +12,12 @@ impl Solving<'_> {
     /// are. Notes what it cannot.
     pub(super) fn is_for_arm(&mut self, evaluation: &Evaluation) -> bool {
         let Some(arm) = self.task.arm.as_deref() else { return true };
-        let tool = &self.workspace.tools[evaluation.candidate.tool];
-        let plan = self.plan(tool, evaluation);
+        let (tools, plan) = (evaluation.tools(&self.workspace), evaluation.plan(&self.workspace));
         // Between pushes they are about where they were.
         let mut states = vec![self.situation.start.clone(); plan.steps.len()];
         states.push(evaluation.outcome.clone());
         let scene = &*self.situation.scene;
-        match follow(self.task, (arm, scene), tool, &plan, &states) {
+        match follow(self.task, (arm, scene), &tools[0], &plan, &states) {
             Ok(_) => true,
             Err((_, fault)) => {
                 self.unable.get_or_insert(fault);

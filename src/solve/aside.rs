@@ -62,17 +62,18 @@ impl<'a> Clearings<'a> {
         let candidates: Vec<_> = near.map(|k| found[k].candidate.clone()).collect();
         let made = evaluate(&self.workspace, &mut self.rollouts, &candidates);
         let made: Vec<Evaluation> = made.into_iter().flatten().collect();
-        let motions: Vec<_> = made.iter().map(|one| one.motion(&self.workspace)).collect();
-        let jobs = motions.iter().map(|motion| Job::new(self.situation, motion.clone()));
-        let trajectories = self.rollouts.run(&jobs.collect::<Vec<_>>(), Record::Frames);
+        let motions: Vec<_> = made.iter().map(|one| one.motions(&self.workspace)).collect();
+        let jobs: Vec<_> =
+            motions.iter().map(|motions| Job::sequence(self.situation, motions)).collect();
+        let trajectories = self.rollouts.in_turn(&jobs, Record::Frames);
         let objects = &solving.task.scene.objects;
-        for ((one, motion), trajectory) in made.iter().zip(&motions).zip(&trajectories) {
-            let corridor = Corridor::of(&solving.workspace, solving.situation, motion, trajectory);
+        for ((one, motions), trajectory) in made.iter().zip(&motions).zip(&trajectories) {
+            let corridor = Corridor::of(&solving.workspace, solving.situation, motions, trajectory);
             let blocking = corridor.blocking(&solving.situation.start);
             if !blocking.is_empty() && blocking.iter().all(|&k| objects[k].keep.is_none()) {
-                let grip = (one.candidate.tool, one.candidate.grip_yaw);
                 let pushes = one.pushes.len() + blocking.len();
-                self.found.push(Clearing { corridor, grip, pushes });
+                let grip = one.candidate.grip().map(|grip| Clearing { corridor, grip, pushes });
+                self.found.extend(grip);
             }
         }
     }

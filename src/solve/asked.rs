@@ -196,8 +196,9 @@ fn start(
     let mut first = None;
     for part in 0..tool.parts().len() {
         let start = Start::Placed { part, offset };
-        let push = CandidatePush { object: index, start, direction, length, room: 0.0 };
-        match workspace.place((0, grip_yaw), state, &push, previous) {
+        let (tool, room) = (0, 0.0);
+        let push = CandidatePush { tool, grip_yaw, object: index, start, direction, length, room };
+        match workspace.place(state, &push, previous) {
             Ok(start) => {
                 let push = Push { start, direction, length, speed };
                 let margins = workspace.margins((0, grip_yaw), (state, index), &push, Some(0.0));

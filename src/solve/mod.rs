@@ -10,6 +10,7 @@ mod armed;
 mod aside;
 mod asked;
 mod cause;
+mod change;
 mod check;
 mod efforts;
 mod error;

@@ -11,7 +11,7 @@ use crate::effect::{EffectModel, EffectModels, Job, ModelError, Outside, Routed,
 use crate::geometry::Pose;
 use crate::scene::{
     ModelKind, Models, Outcome, Plan, Record, Situation, State, TableFit, Task, Tool, ToolMotion,
-    Trajectory, Warning,
+    Trajectory, Warning, in_turn,
 };
 use crate::watch::{Until, Unwatched, Watch};
 
@@ -290,20 +290,23 @@ impl Planner {
         Steps::new(self, (task, situation), library, &blades, &until).run()
     }
 
-    /// What the effect model predicts for a plan of pushes made with `tool`.
+    /// What the effect model predicts for a plan of pushes, made with those of `tools` that it names.
     ///
     /// # Errors
     /// [`SolveError`] for bad input only.
     pub fn predict(
         &self,
         task: &Task,
-        tool: &Arc<Tool>,
+        tools: &[Arc<Tool>],
         plan: &Plan,
     ) -> Result<Prediction, SolveError> {
         let situation = stated(task);
-        check(task, &situation, std::slice::from_ref(tool))?;
-        self.refuse(task, &situation, std::iter::once(plan.motion(tool)))?;
-        Ok(self.predict_all(task, &situation, &[(plan, tool)]).remove(0))
+        check(task, &situation, tools)?;
+        let what = || format!("a plan of other tools: {}", plan.tools().join(", "));
+        let unfit = || SolveError::BadTask { task: task.name.clone(), what: what() };
+        let motions = plan.slides(tools).ok_or_else(unfit)?;
+        self.refuse(task, &situation, motions.into_iter())?;
+        Ok(self.predict_all(task, &situation, &[(plan, tools)]).remove(0))
     }
 
     /// Refuses what the model should not be trusted with, if that is asked for.
@@ -340,31 +343,37 @@ impl Planner {
         &self,
         task: &Task,
         situation: &Situation,
-        plans: &[(&Plan, &Arc<Tool>)],
+        plans: &[(&Plan, &[Arc<Tool>])],
     ) -> Vec<Prediction> {
         let scene = &*situation.scene;
-        let jobs: Vec<Job> =
-            plans.iter().map(|(plan, tool)| Job::new(situation, plan.motion(tool))).collect();
+        let motions = |(plan, tools): &(&Plan, &[Arc<Tool>])| {
+            Job::sequence(situation, &plan.slides(tools).unwrap_or_default())
+        };
+        let sequences: Vec<Vec<Job>> = plans.iter().map(motions).collect();
         // A plan without pushes moves nothing and needs no model.
-        let moving: Vec<Job> =
-            jobs.iter().filter(|job| !job.motion.slide().strokes.is_empty()).cloned().collect();
-        let mut rolled = self.model.rollout(scene, &moving, Record::Frames).into_iter();
-        jobs.iter()
-            .map(|job| {
-                let still = || still(task, &job.start, job.motion.tool());
-                let trajectory = match job.motion.slide().strokes.is_empty() {
-                    true => still(),
-                    false => rolled.next().filter(|t| !t.frames.is_empty()).unwrap_or_else(still),
+        let moves = |jobs: &[Job]| jobs.iter().any(|job| !job.motion.slide().strokes.is_empty());
+        let moving: Vec<Vec<Job>> = sequences.iter().filter(|jobs| moves(jobs)).cloned().collect();
+        let rollout = |jobs: &[Job]| self.model.rollout(scene, jobs, Record::Frames);
+        let mut rolled = in_turn(&moving, Record::Frames, rollout).into_iter();
+        sequences
+            .iter()
+            .zip(plans)
+            .map(|(jobs, (_, tools))| {
+                let still = || still(task, &situation.start, &tools[0]);
+                let trajectory = match moves(jobs) {
+                    false => still(),
+                    true => rolled.next().filter(|t| !t.frames.is_empty()).unwrap_or_else(still),
                 };
-                let mut warnings = self.model.trust(scene, job).warnings();
-                for warning in &trajectory.warnings {
-                    if !warnings.contains(warning) {
-                        warnings.push(warning.clone());
+                let mut warnings: Vec<Warning> = Vec::new();
+                let asked = jobs.iter().flat_map(|job| self.model.trust(scene, job).warnings());
+                for warning in asked.chain(trajectory.warnings.iter().cloned()) {
+                    if !warnings.contains(&warning) {
+                        warnings.push(warning);
                     }
                 }
                 if warnings.iter().any(Warning::questions_model) {
                     // Once simulated, the doubt is a number.
-                    warnings.extend(consequence(scene, job, trajectory.outcome()));
+                    warnings.extend(consequence(scene, jobs, trajectory.outcome()));
                 }
                 let outcome = Outcome::judge(scene, task, &trajectory);
                 Prediction { trajectory, outcome, warnings }

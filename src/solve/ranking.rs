@@ -60,8 +60,8 @@ impl Solving<'_> {
             .collect();
         order.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.score.total_cmp(&b.1.score)));
         order.truncate(REPORTED);
-        let plans: Vec<(&Plan, &Arc<Tool>)> =
-            order.iter().map(|(_, t)| (&t.plan, &t.tool)).collect();
+        let plans: Vec<(&Plan, &[Arc<Tool>])> =
+            order.iter().map(|(_, t)| (&t.plan, &t.tools[..])).collect();
         let predictions = self.planner.predict_all(self.task, self.situation, &plans);
         let screened = self.rollouts.used();
         self.statistics.decided = plans.len()
@@ -80,7 +80,7 @@ impl Solving<'_> {
             .zip(predictions)
             .map(|((_, tried), prediction)| RankedPlan {
                 plan: tried.plan,
-                tools: vec![tried.tool],
+                tools: tried.tools,
                 predicted: prediction.trajectory,
                 outcome: prediction.outcome,
                 verdict: tried.verdict,

@@ -143,7 +143,7 @@ impl Solving<'_> {
                     plan,
                     candidate: Some(candidate),
                     aims: tried.aims.clone(),
-                    tool: tried.tool.clone(),
+                    tools: tried.tools.clone(),
                     refinement: tried.refinement.clone(),
                     verdict: None,
                     settled: false,

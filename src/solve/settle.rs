@@ -21,7 +21,7 @@ impl Solving<'_> {
             let tried = &mut self.tried[k];
             tried.settled = true;
             let Some(verdict) = tried.verdict.take() else { break };
-            let (tools, plan) = (std::slice::from_ref(&tried.tool), &tried.plan);
+            let (tools, plan) = (&tried.tools, &tried.plan);
             let verifier = self.verifier.clone().until_clear();
             tried.verdict = Some(verifier.disturb(self.task, self.situation, tools, plan, verdict));
             self.best = self.best_of_all();

@@ -147,6 +147,7 @@ impl<'a> Solving<'a> {
                 self.clear_the_way(&mut clearings, without, &search);
             }
         }
+        self.change_grips(&search);
         search
     }
 
@@ -320,12 +321,14 @@ impl<'a> Solving<'a> {
         let aimed = self.task.aiming(aims);
         let mut worth = Vec::new();
         for refined in refined {
-            let tool = &self.workspace.tools[refined.best.candidate.tool];
-            let motion = self.plan(tool, &refined.best).motion(tool);
-            let job = Job::new(self.situation, motion);
             // What the network says of this very push, or else what was measured of many.
             let spread = refined.best.spread.map(|spread| spread.within_90().position);
-            let error = spread.or_else(|| error_p95(self.planner.model(), self.situation, &job));
+            let error = spread.or_else(|| {
+                let motions = refined.best.motions(&self.workspace);
+                let jobs = Job::sequence(self.situation, &motions).into_iter();
+                let errors = jobs.map(|job| error_p95(self.planner.model(), self.situation, &job));
+                errors.collect::<Option<Vec<f64>>>().map(|all| all.into_iter().fold(0.0, f64::max))
+            });
             if is_worth_verifying(&aimed, &refined.best, error) && self.is_for_arm(&refined.best) {
                 worth.push(self.tried.len());
             }
@@ -345,8 +348,7 @@ impl<'a> Solving<'a> {
         let verdicts: Vec<Verdict> = indices
             .par_iter()
             .map(|&k| {
-                let Tried { tool, plan, .. } = &self.tried[k];
-                let tools = std::slice::from_ref(tool);
+                let Tried { tools, plan, .. } = &self.tried[k];
                 self.verifier.nominal(self.task, self.situation, tools, plan)
             })
             .collect();
@@ -369,7 +371,7 @@ impl<'a> Solving<'a> {
             let tried = &mut self.tried[k];
             if let Some(verdict) = tried.verdict.take() {
                 self.disturbed += 1;
-                let (tools, plan) = (std::slice::from_ref(&tried.tool), &tried.plan);
+                let (tools, plan) = (&tried.tools, &tried.plan);
                 let verdict =
                     self.verifier.disturb(self.task, self.situation, tools, plan, verdict);
                 let grade = Grade::of(self.task, &verdict);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::plan::{Candidate, Cost, Evaluation, Refined, bare, behind, is_behind};
+use crate::plan::{Candidate, Cost, Refined, bare, behind, is_behind};
 use crate::scene::{Goal, Plan, Tool, Verdict};
 
 use super::Refinement;
@@ -11,7 +11,8 @@ use super::solving::Solving;
 /// A plan that was refined, and verified where it was worth that.
 pub(super) struct Tried {
     pub plan: Plan,
-    pub tool: Arc<Tool>,
+    /// Those that it names, each once; of doing nothing the first one.
+    pub tools: Vec<Arc<Tool>>,
     /// What the plan was made from; `None` for the plan without pushes.
     pub candidate: Option<Candidate>,
     /// What it was refined towards: the task's goals, or some next to them.
@@ -29,7 +30,6 @@ impl Solving<'_> {
     /// What was made of a candidate that was refined towards `aims`.
     pub(super) fn tried(&self, refined: Refined, aims: &[Goal]) -> Tried {
         let Refined { best, off: [before, after], rounds, .. } = refined;
-        let tool = Arc::clone(&self.workspace.tools[best.candidate.tool]);
         Tried {
             refinement: Refinement {
                 before,
@@ -48,27 +48,19 @@ impl Solving<'_> {
             cost: Cost::of(&best, &self.workspace, self.situation),
             verdict: None,
             settled: false,
-            plan: self.plan(&tool, &best),
-            tool,
+            plan: best.plan(&self.workspace),
+            tools: best.tools(&self.workspace),
             candidate: Some(best.candidate),
         }
-    }
-
-    /// The plan of an evaluated candidate.
-    pub(super) fn plan(&self, tool: &Tool, evaluation: &Evaluation) -> Plan {
-        let (yaw, rules) = (evaluation.candidate.grip_yaw, &self.task.pushes);
-        let pushes = evaluation.pushes.iter().copied();
-        Plan::pushing(&tool.name, yaw, rules.form, rules.lift, pushes)
     }
 
     /// Doing nothing, which is a plan too.
     pub(super) fn without_pushes(&self) -> Tried {
         let start = &self.situation.start;
         let error = self.task.goal.error(start);
-        let tool = Arc::clone(&self.workspace.tools[0]);
         Tried {
             plan: Plan::default(),
-            tool,
+            tools: self.workspace.tools.iter().take(1).cloned().collect(),
             candidate: None,
             aims: self.goals(),
             refinement: Refinement {

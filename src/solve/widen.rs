@@ -114,7 +114,7 @@ impl Solving<'_> {
             self.refined(&candidates, &goals, search.depth());
             let reach = self.tried.iter().filter(|one| one.score <= 1.0 && !is_behind(one.score));
             let ways: Vec<Way> = reach
-                .map(|one| Way { plan: one.plan.clone(), tool: one.tool.name.clone() })
+                .map(|one| Way { plan: one.plan.clone(), tool: one.plan.tool().to_owned() })
                 .collect();
             if !ways.is_empty() {
                 return ways;

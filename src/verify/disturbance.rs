@@ -18,49 +18,44 @@ const TURN: f64 = std::f64::consts::PI / 180.0;
 /// Largest relative change of every friction value.
 const FRICTION: f64 = 0.1;
 
-/// One draw of disturbances, uniform within their ranges; the same for the same seed and draw.
-pub(super) struct Disturbed {
-    /// The start and the physics that are used instead.
-    situation: Situation,
-    /// The tool instead.
-    tool: Arc<Tool>,
-}
-
-impl Disturbed {
-    pub fn draw(situation: &Situation, tool: &Tool, seed: u64, draw: usize) -> Self {
-        let mut random = Pcg64::new(u128::from(seed), draw as u128);
-        // A fresh stream's first numbers resemble those of its neighbours.
-        let mut random = Pcg64::seed_from_u64(random.random());
-        let mut situation = situation.clone();
-        let mut tool = tool.clone();
-        // Moving only one side of a joint would break it.
-        let groups = situation.physics.groups(|_| true);
-        for first in 0..groups.len() {
-            let mut within = |range: f64| random.random_range(-range..=range);
-            let (shift, turn) = (Vector::new(within(SHIFT), within(SHIFT)), within(TURN));
-            let group: Vec<usize> = (0..groups.len()).filter(|&k| groups[k] == first).collect();
-            // What is joined to the world stands where its joint lets it.
-            if group.iter().all(|&k| situation.scene.mount(k).is_none()) {
-                disturb(&mut situation.start.poses, &group, first, shift, turn);
-            }
+/// `motions` in turn as they happen under one draw of disturbances, uniform within their ranges; the same
+/// for the same seed and draw.
+pub(super) fn disturbed(
+    situation: &Situation,
+    motions: &[ToolMotion],
+    seed: u64,
+    draw: usize,
+) -> Vec<Job> {
+    let mut random = Pcg64::new(u128::from(seed), draw as u128);
+    // A fresh stream's first numbers resemble those of its neighbours.
+    let mut random = Pcg64::seed_from_u64(random.random());
+    let mut situation = situation.clone();
+    // Moving only one side of a joint would break it.
+    let groups = situation.physics.groups(|_| true);
+    for first in 0..groups.len() {
+        let mut within = |range: f64| random.random_range(-range..=range);
+        let (shift, turn) = (Vector::new(within(SHIFT), within(SHIFT)), within(TURN));
+        let group: Vec<usize> = (0..groups.len()).filter(|&k| groups[k] == first).collect();
+        // What is joined to the world stands where its joint lets it.
+        if group.iter().all(|&k| situation.scene.mount(k).is_none()) {
+            disturb(&mut situation.start.poses, &group, first, shift, turn);
         }
-        let physics = Arc::make_mut(&mut situation.physics);
-        let own = physics.frictions.iter_mut();
-        let pairs = physics.pairs.iter_mut().map(|pair| &mut pair.coefficient);
-        let values = own.chain([&mut physics.table_friction, &mut tool.friction]).chain(pairs);
-        for friction in values {
-            *friction *= 1.0 + random.random_range(-FRICTION..=FRICTION);
-        }
-        physics.doubt_supports(&situation.scene, draw);
-        physics.push_height = Some(random.random_range(0.0..=1.0));
-        Self { situation, tool: Arc::new(tool) }
     }
-
-    /// `motion` as it happens under the disturbance.
-    pub fn job(&self, motion: &ToolMotion) -> Job {
-        let motion = ToolMotion { tool: Arc::clone(&self.tool), ..motion.clone() };
-        Job::new(&self.situation, motion)
+    let physics = Arc::make_mut(&mut situation.physics);
+    // Of all tools alike.
+    let mut tools = 1.0;
+    let own = physics.frictions.iter_mut();
+    let pairs = physics.pairs.iter_mut().map(|pair| &mut pair.coefficient);
+    for friction in own.chain([&mut physics.table_friction, &mut tools]).chain(pairs) {
+        *friction *= 1.0 + random.random_range(-FRICTION..=FRICTION);
     }
+    physics.doubt_supports(&situation.scene, draw);
+    physics.push_height = Some(random.random_range(0.0..=1.0));
+    let job = |motion: &ToolMotion| {
+        let tool = Tool::clone(&motion.tool).friction(tools * motion.tool.friction);
+        Job::new(&situation, ToolMotion { tool: Arc::new(tool), ..motion.clone() })
+    };
+    motions.iter().map(job).collect()
 }
 
 /// Shifts a group and turns it about its object `first`, but only as far as moves none of its
@@ -92,7 +87,9 @@ mod tests {
         let tool = Tool::new("bar", [part]).unwrap();
         let situation = Situation::stated(&scene);
         for draw in 0..20 {
-            let start = Disturbed::draw(&situation, &tool, 1, draw).situation.start;
+            let motion =
+                ToolMotion { tool: Arc::new(tool.clone()), lift: 0.0, strokes: Vec::new() };
+            let start = disturbed(&situation, &[motion], 1, draw).remove(0).start;
             let relative = |poses: &[Pose], k: usize| poses[1].inverse() * poses[k];
             let stated: Vec<Pose> = scene.objects.iter().map(|object| object.pose).collect();
             for k in [3, 4] {

@@ -3,6 +3,8 @@
 //! Written apart from the planner's own rules, which are stricter: it keeps distances; this only
 //! says what no robot can do or the task forbids.
 
+use std::sync::Arc;
+
 use crate::geometry::{Footprint, Pose, Vector, clearance, swept_clearance, wrap_angle};
 use crate::scene::{
     Fixed, Mover, Plan, Push, PushFault, PushForm, PushStep, Robot, Scene, Task, Tool, ToolChoice,
@@ -17,17 +19,23 @@ const SLACK: f64 = 1e-5;
 const TURNED: f64 = 0.436_333;
 const LONGER: f64 = 1.5;
 
-/// Everything that is wrong with `plan`, which `tool` carries out in `scene`, before anything
-/// moves.
-pub fn broken_rules(task: &Task, scene: &Scene, tool: &Tool, plan: &Plan) -> Vec<Warning> {
+/// Everything that is wrong with `plan`, which those of `tools` that it names carry out in `scene`, before
+/// anything moves.
+pub fn broken_rules(task: &Task, scene: &Scene, tools: &[Arc<Tool>], plan: &Plan) -> Vec<Warning> {
     let mut found = Vec::new();
     if plan.is_empty() {
         return found;
     }
-    if let ToolChoice::Named(names) = &task.tools
-        && !names.contains(&tool.name)
-    {
-        found.push(Warning::ForbiddenTool { tool: tool.name.clone() });
+    if let ToolChoice::Named(names) = &task.tools {
+        let forbidden =
+            plan.tools().into_iter().filter(|tool| !names.iter().any(|name| name == tool));
+        found.extend(forbidden.map(|tool| Warning::ForbiddenTool { tool: tool.to_owned() }));
+    }
+    let steps: Vec<&PushStep> = plan.push_steps().collect();
+    let changes = steps.windows(2).filter(|pair| pair[0].tool != pair[1].tool).count();
+    let allowed = task.tool_changes();
+    if changes > allowed {
+        found.push(Warning::TooManyToolChanges { changes, allowed });
     }
     let mut yaws: Vec<f64> = plan.push_steps().map(|step| step.grip_yaw).collect();
     yaws.dedup();
@@ -42,7 +50,9 @@ pub fn broken_rules(task: &Task, scene: &Scene, tool: &Tool, plan: &Plan) -> Vec
         found.push(Warning::TooManyPushes { pushes, allowed: task.pushes.max_count });
     }
     found.extend(forms(task, plan));
-    for (index, step) in plan.push_steps().enumerate() {
+    let named = |step: &PushStep| tools.iter().find(|tool| tool.name == step.tool);
+    for (index, step) in steps.iter().enumerate() {
+        let Some(tool) = named(step) else { continue };
         if !is_within_reach(&task.robot, &step.push) {
             found.push(Warning::OutOfReach { push: index });
         }
@@ -54,24 +64,17 @@ pub fn broken_rules(task: &Task, scene: &Scene, tool: &Tool, plan: &Plan) -> Vec
             found.push(Warning::HandThrough { push: index, obstacle });
         }
     }
-    found.extend(no_ways(task, scene, tool, plan));
-    found
-}
-
-/// The pushes that the lifted tool does not get to from the one before.
-fn no_ways<'a>(
-    task: &'a Task,
-    scene: &'a Scene,
-    tool: &'a Tool,
-    plan: &Plan,
-) -> impl Iterator<Item = Warning> + use<'a> {
-    let pushes: Vec<PushStep> = plan.push_steps().cloned().collect();
-    (1..pushes.len()).filter_map(move |push| {
-        match task.way_between(scene, tool, [&pushes[push - 1], &pushes[push]])? {
-            Way::Blocked(obstacle) => Some(Warning::NoWay { push, obstacle }),
-            _ => None,
+    // A tool that is taken anew comes from wherever tools are kept.
+    for (before, pair) in
+        steps.windows(2).enumerate().filter(|(_, pair)| pair[0].tool == pair[1].tool)
+    {
+        if let Some(tool) = named(pair[0])
+            && let Some(Way::Blocked(obstacle)) = task.way_between(scene, tool, [pair[0], pair[1]])
+        {
+            found.push(Warning::NoWay { push: before + 1, obstacle });
         }
-    })
+    }
+    found
 }
 
 /// The pushes that are not of the form that the task allows, each with the first fault.

@@ -15,7 +15,7 @@ use crate::watch::{Unwatched, Watch};
 
 use super::arm::arm_faults;
 use super::clear;
-use super::disturbance::Disturbed;
+use super::disturbance::disturbed;
 use super::rules::broken_rules;
 use super::space;
 
@@ -114,20 +114,23 @@ impl<'a> Verifier<'a> {
             let evidence = self.replay_in_space(task, situation, (tools, plan), None);
             return Verdict::judge(forbidden, vec![evidence], task.robustness);
         }
-        let Some(tool) = tools.first().filter(|tool| tool.pushes()) else {
-            let missing = Warning::ForbiddenTool { tool: plan.tool().to_owned() };
+        let Some(motions) = plan.slides(tools) else {
+            let named =
+                |name: &&&str| tools.iter().any(|tool| tool.name == **name && tool.pushes());
+            let missing = plan.tools().into_iter().find(|name| !named(&name)).unwrap_or_default();
+            let missing = Warning::ForbiddenTool { tool: missing.to_owned() };
             return Verdict::judge(vec![missing], Vec::new(), task.robustness);
         };
-        let job = Job::new(situation, plan.motion(tool));
+        let jobs = Job::sequence(situation, &motions);
         let mut evidence: Vec<Evidence> = [&self.spatial, &self.planar]
             .into_par_iter()
-            .map(|engine| self.replay(engine, task, scene, &job, Disturbance::Nominal))
+            .map(|engine| self.replay(engine, task, scene, &jobs, Disturbance::Nominal))
             .collect();
         // The planar engine is the one that people compare predictions with: it comes first.
         evidence.reverse();
-        let mut forbidden = broken_rules(task, scene, tool, plan);
+        let mut forbidden = broken_rules(task, scene, tools, plan);
         let asked = (task, situation);
-        forbidden.extend(arm_faults(asked, tool, plan, &evidence, self.joints));
+        forbidden.extend(arm_faults(asked, &motions[0].tool, plan, &evidence, self.joints));
         Verdict::judge(forbidden, evidence, task.robustness)
     }
 
@@ -158,20 +161,21 @@ impl<'a> Verifier<'a> {
             evidence.extend(replays);
             return Verdict::judge(forbidden, evidence, task.robustness);
         }
-        let Some(tool) = tools.first() else {
+        let Some(mut motions) = plan.slides(tools) else {
             return Verdict::judge(forbidden, evidence, task.robustness);
         };
-        let mut motion = plan.motion(tool);
         let scene = wary(&situation.scene);
-        if misses_by_a_hair(&scene, &motion) {
-            motion.lift += HAIR;
+        for motion in &mut motions {
+            if misses_by_a_hair(&scene, motion) {
+                motion.lift += HAIR;
+            }
         }
         let (mut evidence, mut replays): (Vec<Evidence>, Vec<Evidence>) =
             evidence.into_iter().partition(|one| one.disturbance == Disturbance::Nominal);
         let mut done = replays.len() / Engine::ALL.len();
         let mut next = self.settings.disturbed.max(done);
         loop {
-            replays.extend(self.disturbed(task, situation, tool, (&scene, &motion), done..next));
+            replays.extend(self.disturbed(task, situation, (&scene, &motions), done..next));
             (done, next) = (next, (next + clear::LOOK).min(clear::MOST));
             let over = !self.until_clear || done == 0 || done >= next || self.watch.cancelled();
             if over || clear::is_clear(&replays, task.robustness) {
@@ -189,8 +193,7 @@ impl<'a> Verifier<'a> {
         &self,
         task: &Task,
         situation: &Situation,
-        tool: &Arc<Tool>,
-        (scene, motion): (&Scene, &ToolMotion),
+        (scene, motions): (&Scene, &[ToolMotion]),
         draws: Range<usize>,
     ) -> Vec<Evidence> {
         let draws: Vec<(&Simulator, usize)> = [&self.planar, &self.spatial]
@@ -204,8 +207,8 @@ impl<'a> Verifier<'a> {
                 if self.watch.cancelled() {
                     return stopped(engine, task, situation, disturbance);
                 }
-                let job = Disturbed::draw(situation, tool, self.settings.seed, draw).job(motion);
-                self.replay(engine, task, scene, &job, disturbance)
+                let jobs = disturbed(situation, motions, self.settings.seed, draw);
+                self.replay(engine, task, scene, &jobs, disturbance)
             })
             .collect()
     }
@@ -253,18 +256,18 @@ impl<'a> Verifier<'a> {
         evidence(&self.spatial, task, &scene, trajectory, disturbance)
     }
 
-    /// Plays a job; one without pushes leaves everything where it is.
+    /// Plays jobs in turn; one without pushes leaves everything where it is.
     fn replay(
         &self,
         engine: &Simulator,
         task: &Task,
         scene: &Scene,
-        job: &Job,
+        jobs: &[Job],
         disturbance: Disturbance,
     ) -> Evidence {
         let nominal = disturbance == Disturbance::Nominal;
         let record = if nominal { Record::Frames } else { Record::Outcome };
-        let trajectory = engine.run_watched(scene, job, record, self.watch);
+        let trajectory = engine.run_in_turn(scene, jobs, record, self.watch);
         evidence(engine, task, scene, trajectory, disturbance)
     }
 }

@@ -61,6 +61,7 @@ mod simulation;
 mod solving;
 mod table_fit;
 mod things;
+mod tool_change;
 mod tool_choice;
 mod tool_graph;
 mod verification;

@@ -61,6 +61,8 @@ fn workspace<'a>(task: &'a Task, tools: &'a [Arc<Tool>]) -> Workspace<'a> {
 
 fn placed(part: usize, offset: f64, direction: f64) -> CandidatePush {
     CandidatePush {
+        tool: 0,
+        grip_yaw: 0.0,
         object: 0,
         start: Start::Placed { part, offset },
         direction,
@@ -89,8 +91,12 @@ fn a_placed_face_stands_five_millimetres_before_the_object() {
                 for direction in [0.0, PI, FRAC_PI_2, -FRAC_PI_2, 0.7] {
                     for part in 0..tool.parts().len() {
                         for offset in [-0.03, 0.0, 0.02] {
-                            let push = placed(part, offset, direction);
-                            let place = space.place((index, yaw), &state, &push, None);
+                            let push = CandidatePush {
+                                tool: index,
+                                grip_yaw: yaw,
+                                ..placed(part, offset, direction)
+                            };
+                            let place = space.place(&state, &push, None);
                             let Ok(start) = place else {
                                 refused += 1;
                                 continue;
@@ -134,7 +140,7 @@ fn a_hook_reaches_behind_an_object_and_pulls_it_back() {
     let space = workspace(&task, &tools);
     let state = task.scene.start();
     // The bar (part 1), pulled towards the robot, stands behind the can.
-    let start = space.place((0, 0.0), &state, &placed(1, 0.0, PI), None).unwrap();
+    let start = space.place(&state, &placed(1, 0.0, PI), None).unwrap();
     let frame = tools[0].pose(Pose { position: start, heading: 0.0 });
     let bar = tools[0].part_pose(1, &frame);
     assert!((bar.position.x - (0.60 + 0.04 + STAND_OFF + 0.02)).abs() < 1e-9);
@@ -145,7 +151,7 @@ fn a_hook_reaches_behind_an_object_and_pulls_it_back() {
         );
     }
     // The handle lies beside the can: its own leading end cannot meet it while pulling.
-    let beside = space.place((0, 0.0), &state, &placed(0, 0.12, PI), None);
+    let beside = space.place(&state, &placed(0, 0.12, PI), None);
     assert_eq!(beside.unwrap_err(), Infeasible::NoContact);
 
     let model = planar();
@@ -165,7 +171,7 @@ fn reach_obstacles_and_height_limit_a_push() {
     let place = |task: &Task| {
         let space = workspace(task, &tools);
         let push = placed(0, 0.0, 0.0);
-        let start = space.place(pair, &task.scene.start(), &push, None)?;
+        let start = space.place(&task.scene.start(), &push, None)?;
         space.free_travel(pair, start, 0.0, 0.3)
     };
     // The rod's tip is 0.45 from the grip, so the grip starts at 0.105.
@@ -211,6 +217,8 @@ fn sharing_the_beginnings_of_chained_pushes_finds_what_trying_everything_finds()
             for &second in &headings {
                 for stop in 1..=20 {
                     let push = |direction, length| CandidatePush {
+                        tool: 0,
+                        grip_yaw,
                         object: 0,
                         start: Start::Chained,
                         direction,
@@ -218,7 +226,7 @@ fn sharing_the_beginnings_of_chained_pushes_finds_what_trying_everything_finds()
                         room: 0.0,
                     };
                     let pushes = vec![push(first, 0.2), push(second, 0.01 * stop as f64)];
-                    all.push(Candidate { tool: 0, grip_yaw, pushes });
+                    all.push(Candidate { pushes });
                 }
             }
         }
@@ -273,7 +281,7 @@ fn a_push_stands_off_further_by_the_room_that_it_is_given() {
     let space = workspace(&task, &tools);
     let start = |room| {
         let push = CandidatePush { room, ..placed(0, 0.0, 0.0) };
-        space.place((0, 0.0), &task.scene.start(), &push, None).unwrap().x
+        space.place(&task.scene.start(), &push, None).unwrap().x
     };
     assert!((start(0.0) - start(0.004) - 0.004).abs() < 1e-12);
 }

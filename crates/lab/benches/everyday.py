@@ -239,9 +239,28 @@ def aside(count):
     return blocked
 
 
+def two_tools(d):
+    """What is beyond the hand's reach is pulled nearer by a hook, which does not fit between the rails of the puck."""
+    side = d.rng.choice([-1, 1])
+    far, y = d.u(0.82, 0.9), round(side * d.u(0.12, 0.2), 3)
+    can = d.solid("o0") | {"shape": {"cylinder": {"radius": d.u(0.03, 0.045), "height": 0.1}}, "position": [far, y]}
+    puck = d.solid("o1") | {"shape": {"cylinder": {"radius": d.u(0.02, 0.03), "height": 0.06}}}
+    x, along = d.u(0.37, 0.4), round(-side * d.u(0.17, 0.22), 3)
+    puck["position"] = [x, along]
+    apart = puck["shape"]["cylinder"]["radius"] + d.u(0.008, 0.012) + 0.015
+    rail = lambda name, at: {"name": name, "size": [0.3, 0.03, 0.06], "position": [0.42, round(along + at, 3)]}
+    scene = {"objects": [can, puck], "obstacles": [rail("rail-1", apart), rail("rail-2", -apart)]}
+    goals = [
+        {"object": "o0", "position": [round(far - d.u(0.1, 0.17), 3), y], "tolerance": 0.025},
+        {"object": "o1", "position": [round(x + d.u(0.1, 0.15), 3), along], "tolerance": 0.02},
+    ]
+    robot = {"reach": {"min": 0.3, "max": 0.62}}
+    return task(scene, goals) | {"robot": robot, "tools": ["finger", "l-hook"], "pushes": {"max_count": 2}}
+
+
 KINDS = {
     "door": doors, "drawer": drawers, "compound": compounds, "heading": headings, "region": regions, "relative": relative,
-    "two-goals": several(2), "three-goals": several(3),
+    "two-goals": several(2), "three-goals": several(3), "two-tools": two_tools,
     "one-aside": aside(1), "two-aside": aside(2), "three-aside": aside(3),
 }
 

@@ -155,7 +155,7 @@ fn picture(scene: &Scene, motion: Option<&ToolMotion>, trajectory: Option<&Traje
         scene,
         goals: Vec::new(),
         robot: None,
-        motion,
+        motions: motion.map(std::slice::from_ref).unwrap_or_default(),
         tracks: trajectory.map(track).into_iter().collect(),
     };
     let svg = picture.to_svg();

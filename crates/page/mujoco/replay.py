@@ -28,6 +28,7 @@ import numpy as np
 
 RISES = 0.1  # how fast a tool is lifted, m/s
 JAMMED = 2e-3  # an object so deep inside an obstacle is squeezed where it cannot go
+LAID_ASIDE = 2.0  # how high above the table tools hang that are not in use, m
 SET_DOWN = 1e-4  # overlap that is still touching when the tool comes down
 TOPPLED = math.cos(math.radians(10))  # an object's axis leans further than this
 ANYWHERE = 1e6  # the tolerance of a goal that asks for no place
@@ -58,18 +59,18 @@ class Replay:
         self.kind = np.array([KINDS.index(name.split("/")[0]) for name in geoms])
         self.obstacles = sum(name.startswith("obstacle/") and name != BASE for name in geoms)
         joints = [self.model.joint(k) for k in range(self.model.njnt)]
-        joints = [joint for joint in joints if joint.name.startswith("tool ")]
-        self.tool_height = [joint for joint in joints if joint.name == "tool z"]
-        joints = [joint for joint in joints if joint.name != "tool z"]
-        for joint in self.tool_height:  # it is held, so it does not begin to fall in any step
-            weight = -self.model.body("tool").mass[0] * self.model.opt.gravity[2]
-            self.data.qfrc_applied[joint.dofadr[0]] = weight
-        self.tool_position = [joint.qposadr[0] for joint in joints]
-        self.tool_velocity = [joint.dofadr[0] for joint in joints]
+        names = [b.name for b in bodies if b.name.split(" ")[0] == "tool"]
+        self.tools = [[j for j in joints if j.name.rpartition(" ")[0] == name] for name in names]
+        for tool in self.tools:
+            for joint in tool:  # it is held, so it does not begin to fall in any step
+                if joint.name.endswith(" z"):
+                    weight = -self.model.body("tool").mass[0] * self.model.opt.gravity[2]
+                    self.data.qfrc_applied[joint.dofadr[0]] = weight
         self.deepest = np.zeros(len(KINDS))
         numerics = [self.model.numeric(k) for k in range(self.model.nnumeric)]
         self.numbers = {numeric.name: numeric.data for numeric in numerics}
         self.pushes = [data for name, data in self.numbers.items() if name.startswith("push ")]
+        self.take(0)
         self.frames = {}
         for k in range(self.model.ntext):
             name = mujoco.mj_id2name(self.model, mujoco.mjtObj.mjOBJ_TEXT, k)
@@ -81,7 +82,11 @@ class Replay:
         mujoco.mj_forward(self.model, self.data)  # a plan may have none
         lifted = True
         for index, push in enumerate(self.pushes):
-            start, end, duration, settle = push[0:2], push[2:4], push[4], push[5]
+            duration, settle = push[4], push[5]
+            turn = push[6:8]  # none where no tool turns
+            start, end = np.append(push[0:2], turn[:1]), np.append(push[2:4], turn[1:])
+            if "tools" in self.numbers:
+                self.take(int(self.numbers["tools"][index]) - 1)
             if lifted:
                 self.set_down(start)
             steps = math.ceil(duration / self.step - 1e-9)
@@ -94,6 +99,19 @@ class Replay:
                 self.lift_off(start, end, duration, 0.0 if back is None else back[0])
             lifted = settle
 
+    def take(self, index):
+        """Another tool, while those not in use hang high above the table."""
+        for k, tool in enumerate(self.tools):
+            for joint in tool:
+                if joint.name.endswith(" z"):
+                    self.data.qpos[joint.qposadr[0]] = 0.0 if k == index else LAID_ASIDE
+                self.data.qvel[joint.dofadr[0]] = 0.0
+        tool = self.tools[index]
+        self.tool_height = [joint for joint in tool if joint.name.endswith(" z")]
+        joints = [joint for joint in tool if not joint.name.endswith(" z")]
+        self.tool_position = [joint.qposadr[0] for joint in joints]
+        self.tool_velocity = [joint.dofadr[0] for joint in joints]
+
     def set_down(self, place):
         """The tool comes down from above."""
         self.place(place, 0.0)
@@ -105,7 +123,7 @@ class Replay:
 
     def lift_off(self, start, end, duration, back):
         """The tool goes back by so much, the way it came, and rises: what sticks to it comes along."""
-        way = np.linalg.norm(end - start)
+        way = np.linalg.norm(end[:2] - start[:2])
         if back == 0.0 or way == 0.0:
             return
         share = back / way

@@ -210,6 +210,7 @@ class PushKeys(TypedDict, total=False):
     length: float
     speed: float
     max_count: int
+    tool_changes: int
     lift: float
 
 

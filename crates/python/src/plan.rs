@@ -79,7 +79,8 @@ impl PyPlan {
         let asked =
             work::run(py, 0, |_| asked_plan(&task.task, &situation, &tool, &yaws, &pushes))?;
         let asked = asked.map_err(|error| errors::action(py, &error.to_string()))?;
-        let rules = broken_rules(&task.task, &task.task.scene, &tool, &asked.plan);
+        let rules =
+            broken_rules(&task.task, &task.task.scene, std::slice::from_ref(&tool), &asked.plan);
         let forms = rules.iter().filter(|rule| {
             matches!(rule, Warning::ForbiddenPush { .. } | Warning::TooManyPushes { .. })
         });
@@ -177,16 +178,13 @@ impl PyPlan {
     /// The graph that the network reads, between frames `frame` and `frame + 1` of `trajectory`: a
     /// dictionary with `nodes` (objects, the parts of the tool, obstacles: name, kind, pose, size, and
     /// how they move) and `relations` (contacts and joints between them, by the nodes' indices); `None`
-    /// past the last frame, and where something is levered or nothing was predicted.
+    /// past the last frame, and where something is levered, several tools are used, or nothing was predicted.
     fn graph<'py>(&self, py: Python<'py>, frame: usize) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let (Some(trajectory), Some(tool)) = (&self.trajectory, self.file.tools.first()) else {
-            return Ok(None);
-        };
-        let PlanFile { task, plan, .. } = &self.file;
-        if task.in_space() || plan.levers() {
-            return Ok(None);
-        }
-        let job = Job::stated(&task.scene, plan.motion(tool));
+        let Some(trajectory) = &self.trajectory else { return Ok(None) };
+        let PlanFile { task, plan, tools, .. } = &self.file;
+        let slides = plan.slides(tools).filter(|_| !task.in_space());
+        let Some([motion]) = slides.as_deref() else { return Ok(None) };
+        let job = Job::stated(&task.scene, motion.clone());
         let graph = Graph::at(&task.scene, &job, trajectory, frame);
         let text = graph.map(|graph| serde_json::to_string(&graph)).transpose();
         match text.map_err(|error| PyValueError::new_err(error.to_string()))? {

@@ -7,7 +7,7 @@ use numpy::PyArray2;
 use pushplan::act::{ActError, End, Look, SimulatedWorld, World, WorldError};
 use pushplan::report::{PageView, Recipe, run_document, run_page};
 use pushplan::scene::Sight;
-use pushplan::{Noise, RunSettings, Runner, ToolMotion, Trace, Vector, hidden};
+use pushplan::{Noise, RunSettings, Runner, Tool, ToolMotion, Trace, Vector, hidden};
 use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
@@ -18,6 +18,7 @@ use crate::push::PyPush;
 use crate::solve::{Asked, stated};
 use crate::table_fit::PyTableFit;
 use crate::task::PyTask;
+use crate::tool::PyTool;
 use crate::tool::{PyTool, PyToolLibrary, given};
 use crate::{errors, json, page, words, work};
 
@@ -173,7 +174,8 @@ impl PyRun {
 /// returns where the objects are seen at rest: `[objects, 3]`, x and y in metres, heading in
 /// radians, NaN where a number is not seen. `act(motion)` carries out a `Motion` and returns what
 /// was seen meanwhile and at rest: a list of pairs of a time since it began, seconds, and an array
-/// as that of `look`. What they raise ends the run.
+/// as that of `look`. Where it has a method `change_tool(tool)` that is called before another tool is
+/// needed. What they raise ends the run.
 ///
 /// `pushes` is the most that are made, `probes` the most of these only to learn something; plans are
 /// judged under `samples` samples and carried out without doubt if they reach the goal in the share
@@ -291,6 +293,18 @@ impl World for Place {
             Place::Theirs { .. } => self.ask(|_, world| {
                 let seen = sights(&world.call_method0("look")?)?;
                 Ok(Look { time: 0.0, seen })
+            }),
+        }
+    }
+
+    fn change_tool(&mut self, tool: &Tool) -> Result<(), WorldError> {
+        match self {
+            Place::Drawn(_) => Ok(()),
+            Place::Theirs { .. } => self.ask(|_, world| {
+                if world.hasattr("change_tool")? {
+                    world.call_method1("change_tool", (PyTool(Arc::new(tool.clone())),))?;
+                }
+                Ok(())
             }),
         }
     }

@@ -190,21 +190,22 @@ pub fn predict(
 pub fn predicted(model: &Routed, file: &PlanFile) -> Trajectory {
     let scene = &file.task.scene;
     let motions = file.plan.motions(&file.tools).unwrap_or_default();
-    let job = match &motions[..] {
+    let jobs: Vec<Job> = match &motions[..] {
         [] => {
             let home = Pose { position: file.task.robot.home, heading: 0.0 };
             let tool = file.tools.first().map_or(home, |tool| tool.pose(home));
             return Trajectory::standing(ModelKind::Still.into(), tool, scene.start());
         }
-        [motion] => Job::stated(scene, motion.clone()),
-        // What several tools do in turn is for the engine alone.
-        motions => return Simulator::spatial().run_plan(scene, motions, Record::Frames),
+        // What follows something levered is for the engine alone.
+        [_, _, ..] if file.plan.levers() => {
+            return Simulator::spatial().run_plan(scene, &motions, Record::Frames);
+        }
+        motions => motions.iter().map(|motion| Job::stated(scene, motion.clone())).collect(),
     };
-    let rolled = model.rollout(scene, std::slice::from_ref(&job), Record::Frames).pop();
-    let mut trajectory = rolled.unwrap_or_else(|| {
+    let mut trajectory = model.in_turn(scene, &jobs, Record::Frames).unwrap_or_else(|| {
         Trajectory::standing(model.spec().clone(), Pose::default(), scene.start())
     });
-    for warning in model.trust(scene, &job).warnings() {
+    for warning in jobs.iter().flat_map(|job| model.trust(scene, job).warnings()) {
         if !trajectory.warnings.contains(&warning) {
             trajectory.warnings.push(warning);
         }

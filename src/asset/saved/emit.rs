@@ -295,6 +295,9 @@ pub(in crate::asset) fn pushes(rules: &PushRules) -> Json {
     if let Offsets::List(offsets) = &rules.offsets {
         pushes["offsets"] = json!(offsets);
     }
+    if let Some(changes) = rules.tool_changes {
+        pushes["tool_changes"] = json!(changes);
+    }
     pushes
 }
 

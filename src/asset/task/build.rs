@@ -228,6 +228,10 @@ pub(in crate::asset) fn pushes(node: &Node) -> Option<PushRules> {
         speed: number_or(node, "speed", usual.speed)?,
         // Whole and in range: the check has seen to it.
         max_count: max_count as usize,
+        tool_changes: match node.get("tool_changes") {
+            None => usual.tool_changes,
+            Some(count) => Some(count.number()? as usize),
+        },
         lift: number_or(node, "lift", usual.lift)?,
     })
 }

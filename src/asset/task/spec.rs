@@ -298,7 +298,8 @@ pub(in crate::asset) const PUSHES: Value = Value::Map(&[
     Key::optional(
         "grip_yaws_deg",
         Value::List { of: &ANGLE, items: "angles in degrees", min: 1, max: 16 },
-        "Turns of the end effector against world +x, degrees, one per plan; default 0, 90, -90.",
+        "Turns of the end effector against world +x, degrees; default 0, 90, -90. A plan keeps to one \
+         unless it needs several.",
     ),
     Key::optional(
         "length",
@@ -310,6 +311,12 @@ pub(in crate::asset) const PUSHES: Value = Value::Map(&[
         "max_count",
         MAX_COUNT,
         "Largest number of pushes in a plan; default 3. More are tried only where fewer do not do.",
+    ),
+    Key::optional(
+        "tool_changes",
+        TOOL_CHANGES,
+        "Largest number of changes to another tool in a plan, of placed pushes; by default any. Plans that \
+         change it are tried only where none with one tool does.",
     ),
     Key::optional(
         "lift",
@@ -337,6 +344,13 @@ const SPEED: Value = Value::Number(Range {
     low: 0.01,
     high: 1.0,
     advice: "10 cm/s is 0.10",
+});
+
+const TOOL_CHANGES: Value = Value::Count(Range {
+    what: "a number of changes",
+    low: 0.0,
+    high: 64.0,
+    advice: "0 keeps every plan to one tool",
 });
 
 const MAX_COUNT: Value = Value::Count(Range {

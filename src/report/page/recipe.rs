@@ -119,8 +119,7 @@ impl Origin {
     }
 
     fn command(&self, plan: &Plan) -> String {
-        // What several tools do in turn has no command of its own.
-        let found = plan.is_empty() || plan.levers();
+        let found = !has_one_grip(plan);
         let verb = if found { "solve" } else { "predict" };
         let mut words = ["pushplan", verb].map(str::to_owned).to_vec();
         words.extend(self.task.words());
@@ -154,7 +153,7 @@ impl Origin {
         let (mut lines, tools) = self.loads();
         let tools = tools.map_or(String::new(), |tools| format!(", {tools}"));
         let model = self.model.as_ref().map(|model| literal(&model.to_string()));
-        if plan.is_empty() || plan.levers() {
+        if !has_one_grip(plan) {
             let model = model.map_or(String::new(), |model| format!(", model={model}"));
             lines.push(format!("print(pushplan.solve(task{tools}{model}))"));
             return lines.join("\n");
@@ -234,6 +233,14 @@ impl Recipe {
         });
         Self { command: words.join(" "), python }
     }
+}
+
+/// Whether a plan is pushes of one tool, held in one way: what several tools do in turn has no command of its
+/// own.
+fn has_one_grip(plan: &Plan) -> bool {
+    let yaw = plan.grip_yaw();
+    let turned = plan.push_steps().any(|step| step.grip_yaw != yaw);
+    !plan.levers() && plan.tools().len() == 1 && !turned
 }
 
 /// Whether a push of a plan goes on where the one before it ended, to the last digit.

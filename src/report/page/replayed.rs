@@ -61,8 +61,9 @@ pub(super) fn shown_replay(
     if told || !goal.has_place() {
         replay.measure = sound(&trajectory.frames).map(|f| length(goal.error(&f.state))).collect();
     }
-    if let (Layer::Predicted, Some(tool)) = (layer, tools.first()) {
-        let job = Job::stated(&task.scene, plan.motion(tool));
+    // The parts of one tool are its nodes.
+    if let (Layer::Predicted, Some([motion])) = (layer, plan.slides(tools).as_deref()) {
+        let job = Job::stated(&task.scene, motion.clone());
         replay.graph = graph(&task.scene, &job, trajectory);
     }
     Some(replay)
@@ -207,10 +208,13 @@ impl<'a> Making<'a> {
         if in_space {
             self.data.measure = Some(space::measure(plan));
         }
-        let strokes = match (tools.first(), in_space) {
-            (_, true) => space::strokes(plan, tools, &index),
-            (Some(tool), false) => strokes(&plan.motion(tool), first),
-            (None, false) => Vec::new(),
+        let strokes = match in_space {
+            true => space::strokes(plan, tools, &index),
+            false => {
+                let motions = plan.slides(tools).unwrap_or_default();
+                let own = |motion: &ToolMotion| strokes(motion, index(&motion.tool.name));
+                motions.iter().flat_map(own).collect()
+            }
         };
         self.data.plans.push(data::Plan {
             tool: first,

@@ -14,7 +14,7 @@ pub struct Extent<'a> {
     pub scene: &'a Scene,
     pub goals: Vec<Goal>,
     pub robot: Option<&'a Robot>,
-    pub motion: Option<&'a ToolMotion>,
+    pub motions: &'a [ToolMotion],
     pub trajectories: Vec<&'a Trajectory>,
 }
 
@@ -40,9 +40,7 @@ impl Extent<'_> {
         if let Some(robot) = self.robot {
             bounds.add(Vector::zeros(), robot.reach_min);
         }
-        if let Some(motion) = self.motion {
-            self.add_motion(&mut bounds, motion);
-        }
+        self.motions.iter().for_each(|motion| self.add_motion(&mut bounds, motion));
         let near = bounds;
         for frame in self.trajectories.iter().flat_map(|trajectory| &trajectory.frames) {
             for (object, pose) in self.scene.objects.iter().zip(&frame.state.poses) {

@@ -18,6 +18,7 @@ use super::{
     scene_picture::Source,
     stage::{SEEN, Stage, clockwise, shift, turn},
     story::Story,
+    strokes,
     timeline::Timeline,
     view::View,
 };
@@ -38,8 +39,8 @@ pub struct MovingPicture<'a> {
     pub source: Source,
     /// Objects at their start, obstacles, where which object must come, and the end effector's reach.
     pub task: &'a Task,
-    /// What the tool does.
-    pub motion: &'a ToolMotion,
+    /// What the tools do.
+    pub motions: &'a [ToolMotion],
     /// What happens, frame by frame.
     pub trajectory: &'a Trajectory,
 }
@@ -47,7 +48,7 @@ pub struct MovingPicture<'a> {
 impl MovingPicture<'_> {
     /// The picture as an SVG document.
     pub fn to_svg(&self) -> String {
-        let timeline = Timeline::of(self.motion, self.trajectory);
+        let timeline = Timeline::of(&strokes::all(self.motions), self.trajectory);
         let mut view = View::fit(self.extent().bounds(), Vector::new(BESIDE, 0.0));
         let note = format!("{}; {}, {}", self.plan, self.source, timeline.pace());
         let notes = palette::NOTE.wrap(&note, view.size.x);
@@ -110,7 +111,7 @@ impl MovingPicture<'_> {
         }
         self.story().reached(stage);
         stage.open_layer();
-        moving_tool::tool(stage, self.motion);
+        moving_tool::tools(stage, &strokes::all(self.motions));
         for (k, object) in self.task.scene.things() {
             stage.svg.open_moved(&format!("o{k}"), view.map(ends[k].position), 0.0);
             let upright = Pose { position: Vector::zeros(), heading: object.pose.heading };
@@ -119,7 +120,7 @@ impl MovingPicture<'_> {
             stage.close(1);
         }
         stage.close(1);
-        moving_tool::arrows(stage, self.motion);
+        moving_tool::arrows(stage, &strokes::all(self.motions));
         view.scale_bar(&mut stage.svg);
     }
 
@@ -183,8 +184,8 @@ impl MovingPicture<'_> {
     }
 
     fn story(&self) -> Story<'_> {
-        let Self { task, motion, trajectory, .. } = *self;
-        Story { task, motion, trajectory }
+        let Self { task, motions, trajectory, .. } = *self;
+        Story { task, strokes: strokes::all(motions), trajectory }
     }
 
     /// The frames that can be drawn.
@@ -222,7 +223,7 @@ impl MovingPicture<'_> {
             scene: &self.task.scene,
             goals: self.task.shown_goals(),
             robot: Some(&self.task.robot),
-            motion: Some(self.motion),
+            motions: self.motions,
             trajectories: vec![self.trajectory],
         }
     }
@@ -239,7 +240,7 @@ impl MovingPicture<'_> {
             entries.push((Sample::Area(palette::OTHER_OBJECT), "other object".to_owned()));
         }
         entries.push((Sample::Ring(palette::GOAL_RIM), tolerance));
-        entries.push((Sample::Area(tool), self.motion.tool.name.clone()));
+        entries.push((Sample::Area(tool), strokes::tools(self.motions)));
         for (symbol, words) in Symbol::ALL {
             if self.task.scene.joints.iter().any(|joint| Symbol::of(joint) == symbol) {
                 entries.push((Sample::Joint(symbol), words.to_owned()));

@@ -65,7 +65,7 @@ pub struct ScenePicture<'a> {
     /// Reach of the end effector.
     pub robot: Option<&'a Robot>,
     /// Tool outlines and push arrows.
-    pub motion: Option<&'a ToolMotion>,
+    pub motions: &'a [ToolMotion],
     /// Ways and ends of the objects; later ones are drawn over earlier ones.
     pub tracks: Vec<Track<'a>>,
 }
@@ -101,7 +101,7 @@ impl ScenePicture<'_> {
             scene: self.scene,
             goals: self.goals.clone(),
             robot: self.robot,
-            motion: self.motion,
+            motions: self.motions,
             trajectories: self.tracks.iter().map(|track| track.trajectory).collect(),
         }
     }
@@ -118,9 +118,8 @@ impl ScenePicture<'_> {
             bodies::goal_area(svg, view, goal);
         }
         bodies::fixed(svg, view, self.scene);
-        if let Some(motion) = self.motion {
-            strokes::tool(svg, view, motion);
-        }
+        let made = strokes::all(self.motions);
+        strokes::tool(svg, view, &made);
         // Over the tool, which often ends where the object was.
         for (k, object) in self.scene.objects.iter().enumerate() {
             bodies::object(svg, view, object, self.is_goal(k));
@@ -136,9 +135,7 @@ impl ScenePicture<'_> {
         for track in &self.tracks {
             self.track(svg, view, track);
         }
-        if let Some(motion) = self.motion {
-            strokes::pushes(svg, view, motion);
-        }
+        strokes::pushes(svg, view, &made);
         for (_, object) in self.scene.things() {
             bodies::name(svg, view, &object.name, &object.shape, &object.pose);
         }
@@ -212,8 +209,8 @@ impl ScenePicture<'_> {
             };
             add(Sample::Ring(palette::GOAL_RIM), words);
         }
-        if let Some(motion) = self.motion {
-            let name = &motion.tool.name;
+        if !self.motions.is_empty() {
+            let name = strokes::tools(self.motions);
             let look = Style::fill(palette::TOOL_FILL).outlined(palette::TOOL, 1.4);
             let words = format!("{name} before a push");
             add(Sample::Area(look.opacity(palette::TOOL_BEFORE)), words);

@@ -4,16 +4,16 @@ use crate::geometry::Vector;
 use crate::report::keyframes::{Key, short};
 use crate::report::number::millimetres;
 use crate::report::svg::{Font, Style, Svg};
-use crate::scene::{Goal, Outcome, Task, ToolMotion, Trajectory};
+use crate::scene::{Goal, Outcome, Task, Trajectory};
 
-use super::{palette, stage::Stage, timeline::LIFT};
+use super::{palette, stage::Stage, strokes::Made, timeline::LIFT};
 
 const CAPTION: Font = Font::new(14.0, palette::INK).bold();
 
 /// What there is to say.
 pub struct Story<'a> {
     pub task: &'a Task,
-    pub motion: &'a ToolMotion,
+    pub strokes: Vec<Made<'a>>,
     pub trajectory: &'a Trajectory,
 }
 
@@ -41,12 +41,14 @@ impl Story<'_> {
             self.task.scene.objects.get(self.goal().object).map_or("object", |object| &object.name);
         let within = millimetres(self.goal().tolerance);
         let mut captions = vec![(0.0, format!("{name} must come within {within} of the goal"))];
-        let count = self.motion.strokes.len();
+        let count = self.strokes.len();
+        let one = self.strokes.windows(2).all(|pair| pair[0].0.name == pair[1].0.name);
         let spans = stage.timeline.strokes.iter();
-        for (k, (span, stroke)) in spans.zip(&self.motion.strokes).enumerate() {
+        for (k, (span, (tool, stroke))) in spans.zip(&self.strokes).enumerate() {
+            let with = if one { String::new() } else { format!(" with the {}", tool.name) };
             let speed = stroke.travel() / stroke.duration;
             let travel = millimetres(stroke.travel());
-            let words = format!("push {} of {count}: {travel} at {speed:.2} m/s", k + 1);
+            let words = format!("push {} of {count}{with}: {travel} at {speed:.2} m/s", k + 1);
             captions.push((span.start - LIFT, words));
         }
         for (k, (since, words)) in captions.iter().enumerate() {

@@ -2,21 +2,39 @@
 
 use crate::geometry::{Footprint, Pose, Vector, contact_points};
 use crate::report::svg::{Anchor, Font, Style, Svg};
-use crate::scene::{Tool, ToolMotion, Trajectory};
+use crate::scene::{Stroke, Tool, ToolMotion, Trajectory};
 
 use super::{palette, view::View};
 
+/// A stroke and the tool that makes it.
+pub type Made<'a> = (&'a Tool, &'a Stroke);
+
+/// All strokes of motions in turn.
+pub fn all(motions: &[ToolMotion]) -> Vec<Made<'_>> {
+    let mut made = Vec::new();
+    for motion in motions {
+        made.extend(motion.strokes.iter().map(|stroke| (&*motion.tool, stroke)));
+    }
+    made
+}
+
+/// Names of the tools, each once.
+pub fn tools(motions: &[ToolMotion]) -> String {
+    let mut names: Vec<&str> = motions.iter().map(|motion| motion.tool.name.as_str()).collect();
+    names.dedup();
+    names.join(", ")
+}
+
 /// The tool at the start (faint) and end (strong) of every stroke.
-pub fn tool(svg: &mut Svg, view: &View, motion: &ToolMotion) {
-    let tool = &motion.tool;
+pub fn tool(svg: &mut Svg, view: &View, strokes: &[Made]) {
     // All starts below all ends, so that no end is dimmed.
-    for (k, stroke) in motion.strokes.iter().enumerate() {
+    for (k, (tool, stroke)) in strokes.iter().enumerate() {
         // A chained stroke starts where the last one ended, which is drawn already.
-        if k == 0 || motion.strokes[k - 1].settle {
+        if k == 0 || strokes[k - 1].1.settle {
             silhouette(svg, view, tool, &stroke.from, palette::TOOL_BEFORE);
         }
     }
-    for (k, stroke) in motion.strokes.iter().enumerate() {
+    for (k, (tool, stroke)) in strokes.iter().enumerate() {
         svg.open_titled(&format!("{} after push {}", tool.name, k + 1));
         silhouette(svg, view, tool, &stroke.to, palette::TOOL_AFTER);
         hold(svg, view, tool, &stroke.to);
@@ -25,29 +43,28 @@ pub fn tool(svg: &mut Svg, view: &View, motion: &ToolMotion) {
 }
 
 /// Numbered arrows along the end effector's way, with the grip at every end.
-pub fn pushes(svg: &mut Svg, view: &View, motion: &ToolMotion) {
+pub fn pushes(svg: &mut Svg, view: &View, strokes: &[Made]) {
     // All numbers over all arrows.
-    (0..motion.strokes.len()).for_each(|k| arrow(svg, view, motion, k));
-    (0..motion.strokes.len()).for_each(|k| number(svg, view, motion, k));
+    strokes.iter().for_each(|made| arrow(svg, view, made));
+    strokes.iter().enumerate().for_each(|(k, made)| number(svg, view, made, k));
 }
 
-/// The way of the end effector in push `k`.
-pub fn arrow(svg: &mut Svg, view: &View, motion: &ToolMotion, k: usize) {
-    let stroke = &motion.strokes[k];
-    let [from, to] = [&stroke.from, &stroke.to].map(|pose| grip(view, motion, pose));
+/// The way of the end effector in a push.
+pub fn arrow(svg: &mut Svg, view: &View, (tool, stroke): &Made) {
+    let [from, to] = [&stroke.from, &stroke.to].map(|pose| grip(view, tool, pose));
     svg.arrow(from, to, 12.0, palette::INK, 2.2);
 }
 
 /// The number of push `k` at its start.
-pub fn number(svg: &mut Svg, view: &View, motion: &ToolMotion, k: usize) {
-    let at = grip(view, motion, &motion.strokes[k].from);
+fn number(svg: &mut Svg, view: &View, (tool, stroke): &Made, k: usize) {
+    let at = grip(view, tool, &stroke.from);
     svg.circle(at, 9.0, Style::fill(palette::INK).outlined("#ffffff", 1.5));
     let font = Font::new(11.5, "#ffffff").bold().anchored(Anchor::Middle);
     svg.text(at + Vector::new(0.0, 4.0), &(k + 1).to_string(), font);
 }
 
-fn grip(view: &View, motion: &ToolMotion, tool: &Pose) -> Vector {
-    view.map((*tool * motion.tool.grip).position)
+fn grip(view: &View, tool: &Tool, at: &Pose) -> Vector {
+    view.map((*at * tool.grip).position)
 }
 
 /// The way of object `index`, with a dot at its end.

@@ -1,6 +1,8 @@
 //! When what happens in a moving picture: recorded time stretched, with pauses for the eye.
 
-use crate::scene::{Frame, ToolMotion, Trajectory};
+use crate::scene::{Frame, Trajectory};
+
+use super::strokes::Made;
 
 /// Before the first push, seconds: objects and goal are found, then the tool comes down.
 const BEFORE: f64 = 1.1;
@@ -41,15 +43,15 @@ pub struct Timeline {
 
 impl Timeline {
     /// The times of a recorded motion.
-    pub fn of(motion: &ToolMotion, trajectory: &Trajectory) -> Self {
+    pub fn of(made: &[Made], trajectory: &Trajectory) -> Self {
         let frames = &trajectory.frames;
         let recorded = frames.last().map_or(0.0, |frame| frame.time);
         let fits = |rate: &&f64| recorded / **rate <= LONGEST;
         let rate = RATES.iter().find(fits).or(RATES.last()).copied().unwrap_or(1.0);
         let mut strokes: Vec<Span> = Vec::new();
-        for index in 0..motion.strokes.len() {
+        for index in 0..made.len() {
             let Some(last) = frames.iter().rev().find(|frame| frame.stroke == index) else { break };
-            let lowered = index == 0 || motion.strokes[index - 1].settle;
+            let lowered = index == 0 || made[index - 1].1.settle;
             let pause = if lowered { BETWEEN } else { 0.0 };
             let start = strokes.last().map_or(BEFORE, |before| before.end + pause);
             let recorded = match index.checked_sub(1) {
@@ -93,7 +95,8 @@ mod tests {
 
     use super::*;
     use crate::geometry::{Pose, Vector};
-    use crate::scene::{Part, Push, State, Tool};
+    use crate::report::picture::strokes;
+    use crate::scene::{Part, Push, State, Tool, ToolMotion};
 
     /// Two pushes of a second each, recorded at their ends alone.
     fn timeline(placed: bool, speed: f64) -> Timeline {
@@ -104,7 +107,7 @@ mod tests {
         let seconds = 0.1 / speed;
         let frames = vec![frame(0, 0.0), frame(0, seconds), frame(1, 2.0 * seconds)];
         Timeline::of(
-            &motion,
+            &strokes::all(&[motion]),
             &Trajectory { frames, ..Trajectory::new(crate::scene::ModelKind::PLANAR.into()) },
         )
     }

@@ -148,6 +148,9 @@ impl fmt::Display for Warning {
             Warning::TooManyPushes { pushes, allowed } => {
                 write!(f, "{pushes} pushes in a row, and the task allows {allowed}")
             }
+            Warning::TooManyToolChanges { changes, allowed } => {
+                write!(f, "the tool is changed {changes} times, and {allowed} are allowed")
+            }
             Warning::ForbiddenPush { push, fault } => write!(f, "push {} {fault}", push + 1),
             Warning::CannotLever { step, fault } => write!(f, "step {}: {fault}", step + 1),
             Warning::Slipped { object } => write!(f, "{object} slipped off the blade"),

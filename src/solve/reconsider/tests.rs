@@ -7,13 +7,15 @@ use crate::scene::{Disturbance, Evidence, Outcome};
 
 fn candidate(pushes: &[(f64, f64)]) -> Candidate {
     let push = |&(direction, length): &(f64, f64)| CandidatePush {
+        tool: 0,
+        grip_yaw: 0.0,
         object: 0,
         start: Start::Placed { part: 0, offset: 0.0 },
         direction,
         length,
         room: 0.0,
     };
-    Candidate { tool: 0, grip_yaw: 0.0, pushes: pushes.iter().map(push).collect() }
+    Candidate { pushes: pushes.iter().map(push).collect() }
 }
 
 #[test]

@@ -97,14 +97,14 @@ fn prisms_pushed_flush_slide_on_by_v2_over_2_mu_g() {
 }
 
 #[test]
-fn five_shipped_plans_work_in_mujoco() {
+fn six_shipped_plans_work_in_mujoco() {
     let Some(python) = python() else { return };
     let library = ToolLibrary::embedded().unwrap();
     let planner = Planner::for_effort(Effort::Standard).unwrap().build();
     let root = Path::new(ROOT).join("tasks");
     let mut texts = Vec::new();
-    // A can behind a wall; a box that takes two pulls; a joint with limits; prisms.
-    let names = ["pull-back-behind-wall", "pull-back-twice", "drawer"];
+    // A can behind a wall; a box that takes two pulls; a joint with limits; two tools; prisms.
+    let names = ["pull-back-behind-wall", "pull-back-twice", "drawer", "two-tools"];
     for name in names.into_iter().chain(["triangle-turned", "hexagon-any-side"]) {
         let task = Task::load(root.join(format!("{name}.yaml"))).unwrap();
         let solution = planner.solve(&task, &library).unwrap();

@@ -44,7 +44,7 @@ fn picture_of(ways: &[[f64; 2]], placed: bool, warnings: Vec<Warning>) -> String
         plan: "bar, 2 pushes".to_owned(),
         source: Source::Simulated(Engine::Spatial),
         task: &Task::new("test", scene, robot, goal),
-        motion: &motion,
+        motions: &[motion],
         trajectory: &trajectory,
     }
     .to_svg()

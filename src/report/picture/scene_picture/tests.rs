@@ -21,7 +21,7 @@ fn jointed_picture_of(ends: Vec<Pose>, joints: Vec<Joint>) -> String {
         scene: &scene,
         goals: Vec::new(),
         robot: None,
-        motion: None,
+        motions: &[],
         tracks: vec![Track { source: Source::Predicted, trajectory: &trajectory }],
     }
     .to_svg()

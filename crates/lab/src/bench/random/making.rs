@@ -6,7 +6,7 @@ use std::sync::Arc;
 use pushplan::internals::plan::{
     Candidate, CandidatePush, Evaluation, Rollouts, Start, Workspace, evaluate,
 };
-use pushplan::internals::scene::{Plan, Push, Span, Task, Tool};
+use pushplan::internals::scene::{Plan, Push, PushStep, Span, Step, Task, Tool};
 use rand::Rng;
 use rand_pcg::Pcg64;
 
@@ -72,10 +72,10 @@ pub(super) fn carried_out(
 
 /// Whether the tool keeps clear of the obstacles on these pushes.
 pub(super) fn keeps_clear(workspace: &Workspace, candidate: &Candidate, pushes: &[Push]) -> bool {
-    let (pair, start) = ((candidate.tool, candidate.grip_yaw), workspace.task.scene.start());
+    let start = workspace.task.scene.start();
     let object = workspace.task.goal.object;
-    pushes.iter().all(|push| {
-        let margins = workspace.margins(pair, (&start, object), push, None);
+    pushes.iter().zip(&candidate.pushes).all(|(push, planned)| {
+        let margins = workspace.margins(planned.grip(), (&start, object), push, None);
         margins.broken().is_none()
     })
 }
@@ -83,8 +83,12 @@ pub(super) fn keeps_clear(workspace: &Workspace, candidate: &Candidate, pushes: 
 /// What a candidate's pushes are to a robot.
 pub(super) fn plan(workspace: &Workspace, candidate: &Candidate, pushes: Vec<Push>) -> Plan {
     let rules = &workspace.task.pushes;
-    let tool = &workspace.tools[candidate.tool].name;
-    Plan::pushing(tool, candidate.grip_yaw, rules.form, rules.lift, pushes)
+    let step = |(push, planned): (Push, &CandidatePush)| {
+        let tool = workspace.tools[planned.tool].name.clone();
+        let (grip_yaw, form, lift) = (planned.grip_yaw, rules.form, rules.lift);
+        Step::Push(PushStep { tool, grip_yaw, form, lift, push })
+    };
+    Plan { steps: pushes.into_iter().zip(&candidate.pushes).map(step).collect() }
 }
 
 /// Any tool and grip, and pushes of any face, offset and length in the directions of `direct`,
@@ -100,7 +104,7 @@ fn draw(
     let yaws = &task.pushes.grip_yaws;
     let grip_yaw = yaws[rng.random_range(0..yaws.len())];
     let (start, object) = (task.scene.start(), task.goal.object);
-    let mut candidate = Candidate { tool, grip_yaw, pushes: Vec::new() };
+    let mut candidate = Candidate::default();
     let mut before = 0.0;
     for index in 0..pushes {
         let direction = direct(rng, index, before);
@@ -110,7 +114,8 @@ fn draw(
         let length = rng.random_range(travel.low..travel.high);
         let start = Start::Placed { part, offset };
         let room = if index > 0 { LATER_ROOM } else { 0.0 };
-        candidate.pushes.push(CandidatePush { object, start, direction, length, room });
+        let push = CandidatePush { tool, grip_yaw, object, start, direction, length, room };
+        candidate.pushes.push(push);
         before = direction;
     }
     candidate
@@ -119,8 +124,7 @@ fn draw(
 /// The first push, if it can be made from the start.
 fn first_push(workspace: &Workspace, candidate: &Candidate) -> Option<Push> {
     let (start, planned) = (workspace.task.scene.start(), candidate.pushes.first()?);
-    let pair = (candidate.tool, candidate.grip_yaw);
-    let from = workspace.place(pair, &start, planned, None).ok()?;
+    let from = workspace.place(&start, planned, None).ok()?;
     let push = Push {
         start: from,
         direction: planned.direction,
@@ -128,7 +132,7 @@ fn first_push(workspace: &Workspace, candidate: &Candidate) -> Option<Push> {
         speed: workspace.task.pushes.speed,
     };
     workspace
-        .margins(pair, (&start, planned.object), &push, Some(0.0))
+        .margins(planned.grip(), (&start, planned.object), &push, Some(0.0))
         .broken()
         .is_none()
         .then_some(push)

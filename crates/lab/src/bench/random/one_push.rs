@@ -107,6 +107,6 @@ fn random_candidate(rng: &mut Pcg64, task: &Task, tools: &[Arc<Tool>]) -> Candid
     let offset = rng.random_range(-span..=span);
     let length = rng.random_range(TRAVEL.low..TRAVEL.high);
     let start = Start::Placed { part, offset };
-    let push = CandidatePush { object, start, direction, length, room: 0.0 };
-    Candidate { tool, grip_yaw, pushes: vec![push] }
+    let push = CandidatePush { tool, grip_yaw, object, start, direction, length, room: 0.0 };
+    Candidate { pushes: vec![push] }
 }

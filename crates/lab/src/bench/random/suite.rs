@@ -109,7 +109,7 @@ impl RandomSuite {
         if kind == TaskKind::Obstacle {
             plan = self.walled(rng, &mut task, &candidate, &plan)?;
         }
-        let tool = Arc::clone(&self.tools[candidate.tool]);
+        let tool = Arc::clone(&self.tools[candidate.grip()?.0]);
         let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
         let verdict = verifier.nominal(
             &task,
