@@ -23,6 +23,7 @@ mod seamless;
 mod space;
 mod strokes;
 mod tools;
+mod wanted;
 mod xml;
 
 #[cfg(feature = "formats")]

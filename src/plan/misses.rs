@@ -18,12 +18,14 @@ pub(super) fn misses(task: &Task, outcome: &State) -> Vec<Vector3<f64>> {
     task.goals().map(of).collect()
 }
 
-/// From the misses `from` to `to`, the shorter way round.
+/// From the misses `from` to `to`, the shorter way round unless a joint with limits leaves one only.
 pub(super) fn apart(task: &Task, to: &[Vector3<f64>], from: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     let of = |((goal, to), from): ((&Goal, &Vector3<f64>), &Vector3<f64>)| {
         let mut apart = to - from;
         if let Some((_, tolerance)) = goal.heading {
-            apart.z = goal.least_turn(apart.z * tolerance) / tolerance;
+            let turn = apart.z * tolerance;
+            let turn = if goal.middle.is_some() { turn } else { goal.least_turn(turn) };
+            apart.z = turn / tolerance;
         }
         apart
     };

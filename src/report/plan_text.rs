@@ -206,7 +206,9 @@ fn one_goal(task: &Task, goal: &Goal) -> String {
             1 => String::new(),
             alike => format!(", or any of {alike} that look the same"),
         };
-        format!(", heading {} \u{00b1} {}{alike}", degrees(heading), degrees(tolerance))
+        let by = goal.middle.and_then(|_| goal.turned(&task.scene.start()));
+        let by = by.map_or(String::new(), |turn| format!(", a turn by {}", degrees(-turn)));
+        format!(", heading {} \u{00b1} {}{alike}{by}", degrees(heading), degrees(tolerance))
     });
     let mut demands = Vec::new();
     if let Some(obstacle) = goal.outside.and_then(|k| task.scene.obstacles.get(k)) {

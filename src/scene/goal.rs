@@ -1,10 +1,12 @@
 //! What must come of a plan: where an object lies at rest, and how.
 
+use std::f64::consts::PI;
+
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{ContactPoint, Pose, Shape, Vector, wrap_angle};
+use crate::geometry::{Pose, Shape, Vector, wrap_angle};
 
-use super::{Area, Body, Gap, Joint, Scene, State};
+use super::{Area, Body, Gap, Joint, Scene, Span, State};
 
 /// Where an object must come to rest, and how; every stated demand counts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -19,6 +21,10 @@ pub struct Goal {
     pub tolerance: f64,
     /// Wanted heading and its tolerance, radians, where one is asked for.
     pub heading: Option<(f64, f64)>,
+    /// Where the wanted heading is that of a joint with limits: the heading in the middle of what they allow,
+    /// radians. Headings are told from those a full turn away by being nearest to it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub middle: Option<f64>,
     /// Where its centre may be instead of near the position, which is then the middle of it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub area: Option<Area>,
@@ -95,6 +101,7 @@ impl Goal {
             position: Vector::zeros(),
             tolerance: f64::INFINITY,
             heading: None,
+            middle: None,
             area: None,
             gap: None,
             relative: None,
@@ -155,6 +162,7 @@ impl Goal {
         Self {
             position,
             heading: self.heading.map(|(heading, within)| (frame.heading + heading, within)),
+            middle: self.middle.map(|middle| frame.heading + middle),
             area: self.area.map(|area| area.seen_from(frame)),
             relative: None,
             ..self.clone()
@@ -237,92 +245,47 @@ impl Goal {
         }
     }
 
-    /// `turn` without the turns after which the object looks the same, radians: the smallest left.
-    pub fn least_turn(&self, turn: f64) -> f64 {
-        let alike = self.alike as f64;
-        wrap_angle(turn * alike) / alike
-    }
-
-    /// Distance of the object's centre from the goal, metres; of an area or a gap, from what lies deep
-    /// enough inside; 0 where it may lie anywhere.
-    pub fn error(&self, state: &State) -> f64 {
-        self.off(state).norm()
-    }
-
-    /// From the nearest place that is asked for to the object's centre, metres; zero where it may lie
-    /// anywhere.
-    pub fn off(&self, state: &State) -> Vector {
-        if !self.has_place() {
-            return Vector::zeros();
-        }
-        if let Some(gap) = &self.gap {
-            let Some(nearest) = self.nearest(state) else { return Vector::zeros() };
-            return gap.beyond(nearest.gap, gap.depth()) * nearest.normal;
-        }
-        let goal = self.in_world(state);
-        let at = state.poses[self.object].position;
-        at - goal.area.map_or(goal.position, |area| area.nearest(at))
-    }
-
-    /// The gap that is asked for, where the object may be as far from it as the position says.
-    fn nearest(&self, state: &State) -> Option<ContactPoint> {
-        let mut shifted = state.poses.get(self.object).copied()?;
-        shifted.position -= self.position;
-        self.gap.as_ref()?.nearest(&shifted, state)
-    }
-
-    /// The nearest place that is asked for, or the middle of its area, metres in the world.
-    pub fn place(&self, state: &State) -> Vector {
-        match self.gap {
-            Some(_) => state.poses[self.object].position - self.off(state),
-            None => self.in_world(state).position,
-        }
-    }
-
-    /// The same as seen from the goal's own frame, metres along its axes.
-    pub fn off_as_seen(&self, state: &State) -> Vector {
-        let off = self.off(state);
-        let relative = self.relative.filter(|_| self.gap.is_none());
-        let frame = relative.and_then(|other| state.poses.get(other));
-        frame.map_or(off, |frame| frame.local_vector(off))
-    }
-
-    /// Turn from the wanted heading, or the nearest one that looks the same, to that of the object,
-    /// radians to the left, where a heading is asked for.
-    pub fn turned(&self, state: &State) -> Option<f64> {
-        let (wanted, _) = self.in_world(state).heading?;
-        Some(self.least_turn(state.poses[self.object].heading - wanted))
-    }
-
-    /// Absolute heading error, radians, where a heading is asked for.
-    pub fn heading_error(&self, state: &State) -> Option<f64> {
-        self.turned(state).map(f64::abs)
-    }
-
-    /// Whether position (and heading, where asked for) are within tolerance.
-    pub fn reached(&self, state: &State) -> bool {
-        let turned = match (self.heading, self.heading_error(state)) {
-            (Some((_, tolerance)), Some(error)) => error <= tolerance,
-            _ => true,
+    /// The same where a joint with limits holds the goal's object in `scene`, to the world or to what the
+    /// goal is relative to: the heading is then come to within the limits, if by the longer way.
+    ///
+    /// ```
+    /// use pushplan::{Goal, JointKind, Object, Pose, Scene, State, Vector};
+    /// use pushplan::scene::Span;
+    ///
+    /// let limits = Some(Span::new(0.0, 4.0));
+    /// let door = Object::cuboid("door", [0.2, 0.02, 0.1]).at(0.5, 0.0, 0.0);
+    /// let hinge = JointKind::Revolute { at: Vector::new(0.6, 0.0), limits };
+    /// let scene = Scene::new([door]).with_mount(0, hinge);
+    /// let goal = Goal::of(0).facing(3.5, 0.1);
+    /// let off = |goal: &Goal| goal.turned(&scene.start()).expect("a heading");
+    /// assert!((off(&goal) - (std::f64::consts::TAU - 3.5)).abs() < 1e-9, "to the right");
+    /// assert!((off(&goal.within_limits(&scene)) + 3.5).abs() < 1e-9, "it turns to the left alone");
+    /// ```
+    pub fn within_limits(self, scene: &Scene) -> Self {
+        let Some((wanted, within)) = self.heading else { return self };
+        let middle = |span: Span| 0.5 * (span.low + span.high);
+        let start = |object: usize| scene.objects.get(object).map(|object| object.pose.heading);
+        let of = |object: usize| start(object).unwrap_or_default();
+        let middle = match self.relative {
+            None => {
+                let mount = scene.mounts.iter().find(|mount| mount.object == self.object);
+                let turns = mount.and_then(|mount| mount.kind.turns());
+                turns.map(|span| of(self.object) + middle(span))
+            }
+            Some(other) => scene.joints.iter().find_map(|joint| {
+                // Joints count how far the second object has turned against the first.
+                let sign = match joint.between {
+                    [first, second] if [first, second] == [other, self.object] => 1.0,
+                    [first, second] if [first, second] == [self.object, other] => -1.0,
+                    _ => return None,
+                };
+                let start = of(self.object) - of(other);
+                Some(start + sign * middle(joint.kind.turns()?))
+            }),
         };
-        let there = match (&self.gap, self.in_world(state).area) {
-            (Some(gap), _) => self.nearest(state).is_some_and(|nearest| gap.holds(nearest.gap)),
-            (None, Some(area)) => area.holds(state.poses[self.object].position),
-            (None, None) => self.error(state) <= self.tolerance,
-        };
-        there && turned
-    }
-
-    /// Error in units of the tolerance, the larger of position and heading: at most 1 is
-    /// success. This is what the search minimises, so that both demands count alike.
-    pub fn score(&self, state: &State) -> f64 {
-        let position = match self.has_place() {
-            true => self.error(state) / self.tolerance,
-            false => 0.0,
-        };
-        match (self.heading, self.heading_error(state)) {
-            (Some((_, tolerance)), Some(error)) => position.max(error / tolerance),
-            _ => position,
-        }
+        let Some(middle) = middle else { return self };
+        let off = wanted - middle;
+        let wanted = if off.abs() > PI { middle + wrap_angle(off) } else { wanted };
+        Self { heading: Some((wanted, within)), middle: Some(middle), ..self }
     }
 }

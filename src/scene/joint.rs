@@ -40,6 +40,11 @@ impl JointKind {
         }
     }
 
+    /// The range of turns against the start, radians, where it turns and is limited.
+    pub fn turns(&self) -> Option<Span> {
+        self.limits().filter(|_| matches!(self, JointKind::Revolute { .. }))
+    }
+
     /// Turns are told from those a full turn away by being nearest to this one, radians: the middle of
     /// limits that go beyond half a turn, else none.
     pub fn middle(&self) -> f64 {

@@ -24,6 +24,7 @@ mod job;
 mod joint;
 mod keep;
 mod lever;
+mod missed;
 mod model;
 mod motion;
 mod mount;

@@ -92,7 +92,8 @@ pub(super) fn check(
         if goal.relative.is_some_and(|other| other >= scene.objects.len() || other == goal.object) {
             return fault("a goal is relative to another object of the scene".into());
         }
-        if !(goal.position.iter().all(|v| v.is_finite()) && heading) {
+        let numbers = goal.position.iter().chain(&goal.middle);
+        if !(numbers.clone().all(|v| v.is_finite()) && heading) {
             return fault("the goal must be finite, its heading tolerance positive".into());
         }
     }

@@ -167,6 +167,37 @@ fn a_door_turns_on_beyond_half_a_turn_and_stops_at_its_limit_in_every_model() {
 }
 
 #[test]
+fn what_a_joint_lets_turn_is_off_by_the_way_that_its_limits_leave() {
+    let off = |limits: &str, wanted: f64, now: f64, counted: f64| {
+        let text = WIDE.replace("[-10, 225]", limits);
+        let task = task(&text.replace("joint_deg: 200", &format!("joint_deg: {wanted}")));
+        let closed = task.scene.objects[0].pose;
+        let mut pose = task.scene.mounts[0].pose(&closed, now.to_radians());
+        pose.heading += counted.to_radians();
+        let state = State::at_rest(vec![pose]);
+        assert_eq!(task.reached(&state), (now - wanted).abs() <= 10.0, "{limits} {wanted} {now}");
+        task.goal.turned(&state).expect("a heading").to_degrees()
+    };
+    for (limits, wanted, now) in [
+        ("[-10, 225]", 190.0, 0.0),
+        ("[-10, 225]", 190.0, 215.0),
+        ("[-10, 225]", 190.0, -5.0),
+        // A little beyond a limit it is still told from what is beyond the other one.
+        ("[-10, 225]", 190.0, -14.0),
+        ("[-225, 10]", -190.0, 5.0),
+        ("[-170, 170]", -150.0, 160.0),
+        ("[0, 340]", 335.0, 0.0),
+        ("[-20, 150]", 120.0, -10.0),
+    ] {
+        // Sights do not count turns.
+        for counted in [0.0, 360.0, -360.0] {
+            let off = off(limits, wanted, now, counted);
+            assert!((off - (now - wanted)).abs() < 1e-9, "{limits} {wanted} {now}: {off}");
+        }
+    }
+}
+
+#[test]
 fn limits_of_turns_leave_something_out() {
     let text = WIDE.replace("[-10, 225]", "[-120, 225]");
     let faults = Task::parse(&text, "furniture.yaml").expect_err("a fault").to_string();

@@ -246,9 +246,9 @@ def apart(first, second):
     return float(min(from_sides(first, second), from_sides(second, first)))
 
 
-def miss(pose, goal, region, found, limits):
-    """How far from its goal an object ends, its gap to something else being `found`, the heading error where one counts, and whether both are
-    within tolerance."""
+def miss(pose, goal, middle, region, found, limits):
+    """How far from its goal an object ends, its gap to something else being `found`, the heading error where
+    one counts, and whether both are within tolerance. Headings are nearest to `middle`, if that is there."""
     x, y, tolerance, *heading = goal
     error, turned = math.dist(pose[:2], (x, y)), None
     within = error <= tolerance
@@ -262,6 +262,8 @@ def miss(pose, goal, region, found, limits):
         error = 0.0
     if heading:
         turned = abs(math.remainder(pose[2] - heading[0], math.tau / heading[2]))
+        if middle is not None:
+            turned = abs(middle[0] + math.remainder(pose[2] - middle[0], math.tau) - heading[0])
         within = within and turned <= heading[1]
     return error, turned, within
 
@@ -282,7 +284,8 @@ def replay(path):
         found = None if limits is None else gap(poses, name, scene.numbers, scene.frames)
         region = scene.numbers.get(f"region of {name}")
         if goal is not None:
-            misses[name] = miss(scene.seen(name, poses), goal, region, found, limits)
+            middle = scene.numbers.get(f"middle of {name}")
+            misses[name] = miss(scene.seen(name, poses), goal, middle, region, found, limits)
     if failure is None and not all(within for *_, within in misses.values()):
         failure = "misses the goal"
     # Of several objects with goals the first is told of.

@@ -86,7 +86,13 @@ class Replay {
   /** How far its heading is from the nearest that is wanted, radians. */
   headingError(time) {
     const { goal } = page.stage;
-    const turn = (this.object(goal.object, time)[2] - goal.heading[0] * FINE) * goal.alike;
+    const heading = this.object(goal.object, time)[2];
+    if (goal.middle !== undefined) {
+      const turn = heading - goal.middle * FINE;
+      const off = Math.atan2(Math.sin(turn), Math.cos(turn));
+      return Math.abs(off + (goal.middle - goal.heading[0]) * FINE);
+    }
+    const turn = (heading - goal.heading[0] * FINE) * goal.alike;
     return Math.abs(Math.atan2(Math.sin(turn), Math.cos(turn))) / goal.alike;
   }
 }

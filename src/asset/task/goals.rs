@@ -67,7 +67,7 @@ pub(super) const GOAL: Value = Value::Map(&[
         "joint_deg",
         ANGLE,
         "How far its revolute joint has turned it, degrees counter-clockwise from the start, against what \
-         it is joined to; by default any.",
+         it is joined to; within the joint's limits, if by the longer way. By default any.",
     ),
     Key::optional(
         "joint",
@@ -133,7 +133,8 @@ pub(super) fn goal(node: &Node, scene: &Scene) -> Option<Goal> {
         None => true,
     };
     let looks = symmetric && goal.heading.is_some();
-    Some(if looks { goal.looking_alike(scene) } else { goal })
+    let goal = if looks { goal.looking_alike(scene) } else { goal };
+    Some(goal.within_limits(scene))
 }
 
 /// Where an object is once its joint has come this far, radians or metres: in the world, or in the frame

@@ -140,11 +140,12 @@ fn shifted(kind: JointKind, shift: Vector) -> JointKind {
 fn goal(scene: &Scene, object: usize, numbers: &[f64], shift: Vector) -> Option<Goal> {
     let [x, y, tolerance, heading @ ..] = numbers else { return None };
     let goal = Goal::new(object, [x + shift.x, y + shift.y], *tolerance);
-    Some(match heading {
+    let goal = match heading {
         [heading, within, alike, ..] => {
             Goal { alike: (*alike as usize).max(1), ..goal.facing(*heading, *within) }
         }
         [heading, within] => goal.facing(*heading, *within).looking_alike(scene),
         _ => goal,
-    })
+    };
+    Some(goal.within_limits(scene))
 }

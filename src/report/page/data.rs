@@ -127,6 +127,9 @@ pub struct Goal {
     pub area: Option<Outline>,
     /// Wanted heading and its tolerance, where one is asked for.
     pub heading: Option<[i64; 2]>,
+    /// Headings are told from those a full turn away by being nearest to this one, where a joint has limits.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub middle: Option<i64>,
     /// Into how many equal turns a full turn falls after each of which the object looks the same.
     pub alike: usize,
     /// The same in words.

@@ -20,6 +20,7 @@ pub fn stage(task: &Task) -> Stage {
         },
         area: goal.area.map(|area| turned(outline(&area.shape), area.pose.heading)),
         heading: goal.heading.map(|(heading, tolerance)| [fine(heading), fine(tolerance)]),
+        middle: goal.middle.map(fine),
         alike: goal.alike,
         words: goal_line(task),
     };
