@@ -138,10 +138,10 @@ pub use error::Error;
 pub use geometry::{ConvexPolygon, PolygonError, Pose, Shape, Vector};
 pub use graph::Graph;
 pub use scene::{
-    Blade, Body, Gap, Goal, Job, Joint, JointKind, LeverRules, LeverStep, LeverUp, ModelSpec,
-    Models, Motion, Noise, Object, Obstacle, Outcome, Part, Physics, Pivot, Place, Plan, Push,
-    PushForm, PushRules, PushStep, Record, Robot, Scene, Sight, Situation, State, Step, TableFit,
-    Task, Tool, ToolMotion, Trajectory, Truth, Unknowns, Verdict, Warning,
+    Blade, Body, Coverage, Edge, Fall, Gap, Goal, Job, Joint, JointKind, LeverRules, LeverStep,
+    LeverUp, ModelSpec, Models, Motion, Noise, Object, Obstacle, Outcome, Part, Physics, Pivot,
+    Place, Plan, Push, PushForm, PushRules, PushStep, Record, Robot, Scene, Sight, Situation,
+    State, Step, TableFit, Task, Tool, ToolMotion, Trajectory, Truth, Unknowns, Verdict, Warning,
 };
 pub use sim::Simulator;
 pub use solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};

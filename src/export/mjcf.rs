@@ -17,7 +17,7 @@
 
 use crate::asset::PlanFile;
 use crate::geometry::{Pose, Shape};
-use crate::scene::{Feet, GRAVITY, Object, Scene, Tool, ToolMotion};
+use crate::scene::{Feet, GRAVITY, Object, Scene, TableTop, Tool, ToolMotion};
 
 use super::ExportError;
 use super::forest::{Node, forest};
@@ -58,6 +58,9 @@ const CONTACT: [(&str, &str); 4] = [
 /// Radius of the points that an object stands on, metres. It never stands on its solid, which MuJoCo
 /// would rest on corners.
 const FOOT: f64 = 1e-3;
+
+/// How deep a table that ends is, metres: nothing gets below it.
+const TABLE_DEPTH: f64 = 0.5;
 
 /// How far a cuboid or prism hangs above the table, metres; it meets it when it tips beyond its feet. A
 /// cylinder never does: MuJoCo's contact of a cylinder and a plane throws standing ones over.
@@ -123,12 +126,15 @@ fn written(
     mesh::meshes(&mut xml, &solids);
     xml.open("worldbody", &[]);
     let friction = numbers(&[scene.table_friction]);
-    let table = [
-        ("name", "table".into()),
-        ("type", "plane".into()),
-        ("size", "0 0 1".into()),
-        ("friction", friction),
-    ];
+    let mut table = vec![("name", "table".into()), ("friction", friction)];
+    match scene.brink() {
+        None => table.extend([("type", "plane".into()), ("size", "0 0 1".into())]),
+        Some(TableTop { size: [x, y], middle }) => table.extend([
+            ("type", "box".into()),
+            ("size", numbers(&[0.5 * x, 0.5 * y, 0.5 * TABLE_DEPTH])),
+            ("pos", numbers(&[middle.x, middle.y, -0.5 * TABLE_DEPTH])),
+        ]),
+    }
     xml.leaf("geom", &table);
     for obstacle in &scene.obstacles {
         let name = format!("obstacle/{}", obstacle.name);

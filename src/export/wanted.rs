@@ -1,6 +1,7 @@
 //! The goals of a plan in MJCF, which `replay.py` judges by.
 
 use crate::asset::PlanFile;
+use crate::geometry::Pose;
 use crate::scene::{Body, Engine, Gap, Scene};
 
 use super::mjcf::object_name;
@@ -20,7 +21,7 @@ pub(super) fn wanted(xml: &mut Xml, file: &PlanFile) {
     for goal in file.task.goals() {
         let name = &scene.objects[goal.object].name;
         // MJCF has no infinity; no table is as large.
-        let placed = goal.has_place() && goal.gap.is_none();
+        let placed = goal.has_place() && !goal.is_relation();
         let tolerance = if placed { goal.tolerance } else { ANYWHERE };
         let mut wanted = vec![goal.position.x, goal.position.y, tolerance];
         let alike = goal.alike as f64;
@@ -28,7 +29,9 @@ pub(super) fn wanted(xml: &mut Xml, file: &PlanFile) {
         wanted.extend(heading.flat_map(|(heading, within)| [heading, within, alike]));
         numeric(xml, &format!("goal of object/{name}"), &wanted);
         if let Some(middle) = goal.middle {
-            xml.comment("Headings are told from those a full turn away by being nearest to this one.");
+            xml.comment(
+                "Headings are told from those a full turn away by being nearest to this one.",
+            );
             numeric(xml, &format!("middle of object/{name}"), &[middle]);
         }
         if let Some(area) = &goal.area {
@@ -39,11 +42,38 @@ pub(super) fn wanted(xml: &mut Xml, file: &PlanFile) {
         if let Some(gap) = &goal.gap {
             outlines(xml, scene, name, gap);
         }
+        if let Some(coverage) = &goal.coverage {
+            xml.comment(
+                "The share of its own outline at the goal that it covers instead, and that outline in the \
+                 body's frame: corners of convex polygons that share no area.",
+            );
+            numeric(xml, &format!("coverage of object/{name}"), &[coverage.share]);
+            for (k, corners) in coverage.outline(&Pose::default()).iter().enumerate() {
+                let corners: Vec<f64> = corners.iter().flat_map(|at| [at.x, at.y]).collect();
+                numeric(xml, &format!("piece {} of object/{name}", k + 1), &corners);
+            }
+        }
+        if let Some(fall) = &goal.fall {
+            xml.comment(
+                "Its centre of mass in its own frame, x and y, and the edges over which it is to fall: the way \
+                 out, x and y, and how far along that the edge is.",
+            );
+            let centre = fall.centre(&Pose::default());
+            let edges = fall.edges().flat_map(|edge| {
+                let out = edge.outwards();
+                [out.x, out.y, fall.place(edge) + fall.by]
+            });
+            let numbers: Vec<f64> = [centre.x, centre.y].into_iter().chain(edges).collect();
+            numeric(xml, &format!("fall of object/{name}"), &numbers);
+        }
         if let Some(other) = goal.relative {
             xml.comment("The body in whose frame all of this is.");
             let data = object_name(&scene.objects[other]);
             xml.leaf("text", &[("name", format!("frame of object/{name}")), ("data", data)]);
         }
+    }
+    for object in scene.objects.iter().filter(|object| object.may_fall) {
+        numeric(xml, &format!("may fall of object/{}", object.name), &[1.0]);
     }
     if let Some(evidence) = file.verdict.as_ref().and_then(|v| v.nominal(Engine::Spatial)) {
         xml.comment("Where our own 3-D replay ends: x, y, heading.");

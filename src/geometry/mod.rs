@@ -32,7 +32,7 @@ pub use polygon::{ConvexPolygon, MAX_CORNERS, PolygonError, centroid};
 pub use pose::{Pose, Vector, cross, perpendicular, wrap_angle};
 pub use rim::Rim;
 pub use shape::{Footprint, Shape};
-pub use solid::{Solid, common_area};
+pub use solid::{Solid, area_of, common_area, without};
 pub use spatial::{Matrix3, Pose3, Turn3, Vector3};
 pub use support_edge::{SupportEdge, support_edge};
 pub use turn::{Turn, sines};

@@ -72,23 +72,50 @@ impl Solid {
 
 /// What two convex polygons share, as corners in order; both counter-clockwise, metres.
 pub fn common_area(first: &[Vector], second: &[Vector]) -> Vec<Vector> {
-    let mut area = first.to_vec();
-    for (k, &from) in second.iter().enumerate() {
-        let along = second[(k + 1) % second.len()] - from;
-        let inside = |p: &Vector| super::cross(along, p - from);
-        let before = std::mem::take(&mut area);
-        for (k, &p) in before.iter().enumerate() {
-            let q = before[(k + 1) % before.len()];
-            let (a, b) = (inside(&p), inside(&q));
-            if a >= 0.0 {
-                area.push(p);
-            }
-            if a * b < 0.0 {
-                area.push(p + (q - p) * (a / (a - b)));
-            }
+    sides(second).fold(first.to_vec(), |area, (from, along)| left_of(&area, from, along))
+}
+
+/// What of a convex polygon is not in another one, as convex polygons that share no area; both
+/// counter-clockwise, metres.
+pub fn without(first: &[Vector], second: &[Vector]) -> Vec<Vec<Vector>> {
+    let (mut left, mut found) = (first.to_vec(), Vec::new());
+    for (from, along) in sides(second) {
+        found.push(left_of(&left, from, -along));
+        left = left_of(&left, from, along);
+    }
+    found.retain(|piece| area_of(piece) > 0.0);
+    found
+}
+
+/// The area of a polygon, counter-clockwise, square metres.
+pub fn area_of(corners: &[Vector]) -> f64 {
+    // From one of them: far from the origin no digits are lost.
+    let Some(&first) = corners.first() else { return 0.0 };
+    let doubled = sides(corners).map(|(from, along)| super::cross(from - first, along));
+    0.5 * doubled.sum::<f64>()
+}
+
+/// The corners of a polygon, each with the way to the next.
+fn sides(corners: &[Vector]) -> impl Iterator<Item = (Vector, Vector)> {
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().zip(next).map(|(&from, &to)| (from, to - from))
+}
+
+/// What of a convex polygon lies on the left of a line.
+fn left_of(corners: &[Vector], from: Vector, along: Vector) -> Vec<Vector> {
+    let inside = |p: &Vector| super::cross(along, p - from);
+    let mut left = Vec::with_capacity(corners.len() + 1);
+    for (k, &p) in corners.iter().enumerate() {
+        let q = corners[(k + 1) % corners.len()];
+        let (a, b) = (inside(&p), inside(&q));
+        if a >= 0.0 {
+            left.push(p);
+        }
+        if a * b < 0.0 {
+            left.push(p + (q - p) * (a / (a - b)));
         }
     }
-    area
+    left
 }
 
 #[cfg(test)]

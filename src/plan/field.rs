@@ -54,8 +54,8 @@ impl<'a> Field<'a> {
         let start = task.scene.start();
         let goals: Vec<Goal> = task.goals().map(|goal| goal.in_world(&start)).collect();
         let grid = |goal: &Goal| {
-            // Of a gap no single place is the right one.
-            let met = if goal.gap.is_some() { Vec::new() } else { in_the_way(task, goal) };
+            // Of a relation no single place is the right one.
+            let met = if goal.is_relation() { Vec::new() } else { in_the_way(task, goal) };
             (!met.is_empty()).then(|| Grid::new(task, goal, &met))
         };
         Self { task, grids: goals.iter().map(grid).collect(), goals: goals.into(), corridor: None }
@@ -130,7 +130,7 @@ impl<'a> Field<'a> {
 
 /// Length of the way of a goal's object to it, metres.
 fn distance(goal: &Goal, grid: &Option<Grid>, state: &State) -> f64 {
-    if !goal.has_place() || goal.gap.is_some() {
+    if !goal.has_place() || goal.is_relation() {
         return goal.error(state);
     }
     let position = state.poses[goal.object].position;

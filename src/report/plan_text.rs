@@ -6,9 +6,10 @@ use crate::scene::{Engine, Goal, LeverUp, Lying, Outcome, Plan, Step, Task, Warn
 use super::{
     document::Section,
     number::{degrees, millimetres},
+    recorded::percent,
     table::{
         Align::{Left, Right},
-        NONE, Table,
+        Column, NONE, Table,
     },
 };
 
@@ -95,6 +96,9 @@ fn lever_table(lever: &LeverUp) -> Table {
     )
 }
 
+/// Where a source says that a plan ends, and what went wrong on the way.
+type Row<'a> = (String, &'a Outcome, Option<&'a Warning>);
+
 /// Where the goal object ends by several sources, one row each, and what went wrong on the way.
 pub(super) fn outcome_table<'a>(
     task: &Task,
@@ -104,6 +108,8 @@ pub(super) fn outcome_table<'a>(
         let end = outcome.state.poses.get(task.goal.object);
         end.map_or(NONE.to_owned(), |pose| point(pose.position))
     };
+    let covered =
+        |outcome: &Outcome| task.goal.covered(&outcome.state).map_or(NONE.to_owned(), percent);
     let heading = |outcome: &Outcome| outcome.heading_error.map_or(NONE.to_owned(), degrees);
     let outcomes: Vec<(String, &Outcome, Option<&Warning>)> = outcomes.collect();
     if outcomes.iter().any(|(_, outcome, _)| outcome.lying.is_some()) {
@@ -112,16 +118,22 @@ pub(super) fn outcome_table<'a>(
     if !task.further.is_empty() {
         return goals_table(task, outcomes);
     }
-    Table::of(
-        outcomes,
-        &[
-            ("", Left, &|(source, ..)| source.clone()),
-            ("final position", Left, &|(_, outcome, _)| end(outcome)),
-            ("error", Right, &|(_, outcome, _)| millimetres(outcome.error)),
-            ("heading error", Right, &|(_, outcome, _)| heading(outcome)),
-            ("reached", Left, &|(_, outcome, fault)| reached(outcome, *fault)),
-        ],
-    )
+    let position = |(_, outcome, _): &Row| end(outcome);
+    let error = |(_, outcome, _): &Row| millimetres(outcome.error);
+    let turned = |(_, outcome, _): &Row| heading(outcome);
+    let share = |(_, outcome, _): &Row| covered(outcome);
+    let there = |(_, outcome, fault): &Row| reached(outcome, *fault);
+    let mut columns: Vec<Column<Row>> = vec![
+        ("", Left, &|(source, ..)| source.clone()),
+        ("final position", Left, &position),
+        ("error", Right, &error),
+        ("heading error", Right, &turned),
+    ];
+    if task.goal.coverage.is_some() {
+        columns.push(("covered", Right, &share));
+    }
+    columns.push(("reached", Left, &there));
+    Table::of(outcomes, &columns)
 }
 
 /// The same of several goals, one row for each.
@@ -234,7 +246,20 @@ fn one_goal(task: &Task, goal: &Goal) -> String {
         };
         demands.push(format!("{far} from {}", gap.name(&task.scene)));
     }
-    match (&goal.area, goal.has_place() && goal.gap.is_none()) {
+    if let Some(fall) = &goal.fall {
+        let over = fall.over.map(|edge| format!(", over its {} edge", edge.name()));
+        demands.push(format!("off the table{}", over.unwrap_or_default()));
+    }
+    if let Some(coverage) = &goal.coverage {
+        let turn = goal.heading.map(|(heading, _)| format!(", heading {}", degrees(heading)));
+        let share = percent(coverage.share);
+        demands.push(format!(
+            "covering {share} of its outline at {at}{of}{}",
+            turn.unwrap_or_default()
+        ));
+        return format!("{name} {}", demands.join(", "));
+    }
+    match (&goal.area, goal.has_place() && !goal.is_relation()) {
         (Some(area), _) => {
             let outline = match area.shape.footprint() {
                 Footprint::Disc { radius } => format!("a circle of {}", millimetres(radius)),

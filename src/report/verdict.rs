@@ -9,6 +9,7 @@ use super::bystanders::{self, bystanders};
 use super::document::{Document, Section};
 use super::number::{degrees, millimetres};
 use super::plan_text::{engine_name, goal_line, outcome_table, plan_line, plan_sections};
+use super::recorded::percent;
 
 /// A plan that was replayed.
 pub fn verdict_document(file: &PlanFile, verdict: &Verdict) -> Document {
@@ -92,6 +93,15 @@ pub(super) fn verdict_line(task: &Task, verdict: Option<&Verdict>) -> String {
         }
         Some(Reason::Misses { engine, error, heading_error }) => {
             let mut by = Vec::new();
+            let covered =
+                verdict.nominal(*engine).and_then(|e| task.goal.covered(&e.outcome.state));
+            if let (Some(covered), Some(asked)) = (covered, &task.goal.coverage) {
+                let [covered, asked] = [covered, asked.share].map(percent);
+                return format!(
+                    "failed: covers {covered} of its outline, not {asked}, in the {} simulation",
+                    engine_name(*engine)
+                );
+            }
             if *error > task.goal.tolerance {
                 let allowed = millimetres(task.goal.tolerance);
                 by.push(format!("{} ({allowed} allowed)", millimetres(*error)));

@@ -35,14 +35,14 @@ impl Gap {
         [min, max]: [f64; 2],
     ) -> Option<Box<Self>> {
         let other = match to {
-            Body::Object(other) => solids(scene, other)?,
+            Body::Object(other) => scene.solids(other)?,
             Body::Obstacle(other) => {
                 let obstacle = scene.obstacles.get(other)?;
                 vec![(obstacle.shape(), obstacle.pose)]
             }
             Body::Part(_) => return None,
         };
-        Some(Box::new(Self { to, min, max, solids: [solids(scene, object)?, other] }))
+        Some(Box::new(Self { to, min, max, solids: [scene.solids(object)?, other] }))
     }
 
     /// What the other thing is called.
@@ -109,12 +109,14 @@ impl Gap {
     }
 }
 
-/// The solids of a thing, in its frame.
-fn solids(scene: &Scene, object: usize) -> Option<Vec<(Shape, Pose)>> {
-    let own = (scene.objects.get(object)?.shape, Pose::default());
-    let parts = scene.parts_of(object).map(|k| &scene.objects[k]);
-    let parts = parts.filter_map(|part| Some((part.shape, part.whole?.place)));
-    Some(std::iter::once(own).chain(parts).collect())
+impl Scene {
+    /// The solids of a thing, in its frame; `None` where it does not exist.
+    pub(super) fn solids(&self, object: usize) -> Option<Vec<(Shape, Pose)>> {
+        let own = (self.objects.get(object)?.shape, Pose::default());
+        let parts = self.parts_of(object).map(|k| &self.objects[k]);
+        let parts = parts.filter_map(|part| Some((part.shape, part.whole?.place)));
+        Some(std::iter::once(own).chain(parts).collect())
+    }
 }
 
 #[cfg(test)]

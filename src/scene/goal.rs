@@ -6,15 +6,15 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Pose, Shape, Vector, wrap_angle};
 
-use super::{Area, Body, Gap, Joint, Scene, Span, State};
+use super::{Area, Body, Coverage, Fall, Gap, Joint, Scene, Span, State};
 
 /// Where an object must come to rest, and how; every stated demand counts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Goal {
     /// Index into [`Scene::objects`](super::Scene::objects).
     pub object: usize,
-    /// Wanted position of its centre, metres; with a gap, how far the object may be from where the gap is
-    /// right.
+    /// Wanted position of its centre, metres; of a [relation](Self::is_relation), how far the object may be
+    /// from where that is right.
     pub position: Vector,
     /// Largest distance that still counts as success, metres; infinite where it may lie anywhere.
     #[serde(with = "anywhere")]
@@ -31,6 +31,13 @@ pub struct Goal {
     /// How far it is from another thing, instead of near the position.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gap: Option<Box<Gap>>,
+    /// How much of its own outline at position and heading it covers, instead of both within tolerances.
+    /// Those are what search and refinement go by: each alone loses half of what may be missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coverage: Option<Box<Coverage>>,
+    /// Over which edge of the table it is to fall, instead of coming to rest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fall: Option<Box<Fall>>,
     /// Index of the object in whose frame position, heading and area are, wherever that has come to; in
     /// the world where none is named.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -104,6 +111,8 @@ impl Goal {
             middle: None,
             area: None,
             gap: None,
+            coverage: None,
+            fall: None,
             relative: None,
             alike: 1,
             outside: None,
@@ -145,6 +154,45 @@ impl Goal {
         Self { tolerance: gap.depth(), gap: Some(gap), ..Self::of(object) }
     }
 
+    /// Object `object` so that it covers at least `share` (0 to 1) of the outline that it has at `pose`, with
+    /// all its parts; `None` where it does not exist in `scene`.
+    ///
+    /// ```
+    /// use pushplan::{Goal, Object, Pose, Scene, State};
+    ///
+    /// let scene = Scene::new([Object::cuboid("box", [0.1, 0.1, 0.05])]);
+    /// let goal = Goal::covering(&scene, 0, Pose::new(0.5, 0.0, 0.0), 0.9).expect("it exists");
+    /// let at = |x: f64| State::at_rest(vec![Pose::new(x, 0.0, 0.0)]);
+    /// assert!(goal.reached(&at(0.509)) && !goal.reached(&at(0.511)));
+    /// ```
+    pub fn covering(scene: &Scene, object: usize, pose: Pose, share: f64) -> Option<Self> {
+        let coverage = Coverage::of(scene, object, share)?;
+        let (tolerance, turn) = coverage.tolerances();
+        let goal = Self::new(object, pose.position.into(), tolerance);
+        let goal = match turn {
+            Some(turn) => goal.facing(pose.heading, turn).looking_alike(scene),
+            None => goal,
+        };
+        Some(Self { coverage: Some(coverage), ..goal })
+    }
+
+    /// Object `object` off the table. What may fall in a scene is said there, see [`Scene::let_fall`].
+    ///
+    /// ```
+    /// use pushplan::scene::{Edge, Fall, TableTop};
+    /// use pushplan::{Goal, Object, Pose, Robot, Scene, State, Task, Vector};
+    ///
+    /// let mut scene = Scene::new([Object::cylinder("can", 0.04, 0.10).at(0.5, 0.1, 0.0)]);
+    /// scene.table_top = Some(TableTop { size: [0.8, 0.6], middle: Vector::new(0.6, 0.0) });
+    /// let fall = Fall::of(&scene, 0, Some(Edge::Left)).expect("the table ends");
+    /// let task = Task::new("clear", scene, Robot::reaching(0.1, 0.9), Goal::falling(0, fall));
+    /// assert!(task.scene.objects[0].may_fall);
+    /// assert!(task.reached(&State::at_rest(vec![Pose::new(0.5, 0.31, 0.0)])));
+    /// ```
+    pub fn falling(object: usize, fall: Box<Fall>) -> Self {
+        Self { tolerance: fall.depth(), fall: Some(fall), ..Self::of(object) }
+    }
+
     /// The same in the frame of another object, wherever that has come to.
     pub fn relative_to(self, other: usize) -> Self {
         Self { relative: Some(other), ..self }
@@ -155,9 +203,9 @@ impl Goal {
         let Some(frame) = self.relative.and_then(|other| state.poses.get(other)) else {
             return self.clone();
         };
-        let position = match self.gap {
-            Some(_) => self.position,
-            None => frame.point(self.position),
+        let position = match self.is_relation() {
+            true => self.position,
+            false => frame.point(self.position),
         };
         Self {
             position,
@@ -181,8 +229,12 @@ impl Goal {
         let less = |tolerance: f64, by: f64| (tolerance - by).max(0.5 * tolerance);
         let area = self.area.map(|area| area.shrunk(place));
         let gap = self.gap.as_ref().map(|gap| Box::new(gap.tighter(place)));
+        let fall = self.fall.as_ref().map(|fall| Box::new(fall.farther(place)));
         let heading = self.heading.map(|(heading, tolerance)| (heading, less(tolerance, turn)));
-        Self { tolerance: less(self.tolerance, place), heading, area, gap, ..self.clone() }
+        let tolerance = less(self.tolerance, place);
+        let stricter = |own: &Box<Coverage>| Box::new(own.stricter(tolerance / self.tolerance));
+        let coverage = self.coverage.as_ref().map(stricter);
+        Self { tolerance, heading, area, gap, coverage, fall, ..self.clone() }
     }
 
     /// The objects that it speaks of: its own, and the one to which there is to be a gap.
@@ -197,6 +249,12 @@ impl Goal {
     /// Whether the object must come to a place.
     pub fn has_place(&self) -> bool {
         self.tolerance != f64::INFINITY
+    }
+
+    /// Whether it asks how the object is to something else, a gap to it or off the table, and for no place of
+    /// its own: the position is then an offset.
+    pub fn is_relation(&self) -> bool {
+        self.gap.is_some() || self.fall.is_some()
     }
 
     /// Whether it speaks of more than where the object lies in the plane.

@@ -1,6 +1,6 @@
 //! How far a state is off a goal, and whether it is reached.
 
-use crate::geometry::{ContactPoint, Vector, wrap_angle};
+use crate::geometry::{ContactPoint, Pose, Vector, wrap_angle};
 
 use super::{Goal, State};
 
@@ -11,8 +11,8 @@ impl Goal {
         wrap_angle(turn * alike) / alike
     }
 
-    /// Distance of the object's centre from the goal, metres; of an area or a gap, from what lies deep
-    /// enough inside; 0 where it may lie anywhere.
+    /// Distance of the object's centre from the goal, metres; of an area, a gap or an edge, from what lies
+    /// deep enough inside or beyond; 0 where it may lie anywhere.
     pub fn error(&self, state: &State) -> f64 {
         self.off(state).norm()
     }
@@ -26,6 +26,9 @@ impl Goal {
         if let Some(gap) = &self.gap {
             let Some(nearest) = self.nearest(state) else { return Vector::zeros() };
             return gap.beyond(nearest.gap, gap.depth()) * nearest.normal;
+        }
+        if let Some(fall) = &self.fall {
+            return fall.off(fall.centre(&state.poses[self.object]) - self.position);
         }
         let goal = self.in_world(state);
         let at = state.poses[self.object].position;
@@ -41,16 +44,16 @@ impl Goal {
 
     /// The nearest place that is asked for, or the middle of its area, metres in the world.
     pub fn place(&self, state: &State) -> Vector {
-        match self.gap {
-            Some(_) => state.poses[self.object].position - self.off(state),
-            None => self.in_world(state).position,
+        match self.is_relation() {
+            true => state.poses[self.object].position - self.off(state),
+            false => self.in_world(state).position,
         }
     }
 
     /// The same as seen from the goal's own frame, metres along its axes.
     pub fn off_as_seen(&self, state: &State) -> Vector {
         let off = self.off(state);
-        let relative = self.relative.filter(|_| self.gap.is_none());
+        let relative = self.relative.filter(|_| !self.is_relation());
         let frame = relative.and_then(|other| state.poses.get(other));
         frame.map_or(off, |frame| frame.local_vector(off))
     }
@@ -73,16 +76,29 @@ impl Goal {
         self.turned(state).map(f64::abs)
     }
 
-    /// Whether position (and heading, where asked for) are within tolerance.
+    /// The share of its outline at the goal that the object covers, where that is asked for.
+    pub fn covered(&self, state: &State) -> Option<f64> {
+        let goal = self.in_world(state);
+        let heading = goal.heading.map_or(0.0, |(heading, _)| heading);
+        let wanted = Pose { position: goal.position, heading };
+        Some(goal.coverage?.covered(&state.poses[self.object], &wanted))
+    }
+
+    /// Whether position (and heading, where asked for) are within tolerance, or enough is covered.
     pub fn reached(&self, state: &State) -> bool {
+        if let Some(coverage) = &self.coverage {
+            return self.covered(state).is_some_and(|covered| covered >= coverage.share);
+        }
         let turned = match (self.heading, self.heading_error(state)) {
             (Some((_, tolerance)), Some(error)) => error <= tolerance,
             _ => true,
         };
-        let there = match (&self.gap, self.in_world(state).area) {
-            (Some(gap), _) => self.nearest(state).is_some_and(|nearest| gap.holds(nearest.gap)),
-            (None, Some(area)) => area.holds(state.poses[self.object].position),
-            (None, None) => self.error(state) <= self.tolerance,
+        let own = &state.poses[self.object];
+        let there = match (&self.gap, &self.fall, self.in_world(state).area) {
+            (Some(gap), ..) => self.nearest(state).is_some_and(|nearest| gap.holds(nearest.gap)),
+            (_, Some(fall), _) => fall.holds(fall.centre(own) - self.position),
+            (.., Some(area)) => area.holds(own.position),
+            _ => self.error(state) <= self.tolerance,
         };
         there && turned
     }
@@ -94,9 +110,13 @@ impl Goal {
             true => self.error(state) / self.tolerance,
             false => 0.0,
         };
-        match (self.heading, self.heading_error(state)) {
+        let score = match (self.heading, self.heading_error(state)) {
             (Some((_, tolerance)), Some(error)) => position.max(error / tolerance),
             _ => position,
+        };
+        if self.coverage.is_none() || score.is_nan() {
+            return score;
         }
+        if self.reached(state) { score.min(1.0) } else { score.max(1.0f64.next_up()) }
     }
 }

@@ -11,7 +11,9 @@
 mod area;
 mod arm;
 mod balance;
+mod coverage;
 mod drag;
+mod fall;
 mod feet;
 mod fixed;
 mod friction;
@@ -64,7 +66,9 @@ pub use arm::{
     Arm, ArmBody, ArmFault, ArmJoint, JointPoint, JointTrajectory, MAX_JOINTS, Places, ToolMount,
 };
 pub use balance::carries;
+pub use coverage::Coverage;
 pub use drag::Drag;
+pub use fall::{Edge, Fall};
 pub use feet::{Feet, MAX_FEET};
 pub use fixed::{Fixed, Mover};
 pub use friction::{PairFriction, Surface, pair_friction};

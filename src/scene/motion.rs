@@ -295,7 +295,9 @@ impl ToolMotion {
                 let part = (&part.footprint(), &(tool * part.pose));
                 contact_points(own, part, -TOUCHING).1 > 0
             };
-            self.lift < scene.objects[object].top() && self.tool.parts().iter().any(overlaps)
+            !scene.has_left(object, state)
+                && self.lift < scene.objects[object].top()
+                && self.tool.parts().iter().any(overlaps)
         };
         (0..scene.objects.len()).filter(stands_on)
     }

@@ -89,9 +89,8 @@ impl Scene {
 
     /// What toppled or left the table by the end, though it may.
     pub fn fallen(&self, state: &State, toppled: &[usize]) -> Vec<Warning> {
-        let off = |k: &usize| self.table_top.is_some_and(|top| !top.holds(self.centre(*k, state)));
         let may = self.things().filter(|(_, object)| object.may_fall).map(|(k, _)| k);
-        let fell = may.filter(|k| toppled.contains(k) || off(k));
+        let fell = may.filter(|k| toppled.contains(k) || self.has_left(*k, state));
         fell.map(|k| Warning::Fell { object: self.objects[k].name.clone() }).collect()
     }
 }

@@ -238,6 +238,7 @@ impl Task {
     /// ```
     pub fn new(name: impl Into<String>, mut scene: Scene, robot: Robot, goal: Goal) -> Self {
         scene.obstacles.extend(robot.column());
+        scene.let_fall(&goal);
         Self {
             name: name.into(),
             description: String::new(),
@@ -267,6 +268,7 @@ impl Task {
     /// assert_eq!(task.goals().count(), 2);
     /// ```
     pub fn and(mut self, goal: Goal) -> Self {
+        self.scene.let_fall(&goal);
         self.further.push(goal);
         self
     }
@@ -282,7 +284,7 @@ impl Task {
         let start = self.scene.start();
         let shown = |goal: &Goal| {
             let mut goal = goal.in_world(&start);
-            if goal.gap.is_some() {
+            if goal.is_relation() {
                 goal.tolerance = f64::INFINITY;
             }
             let position = match start.poses.get(goal.object) {

@@ -107,7 +107,7 @@ impl World for PlanarWorld {
         groups.iter().for_each(|group| this.add_body(group));
         for index in 0..scene.objects.len() {
             let member = Member::of(&groups, state, index);
-            this.add_object(scene, physics, motion, index, member);
+            this.add_object((scene, state), physics, motion, index, member);
         }
         this.add_obstacles(scene);
         this.seams.pass(&this.labels, scene, motion);
@@ -287,7 +287,7 @@ impl PlanarWorld {
 
     fn add_object(
         &mut self,
-        scene: &Scene,
+        (scene, state): (&Scene, &State),
         physics: &Physics,
         motion: &ToolMotion,
         index: usize,
@@ -297,6 +297,8 @@ impl PlanarWorld {
         let footprint = object.shape.footprint();
         // All parts have their underside at the same height, so what stands alone decides.
         let own = if object.top() > motion.lift { TALL } else { LOW };
+        // What has fallen is in nobody's way.
+        let meets = if scene.has_left(index, state) { Layer::NONE } else { Layer::ALL };
         // What is above the table may pass over anything.
         let hooks = match object.is_raised() {
             true => ActiveHooks::FILTER_CONTACT_PAIRS,
@@ -305,7 +307,7 @@ impl PlanarWorld {
         let collider = weighing(collider(&footprint, friction), &footprint, physics.masses[index])
             .position(to_rapier(&member.local, Vector::zeros()))
             .active_hooks(hooks)
-            .collision_groups(groups(own, Layer::ALL));
+            .collision_groups(groups(own, meets));
         self.insert(collider, Body::Object(index), self.bodies[member.body].handle);
         let table = physics.support_friction(index);
         let (feet, mass) = (&physics.feet[index], physics.masses[index]);

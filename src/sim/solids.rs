@@ -24,14 +24,20 @@ pub(super) const FOOT: f64 = 2e-3;
 /// How far an object's solid hangs above the table, metres.
 pub(super) const CLEAR: f64 = 5e-4;
 
+/// How deep a table that ends is, metres: nothing gets below it.
+pub(super) const TABLE_DEPTH: f64 = 0.5;
+
+/// Where a table ends: the pose of its middle and its full extents, metres.
+pub(super) type Top = (Pose3, [f64; 2]);
+
 /// The table as solids meet it.
-pub(super) fn table(friction: f64) -> ColliderBuilder {
-    rubbing(half_space(), friction).collision_groups(groups(TABLE_TOP, SOLID))
+pub(super) fn table(friction: f64, top: Option<Top>) -> ColliderBuilder {
+    rubbing(ground(top), friction).collision_groups(groups(TABLE_TOP, SOLID))
 }
 
 /// The table as feet meet it, whose friction says what that of the pair is.
-pub(super) fn floor() -> ColliderBuilder {
-    half_space().friction(1.0).collision_groups(groups(FLOOR, FEET))
+pub(super) fn floor(top: Option<Top>) -> ColliderBuilder {
+    ground(top).friction(1.0).collision_groups(groups(FLOOR, FEET))
 }
 
 /// A foot at `pose` with this coefficient of friction; it meets the table alone.
@@ -141,8 +147,13 @@ pub(super) fn raised(shape: &Shape) -> Shape {
     }
 }
 
-fn half_space() -> ColliderBuilder {
-    ColliderBuilder::new(SharedShape::halfspace(Vector::Z))
+fn ground(top: Option<Top>) -> ColliderBuilder {
+    match top {
+        Some((pose, [x, y])) => {
+            ColliderBuilder::cuboid(0.5 * x, 0.5 * y, 0.5 * TABLE_DEPTH).position(pose)
+        }
+        None => ColliderBuilder::new(SharedShape::halfspace(Vector::Z)),
+    }
 }
 
 /// The coefficient of a pair is the mean of the two values.

@@ -22,7 +22,9 @@ use super::parameters::{
     ALLOWED_ERROR, ARTICULATED_ITERATIONS, STIFF_CONTACT, is_articulated, needs_stiff_contacts,
 };
 use super::seams::Seams;
-use super::solids::{CLEAR, FOOT, floor, foot, raised, solid, table, undersides, weighing};
+use super::solids::{
+    CLEAR, FOOT, TABLE_DEPTH, floor, foot, raised, solid, table, undersides, weighing,
+};
 use super::solved::solved;
 use super::strain::{Overlap, force, overlap};
 use super::support::Support;
@@ -35,6 +37,9 @@ use place::{LOCAL, frame_of, to_rapier, yaw};
 
 /// An object whose axis leans further than this has toppled, radians (10 degrees).
 const TOPPLED: f64 = 10.0 * std::f64::consts::PI / 180.0;
+
+/// What has come so far below where it stood has left the table, metres, and is of no further interest.
+const FALLEN: f64 = 0.1;
 
 /// The `user_data` of the table, which no contact names.
 const TABLE: u128 = u128::MAX;
@@ -54,6 +59,8 @@ pub(super) struct SpatialWorld<const TIPS: bool> {
     labels: Vec<Body>,
     seams: Seams,
     asleep: Asleep<RigidBodyHandle>,
+    /// Whether the table ends.
+    ends: bool,
 }
 
 /// A body and how far it has come since the world was built.
@@ -84,8 +91,13 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
             labels: Vec::new(),
             seams: Seams::default(),
             asleep: Asleep::none(),
+            ends: scene.brink().is_some(),
         };
-        for table in [table(physics.table_friction), floor()] {
+        let top = scene.brink().map(|top| {
+            let middle = Pose { position: top.middle, heading: 0.0 };
+            (to_rapier(&middle, &this.frame, -0.5 * TABLE_DEPTH), top.size)
+        });
+        for table in [table(physics.table_friction, top), floor(top)] {
             this.world.insert_collider(table.user_data(TABLE), None);
         }
         this.add_tool(motion, tool);
@@ -134,6 +146,9 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
             let angle = yaw(self.world.bodies[tracked.handle].rotation());
             tracked.turned += wrap_angle(angle - tracked.last_angle);
             tracked.last_angle = angle;
+        }
+        if self.ends {
+            self.leave_fallen();
         }
     }
 
@@ -220,6 +235,18 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
     fn label(&self, collider: ColliderHandle) -> Option<Body> {
         let index = usize::try_from(self.world.colliders[collider].user_data).ok()?;
         self.labels.get(index).copied()
+    }
+
+    /// Takes out what has fallen off the table: it stays where it is.
+    fn leave_fallen(&mut self) {
+        for tracked in &self.bodies {
+            let body = &mut self.world.bodies[tracked.handle];
+            if body.is_enabled() && body.translation().z < tracked.first_position.z - FALLEN {
+                body.set_linvel(RapierVector::ZERO, false);
+                body.set_angvel(RapierVector::ZERO, false);
+                body.set_enabled(false);
+            }
+        }
     }
 
     fn add_tool(&mut self, motion: &ToolMotion, at: &Pose) {

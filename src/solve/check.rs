@@ -89,11 +89,14 @@ pub(super) fn check(
         if goal.gap.as_ref().is_some_and(|gap| !between(gap)) {
             return fault("a gap is to something else, its limits are in order".into());
         }
+        if goal.coverage.as_ref().is_some_and(|own| !(0.0 < own.share && own.share < 1.0)) {
+            return fault("the share to be covered lies between 0 and 1".into());
+        }
         if goal.relative.is_some_and(|other| other >= scene.objects.len() || other == goal.object) {
             return fault("a goal is relative to another object of the scene".into());
         }
-        let numbers = goal.position.iter().chain(&goal.middle);
-        if !(numbers.clone().all(|v| v.is_finite()) && heading) {
+        let mut numbers = goal.position.iter().chain(&goal.middle);
+        if !(numbers.all(|v| v.is_finite()) && heading) {
             return fault("the goal must be finite, its heading tolerance positive".into());
         }
     }

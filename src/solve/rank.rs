@@ -47,7 +47,7 @@ pub(super) fn is_worth_verifying(
             (Some((_, tolerance)), Some(error)) => error <= tolerance + error_p95 / radius,
             _ => true,
         };
-        near && turned
+        near && turned || goal.coverage.is_some() && goal.reached(&evaluation.outcome)
     };
     task.goals().all(near)
 }

@@ -34,7 +34,7 @@ impl Solving<'_> {
             refinement: Refinement {
                 before,
                 after,
-                aimed_at: (!self.task.goals().eq(aims) && aims[0].gap.is_none())
+                aimed_at: (!self.task.goals().eq(aims) && !aims[0].is_relation())
                     .then(|| aims[0].position),
                 rounds: rounds.into_iter().skip(1).map(bare).collect(),
             },

@@ -247,7 +247,7 @@ fn least(ways: &[Way], of: impl Fn(&Way) -> f64) -> f64 {
 
 /// What is rigidly joined to the goal's object, and where from it: it could be brought to the same place.
 fn joined(task: &Task) -> Vec<(usize, Pose)> {
-    if task.goal.gap.is_some() {
+    if task.goal.is_relation() {
         return Vec::new();
     }
     let mut found = vec![task.goal.object];

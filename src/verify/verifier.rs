@@ -164,7 +164,7 @@ impl<'a> Verifier<'a> {
         let Some(mut motions) = plan.slides(tools) else {
             return Verdict::judge(forbidden, evidence, task.robustness);
         };
-        let scene = wary(&situation.scene);
+        let scene = wary(task, &situation.scene);
         for motion in &mut motions {
             if misses_by_a_hair(&scene, motion) {
                 motion.lift += HAIR;
@@ -273,10 +273,11 @@ impl<'a> Verifier<'a> {
 }
 
 /// The scene as disturbed replays have it: what comes as near to where the table ends as that is known
-/// falls.
-fn wary(scene: &Scene) -> Scene {
+/// falls, unless something is to.
+fn wary(task: &Task, scene: &Scene) -> Scene {
     let mut scene = scene.clone();
-    if let Some(top) = &mut scene.table_top {
+    let falls = task.goals().any(|goal| goal.fall.is_some());
+    if let Some(top) = scene.table_top.as_mut().filter(|_| !falls) {
         top.size = top.size.map(|extent| (extent - 2.0 * EDGE).max(0.0));
     }
     scene
@@ -321,6 +322,13 @@ fn evidence(
         trajectory.warnings.push(Warning::HardPush { needed: force.lasting });
     }
     trajectory.warnings.extend(scene.not_kept(trajectory.outcome()));
+    // What is to fall need not be told of.
+    let wanted = |name: &str| {
+        let mut goals = task.goals().filter(|goal| goal.fall.is_some());
+        goals.any(|goal| scene.objects.get(goal.object).is_some_and(|object| object.name == name))
+    };
+    let told = |warning: &Warning| !matches!(warning, Warning::Fell { object } if wanted(object));
+    trajectory.warnings.retain(told);
     Evidence {
         engine: engine.engine(),
         disturbance,

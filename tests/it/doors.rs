@@ -4,10 +4,13 @@ use std::f64::consts::FRAC_PI_2;
 
 use pushplan::effect::EffectModels;
 use pushplan::scene::{Engine, ModelKind, Rate, Record, Situation};
+use pushplan::solve::PlanStatus;
 use pushplan::{
     EffectModel, Job, JointKind, Pose, Push, Simulated, Simulator, State, Task, ToolLibrary,
     ToolMotion, Vector,
 };
+
+use crate::judged::{file, solved, works_in_mujoco};
 
 /// A door that is ajar before a cabinet, and a drawer beside it.
 const FURNITURE: &str = "
@@ -195,6 +198,30 @@ fn what_a_joint_lets_turn_is_off_by_the_way_that_its_limits_leave() {
             assert!((off - (now - wanted)).abs() < 1e-9, "{limits} {wanted} {now}: {off}");
         }
     }
+}
+
+/// Opened by more than half a turn, closed the other way, and in several pushes.
+#[test]
+fn doors_are_opened_the_way_that_their_limits_leave() {
+    let mut pushes = Vec::new();
+    for (limits, wanted) in [("[-10, 225]", 190.0), ("[-10, 225]", 120.0), ("[-170, 20]", -150.0)] {
+        let text = WIDE
+            .replace("[-10, 225]", limits)
+            .replace("joint_deg: 200", &format!("joint_deg: {wanted}"));
+        let task = task(&text.replace("goal:", "pushes: {directions: 8, max_count: 4}\ngoal:"));
+        let solution = solved(&task);
+        assert_eq!(solution.status, PlanStatus::Solved, "{wanted}");
+        let best = &solution.plans[0];
+        pushes.push(best.plan.push_steps().count());
+        for engine in Engine::ALL {
+            let verdict = best.verdict.as_ref().expect("replayed");
+            let end = &verdict.nominal(engine).expect("replayed").outcome.state.poses[0];
+            // Headings are counted on.
+            assert!((end.heading.to_degrees() - wanted).abs() < 10.0, "{wanted}: {}", end.heading);
+        }
+        works_in_mujoco(&file(&task, &solution));
+    }
+    assert!(pushes.iter().any(|count| *count > 1), "{pushes:?}");
 }
 
 #[test]

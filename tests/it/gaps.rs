@@ -1,13 +1,9 @@
 //! Goals that are a relation between two things: touching, beside each other, clear of each other.
 
-use std::process::Command;
-
-use pushplan::asset::{PlanFile, ToolLibrary};
-use pushplan::export::{REPLAY_SCRIPT, mjcf};
 use pushplan::scene::{Body, Engine, State, Task};
-use pushplan::solve::{Effort, PlanStatus, Planner, Solution};
+use pushplan::solve::PlanStatus;
 
-use crate::mujoco_python::python;
+use crate::judged::{file, solved, works_in_mujoco};
 
 /// A box, a mug whose handle points at it, and a wall; `goal` is the box's.
 fn task(mug: [f64; 2], goal: &str) -> Task {
@@ -33,35 +29,10 @@ goal: {{object: box, {goal}}}
     Task::parse(&text, "gap.yaml").unwrap_or_else(|faults| panic!("{faults}"))
 }
 
-fn solved(task: &Task) -> Solution {
-    let planner = Planner::for_effort(Effort::Draft).expect("its models").build();
-    planner.solve(task, &ToolLibrary::embedded().expect("the shipped tools")).expect("a sound task")
-}
-
 /// The gap that the goal speaks of, metres.
 fn gap(task: &Task, state: &State) -> f64 {
     let gap = task.goal.gap.as_ref().expect("a goal of a gap");
     gap.nearest(&state.poses[task.goal.object], state).expect("both exist").gap
-}
-
-fn file(task: &Task, solution: &Solution) -> PlanFile {
-    let best = &solution.plans[0];
-    PlanFile {
-        predicted: Some(best.outcome.clone()),
-        verdict: best.verdict.clone(),
-        ..PlanFile::new(task.clone(), best.tools.clone(), best.plan.clone())
-    }
-}
-
-/// Whether MuJoCo says that the plan works.
-fn works_in_mujoco(file: &PlanFile) {
-    let Some(python) = python() else { return };
-    let folder = tempfile::tempdir().expect("a folder");
-    let [script, scene] = ["replay.py", "plan.xml"].map(|name| folder.path().join(name));
-    std::fs::write(&script, REPLAY_SCRIPT).expect("written");
-    std::fs::write(&scene, mjcf(file).expect("a scene")).expect("written");
-    let output = Command::new(python).args([&script, &scene]).output().expect("Python");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
 }
 
 #[test]

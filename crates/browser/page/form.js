@@ -17,7 +17,7 @@ const known = JSON.parse(library.tools());
 const numeric = (label, path, { unit = 'm', step = 0.005, may = false } = {}) => ({ label, path, unit, step, may });
 
 /** The fields of a thing: label, path in the file, unit. */
-function fieldsOf({ kind, path }) {
+function fieldsOf({ kind, path, goal }) {
   const own = (...steps) => [...path, ...steps];
   const place = [numeric('x', own('position', 0)), numeric('y', own('position', 1))];
   const turned = numeric('turned by', own('yaw_deg'), { unit: '°', step: 5, may: true });
@@ -41,10 +41,13 @@ function fieldsOf({ kind, path }) {
       return [{ label: 'name', path: own('name'), word: true }, ...sizes('size'), ...place, turned];
     case 'goal':
       return [
-        { label: 'object', path: own('object'), words: (at(['scene', 'objects']) ?? []).map((one) => one?.name), now: at(own('object')), plain: true },
-        ...place, numeric('tolerance', own('tolerance'), { step: 0.001 }),
+        { label: 'object', path: [...goal, 'object'], words: (at(['scene', 'objects']) ?? []).map((one) => one?.name), now: at([...goal, 'object']), plain: true },
+        ...place,
+        ...(goal === path
+          ? [numeric('tolerance', own('tolerance'), { step: 0.001 })]
+          : [numeric('share', own('share'), { unit: '', step: 0.01, may: true })]),
         numeric('heading', own('heading_deg'), { unit: '°', step: 5, may: true }),
-        numeric('heading tolerance', own('heading_tolerance_deg'), { unit: '°', step: 1, may: true }),
+        ...(goal === path ? [numeric('heading tolerance', own('heading_tolerance_deg'), { unit: '°', step: 1, may: true })] : []),
       ];
     case 'reach':
       return ['min', 'max'].map((end) => numeric(`${end === 'min' ? 'smallest' : 'largest'} reach`, ['robot', 'reach', end], { may: end === 'min' }));

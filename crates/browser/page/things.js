@@ -39,8 +39,10 @@ function thing(kind, index, path, body) {
 
 /** A goal with a place; it is named after what must come there, and may be in the frame of something else. */
 function goalThing(goal, path, index, objects) {
-  const own = thing('goal', index, path, { tolerance: (goal?.tolerance || 0) / LENGTH });
+  const place = goal?.coverage ? [...path, 'coverage'] : path;
+  const own = thing('goal', index, place, { tolerance: (goal?.tolerance || 0) / LENGTH });
   if (!own) return null;
+  own.goal = path;
   const other = goal.relative_to && objects.find((one) => one?.name === goal.relative_to);
   const object = objects.findIndex((one) => one?.name === goal.object);
   own.body.object = object;
@@ -48,7 +50,7 @@ function goalThing(goal, path, index, objects) {
   if (other) {
     own.frame = other.pose;
     own.pose = [...placed(other.pose, own.pose), own.pose[2] + other.pose[2]];
-  } else if (goal.heading_deg === undefined && object >= 0) {
+  } else if (goal.heading_deg === undefined && !goal.coverage && object >= 0) {
     // Any heading will do, so it is drawn as it stands.
     own.pose[2] = objects[object].pose[2];
   }

@@ -9,7 +9,7 @@ Needs Python 3.11 and `pip install mujoco`; the scenes hold everything else. A l
 plan goes to stdout, a table for several to stderr; the exit code is 0 if all of them work.
 
 A plan works if in the end everything rests and the goal's object is within the tolerance (with its
-heading, where one is asked for), and if on the way nothing toppled, the tool was not set down on an
+heading, where one is asked for) or has fallen over the right edge, and if on the way nothing else toppled, the tool was not set down on an
 object, and no object was 2 mm inside an obstacle. Lengths are in metres, angles in radians.
 """
 
@@ -31,6 +31,7 @@ JAMMED = 2e-3  # an object so deep inside an obstacle is squeezed where it canno
 LAID_ASIDE = 2.0  # how high above the table tools hang that are not in use, m
 SET_DOWN = 1e-4  # overlap that is still touching when the tool comes down
 TOPPLED = math.cos(math.radians(10))  # an object's axis leans further than this
+FALLEN = 0.1  # what is so far below where it stood has left the table
 ANYWHERE = 1e6  # the tolerance of a goal that asks for no place
 KINDS = ["object", "obstacle", "tool", "table", "region"]
 BASE = "obstacle/robot base"
@@ -76,6 +77,15 @@ class Replay:
             name = mujoco.mj_id2name(self.model, mujoco.mjtObj.mjOBJ_TEXT, k)
             begin, size = self.model.text_adr[k], self.model.text_size[k]
             self.frames[name] = bytes(self.model.text_data[begin : begin + size]).rstrip(b"\0").decode()
+
+        self.loose = [b for name, b in self.objects.items() if f"may fall of {name}" in self.numbers]
+        self.upright = [body for body in self.bodies if body not in self.loose]
+        mujoco.mj_kinematics(self.model, self.data)
+        self.heights = self.data.xpos[:, 2].copy()
+
+    def has_fallen(self, body):
+        """Whether it has left the table, as it may."""
+        return body in self.loose and self.data.xpos[body, 2] < self.heights[body] - FALLEN
 
     def run(self):
         """Makes all pushes, in order."""
@@ -168,12 +178,14 @@ class Replay:
             raise Failed("not finite")
         if self.deepest[KINDS.index("obstacle")] > JAMMED:
             raise Failed("jams")
-        if self.data.xmat[self.bodies, 8].min() < TOPPLED:
+        if self.upright and self.data.xmat[self.upright, 8].min() < TOPPLED:
             raise Failed("topples")
 
     def is_resting(self, limit):
         velocity = np.zeros(6)
         for name, body in self.objects.items():
+            if self.has_fallen(body):
+                continue
             kind = mujoco.mjtObj.mjOBJ_BODY
             mujoco.mj_objectVelocity(self.model, self.data, kind, body, velocity, 0)
             shape = self.model.geom(name)
@@ -210,20 +222,55 @@ def beyond(point, corners):
     return float(np.max(np.sum((np.asarray(point) - ends) * outwards, axis=1)))
 
 
+def over(pose, fall):
+    """How far the centre of mass of an object at `pose` is beyond an edge over which it is to fall, metres."""
+    centre, edges = np.array(fall[:2]), np.reshape(fall[2:], (-1, 3))
+    cos, sin = math.cos(pose[2]), math.sin(pose[2])
+    there = np.array([[cos, -sin], [sin, cos]]) @ centre + pose[:2]
+    return float(np.max(edges[:, :2] @ there - edges[:, 2]))
+
+
+def outlines(title, name, pose, numbers):
+    """The polygons of that title of an object, in the world where their body is at a pose."""
+    x, y, turn = pose
+    turned = np.array([[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]])
+    titles = (f"{title} {k} of {name}" for k in itertools.count(1))
+    found = itertools.takewhile(lambda title: title in numbers, titles)
+    return [np.reshape(numbers[title], (-1, 2)) @ turned + [x, y] for title in found]
+
+
 def gap(poses, name, numbers, texts):
     """The smallest distance between the outlines of a goal's object and of what it is to be near, or away
     from; 0 where they overlap."""
-
-    def outlines(whose, pose):
-        x, y, turn = pose
-        turned = np.array([[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]])
-        titles = (f"{whose} outline {k} of {name}" for k in itertools.count(1))
-        found = itertools.takewhile(lambda title: title in numbers, titles)
-        return [np.reshape(numbers[title], (-1, 2)) @ turned + [x, y] for title in found]
-
     other = texts.get(f"other of {name}")
-    there = outlines("other", [0, 0, 0] if other is None else poses[other])
-    return min(apart(a, b) for a in outlines("own", poses[name]) for b in there)
+    there = outlines("other outline", name, [0, 0, 0] if other is None else poses[other], numbers)
+    own = outlines("own outline", name, poses[name], numbers)
+    return min(apart(a, b) for a in own for b in there)
+
+
+def covered(own, goal, name, numbers):
+    """The share of its outline at the goal that an object covers where it is."""
+
+    def area(corners):
+        x, y = np.transpose(corners)
+        return 0.5 * float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
+
+    def common(corners, other):
+        for start, end in zip(other, np.roll(other, -1, axis=0)):
+            before, corners = corners, []
+            along = end - start
+            inside = [along[0] * (p - start)[1] - along[1] * (p - start)[0] for p in before]
+            for k, (p, a) in enumerate(zip(before, inside)):
+                q, b = before[(k + 1) % len(before)], inside[(k + 1) % len(before)]
+                if a >= 0.0:
+                    corners.append(p)
+                if a * b < 0.0:
+                    corners.append(p + (q - p) * (a / (a - b)))
+        return area(corners) if corners else 0.0
+
+    wanted = outlines("piece", name, [*goal[:2], goal[3] if len(goal) > 3 else 0.0], numbers)
+    pairs = itertools.product(wanted, outlines("piece", name, own, numbers))
+    return sum(common(list(a), b) for a, b in pairs) / sum(area(a) for a in wanted)
 
 
 def apart(first, second):
@@ -283,9 +330,18 @@ def replay(path):
         limits = scene.numbers.get(f"gap of {name}")
         found = None if limits is None else gap(poses, name, scene.numbers, scene.frames)
         region = scene.numbers.get(f"region of {name}")
-        if goal is not None:
+        fall = scene.numbers.get(f"fall of {name}")
+        if fall is not None:
+            far = over(poses[name], fall)
+            misses[name] = max(0.0, -far), None, far > 0.0 and scene.has_fallen(scene.objects[name])
+        elif goal is not None:
             middle = scene.numbers.get(f"middle of {name}")
-            misses[name] = miss(scene.seen(name, poses), goal, middle, region, found, limits)
+            own = scene.seen(name, poses)
+            misses[name] = miss(own, goal, middle, region, found, limits)
+            share = scene.numbers.get(f"coverage of {name}")
+            if share is not None:
+                enough = covered(own, goal, name, scene.numbers) >= share[0]
+                misses[name] = (*misses[name][:2], enough)
     if failure is None and not all(within for *_, within in misses.values()):
         failure = "misses the goal"
     # Of several objects with goals the first is told of.

@@ -256,6 +256,14 @@ class GapKeys(TypedDict):
     max: NotRequired[float]
 
 
+class CoverageKeys(TypedDict):
+    """How much of its own outline there an object covers; position [x, y] in metres."""
+
+    share: NotRequired[float]
+    position: Numbers
+    heading_deg: NotRequired[float]
+
+
 class GoalKeys(TypedDict):
     """Where an object must come to rest, and how; position [x, y] and lengths in metres."""
 
@@ -264,6 +272,8 @@ class GoalKeys(TypedDict):
     tolerance: NotRequired[float]
     region: NotRequired[GoalRegionKeys]
     gap: NotRequired[GapKeys]
+    coverage: NotRequired[CoverageKeys]
+    off_table: NotRequired[Literal["any", "far", "near", "left", "right"]]
     heading_deg: NotRequired[float]
     heading_tolerance_deg: NotRequired[float]
     symmetric: NotRequired[bool]

@@ -4,7 +4,8 @@ use serde_json::{Value as Json, json};
 
 use super::things;
 use crate::asset::task::{
-    WORLD, area_of, emitted_gap, emitted_obstacle, emitted_tools, name_of_surface,
+    WORLD, area_of, emitted_coverage, emitted_fall, emitted_gap, emitted_obstacle, emitted_tools,
+    name_of_surface,
 };
 use crate::geometry::{Pose, Shape, Vector};
 use crate::scene::{
@@ -305,6 +306,11 @@ fn goal(goal: &Goal, scene: &Scene) -> Json {
     let mut json = json!({"object": scene.objects[goal.object].name});
     if let Some(gap) = &goal.gap {
         json["gap"] = emitted_gap(gap, scene);
+    } else if let Some(fall) = &goal.fall {
+        json["off_table"] = json!(emitted_fall(fall));
+    } else if let Some(coverage) = &goal.coverage {
+        let heading = goal.heading.map_or(0.0, |(heading, _)| degrees(heading));
+        json["coverage"] = emitted_coverage(coverage, vector(goal.position), heading);
     } else if let Some(area) = &goal.area {
         json["region"] = posed(json!({"area": area_of(&area.shape)}), &area.pose);
     } else if goal.has_place() {
@@ -326,7 +332,7 @@ fn goal(goal: &Goal, scene: &Scene) -> Json {
     if let Some(flipped) = goal.flipped {
         json["flipped"] = json!(flipped);
     }
-    if let Some((heading, tolerance)) = goal.heading {
+    if let (Some((heading, tolerance)), None) = (goal.heading, &goal.coverage) {
         json["heading_deg"] = json!(degrees(heading));
         json["heading_tolerance_deg"] = json!(degrees(tolerance));
         if goal.alike != goal.clone().looking_alike(scene).alike {

@@ -29,6 +29,7 @@ pub(super) fn task(root: &Node, file: &str, arm: Option<Standing>) -> Option<Tas
         Some(arm) => standing(root.get("robot")?, arm)?,
         None => robot(root.get("robot")?)?,
     };
+    goals.iter().for_each(|goal| scene.let_fall(goal));
     scene.obstacles.extend(robot.column());
     scene.keep_out = keep::regions(root)?;
     if let Some(keep) = root.get("keep") {

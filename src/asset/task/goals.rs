@@ -1,4 +1,5 @@
-//! Goals of a task file: a place, a region, a gap, a heading, how far a joint has come.
+//! Goals of a task file: a place, a region, a gap, a coverage, off the table, a heading, how far a joint has
+//! come.
 
 use crate::asset::node::{Content, Node};
 use crate::asset::spec::{ANGLE, Key, POSITION, Range, SHIFT_LIMIT, Value};
@@ -7,6 +8,8 @@ use crate::asset::take::{angle, angle_of, name_of, number_or, position, shape, v
 use crate::geometry::{Footprint, Pose, clearance};
 use crate::scene::{Goal, JointKind, Scene};
 
+use super::coverage::{COVERAGE, covering};
+use super::falls::{OFF_TABLE, check_fall, fall};
 use super::gap::{GAP, check_gap, gap};
 use super::keep::{AREA, AREA_POSITION, AREA_YAW, area, check_area};
 use super::mounts::moving;
@@ -39,6 +42,8 @@ pub(super) const GOAL: Value = Value::Map(&[
          particular.",
     ),
     GAP,
+    COVERAGE,
+    OFF_TABLE,
     Key::optional("heading_deg", ANGLE, "Wanted heading, degrees; by default any."),
     Key::optional(
         "heading_tolerance_deg",
@@ -67,7 +72,8 @@ pub(super) const GOAL: Value = Value::Map(&[
         "joint_deg",
         ANGLE,
         "How far its revolute joint has turned it, degrees counter-clockwise from the start, against what \
-         it is joined to; within the joint's limits, if by the longer way. By default any.",
+         it is joined to; within the joint's limits, if by the longer way, and without limits by the shorter \
+         one. By default any.",
     ),
     Key::optional(
         "joint",
@@ -108,6 +114,12 @@ pub(super) fn goal(node: &Node, scene: &Scene) -> Option<Goal> {
         (None, Some(node)) => Goal::beside(object, gap(node, object, scene)?),
         (None, None) => Goal::of(object),
     };
+    if let Some(node) = node.get("coverage") {
+        goal = covering(node, object, scene)?;
+    }
+    if let Some(node) = node.get("off_table") {
+        goal = Goal::falling(object, fall(node, object, scene)?);
+    }
     goal.weight = number_or(node, "weight", goal.weight)?;
     if node.get("position").is_some() {
         goal.position = position(node)?;
@@ -173,6 +185,7 @@ pub(super) fn check(goal: &Node, scene: &Node, ledger: &mut Ledger) {
     if let Some(gap) = goal.get("gap") {
         check_gap(gap, name, [objects, obstacles], ledger);
     }
+    check_fall(goal, name, scene, ledger);
     let Some(object) = known_object(name, objects, obstacles, ledger) else { return };
     let relative = goal.get("relative_to");
     let other = relative.and_then(|other| known_object(other, objects, obstacles, ledger));
@@ -227,12 +240,21 @@ fn demands(goal: &Node, ledger: &mut Ledger) {
             ledger.fault(node, message, "add `tolerance: 0.02`, in metres");
         }
     }
-    let places = ["position", "region", "gap", "joint"].into_iter().filter(|key| has(key));
+    let places = ["position", "region", "gap", "coverage", "joint", "off_table"]
+        .into_iter()
+        .filter(|key| has(key));
     let turns = ["heading_deg", "joint_deg"].into_iter().filter(|key| has(key));
     let (places, turns): (Vec<_>, Vec<_>) = (places.collect(), turns.collect());
     for twice in [&places, &turns].into_iter().filter(|keys| keys.len() > 1) {
         let message = format!("`{}` and `{}` ask for the same", twice[0], twice[1]);
         ledger.fault(goal.get(twice[1]).unwrap_or(goal), message, "keep one of them");
+    }
+    for key in ["off_table", "coverage"] {
+        if let (Some(node), Some(turn)) = (goal.get(key), turns.first()) {
+            let message = format!("`{key}` does not go together with `{turn}`");
+            let advice = "keep one of them; a coverage has a heading of its own";
+            ledger.fault(node, message, advice);
+        }
     }
     if places.is_empty() && turns.is_empty() {
         // A misspelt key is one fault, not two.
@@ -240,8 +262,8 @@ fn demands(goal: &Node, ledger: &mut Ledger) {
             !matches!(&GOAL, Value::Map(keys) if keys.iter().any(|known| key.text() == Some(known.name)))
         });
         if !strange {
-            let advice = "add `position: [x, y]` and `tolerance`, `region`, `gap`, `heading_deg`, \
-                          `joint_deg` or `joint`";
+            let advice = "add `position: [x, y]` and `tolerance`, `region`, `gap`, `coverage`, `off_table`, \
+                          `heading_deg`, `joint_deg` or `joint`";
             ledger.fault(goal, "this goal asks for nothing", advice);
         }
     }
@@ -319,11 +341,11 @@ fn room_at_the_goal(
     there: &[(&Node, Footprint, Pose)],
     ledger: &mut Ledger,
 ) {
-    let (Some(node), Some(tolerance)) =
-        (goal.get("position"), goal.get("tolerance").and_then(Node::number))
-    else {
-        return;
+    let place = match goal.get("coverage").and_then(|coverage| coverage.get("position")) {
+        Some(node) => Some((node, 0.0)),
+        None => goal.get("position").zip(goal.get("tolerance").and_then(Node::number)),
     };
+    let Some((node, tolerance)) = place else { return };
     let Some(at) = vector(node).map(|position| Pose { position, heading: 0.0 }) else { return };
     let core = Footprint::Disc { radius: object.inner_radius() - tolerance - SLACK };
     if core.inner_radius() <= 0.0 {

@@ -1,7 +1,9 @@
 //! Task files: what they may hold, their reading, and the rules that span several keys.
 
 mod build;
+mod coverage;
 mod emit;
+mod falls;
 mod frictions;
 mod gap;
 mod goals;
@@ -18,6 +20,8 @@ mod tools;
 pub(super) use build::{
     pushes as pushes_of, robot as reach_of, support as support_of, unknown as unknown_of,
 };
+pub(super) use coverage::emitted_coverage;
+pub(super) use falls::emitted_fall;
 pub(super) use frictions::{FRICTIONS, name_of_surface};
 pub(super) use gap::emitted_gap;
 pub(super) use joints::joint as joint_of;

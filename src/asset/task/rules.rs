@@ -100,8 +100,11 @@ fn keep(keep: &Node, goals: &[Node], objects: &[Node], ledger: &mut Ledger) {
     }
 }
 
-/// What is to be moved must not fall.
+/// What is to be moved must not fall, unless it is to.
 fn may_fall(goal: &Node, objects: &[Node], ledger: &mut Ledger) {
+    if goal.get("off_table").is_some() {
+        return;
+    }
     let wanted = goal.get("object").and_then(Node::text);
     for object in objects.iter().filter(|object| wanted.is_some() && name_of(object) == wanted) {
         if let Some(node) = object.get("may_fall").filter(|node| node.switch() == Some(true)) {
@@ -126,7 +129,8 @@ fn on_table(scene: &Node, goals: &[Node], ledger: &mut Ledger) {
     let goals = goals.iter().filter(|goal| goal.get("relative_to").is_none());
     let goals = goals.map(|goal| (goal, "the goal".to_owned()));
     for (node, what) in named.chain(goals) {
-        let Some(position) = node.get("position") else { continue };
+        let own = node.get("coverage").unwrap_or(node);
+        let Some(position) = own.get("position") else { continue };
         if vector(position).is_some_and(|position| !top.holds(position)) {
             let (size, middle) = (top.size, top.middle);
             let message = format!(

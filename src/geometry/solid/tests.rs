@@ -36,3 +36,26 @@ fn common_areas_are_clipped() {
     assert_eq!(common, square(1.0, 2.0));
     assert!(common_area(&square(0.0, 1.0), &square(2.0, 3.0)).is_empty());
 }
+
+#[test]
+fn what_is_left_of_a_polygon_and_what_is_common_make_it_up() {
+    let hexagon = |x: f64, y: f64, size: f64, turn: f64| -> Vec<Vector> {
+        let angle = |k: i32| turn + std::f64::consts::TAU * f64::from(k) / 6.0;
+        let corner = |k| Vector::new(x + size * angle(k).cos(), y + size * angle(k).sin());
+        (0..6).map(corner).collect()
+    };
+    let whole = hexagon(0.0, 0.0, 1.0, 0.0);
+    assert!((area_of(&whole) - 1.5 * 3f64.sqrt()).abs() < 1e-12);
+    for k in 0..50 {
+        let at = |factor: f64| 1.5 * (factor * f64::from(k)).sin();
+        let other = hexagon(at(1.1), at(1.7), 0.2 + at(0.3).abs(), at(2.3));
+        let left = without(&whole, &other);
+        let common = common_area(&whole, &other);
+        let sum: f64 = left.iter().map(|piece| area_of(piece)).sum();
+        assert!((sum + area_of(&common) - area_of(&whole)).abs() < 1e-9, "{k}");
+        for (n, piece) in left.iter().enumerate() {
+            assert!(area_of(&common_area(piece, &other)) < 1e-9, "{k}");
+            assert!(left[..n].iter().all(|before| area_of(&common_area(piece, before)) < 1e-9));
+        }
+    }
+}

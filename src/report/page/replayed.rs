@@ -57,7 +57,10 @@ pub(super) fn shown_replay(
     let mut replay = replay(layer, trajectory, reached)?;
     let goal = &task.goal;
     // The page measures distances from a place; from anything else they are told.
-    let told = goal.area.is_some() || goal.gap.is_some() || goal.relative.is_some();
+    let told = goal.area.is_some()
+        || goal.coverage.is_some()
+        || goal.is_relation()
+        || goal.relative.is_some();
     if told || !goal.has_place() {
         replay.measure = sound(&trajectory.frames).map(|f| length(goal.error(&f.state))).collect();
     }

@@ -14,7 +14,11 @@ pub fn stage(task: &Task) -> Stage {
         object: goal.object,
         at: point(goal.position),
         // In space something else is measured than the distance.
-        tolerance: match goal.has_place() && goal.area.is_none() && !task.in_space() {
+        tolerance: match goal.has_place()
+            && goal.area.is_none()
+            && goal.coverage.is_none()
+            && !task.in_space()
+        {
             true => length(goal.tolerance),
             false => 0,
         },

@@ -32,6 +32,7 @@ pub fn goal_area(svg: &mut Svg, view: &View, goal: &Goal) {
         Some(area) => {
             view.footprint(svg, &area.shape.footprint(), &area.pose, palette::GOAL_AREA);
         }
+        None if goal.coverage.is_some() => outline(svg, view, goal, palette::GOAL_AREA),
         None if goal.has_place() => {
             svg.circle(view.map(goal.position), view.length(goal.tolerance), palette::GOAL_AREA);
         }
@@ -42,7 +43,9 @@ pub fn goal_area(svg: &mut Svg, view: &View, goal: &Goal) {
 /// Rim of the tolerance, centre cross and, where a heading is asked for, its wedges.
 pub fn goal(svg: &mut Svg, view: &View, goal: &Goal) {
     let centre = view.map(goal.position);
-    let radius = match (&goal.area, goal.has_place()) {
+    outline(svg, view, goal, palette::GOAL_RIM);
+    let placed = goal.has_place() && goal.coverage.is_none();
+    let radius = match (&goal.area, placed) {
         (Some(area), _) => {
             view.footprint(svg, &area.shape.footprint(), &area.pose, palette::GOAL_RIM);
             0.0
@@ -50,7 +53,7 @@ pub fn goal(svg: &mut Svg, view: &View, goal: &Goal) {
         (None, true) => view.length(goal.tolerance),
         (None, false) => 0.0,
     };
-    if goal.area.is_none() && goal.has_place() {
+    if goal.area.is_none() && placed {
         svg.circle(centre, radius, palette::GOAL_RIM);
     }
     let arm = 7.0;
@@ -72,6 +75,17 @@ pub fn goal(svg: &mut Svg, view: &View, goal: &Goal) {
     }
 }
 
+/// The outline that a goal's object is to cover.
+fn outline(svg: &mut Svg, view: &View, goal: &Goal, style: Style) {
+    let heading = goal.heading.map_or(0.0, |(heading, _)| heading);
+    let pose = Pose { position: goal.position, heading };
+    let pieces = goal.coverage.iter().flat_map(|coverage| coverage.outline(&pose));
+    for piece in pieces {
+        let corners: Vec<Vector> = piece.into_iter().map(|corner| view.map(corner)).collect();
+        svg.polygon(&corners, style);
+    }
+}
+
 /// The gap that a goal speaks of, as it is at the start.
 pub fn gap(svg: &mut Svg, view: &View, goal: &Goal, scene: &Scene) {
     let object = scene.objects.get(goal.object);
@@ -82,6 +96,15 @@ pub fn gap(svg: &mut Svg, view: &View, goal: &Goal, scene: &Scene) {
         .and_then(|(gap, object)| gap.nearest(&object.pose, &scene.start()));
     if let Some(nearest) = nearest {
         svg.line(view.map(nearest.on_first), view.map(nearest.on_second), palette::GOAL_MISS);
+    }
+}
+
+/// The edges of the table over which a goal's object is to fall.
+pub fn brink(svg: &mut Svg, view: &View, goal: &Goal) {
+    if let Some(fall) = &goal.fall {
+        for [from, to] in fall.edges().map(|edge| fall.ends(edge)) {
+            svg.line(view.map(from), view.map(to), palette::GOAL_RIM);
+        }
     }
 }
 

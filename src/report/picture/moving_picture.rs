@@ -108,6 +108,7 @@ impl MovingPicture<'_> {
         for goal in &self.task.shown_goals() {
             bodies::goal(&mut stage.svg, &view, goal);
             bodies::gap(&mut stage.svg, &view, goal, &self.task.scene);
+            bodies::brink(&mut stage.svg, &view, goal);
         }
         self.story().reached(stage);
         stage.open_layer();
@@ -230,7 +231,7 @@ impl MovingPicture<'_> {
 
     fn entries(&self) -> Vec<(Sample, String)> {
         let goal = &self.task.goal;
-        let tolerance = match (&goal.area, goal.has_place() && goal.gap.is_none()) {
+        let tolerance = match (&goal.area, goal.has_place() && !goal.is_relation()) {
             (None, true) => format!("goal, tolerance {}", millimetres(goal.tolerance)),
             _ => "goal".to_owned(),
         };

@@ -131,6 +131,7 @@ impl ScenePicture<'_> {
         for goal in &self.goals {
             bodies::goal(svg, view, goal);
             bodies::gap(svg, view, goal, self.scene);
+            bodies::brink(svg, view, goal);
         }
         for track in &self.tracks {
             self.track(svg, view, track);

@@ -30,7 +30,7 @@ fn a_prism_of_eight_corners_without_feet_stands_on_its_underside() {
     let shape = octagon();
     for lean in [0.0, 0.05, -0.05] {
         let mut world = PhysicsWorld { gravity: Vector::Z * -9.81, ..PhysicsWorld::default() };
-        world.insert_collider(table(0.5), None);
+        world.insert_collider(table(0.5, None), None);
         let pose = Pose3::from_parts(Vector::Z * 0.035, Rotation::from_rotation_x(lean));
         let body = world.insert_body(RigidBodyBuilder::dynamic().pose(pose));
         let own = weighing(solid(&shape, Pose3::IDENTITY, 0.5), &shape, 0.4);

@@ -1,0 +1,35 @@
+//! Tasks that are solved as drafts, and their plans judged by MuJoCo.
+
+use std::process::Command;
+
+use pushplan::asset::{PlanFile, ToolLibrary};
+use pushplan::export::{REPLAY_SCRIPT, mjcf};
+use pushplan::scene::Task;
+use pushplan::solve::{Effort, Planner, Solution};
+
+use crate::mujoco_python::python;
+
+pub fn solved(task: &Task) -> Solution {
+    let planner = Planner::for_effort(Effort::Draft).expect("its models").build();
+    planner.solve(task, &ToolLibrary::embedded().expect("the shipped tools")).expect("a sound task")
+}
+
+pub fn file(task: &Task, solution: &Solution) -> PlanFile {
+    let best = &solution.plans[0];
+    PlanFile {
+        predicted: Some(best.outcome.clone()),
+        verdict: best.verdict.clone(),
+        ..PlanFile::new(task.clone(), best.tools.clone(), best.plan.clone())
+    }
+}
+
+/// Whether MuJoCo says that the plan works.
+pub fn works_in_mujoco(file: &PlanFile) {
+    let Some(python) = python() else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let [script, scene] = ["replay.py", "plan.xml"].map(|name| folder.path().join(name));
+    std::fs::write(&script, REPLAY_SCRIPT).expect("written");
+    std::fs::write(&scene, mjcf(file).expect("a scene")).expect("written");
+    let output = Command::new(python).args([&script, &scene]).output().expect("Python");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+}

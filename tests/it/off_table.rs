@@ -1,0 +1,120 @@
+//! Goals off the table: what is pushed over an edge, and falls.
+
+use pushplan::asset::ToolLibrary;
+use pushplan::scene::{Edge, Engine, Rate, Record, Situation, State, Task, Warning};
+use pushplan::solve::PlanStatus;
+use pushplan::{EffectModel, Job, Push, Simulated, Simulator, ToolMotion, Vector};
+
+use crate::judged::{file, solved, works_in_mujoco};
+
+/// A box and a can on a table that ends 40 cm to either side; `goal` is the task's.
+fn task(goal: &str) -> Task {
+    let text = format!(
+        "
+scene:
+  table: {{size: [0.8, 0.8], position: [0.55, 0.0], friction: 0.4}}
+  objects:
+    - {{name: box, shape: {{cuboid: {{size: [0.08, 0.06, 0.08]}}}}, mass: 0.5, friction: 0.4,
+       position: [0.65, 0.25], yaw_deg: 20}}
+    - {{name: can, shape: {{cylinder: {{radius: 0.04, height: 0.1}}}}, mass: 0.4, friction: 0.4, position: [0.75, -0.25]}}
+robot: {{reach: {{min: 0.1, max: 1.0}}}}
+tools: [stick, l-hook]
+goal: {goal}
+"
+    );
+    Task::parse(&text, "fall.yaml").unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+#[test]
+fn things_are_pushed_over_the_edge_that_is_asked_for() {
+    for (goal, off) in [
+        ("{object: box, off_table: left}", vec![0]),
+        ("{object: can, off_table: far}", vec![1]),
+        ("[{object: box, off_table: any}, {object: can, off_table: any}]", vec![0, 1]),
+    ] {
+        let task = task(goal);
+        assert!(!task.reached(&task.scene.start()), "{goal}");
+        let solution = solved(&task);
+        assert_eq!(solution.status, PlanStatus::Solved, "{goal}");
+        let verdict = solution.plans[0].verdict.as_ref().expect("replayed");
+        let top = task.scene.table_top.expect("it ends");
+        for engine in Engine::ALL {
+            let nominal = verdict.nominal(engine).expect("replayed");
+            let gone = |k: &usize| !top.holds(nominal.outcome.state.poses[*k].position);
+            assert_eq!([0, 1].into_iter().filter(gone).collect::<Vec<_>>(), off, "{goal}");
+            // What is wanted is no news.
+            assert!(!nominal.warnings.iter().any(|one| matches!(one, Warning::Fell { .. })));
+        }
+        works_in_mujoco(&file(&task, &solution));
+    }
+}
+
+/// The end of the box after a push of this length to the left, in this engine.
+fn pushed(task: &Task, engine: Engine, length: f64) -> (State, Vec<Warning>) {
+    let library = ToolLibrary::embedded().expect("tools");
+    let stick = library.get("stick").expect("a stick");
+    // The stick reaches 0.61 m beyond the grip, and comes down two centimetres from the box.
+    let push = Push {
+        start: Vector::new(0.65, 0.25 - 0.05 - 0.61),
+        direction: std::f64::consts::FRAC_PI_2,
+        length,
+        speed: 0.1,
+    };
+    let motion =
+        ToolMotion::pushes(stick.clone(), 0.002, std::f64::consts::FRAC_PI_2, &[push], true);
+    let job = Job::new(&Situation::stated(&task.scene), motion);
+    let model = Simulated::new(Simulator::new(engine, Rate::DEFAULT));
+    let trajectory = model.rollout(&task.scene, &[job], Record::Outcome).remove(0);
+    (trajectory.outcome().clone(), trajectory.warnings.clone())
+}
+
+/// 3-D has a table with an edge: what is pushed beyond it tips and falls, what stays short of it stands.
+#[test]
+fn three_dimensions_decide_whether_it_falls() {
+    let mut task = task("{object: box, off_table: left}");
+    task.scene.objects[0].pose.heading = 0.0;
+    let fell =
+        |warnings: &[Warning]| warnings.iter().any(|one| matches!(one, Warning::Fell { .. }));
+    for (y, falls) in [(0.38, false), (0.395, false), (0.405, true), (0.43, true)] {
+        let length = y - 0.25 + 0.02;
+        let (flat, warned) = pushed(&task, Engine::Planar, length);
+        assert!((flat.poses[0].position.y - y).abs() < 4e-3, "{}", flat.poses[0].position.y);
+        assert_eq!(task.reached(&flat), falls, "{y}");
+        assert_eq!(fell(&warned), falls);
+        let (solid, warned) = pushed(&task, Engine::Spatial, length);
+        assert_eq!(task.reached(&solid), falls, "{y}: {}", solid.poses[0].position.y);
+        assert_eq!(fell(&warned), falls);
+        assert!(warned.iter().all(|warning| !warning.forbids_success()), "{warned:?}");
+    }
+}
+
+/// Whatever else goes over an edge is a fault as ever.
+#[test]
+fn nothing_else_may_fall() {
+    let mut task = task("{object: can, off_table: left}");
+    let (_, warned) = pushed(&task, Engine::Spatial, 0.25);
+    let off = |one: &Warning| matches!(one, Warning::OffTable { object } if object == "box");
+    assert!(warned.iter().any(off), "{warned:?}");
+    task.scene.objects[0].may_fall = true;
+    let (_, warned) = pushed(&task, Engine::Spatial, 0.25);
+    assert!(!warned.iter().any(off), "{warned:?}");
+}
+
+#[test]
+fn it_is_read_as_it_is_written_and_a_plan_file_keeps_it() {
+    for (word, over) in [
+        ("any", None),
+        ("far", Some(Edge::Far)),
+        ("near", Some(Edge::Near)),
+        ("left", Some(Edge::Left)),
+        ("right", Some(Edge::Right)),
+    ] {
+        let task = task(&format!("{{object: box, off_table: {word}}}"));
+        assert_eq!(task.goal.fall.as_ref().map(|fall| fall.over), Some(over));
+        assert!(task.scene.objects[0].may_fall && !task.scene.objects[1].may_fall);
+        let again = Task::parse(&task.to_yaml().expect("as text"), "fall.yaml").expect("sound");
+        assert_eq!(again, task);
+        let json = serde_json::to_string(&task).expect("as JSON");
+        assert_eq!(serde_json::from_str::<Task>(&json).expect("the same"), task);
+    }
+}
