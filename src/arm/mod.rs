@@ -30,4 +30,4 @@ pub use inverse::{inverse, postures};
 pub use judge::judge;
 pub use kinematics::{dexterity, flange, frames};
 pub use places::{Ring, find_places, usual_home};
-pub use room::pairs;
+pub use room::{above, pairs};

@@ -33,6 +33,14 @@ pub fn pairs(arm: &Arm) -> Vec<[usize; 2]> {
     all.filter(apart).collect()
 }
 
+/// The first body of an arm that can come to the table: those before it stand there.
+pub fn above(arm: &Arm) -> usize {
+    let home = Room::empty(arm).stance(&arm.home);
+    let count = arm.bodies.len();
+    let low = |body: &Vec<PlacedHull>| body.iter().any(|hull| hull.lowest() <= APART);
+    (1..count).find(|k| !low(&home.bodies[*k])).unwrap_or(count)
+}
+
 /// What an arm may run into.
 pub(super) struct Room<'a> {
     pub arm: &'a Arm,
@@ -63,18 +71,13 @@ impl<'a> Room<'a> {
             let hull = Hull::cuboid(half, &Pose3::default());
             (&*one.name, hull.placed(&flat(one.pose, one.z + half.z)))
         });
-        let mut room = Self {
+        Self {
             arm,
-            above: 1,
+            above: above(arm),
             tool: tool.map(|tool| of_tool(arm, tool)).unwrap_or_default(),
             obstacles: obstacles.collect(),
             objects: scene.objects.iter().map(|one| (&*one.name, upright(one))).collect(),
-        };
-        let home = Self { tool: Vec::new(), ..Self::empty(arm) }.stance(&arm.home);
-        let count = arm.bodies.len();
-        let low = |body: &Vec<PlacedHull>| body.iter().any(|hull| hull.lowest() <= APART);
-        room.above = (1..count).find(|k| !low(&home.bodies[*k])).unwrap_or(count);
-        room
+        }
     }
 
     /// An arm without anything around it.

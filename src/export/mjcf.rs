@@ -17,9 +17,12 @@
 
 use crate::asset::PlanFile;
 use crate::geometry::{Pose, Shape};
-use crate::scene::{Feet, GRAVITY, Object, Scene, TableTop, Tool, ToolMotion};
+use crate::scene::{
+    Arm, Feet, GRAVITY, JointTrajectory, Object, Robot, Scene, TableTop, Tool, ToolMotion,
+};
 
 use super::ExportError;
+use super::arm;
 use super::forest::{Node, forest};
 use super::hinges;
 use super::mesh;
@@ -28,7 +31,7 @@ use super::regions;
 use super::seamless::seamless;
 use super::space::plan_mjcf;
 use super::strokes::{numeric, retreats, strokes, turns};
-use super::tools::{Lifts, Taken, taken, tool};
+use super::tool::{Taken, taken, tool};
 use super::wanted::wanted;
 use super::xml::{Xml, numbers};
 
@@ -78,8 +81,11 @@ pub fn mjcf(file: &PlanFile) -> Result<String, ExportError> {
         return plan_mjcf(file);
     }
     let motions = file.plan.slides(&file.tools).ok_or(ExportError::Tools)?;
-    let lifts = Lifts { robot: Some(&file.task.robot), retreats: true };
-    written(&file.task.name, &file.task.scene, (&motions, lifts), |xml| wanted(xml, file))
+    let holder = match (file.task.arm.as_deref(), &file.joints) {
+        (Some(arm), Some(path)) => Holder::Arm(arm, path),
+        _ => Holder::Lifting(&file.task.robot),
+    };
+    written(&file.task.name, &file.task.scene, (&motions, holder), |xml| wanted(xml, file))
 }
 
 /// The scene with the tool and its strokes, as MJCF, without a goal: for learning from what happens.
@@ -88,15 +94,25 @@ pub fn mjcf(file: &PlanFile) -> Result<String, ExportError> {
 /// # Errors
 /// [`ExportError::JointLoop`].
 pub fn motion_mjcf(name: &str, scene: &Scene, motion: &ToolMotion) -> Result<String, ExportError> {
-    let motions = std::slice::from_ref(motion);
-    written(name, scene, (motions, Lifts { robot: None, retreats: false }), |_| ())
+    written(name, scene, (std::slice::from_ref(motion), Holder::Table), |_| ())
+}
+
+/// What holds the tools.
+#[derive(Clone, Copy)]
+enum Holder<'a> {
+    /// Something that never leaves the table.
+    Table,
+    /// A hand that lifts them off as a robot would.
+    Lifting(&'a Robot),
+    /// An arm that moves like this; it has one tool.
+    Arm(&'a Arm, &'a JointTrajectory),
 }
 
 /// The scene, with what `wanted` says of it.
 fn written(
     name: &str,
     scene: &Scene,
-    (motions, lifts): (&[ToolMotion], Lifts),
+    (motions, holder): (&[ToolMotion], Holder<'_>),
     wanted: impl FnOnce(&mut Xml),
 ) -> Result<String, ExportError> {
     let trees = forest(scene)?;
@@ -119,11 +135,16 @@ fn written(
         xml.comment("Which tool makes each push.");
         numeric(&mut xml, "tools", &motions.iter().flat_map(number).collect::<Vec<_>>());
     }
-    if lifts.retreats {
-        retreats(&mut xml, scene, motions);
+    match holder {
+        Holder::Table => (),
+        Holder::Lifting(_) => retreats(&mut xml, scene, motions),
+        Holder::Arm(_, path) => arm::way(&mut xml, path),
     }
     xml.close();
     mesh::meshes(&mut xml, &solids);
+    if let Holder::Arm(arm, _) = holder {
+        arm::meshes(&mut xml, arm);
+    }
     xml.open("worldbody", &[]);
     let friction = numbers(&[scene.table_friction]);
     let mut table = vec![("name", "table".into()), ("friction", friction)];
@@ -147,16 +168,31 @@ fn written(
         body(&mut xml, scene, tree);
     }
     let turns = turns(motions);
-    tools.iter().for_each(|one| tool(&mut xml, one, turns, lifts));
+    for (k, one) in tools.iter().enumerate() {
+        match holder {
+            Holder::Arm(arm, _) if k == 0 => arm::bodies(&mut xml, arm, &one.motion.tool),
+            Holder::Arm(..) => {}
+            Holder::Lifting(robot) => {
+                let hand = robot.carried(&one.motion.tool, one.motion.lift)[0];
+                tool(&mut xml, one, turns, hand, true);
+            }
+            Holder::Table => tool(&mut xml, one, turns, None, false),
+        }
+    }
     xml.close();
     xml.comment("Friction is the mean of the two values; nothing else touches.");
     xml.open("contact", &[]);
     let named: Vec<(&str, &Tool)> =
         tools.iter().map(|one| (one.prefix.as_str(), &*one.motion.tool)).collect();
     for pair in pairs::pairs(scene, &named) {
-        let friction = numbers(&[pair.friction, pair.friction]);
-        let [a, b] = pair.geoms;
-        xml.leaf("pair", &[("geom1", a), ("geom2", b), ("friction", friction)]);
+        pair.write(&mut xml);
+    }
+    if let (Holder::Arm(arm, _), Some(one)) = (holder, tools.first()) {
+        for pair in arm::pairs(arm, scene, &one.motion.tool) {
+            pair.write(&mut xml);
+        }
+        xml.close();
+        arm::servos(&mut xml, arm);
     }
     Ok(xml.finish())
 }

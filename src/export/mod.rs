@@ -7,6 +7,7 @@
 //! says it does. Nothing is simulated here, nothing is written to disk, and MuJoCo is not a
 //! dependency. Reports for people are in [`crate::report`].
 
+mod arm;
 mod error;
 mod forest;
 #[cfg(feature = "formats")]
@@ -22,7 +23,7 @@ mod regions;
 mod seamless;
 mod space;
 mod strokes;
-mod tools;
+mod tool;
 mod wanted;
 mod xml;
 

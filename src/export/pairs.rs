@@ -3,6 +3,7 @@
 use crate::scene::{Physics, Scene, Surface, Tool};
 
 use super::mjcf::{feet, foot_name};
+use super::xml::{Xml, numbers};
 
 /// Two geoms that may touch.
 pub(super) struct Pair {
@@ -10,6 +11,21 @@ pub(super) struct Pair {
     pub geoms: [String; 2],
     /// Their coefficient of friction.
     pub friction: f64,
+    /// From how far apart they press against each other, metres.
+    pub margin: f64,
+}
+
+impl Pair {
+    /// As an element.
+    pub fn write(self, xml: &mut Xml) {
+        let [a, b] = self.geoms;
+        let friction = numbers(&[self.friction, self.friction]);
+        let mut attributes = vec![("geom1", a), ("geom2", b), ("friction", friction)];
+        if self.margin > 0.0 {
+            attributes.push(("margin", numbers(&[self.margin])));
+        }
+        xml.leaf("pair", &attributes);
+    }
 }
 
 /// Every pair of which at least one can move by itself; the names of a tool's solids begin with its prefix.
@@ -20,7 +36,7 @@ pub(super) fn pairs(scene: &Scene, tools: &[(&str, &Tool)]) -> Vec<Pair> {
     for (index, object) in scene.objects.iter().enumerate() {
         let mut add = |geom: String, with: String, surface: Surface, friction: f64| {
             let friction = physics.friction(index, surface, friction);
-            pairs.push(Pair { geoms: [geom, with], friction });
+            pairs.push(Pair { geoms: [geom, with], friction, margin: 0.0 });
         };
         let own = || format!("object/{}", object.name);
         if !object.shape.is_cylinder() && scene.mount(index).is_none() {

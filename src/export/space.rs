@@ -349,7 +349,7 @@ fn cuboid(xml: &mut Xml, name: &str, size: [f64; 3], pose: &Pose3) {
     xml.leaf("geom", &attributes);
 }
 
-fn placed(pose: &Pose3) -> [(&'static str, String); 2] {
+pub(super) fn placed(pose: &Pose3) -> [(&'static str, String); 2] {
     let [x, y, z, w] = pose.quaternion();
     [("pos", numbers(pose.position.as_slice())), ("quat", numbers(&[w, x, y, z]))]
 }

@@ -8,7 +8,7 @@ use parry3d_f64::query::details::distance_support_map_support_map;
 use parry3d_f64::shape::SupportMap;
 use serde::{Deserialize, Serialize};
 
-use super::{Footprint, Pose3, Vector3};
+use super::{Footprint, Matrix3, Pose3, Vector3};
 
 /// Corners of a mesh are kept in this many directions, evenly spread, and looked at in as many.
 const KEPT: usize = 48;
@@ -92,6 +92,20 @@ impl Hull {
         Self { points: at(low).chain(at(high)).collect(), radius: 0.0 }
     }
 
+    /// How thick its points are in the direction in which that is least, metres.
+    pub fn thickness(&self) -> f64 {
+        let middle = self.points.iter().sum::<Vector3>() / self.points.len().max(1) as f64;
+        let off = self.points.iter().map(|point| point - middle);
+        let spread: Matrix3 = off.map(|off| off * off.transpose()).sum();
+        let axes = spread.symmetric_eigen();
+        let across = axes.eigenvectors.column(axes.eigenvalues.imin());
+        let along = self.points.iter().map(|point| point.dot(&across));
+        let [low, high] = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| {
+            [low.min(at), high.max(at)]
+        });
+        (high - low).max(0.0)
+    }
+
     /// Where it is when the frame that it is seen from is there.
     pub fn placed(&self, pose: &Pose3) -> PlacedHull {
         let to = |v: &Vector3| {
@@ -171,6 +185,7 @@ mod tests {
         assert!((gap(&cube, &cube, 0.5) - 0.3).abs() < 1e-9);
         assert!(gap(&cube, &cube, 0.15) <= 0.0 && gap(&ball, &cube, 0.19) < 0.0);
         assert!((cube.placed(&at(0.0)).lowest() + 0.1).abs() < 1e-12);
+        assert!((cube.thickness() - 0.2).abs() < 1e-9 && ball.thickness() == 0.0);
     }
 
     #[test]

@@ -61,7 +61,7 @@ const ROOMS: [(&str, &str); 24] = [
     ("act", "geometry scene asset sim effect judge fit belief solve"),
     ("bench", "geometry scene asset store sim effect judge solve"),
     ("report", "geometry scene graph recording asset store judge fit belief plan solve act bench"),
-    ("export", "geometry scene asset"),
+    ("export", "geometry scene arm asset"),
     ("import", "geometry scene asset"),
     (
         "cli",

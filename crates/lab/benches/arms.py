@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """Which of the shipped tasks arms can do, and whether Pinocchio agrees.
 
-    pip install pin example-robot-data pyyaml
-    python3 crates/lab/benches/arms.py --program target/release/pushplan --out arms
+    pip install pin example-robot-data pyyaml mujoco
+    python3 crates/lab/benches/arms.py --program target/release/pushplan --out arms [--mujoco]
 
 Every task that is solved without an arm is solved again with a Panda, a UR5 and an xArm7, its flange 12 and
 25 cm above the tool's underside. Of what is called solved Pinocchio says, from the URDF itself and the joint
 trajectory in the plan file, whether the flange is where the pushes have it (1 mm, half a degree), joints keep
-their limits and speeds, and no two links that are apart at home run into each other. Lengths are in metres.
+their limits and speeds, and no two links that are apart at home run into each other. With --mujoco the arm also
+carries the plans out there, its joints moved by servos: how many reach their goals. Lengths are in metres.
 """
 
 import argparse
@@ -28,6 +29,7 @@ ARMS = {
     "xarm7": ("xarm_description/urdf/xarm7.urdf", "link_eef"),
 }
 FLANGES = [0.12, 0.25]
+PLAYED = ["plan", "reached", "failure", "error", "difference", "joints_off"]
 OFF, TURNED = 1e-3, math.radians(0.5)
 
 
@@ -154,6 +156,13 @@ def solve(program, task, out, arguments):
     return done.returncode, done
 
 
+def played(program, plans, out):
+    """What becomes of plans in MuJoCo, where servos move the arm: a line for each."""
+    subprocess.run([program, "export", *plans, "--out", out], capture_output=True, check=True)
+    done = subprocess.run([sys.executable, out / "replay.py", out], capture_output=True, text=True)
+    return [json.loads(line) for line in done.stdout.splitlines()]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--program", default="pushplan")
@@ -163,6 +172,7 @@ def main():
     parser.add_argument("--flanges", default=",".join(map(str, FLANGES)))
     parser.add_argument("--only", help="tasks whose names contain this")
     parser.add_argument("--effort", default="standard")
+    parser.add_argument("--mujoco", action="store_true", help="carry the plans out in MuJoCo, too")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     folder, more = robots(), ["--effort", options.effort]
@@ -180,6 +190,7 @@ def main():
         judge = Judge(urdf, flange)
         for length in map(float, options.flanges.split(",")):
             count = passed = 0
+            plans = []
             for path in solved:
                 task = yaml.safe_load(path.read_text())
                 task.setdefault("name", path.stem)
@@ -195,7 +206,8 @@ def main():
                 faults, worst = None, None
                 if code == 0:
                     count += 1
-                    plan = json.loads((out / f"{task['name']}.plan.json").read_text())
+                    plans.append(out / f"{task['name']}.plan.json")
+                    plan = json.loads(plans[-1].read_text())
                     if plan["plan"]["steps"]:
                         faults, worst = judge.faults(plan, length)
                     passed += not faults
@@ -205,8 +217,14 @@ def main():
                 else:
                     line["says"] = (done.stderr or done.stdout)[-300:]
                 print(json.dumps(line), flush=True)
-            total = {"arm": arm, "flange": length, "tasks": len(solved)}
-            print(json.dumps({**total, "solved": count, "pinocchio_agrees": passed}), flush=True)
+            total = {"arm": arm, "flange": length, "tasks": len(solved), "solved": count}
+            total["pinocchio_agrees"] = passed
+            if options.mujoco and plans:
+                lines = played(options.program, plans, options.out / f"{arm}-{round(length * 100)}-scenes")
+                for line in lines:
+                    print(json.dumps({k: line[k] for k in PLAYED}), flush=True)
+                total["reached_in_mujoco"] = sum(line["reached"] for line in lines)
+            print(json.dumps(total), flush=True)
 
 
 if __name__ == "__main__":

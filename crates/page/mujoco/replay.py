@@ -10,7 +10,8 @@ plan goes to stdout, a table for several to stderr; the exit code is 0 if all of
 
 A plan works if in the end everything rests and the goal's object is within the tolerance (with its
 heading, where one is asked for) or has fallen over the right edge, and if on the way nothing else toppled, the tool was not set down on an
-object, and no object was 2 mm inside an obstacle. Lengths are in metres, angles in radians.
+object, and no object was 2 mm inside an obstacle. An arm in the scene follows its joints' way by servos, held
+by nothing else, and must not run into anything. Lengths are in metres, angles in radians.
 """
 
 import argparse
@@ -27,13 +28,13 @@ import mujoco
 import numpy as np
 
 RISES = 0.1  # how fast a tool is lifted, m/s
-JAMMED = 2e-3  # an object so deep inside an obstacle is squeezed where it cannot go
+JAMMED = 2e-3  # an object so deep inside an obstacle is squeezed where it cannot go, and so is an arm
 LAID_ASIDE = 2.0  # how high above the table tools hang that are not in use, m
 SET_DOWN = 1e-4  # overlap that is still touching when the tool comes down
 TOPPLED = math.cos(math.radians(10))  # an object's axis leans further than this
 FALLEN = 0.1  # what is so far below where it stood has left the table
 ANYWHERE = 1e6  # the tolerance of a goal that asks for no place
-KINDS = ["object", "obstacle", "tool", "table", "region"]
+KINDS = ["object", "obstacle", "tool", "table", "region", "arm"]
 BASE = "obstacle/robot base"
 SOLIDS = {
     mujoco.mjtGeom.mjGEOM_BOX: "cuboid",
@@ -44,6 +45,38 @@ SOLIDS = {
 
 class Failed(Exception):
     """The plan fails before its end."""
+
+
+class Arm:
+    """The joints of an arm and the way that they are to go."""
+
+    def __init__(self, model, numbers):
+        rows = np.array([data for name, data in numbers.items() if name.startswith("joints ")])
+        joints = [model.joint(k) for k in range(model.njnt)]
+        joints = [joint for joint in joints if joint.name.startswith("arm/")]
+        self.position = [joint.qposadr[0] for joint in joints]
+        self.servos = [model.actuator(f"{joint.name}/position").id for joint in joints]
+        self.speeds = [model.actuator(f"{joint.name}/speed").id for joint in joints]
+        self.times, self.points = rows[:, 0], rows[:, 1 : 1 + len(joints)]
+        self.velocities = rows[:, 1 + len(joints) :]
+        self.off = 0.0  # the farthest that a joint was from where it was to be
+
+    def at(self, time):
+        """Positions and velocities: cubics between the points."""
+        k = int(np.clip(np.searchsorted(self.times, time) - 1, 0, len(self.times) - 2))
+        dt = self.times[k + 1] - self.times[k]
+        s = min(max((time - self.times[k]) / dt, 0.0), 1.0)
+        a, b, v, w = *self.points[k : k + 2], *self.velocities[k : k + 2]
+        h = [2 * s**3 - 3 * s**2 + 1, s**3 - 2 * s**2 + s, 3 * s**2 - 2 * s**3, s**3 - s**2]
+        d = [6 * s**2 - 6 * s, 3 * s**2 - 4 * s + 1, 6 * s - 6 * s**2, 3 * s**2 - 2 * s]
+        place = h[0] * a + h[1] * dt * v + h[2] * b + h[3] * dt * w
+        return place, (d[0] * a + d[2] * b) / dt + d[1] * v + d[3] * w
+
+    def tell(self, data, time):
+        """Tells the servos where to be at this time."""
+        place, speed = self.at(time)
+        self.off = max(self.off, float(np.abs(data.qpos[self.position] - place).max()))
+        data.ctrl[self.servos], data.ctrl[self.speeds] = place, speed
 
 
 class Replay:
@@ -71,7 +104,9 @@ class Replay:
         numerics = [self.model.numeric(k) for k in range(self.model.nnumeric)]
         self.numbers = {numeric.name: numeric.data for numeric in numerics}
         self.pushes = [data for name, data in self.numbers.items() if name.startswith("push ")]
-        self.take(0)
+        self.arm = Arm(model, self.numbers) if "joints 2" in self.numbers else None
+        if not self.arm:
+            self.take(0)
         self.frames = {}
         for k in range(self.model.ntext):
             name = mujoco.mj_id2name(self.model, mujoco.mjtObj.mjOBJ_TEXT, k)
@@ -89,6 +124,8 @@ class Replay:
 
     def run(self):
         """Makes all pushes, in order."""
+        if self.arm:
+            return self.follow()
         mujoco.mj_forward(self.model, self.data)  # a plan may have none
         lifted = True
         for index, push in enumerate(self.pushes):
@@ -122,6 +159,16 @@ class Replay:
         self.tool_position = [joint.qposadr[0] for joint in joints]
         self.tool_velocity = [joint.dofadr[0] for joint in joints]
 
+    def follow(self):
+        """The arm goes all of its way, and stays until everything rests."""
+        self.data.qpos[self.arm.position] = self.arm.points[0]
+        mujoco.mj_forward(self.model, self.data)
+        for k in range(math.ceil(self.arm.times[-1] / self.step)):
+            self.arm.tell(self.data, k * self.step)
+            self.advance()
+        self.arm.tell(self.data, self.arm.times[-1])
+        self.rest(self.advance)
+
     def set_down(self, place):
         """The tool comes down from above."""
         self.place(place, 0.0)
@@ -150,6 +197,10 @@ class Replay:
 
     def coast(self, place, height=0.0):
         """The tool stands still until everything rests."""
+        self.rest(lambda: self.move(place, 0.0, height))
+
+    def rest(self, advance):
+        """Steps until everything rests."""
         speed, every, most = self.numbers["rest"]
         self.model.opt.timestep = self.step
         waited = 0
@@ -157,7 +208,7 @@ class Replay:
             if waited == most:
                 raise Failed("never rests")
             for _ in range(round(every / self.step)):
-                self.move(place, 0.0, height)
+                advance()
             waited += 1
 
     def place(self, place, velocity, height=0.0, rises=0.0):
@@ -171,13 +222,20 @@ class Replay:
     def move(self, place, velocity, height=0.0, rises=0.0):
         """One step with the tool at `place`, lifted by `height`."""
         self.place(place, velocity, height, rises)
+        self.advance()
+
+    def advance(self):
+        """One step."""
         mujoco.mj_step(self.model, self.data)
         contact = self.data.contact
-        np.maximum.at(self.deepest, self.kind[contact.geom].max(axis=1), -contact.dist)
+        depth = contact.includemargin - contact.dist
+        np.maximum.at(self.deepest, self.kind[contact.geom].max(axis=1), depth)
         if self.data.warning[mujoco.mjtWarning.mjWARN_BADQACC].number:
             raise Failed("not finite")
         if self.deepest[KINDS.index("obstacle")] > JAMMED:
             raise Failed("jams")
+        if self.deepest[KINDS.index("arm")] > JAMMED:
+            raise Failed("the arm runs into something")
         if self.upright and self.data.xmat[self.upright, 8].min() < TOPPLED:
             raise Failed("topples")
 
@@ -362,6 +420,8 @@ def replay(path):
         "pushes": len(scene.pushes),
         "obstacles": scene.obstacles,
         "goal_object": solid,
+        # Of an arm the farthest that a joint is from where it is to be, radians or metres.
+        "joints_off": scene.arm.off if scene.arm else None,
     }
 
 

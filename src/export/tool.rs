@@ -1,21 +1,14 @@
-//! The tools of a scene, and the hand that holds them.
+//! The tools of a scene: bodies that are where they are told to be.
 
 use crate::geometry::{Footprint, Pose, Shape};
-use crate::scene::{Carried, Robot, SHOWN_HAND, ToolMotion};
+use crate::scene::{Carried, SHOWN_HAND, Tool, ToolMotion};
 
 use super::mjcf::solid;
 use super::seamless::seamless;
 use super::xml::{Xml, numbers};
 
 /// So heavy that nothing moves it, kg.
-const TOOL_MASS: f64 = 1e5;
-
-/// What a tool is held by, and whether it is lifted off as it would be.
-#[derive(Clone, Copy)]
-pub(super) struct Lifts<'a> {
-    pub robot: Option<&'a Robot>,
-    pub retreats: bool,
-}
+const MASS: f64 = 1e5;
 
 /// A tool, with the first motion that is made with it, and how its solids are called.
 pub(super) struct Taken<'a> {
@@ -41,19 +34,20 @@ pub(super) fn taken(motions: &[ToolMotion]) -> Vec<Taken<'_>> {
     taken
 }
 
-pub(super) fn tool(xml: &mut Xml, taken: &Taken, turns: bool, Lifts { robot, retreats }: Lifts) {
+/// A tool that slides, turns where any does, and can be lifted where it `rises`, with the hand that is to be
+/// seen.
+pub(super) fn tool(xml: &mut Xml, taken: &Taken, turns: bool, hand: Option<Carried>, rises: bool) {
     let Taken { motion, body, prefix } = taken;
-    let hand = robot.and_then(|robot| robot.carried(&motion.tool, motion.lift)[0]);
     let start = motion.strokes.first().map(|stroke| stroke.from).unwrap_or_default();
     let at = start.position;
     xml.open("body", &[("name", body.clone()), ("pos", numbers(&[at.x, at.y, 0.0]))]);
-    let mass = numbers(&[TOOL_MASS]);
-    let inertia = numbers(&[TOOL_MASS; 3]);
+    let mass = numbers(&[MASS]);
+    let inertia = numbers(&[MASS; 3]);
     xml.leaf("inertial", &[("pos", "0 0 0".into()), ("mass", mass), ("diaginertia", inertia)]);
     let slides = [("x", "slide", "1 0 0", at.x), ("y", "slide", "0 1 0", at.y)];
     let hinge = ("heading", "hinge", "0 0 1", start.heading);
     let lift = ("z", "slide", "0 0 1", 0.0);
-    let more = [turns.then_some(hinge), retreats.then_some(lift)].into_iter().flatten();
+    let more = [turns.then_some(hinge), rises.then_some(lift)].into_iter().flatten();
     for (name, kind, axis, here) in slides.into_iter().chain(more) {
         // `ref` makes the joint's position the tool's on the table.
         let attributes = [
@@ -65,11 +59,7 @@ pub(super) fn tool(xml: &mut Xml, taken: &Taken, turns: bool, Lifts { robot, ret
         xml.leaf("joint", &attributes);
     }
     let turned = Pose { heading: start.heading, ..Pose::default() };
-    for (name, shape, pose) in seamless(motion.tool.outline()) {
-        let height = motion.lift + shape.height() / 2.0;
-        let material = (0.0, motion.tool.friction);
-        solid(xml, format!("{prefix}{name}"), &shape, &(turned * pose), height, material);
-    }
+    pieces(xml, (prefix, &motion.tool), &turned, motion.lift, 0.0);
     // It touches nothing: where it would, no plan goes.
     if let Some(Carried { footprint: Footprint::Disc { radius }, pose, span: [from, _] }) = hand {
         let shape = Shape::Cylinder { radius, height: SHOWN_HAND };
@@ -77,4 +67,20 @@ pub(super) fn tool(xml: &mut Xml, taken: &Taken, turns: bool, Lifts { robot, ret
         solid(xml, format!("{prefix}hand"), &shape, &(turned * pose), middle, (0.0, 0.0));
     }
     xml.close();
+}
+
+/// The solids of a tool, their names beginning with a prefix, at a pose in its body, their undersides at a
+/// height, metres, of a density, kg/m3.
+pub(super) fn pieces(
+    xml: &mut Xml,
+    (prefix, tool): (&str, &Tool),
+    at: &Pose,
+    underside: f64,
+    density: f64,
+) {
+    for (name, shape, pose) in seamless(tool.outline()) {
+        let height = underside + shape.height() / 2.0;
+        let material = (density * shape.footprint().area() * shape.height(), tool.friction);
+        solid(xml, format!("{prefix}{name}"), &shape, &(*at * pose), height, material);
+    }
 }
