@@ -53,6 +53,7 @@ from .errors import (
     RefusedError,
     TaskError,
 )
+from .loaded import scene_from
 
 __all__ = [
     "ActionError",
@@ -88,6 +89,7 @@ __all__ = [
     "recording_schema",
     "rollout",
     "run",
+    "scene_from",
     "solve",
     "solve_all",
     "task_schema",

@@ -72,6 +72,78 @@ def test_an_exported_scene_opens_in_mujoco_and_comes_back(task: pushplan.Task, t
     assert pushplan.import_tool(tmp_path / "scene.xml").friction == plan(task).tool.friction
 
 
+def assert_alike(one: Any, other: Any, where: str = "") -> None:
+    """The same keys and words, and numbers to MuJoCo's single precision of meshes."""
+    if isinstance(one, dict) and isinstance(other, dict):
+        assert one.keys() == other.keys(), where
+        for key in one:
+            assert_alike(one[key], other[key], f"{where}/{key}")
+    elif isinstance(one, list) and isinstance(other, list):
+        assert len(one) == len(other), where
+        for k, pair in enumerate(zip(one, other)):
+            assert_alike(*pair, f"{where}/{k}")
+    elif isinstance(one, float):
+        assert other == pytest.approx(one, abs=1e-7), where
+    else:
+        assert one == other, where
+
+
+def test_a_loaded_model_becomes_what_its_file_does(root: Path, task: pushplan.Task) -> None:
+    with pytest.warns(UserWarning, match="`damping` of the joint"):
+        wanted = pushplan.import_task(root / KITCHEN)
+    model = mujoco.MjModel.from_xml_path(str(root / KITCHEN))
+    with pytest.warns(UserWarning, match="`damping` of the joint"):
+        found = pushplan.scene_from(model, name=wanted.name)
+    assert_alike(wanted.to_dict()["scene"], found.to_dict()["scene"])
+    # Without a file, and with the goal that an exported plan has.
+    model = mujoco.MjModel.from_xml_string(plan(task).to_mjcf())
+    with pytest.warns(UserWarning, match="the tool is left out"):
+        again = pushplan.scene_from(model)
+    assert again.objects == task.objects and again.goal_position == pytest.approx(task.goal_position)
+    assert again.start == pytest.approx(task.start, abs=1e-9)
+
+
+MOVED = """<mujoco><worldbody><geom type="plane" size="1 1 .1"/>
+<body name="can" pos=".5 .1 .05"><freejoint/><geom type="cylinder" size=".04 .05" mass=".4"/></body>
+<body name="drawer" pos=".7 0 .03" euler="0 0 90"><joint type="slide" axis="1 0 0" range="-.1 .2"/>
+<geom type="box" size=".05 .1 .03" mass="1"/></body>
+<body name="door" pos=".6 -.4 .05"><joint type="hinge" axis="0 0 1" pos="-.1 0 0" range="-60 60"/>
+<geom type="box" size=".1 .01 .05" mass=".5"/></body>
+<body name="wall" pos=".3 .3 .05"><geom type="box" size=".01 .1 .05"/></body>
+</worldbody></mujoco>"""
+
+
+def test_things_are_where_the_data_has_them() -> None:
+    model = mujoco.MjModel.from_xml_string(MOVED)
+    data = mujoco.MjData(model)
+    data.joint(0).qpos[:] = [0.45, -0.1, 0.05, math.cos(0.2), 0, 0, math.sin(0.2)]
+    data.qpos[7:] = [0.05, math.radians(30)]
+    before = data.qpos.copy()
+    task = pushplan.scene_from(model, data, friction=0.4)
+    assert (data.qpos == before).all() and (data.xpos == 0).all(), "it is only read"
+    mujoco.mj_kinematics(model, data)
+    assert task.objects == ["can", "drawer", "door"]
+    for k, name in enumerate(task.objects):
+        turn = data.body(name).xmat.reshape(3, 3)
+        heading = math.atan2(turn[1, 0], turn[0, 0])
+        assert task.start[k, :2] == pytest.approx(data.body(name).xpos[:2], abs=1e-9)
+        # A drawer of two equal halves may be seen from either end.
+        off = math.remainder(task.start[k, 2] - heading, math.pi)
+        assert name == "can" or off == pytest.approx(0, abs=1e-9)
+    scene: Any = task.to_dict()["scene"]
+    limits = {joint["kind"]: joint.get("limits") or joint.get("limits_deg") for joint in scene["joints"]}
+    # Counted from where they are now.
+    assert sorted(map(abs, limits["prismatic"])) == pytest.approx([0.15, 0.15])
+    assert sorted(map(abs, limits["revolute"])) == pytest.approx([30, 90])
+    assert pushplan.scene_from(model).start[0] == pytest.approx([0.5, 0.1, 0])
+    # What the importer refuses it refuses here.
+    ball = mujoco.MjModel.from_xml_string(
+        "<mujoco><worldbody><body name='ball'><freejoint/><geom size='.05'/></body></worldbody></mujoco>"
+    )
+    with pytest.raises(pushplan.FileError, match="`ball` is a sphere"):
+        pushplan.scene_from(ball)
+
+
 def test_faults_of_a_file_have_places(tmp_path: Path) -> None:
     path = tmp_path / "ball.xml"
     path.write_text(
