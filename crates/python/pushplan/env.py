@@ -1,25 +1,28 @@
-"""A Gymnasium environment: bring an object to its goal, one push a step.
+"""Gymnasium environments: bring an object to its goal, a whole push a step or a piece of one.
 
     import gymnasium
     import pushplan.env
 
     env = gymnasium.make("pushplan/Push-v0", task=pushplan.Task.example("pull-back"))
+    env = gymnasium.make("pushplan/Steer-v0", task=pushplan.Task.example("pull-back"), tool="l-hook")
 
-It needs the package ``gymnasium``: ``pip install 'pushplan[gym]'``.
+They need the package ``gymnasium``: ``pip install 'pushplan[gym]'``.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any, ClassVar
 
 import gymnasium
 import numpy as np
 import numpy.typing as npt
 
-from . import ActionError, FileError, Plan, Push, Task, ToolLibrary, predict
+from . import ActionError, FileError, Plan, Push, Task, Tool, ToolLibrary, predict
+from ._picture import Picture
 
-__all__ = ["PushEnv"]
+__all__ = ["PushEnv", "SteerEnv"]
 
 #: What a push costs, so that fewer are better; reaching the goal is worth one.
 COST = 0.02
@@ -27,11 +30,134 @@ COST = 0.02
 #: Farther out nothing comes, metres: files place things up to 10 m from the robot.
 FAR = 20.0
 
-#: How often shifted starts are drawn until nothing overlaps.
+#: How often shifted starts and goals are drawn until nothing overlaps.
 TRIES = 100
 
+#: Shorter moves are none, metres.
+LEAST = 1e-4
 
-class PushEnv(gymnasium.Env[npt.NDArray[np.float32], npt.NDArray[np.float32]]):
+_Action = npt.NDArray[np.float32]
+
+
+class _TableEnv(gymnasium.Env[_Action, _Action]):
+    """What both environments share: a task whose start and goal may be drawn, what is seen, and pictures.
+
+    Parameters:
+        task: What to do.
+        model: Whose physics: "planar", "3d", "prior" and so on, see ``pushplan.predict``.
+        spread: By how much starts are shifted along x and y at most, at random, metres.
+        goal_spread: By how much the goal is, metres.
+        render_mode: ``"rgb_array"`` for the table from above, ``"html"`` for the page of the last push, or
+            ``None``.
+    """
+
+    # A page is of a push, and so is a frame.
+    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["rgb_array", "html"], "render_fps": 10}  # type: ignore[misc]
+
+    def __init__(
+        self, task: Task, model: str, steps: int, spread: float, goal_spread: float, render_mode: str | None, more: int = 0
+    ) -> None:
+        if render_mode not in (None, *self.metadata["render_modes"]):
+            raise ValueError('`render_mode` is "rgb_array", "html" or None')
+        goal: Any = task.to_dict()["goal"]
+        if goal_spread > 0.0 and not (isinstance(goal, dict) and "position" in goal):
+            raise ValueError("`goal_spread` is for a task with one goal, at a position")
+        #: The task of this episode: its goal is where it was drawn.
+        self.task = task
+        self.model, self.steps = model, steps
+        self.spread, self.goal_spread = spread, goal_spread
+        self.render_mode = render_mode
+        self._given = task
+        self._picture = Picture(task) if render_mode == "rgb_array" else None
+        most = np.array([FAR, FAR, 1.0, 1.0] * len(task.objects) + [FAR] * (4 + more), dtype=np.float32)
+        self.observation_space = gymnasium.spaces.Box(-most, most, dtype=np.float32)
+        self._poses = task.start
+        self._first = task.score(self._poses)
+        self._made = 0
+        self._last: Plan | None = None
+
+    @property
+    def poses(self) -> npt.NDArray[np.float64]:
+        """Where the objects are, ``[objects, 3]``: x and y in metres, heading in radians."""
+        return self._poses.copy()
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[_Action, dict[str, Any]]:
+        """Puts everything back to the start, or shifted by up to ``spread``, and draws the goal."""
+        super().reset(seed=seed, options=options)
+        self.task = self._drawn()
+        self._poses = self.task.start
+        self._first = self.task.score(self._poses)
+        self._made = 0
+        self._last = None
+        return self._seen(), self._info(None)
+
+    def render(self) -> Any:
+        """The table from above, ``[256, 256, 3]``; or the page of the last push that was made, or ``None``."""
+        if self.render_mode == "html":
+            return None if self._last is None else self._last.page()
+        if self._picture is None:
+            return None
+        return self._picture.of(self._poses, self.task.goal_position, self.task.tolerance, self._held())
+
+    def _held(self) -> tuple[Tool, npt.NDArray[np.float64]] | None:
+        """The tool that is on the table, if any, and where."""
+        return None
+
+    def _carried_out(self, planned: Callable[[], Plan]) -> tuple[float, bool, str | None]:
+        """The reward, whether the goal is reached, and why nothing moved, if it did not."""
+        before = self.task.score(self._poses)
+        self._made += 1
+        refused, reached = None, False
+        try:
+            plan = planned()
+            if plan.broken:
+                refused = plan.broken[0]
+            else:
+                trajectory = predict(plan, self.model)
+                self._last = plan
+                self._poses, reached = trajectory.poses[-1], trajectory.reached
+        except ActionError as error:
+            refused = str(error)
+        gained = (before - self.task.score(self._poses)) / max(self._first, 1.0)
+        return gained + float(reached), reached, refused
+
+    def _drawn(self) -> Task:
+        """A start and a goal at which nothing overlaps; joined objects are shifted together."""
+        if self.spread <= 0.0 and self.goal_spread <= 0.0:
+            return self._given
+        start = self._given.start
+        joined = bool(self._given.to_dict()["scene"].get("joints"))
+        for _ in range(TRIES):
+            poses = start.copy()
+            if self.spread > 0.0:
+                shift = self.np_random.uniform(-self.spread, self.spread, (len(start), 2))
+                poses[:, :2] += shift[:1] if joined else shift
+            mapping: Any = self._given.at(poses).to_dict()
+            if self.goal_spread > 0.0:
+                x, y = mapping["goal"]["position"]
+                aside = self.np_random.uniform(-self.goal_spread, self.goal_spread, 2)
+                mapping["goal"]["position"] = [float(x + aside[0]), float(y + aside[1])]
+            try:
+                # The rules of task files say what may stand where.
+                return Task.of(mapping)
+            except FileError:
+                continue
+        return self._given
+
+    def _seen(self) -> _Action:
+        x, y, heading = self._poses.T
+        goal = np.array(self.task.goal_position)
+        place = self._poses[self.task.objects.index(self.task.goal_object), :2]
+        objects = np.stack([x, y, np.cos(heading), np.sin(heading)], axis=1)
+        return np.concatenate([objects.ravel(), goal, goal - place]).astype(np.float32)
+
+    def _info(self, refused: str | None) -> dict[str, Any]:
+        return {"score": self.task.score(self._poses), "refused": refused}
+
+
+class PushEnv(_TableEnv):
     """One push a step, with the tools, the rules and the goal of a task.
 
     The tool comes down just before the goal's object and pushes it. An action is five numbers from
@@ -53,12 +179,11 @@ class PushEnv(gymnasium.Env[npt.NDArray[np.float32], npt.NDArray[np.float32]]):
         model: Whose physics: "planar", "3d", "prior" and so on, see ``pushplan.predict``.
         pushes: How many may be made; by default twice as many as the task allows a plan.
         spread: By how much starts are shifted along x and y at most, at random, metres.
+        goal_spread: By how much the goal is, metres.
         most_offset: The largest lateral offset, metres.
-        render_mode: ``"html"`` for the page of the last push, or ``None``.
+        render_mode: ``"rgb_array"`` for the table from above, ``"html"`` for the page of the last push, or
+            ``None``.
     """
-
-    # A frame is a push; its page plays it.
-    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["html"], "render_fps": 1}  # type: ignore[misc]
 
     def __init__(
         self,
@@ -68,34 +193,19 @@ class PushEnv(gymnasium.Env[npt.NDArray[np.float32], npt.NDArray[np.float32]]):
         model: str = "planar",
         pushes: int | None = None,
         spread: float = 0.0,
+        goal_spread: float = 0.0,
         most_offset: float = 0.06,
         render_mode: str | None = None,
     ) -> None:
-        if render_mode not in (None, "html"):
-            raise ValueError('`render_mode` is "html" or None')
-        self.task = task
         library = tools if tools is not None else ToolLibrary.shipped()
         #: The tools, in the order of the action's first number.
         self.tools = [library[name] for name in task.tools or library.names]
         # A model that does not exist is found out now, not at the first push.
         predict(Plan.of(task, self.tools[0], []), model)
-        self.model = model
         self.pushes = 2 * task.max_pushes if pushes is None else pushes
-        self.spread = spread
+        super().__init__(task, model, self.pushes, spread, goal_spread, render_mode)
         self.most_offset = most_offset
-        self.render_mode = render_mode
-        most = np.array([FAR, FAR, 1.0, 1.0] * len(task.objects) + [FAR] * 4, dtype=np.float32)
-        self.observation_space = gymnasium.spaces.Box(-most, most, dtype=np.float32)
         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (5,), np.float32)
-        self._poses = task.start
-        self._first = task.score(self._poses)
-        self._made = 0
-        self._last: Plan | None = None
-
-    @property
-    def poses(self) -> npt.NDArray[np.float64]:
-        """Where the objects are, ``[objects, 3]``: x and y in metres, heading in radians."""
-        return self._poses.copy()
 
     def action(
         self,
@@ -127,46 +237,13 @@ class PushEnv(gymnasium.Env[npt.NDArray[np.float32], npt.NDArray[np.float32]]):
             raise ValueError("the offset or the length is outside of what an action can say")
         return np.array(numbers, dtype=np.float32)
 
-    def reset(
-        self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[npt.NDArray[np.float32], dict[str, Any]]:
-        """Puts everything back to the start, or shifted by up to ``spread``."""
-        super().reset(seed=seed, options=options)
-        self._poses = self._drawn()
-        self._first = self.task.score(self._poses)
-        self._made = 0
-        self._last = None
-        return self._seen(), self._info(None)
-
-    def step(
-        self, action: npt.NDArray[np.float32]
-    ) -> tuple[npt.NDArray[np.float32], float, bool, bool, dict[str, Any]]:
+    def step(self, action: _Action) -> tuple[_Action, float, bool, bool, dict[str, Any]]:
         """Makes one push."""
-        before = self.task.score(self._poses)
-        refused, reached = None, False
-        self._made += 1
-        try:
-            plan = self._plan(action)
-            if plan.broken:
-                refused = plan.broken[0]
-            else:
-                self._last = plan
-                trajectory = predict(plan, self.model)
-                self._poses, reached = trajectory.poses[-1], trajectory.reached
-        except ActionError as error:
-            refused = str(error)
-        gained = (before - self.task.score(self._poses)) / max(self._first, 1.0)
-        reward = gained + float(reached) - COST
-        truncated = self._made >= self.pushes and not reached
-        return self._seen(), reward, reached, truncated, self._info(refused)
+        gained, reached, refused = self._carried_out(lambda: self._plan(action))
+        truncated = self._made >= self.steps and not reached
+        return self._seen(), gained - COST, reached, truncated, self._info(refused)
 
-    def render(self) -> Any:
-        """The page of the last push that was made, or ``None``."""
-        if self.render_mode != "html" or self._last is None:
-            return None
-        return self._last.page()
-
-    def _plan(self, action: npt.NDArray[np.float32]) -> Plan:
+    def _plan(self, action: _Action) -> Plan:
         tool, grip, half, offset, longer = (float(number) for number in np.clip(action, -1.0, 1.0))
         yaws = self.task.grip_yaws
         push = Push.before(
@@ -179,33 +256,93 @@ class PushEnv(gymnasium.Env[npt.NDArray[np.float32], npt.NDArray[np.float32]]):
         chosen = self.tools[_index(tool, len(self.tools))]
         return Plan.of(self.task.at(self._poses), chosen, [push], grip_yaw=yaw)
 
-    def _drawn(self) -> npt.NDArray[np.float64]:
-        """A start at which nothing overlaps; joined objects are shifted together."""
-        start = self.task.start
-        if self.spread <= 0.0:
-            return start
-        joined = bool(self.task.to_dict()["scene"].get("joints"))
-        for _ in range(TRIES):
-            shift = self.np_random.uniform(-self.spread, self.spread, (len(start), 2))
-            poses = start.copy()
-            poses[:, :2] += shift[:1] if joined else shift
-            try:
-                # The rules of task files say what may stand where.
-                Task.of(self.task.at(poses).to_dict())
-            except FileError:
-                continue
-            return poses
-        return start
 
-    def _seen(self) -> npt.NDArray[np.float32]:
-        x, y, heading = self._poses.T
-        goal = np.array(self.task.goal_position)
-        place = self._poses[self.task.objects.index(self.task.goal_object), :2]
-        objects = np.stack([x, y, np.cos(heading), np.sin(heading)], axis=1)
-        return np.concatenate([objects.ravel(), goal, goal - place]).astype(np.float32)
+class SteerEnv(_TableEnv):
+    """A piece of a push a step: the tool is on the table, and an action says where its end effector goes next.
 
-    def _info(self, refused: str | None) -> dict[str, Any]:
-        return {"score": self.task.score(self._poses), "refused": refused}
+    An action is two numbers from -1 to 1: by how many ``stride`` it moves along x and y, straight and at the
+    speed of the task; then everything comes to rest. Tool and grip yaw stay the same. A step that breaks a
+    rule of the task (out of reach, into an obstacle) moves nothing; ``info["refused"]`` says why.
+
+    An observation is that of :class:`PushEnv` and the end effector's x and y, metres. The reward is the share
+    of the way to the goal that a step gains, and one for reaching it, less 0.02 for each metre that the tool
+    goes.
+
+    Parameters:
+        task: What to do.
+        tool: The tool's name, or the tool; by default the first that the task has.
+        hand: Where the end effector begins, metres; by default the home of the task.
+        grip_yaw: Its turn, radians; by default the first of the task.
+        model: Whose physics: "planar", "3d", "prior" and so on, see ``pushplan.predict``.
+        stride: How far it goes in a step at most along x and y, metres.
+        steps: How many may be made.
+        spread: By how much starts are shifted along x and y at most, at random, metres.
+        goal_spread: By how much the goal is, metres.
+        render_mode: ``"rgb_array"`` for the table from above, ``"html"`` for the page of the last step, or
+            ``None``.
+    """
+
+    def __init__(
+        self,
+        task: Task,
+        *,
+        tool: Tool | str | None = None,
+        hand: tuple[float, float] | None = None,
+        grip_yaw: float | None = None,
+        model: str = "planar",
+        stride: float = 0.02,
+        steps: int = 200,
+        spread: float = 0.0,
+        goal_spread: float = 0.0,
+        render_mode: str | None = None,
+    ) -> None:
+        library = ToolLibrary.shipped()
+        named = (task.tools or library.names)[0] if tool is None else tool
+        #: What is in the hand.
+        self.tool = library[named] if isinstance(named, str) else named
+        predict(Plan.of(task, self.tool, []), model)
+        super().__init__(task, model, steps, spread, goal_spread, render_mode, more=2)
+        home: Any = task.to_dict()["robot"].get("home", (0.0, 0.0))
+        self._begin = np.array(home if hand is None else hand, float)[:2]
+        self._hand = self._begin
+        self.grip_yaw = task.grip_yaws[0] if grip_yaw is None else grip_yaw
+        self.stride = stride
+        self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (2,), np.float32)
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[_Action, dict[str, Any]]:
+        """Puts everything back, the tool too."""
+        self._hand = self._begin
+        return super().reset(seed=seed, options=options)
+
+    def step(self, action: _Action) -> tuple[_Action, float, bool, bool, dict[str, Any]]:
+        """Moves the tool a bit."""
+        way = self.stride * np.clip(np.asarray(action, float), -1.0, 1.0)
+        length = float(np.hypot(*way))
+        gained, reached, refused = 0.0, False, None
+        if length > LEAST:
+            push = Push(self._hand, math.atan2(way[1], way[0]), length)
+            now = self.task.at(self._poses)
+            gained, reached, refused = self._carried_out(
+                lambda: Plan.of(now, self.tool, [push], grip_yaw=self.grip_yaw)
+            )
+            if refused is None:
+                self._hand = self._hand + way
+        else:
+            self._made += 1
+        truncated = self._made >= self.steps and not reached
+        return self._seen(), gained - COST * length, reached, truncated, self._info(refused)
+
+    def _held(self) -> tuple[Tool, npt.NDArray[np.float64]]:
+        x, y, turn = self.tool.grip
+        heading = self.grip_yaw - turn
+        c, s = math.cos(heading), math.sin(heading)
+        at = self._hand - np.array([c * x - s * y, s * x + c * y])
+        return self.tool, np.array([*at, heading])
+
+    def _seen(self) -> _Action:
+        return np.concatenate([super()._seen(), self._hand]).astype(np.float32)
 
 
 def _index(number: float, count: int) -> int:
@@ -219,3 +356,4 @@ def _share(index: int, count: int) -> float:
 
 
 gymnasium.register(id="pushplan/Push-v0", entry_point="pushplan.env:PushEnv")
+gymnasium.register(id="pushplan/Steer-v0", entry_point="pushplan.env:SteerEnv")

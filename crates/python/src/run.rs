@@ -141,6 +141,11 @@ impl PyRun {
         json::unpickled(py, "Run", &trace)
     }
 
+    fn __eq__(&self, other: &Self) -> bool {
+        let trace = |run: &Self| serde_json::to_value(&run.0).ok();
+        trace(self) == trace(other)
+    }
+
     /// Everything, in the keys of the trace.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let trace = serde_json::to_string(&self.0);

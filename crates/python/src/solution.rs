@@ -114,12 +114,17 @@ impl PySolution {
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let Self { task, source, solution, fit } = self;
-        let kept = json!({
-            "task": task.to_json().to_string(), "source": source, "solution": solution,
-            "fit": fit,
-        });
-        json::unpickled(py, "Solution", &kept)
+        json::unpickled(py, "Solution", &self.kept())
+    }
+
+    /// How long they took does not make solutions differ.
+    fn __eq__(&self, other: &Self) -> bool {
+        let timeless = |one: &Self| {
+            let mut kept = one.kept();
+            kept["solution"]["statistics"]["timing"].take();
+            kept
+        };
+        timeless(self) == timeless(other)
     }
 
     fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
@@ -136,6 +141,15 @@ impl PySolution {
 }
 
 impl PySolution {
+    /// What pickle keeps.
+    fn kept(&self) -> serde_json::Value {
+        let Self { task, source, solution, fit } = self;
+        json!({
+            "task": task.to_json().to_string(), "source": source, "solution": solution,
+            "fit": fit,
+        })
+    }
+
     fn plan(&self, ranked: &RankedPlan) -> PyPlan {
         PyPlan::ranked((&self.task, &self.source), self.fit.as_ref(), ranked)
     }

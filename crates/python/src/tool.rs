@@ -130,6 +130,13 @@ impl PyToolLibrary {
         Ok((of, (tools,)).into_pyobject(py)?.into_any())
     }
 
+    fn __eq__(&self, other: &Self) -> bool {
+        let all = |library: &Self| -> Vec<Arc<Tool>> {
+            library.0.iter().chain(library.0.blades()).cloned().collect()
+        };
+        all(self) == all(other)
+    }
+
     /// Names of all tools, sorted.
     #[getter]
     fn names(&self) -> Vec<&str> {

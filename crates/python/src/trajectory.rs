@@ -129,13 +129,21 @@ impl PyTrajectory {
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let Self { trajectory, outcome, objects } = self;
-        let kept = json!({"trajectory": trajectory, "outcome": outcome, "objects": objects});
-        json::unpickled(py, "Trajectory", &kept)
+        json::unpickled(py, "Trajectory", &self.kept())
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        self.kept() == other.kept()
     }
 }
 
 impl PyTrajectory {
+    /// What pickle keeps.
+    fn kept(&self) -> serde_json::Value {
+        let Self { trajectory, outcome, objects } = self;
+        json!({"trajectory": trajectory, "outcome": outcome, "objects": objects})
+    }
+
     /// A trajectory on the table of `task`, judged by its goal.
     pub fn new(task: &Arc<Task>, trajectory: Trajectory) -> Self {
         let outcome = Outcome::judge(&task.scene, task, &trajectory);

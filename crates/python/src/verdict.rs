@@ -93,7 +93,12 @@ impl PyVerdict {
 
     /// Without the replays' frames, which replaying the plan gives again.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        json::unpickled(py, "Verdict", &json!({"file": self.file, "verdict": self.verdict}))
+        json::unpickled(py, "Verdict", &self.kept())
+    }
+
+    // Frames follow from the plan.
+    fn __eq__(&self, other: &Self) -> bool {
+        self.kept() == other.kept()
     }
 
     fn _repr_html_(&self) -> String {
@@ -106,6 +111,13 @@ impl PyVerdict {
 
     fn __repr__(&self) -> String {
         format!("<Verdict {}>", self.reason())
+    }
+}
+
+impl PyVerdict {
+    /// What pickle keeps.
+    fn kept(&self) -> serde_json::Value {
+        json!({"file": self.file, "verdict": self.verdict})
     }
 }
 

@@ -90,3 +90,53 @@ def test_a_moved_task_goes_on_where_it_was(root: Path, name: str) -> None:
     second = pushplan.predict(pushplan.Plan.of(now, tool, [rest], grip_yaw=yaw), "planar")
     assert np.allclose(second.poses[-1], whole.poses[-1], atol=2e-3)
     assert now.score(first.poses[-1]) == pytest.approx(first.error / task.tolerance)
+
+
+def test_goals_are_drawn_and_pictures_show_what_moved(task: pushplan.Task) -> None:
+    env = pushplan.env.PushEnv(task, goal_spread=0.03, render_mode="rgb_array")
+    goals = []
+    for seed in (1, 1, 2):
+        seen, _ = env.reset(seed=seed)
+        goals.append(env.task.goal_position)
+        assert seen[-4:-2] == pytest.approx(goals[-1]) and (env.poses == task.start).all()
+    assert goals[0] == goals[1] != goals[2]
+    assert 0.0 < np.abs(np.subtract(goals, task.goal_position)).max() <= 0.03
+    before = env.render()
+    assert before.shape == (256, 256, 3) and before.dtype == np.uint8
+    env.step(env.action("l-hook", math.pi, length=0.1))
+    after = env.render()
+    # Seen from behind the robot: x is up, and the can was pulled down.
+    wanted = np.array([205, 85, 60])
+    rows = [np.nonzero((picture == wanted).all(axis=2))[0].mean() for picture in (before, after)]
+    assert rows[1] > rows[0] + 10
+    two = pushplan.Task.example("two-places")
+    with pytest.raises(ValueError, match="one goal"):
+        pushplan.env.PushEnv(two, goal_spread=0.01)
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_push_is_steered_piece_by_piece(task: pushplan.Task) -> None:
+    check_env(gymnasium.make("pushplan/Steer-v0", task=task, hand=(0.3, -0.1)).unwrapped)
+    best = pushplan.solve(task, effort="draft").best
+    assert best is not None
+    [push] = best.pushes
+    assert push.start is not None and push.length is not None
+    env = pushplan.env.SteerEnv(task, tool=best.tool, hand=push.start, grip_yaw=best.grip_yaw)
+    env.reset()
+    way = np.array([math.cos(push.direction), math.sin(push.direction)], dtype=np.float32)
+    for made in range(20):
+        seen, _, reached, truncated, info = env.step(way)
+        assert info["refused"] is None and not truncated
+        if reached:
+            break
+    assert reached and (made + 1) * env.stride == pytest.approx(push.length, abs=0.04)
+    assert seen[-2:] == pytest.approx(np.array(push.start) + (made + 1) * env.stride * way, abs=1e-5)
+    # The whole push does the same, but for what comes to rest in between.
+    whole = pushplan.predict(best, "planar").poses[-1]
+    assert np.linalg.norm(env.poses[0, :2] - whole[0, :2]) < 0.03
+    # Out of reach nothing moves.
+    env.reset()
+    poses, away = env.poses, np.array([-1.0, 0.0], dtype=np.float32)
+    infos = [env.step(away)[-1] for _ in range(30)]
+    assert infos[-1]["refused"] is not None
+    assert np.linalg.norm(env.step(away)[0][-2:]) >= task.reach[0] - 1e-6

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import multiprocessing
 import pickle
@@ -140,6 +141,31 @@ def test_what_solving_gives_can_be_pickled(task: pushplan.Task) -> None:
     assert [again(push) for push in pushes] == pushes
     library = pushplan.ToolLibrary.shipped()
     assert again(library).names == library.names
+
+
+def test_what_is_the_same_compares_equal_and_what_is_not_does_not(task: pushplan.Task) -> None:
+    solution, other = (pushplan.solve(task, effort="draft", seed=seed) for seed in (0, 1))
+    best = solution.best
+    assert best is not None
+    push, shorter = (pushplan.Push((0.3, 0.0), 0.1, length, 0.1) for length in (0.2, 0.1))
+    missed = pushplan.Plan.of(task, "stick", [push])
+    library = pushplan.ToolLibrary.shipped()
+    for value, another in [
+        (task, pushplan.Task.example("pull-back")),
+        (best, missed),
+        (solution, other),
+        (pushplan.verify(best, disturbed=1), pushplan.verify(missed, disturbed=0)),
+        (push, shorter),
+        (pushplan.predict(best), pushplan.predict(best, "planar")),
+        (best.tool, missed.tool),
+        (library, pushplan.ToolLibrary.of([best.tool])),
+        (pushplan.run(task, 1, pushes=1), pushplan.run(task, 2, pushes=1)),
+    ]:
+        for same in (pickle.loads(pickle.dumps(value)), copy.copy(value), copy.deepcopy(value)):
+            assert value == same and not value != same
+        assert value != another and not value == another and value != "something else"
+    # Clocks apart, solving again gives the same.
+    assert pushplan.solve(task, effort="draft") == solution
 
 
 def solved_draft(task: pushplan.Task) -> str:

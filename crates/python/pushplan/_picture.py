@@ -1,0 +1,102 @@
+"""The table from above as an array of pixels, with nothing but NumPy."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Optional, Sequence, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from ._native import Task, Tool
+
+__all__ = ["Picture"]
+
+_Floats = npt.NDArray[np.float64]
+_Pose = Union[Sequence[float], _Floats]
+
+#: Pixels are drawn so much finer and averaged, for smooth edges.
+_FINER = 2
+#: Metres around what there is.
+_MARGIN = 0.12
+_PAPER, _REACH, _GOAL = (255, 255, 255), (243, 245, 247), (120, 190, 120)
+_OBSTACLE, _TOOL, _WANTED, _OTHER = (90, 90, 90), (70, 120, 200), (205, 85, 60), (225, 175, 120)
+
+
+class Picture:
+    """Pictures of a task, all of the same extent: x up and y to the left, as seen from behind the robot."""
+
+    def __init__(self, task: Task, size: int = 256) -> None:
+        mapping: Any = task.to_dict()
+        self.scene, self.names = mapping["scene"], list(task.objects)
+        self.reach, self.wanted, self.size = task.reach, self.names.index(task.goal_object), size
+        places = [*task.start[:, :2], np.array(task.goal_position), np.zeros(2)]
+        places += [np.array(thing["position"][:2]) for thing in self.scene.get("obstacles", [])]
+        low, high = np.min(places, axis=0) - _MARGIN, np.max(places, axis=0) + _MARGIN
+        middle, half = (low + high) / 2, float((high - low).max()) / 2
+        steps = (np.arange(size * _FINER) + 0.5) / (size * _FINER) * 2 * half - half
+        self.x = np.broadcast_to(middle[0] - steps[:, None], (len(steps), len(steps)))
+        self.y = np.broadcast_to(middle[1] - steps[None, :], (len(steps), len(steps)))
+
+    def of(
+        self, poses: _Floats, goal: Sequence[float], tolerance: float, tool: Optional[tuple[Tool, _Pose]] = None
+    ) -> npt.NDArray[np.uint8]:
+        """The picture ``[size, size, 3]`` with objects and, if there is one, the frame of the tool at these
+        poses: x, y and heading."""
+        pixels = np.empty((*self.x.shape, 3), np.uint8)
+        pixels[:] = _PAPER
+        out = np.hypot(self.x, self.y)
+        pixels[(out >= self.reach[0]) & (out <= self.reach[1])] = _REACH
+        # Smaller than a few pixels nobody would see it.
+        least = 6 * abs(float(self.x[0, 0] - self.x[1, 0]))
+        pixels[np.hypot(self.x - goal[0], self.y - goal[1]) <= max(tolerance, least)] = _GOAL
+        for wall in self.scene.get("obstacles", []):
+            pose = (*wall["position"][:2], math.radians(wall.get("yaw_deg", 0.0)))
+            self._fill(pixels, pose, {"cuboid": wall}, _OBSTACLE)
+        for k, pose in enumerate(poses):
+            thing = self.scene["objects"][k]
+            for part in (thing, *thing.get("parts", [])):
+                at = pose if part is thing else _placed(pose, part)
+                self._fill(pixels, at, part["shape"], _WANTED if k == self.wanted else _OTHER)
+            # Which way it is turned.
+            self._fill(pixels, _placed(pose, {"position": [0.012, 0.0]}), {"cuboid": {"size": [0.024, 0.005]}}, _PAPER)
+        if tool is not None:
+            parts: Any = tool[0].to_dict()["parts"]
+            for part in parts:
+                shape = part.get("shape") or {"cuboid": part}
+                self._fill(pixels, _placed(tool[1], part), shape, _TOOL)
+        fine = pixels.reshape(self.size, _FINER, self.size, _FINER, 3)
+        return np.asarray(fine.mean(axis=(1, 3)).round(), np.uint8)
+
+    def _fill(self, pixels: npt.NDArray[np.uint8], pose: _Pose, shape: Any, colour: Sequence[int]) -> None:
+        c, s = math.cos(pose[2]), math.sin(pose[2])
+        x = c * (self.x - pose[0]) + s * (self.y - pose[1])
+        y = c * (self.y - pose[1]) - s * (self.x - pose[0])
+        if "cylinder" in shape:
+            inside = np.hypot(x, y) <= shape["cylinder"]["radius"]
+        elif "cuboid" in shape:
+            size = shape["cuboid"]["size"]
+            inside = (np.abs(x) <= size[0] / 2) & (np.abs(y) <= size[1] / 2)
+        else:
+            corners = _about_centre(shape["prism"])
+            ahead = np.roll(corners, -1, axis=0) - corners
+            turns = [e[0] * (y - p[1]) - e[1] * (x - p[0]) for p, e in zip(corners, ahead)]
+            inside = np.all(np.array(turns) >= 0, axis=0) | np.all(np.array(turns) <= 0, axis=0)
+        pixels[inside] = colour
+
+
+def _placed(pose: _Pose, part: Any) -> tuple[float, float, float]:
+    """The pose of a part of what is at a pose."""
+    x, y = part["position"][:2]
+    c, s = math.cos(pose[2]), math.sin(pose[2])
+    return pose[0] + c * x - s * y, pose[1] + s * x + c * y, pose[2] + math.radians(part.get("yaw_deg", 0.0))
+
+
+def _about_centre(prism: Any) -> _Floats:
+    """The corners of a prism about its centre of mass, where its position is."""
+    corners = np.array(prism["corners"], float)
+    if "centre_of_mass" in prism:
+        return np.asarray(corners - np.array(prism["centre_of_mass"], float))
+    after = np.roll(corners, -1, axis=0)
+    doubled = corners[:, 0] * after[:, 1] - corners[:, 1] * after[:, 0]
+    return np.asarray(corners - ((corners + after) * doubled[:, None]).sum(0) / (3 * doubled.sum()))
