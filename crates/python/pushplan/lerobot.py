@@ -1,10 +1,11 @@
-"""Trajectories as a LeRobot data set (format v3.0), which ``lerobot``, ``datasets`` and ``pyarrow`` read.
+"""Trajectories and runs as a LeRobot data set (format v3.0), which ``lerobot``, ``datasets`` and ``pyarrow`` read.
 
     import pushplan
     from pushplan import lerobot
 
     plan = pushplan.solve(pushplan.Task.example("pull-back-behind-wall")).best
     lerobot.save("demonstrations", [(plan.task, pushplan.predict(plan, "3d"))])
+    lerobot.save("runs", [pushplan.run(pushplan.Task.example("coupled-or-not"), world) for world in range(20)])
 
 Needs ``pyarrow`` (``pip install 'pushplan[lerobot]'``). A frame holds
 
@@ -12,6 +13,9 @@ Needs ``pyarrow`` (``pip install 'pushplan[lerobot]'``). A frame holds
 - ``observation.environment_state``: the same of every object, in the order of the task;
 - ``action``: where the tool is to be at the next frame;
 - ``next.done`` and ``next.success``: whether the episode ends, and whether its goal is then reached.
+
+Of a run objects are where they were seen, and the tool is where it was told to be; what it did is one episode,
+from one push to the next, without the time in which the tool is lifted, moved and set down, or exchanged.
 
 There are no pictures. Headings count their turns.
 """
@@ -22,13 +26,14 @@ import json
 import shutil
 import tempfile
 from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Union
 
 import numpy as np
 import numpy.typing as npt
 
-from ._native import Task, Trajectory
+from ._native import Run, Task, Trajectory
 
 __all__ = ["save"]
 
@@ -41,9 +46,9 @@ _Floats = npt.NDArray[np.float64]
 
 
 def save(
-    folder: str | Path, episodes: Iterable[tuple[Task, Trajectory]], *, fps: int = 20
+    folder: str | Path, episodes: Iterable[Union[tuple[Task, Trajectory], Run]], *, fps: int = 20
 ) -> Path:
-    """Writes a new folder with an episode for every task and trajectory on its table.
+    """Writes a new folder with an episode for every task and trajectory on its table, and for every run.
 
     All tasks have objects of the same names, in the same order. ``fps`` is the number of frames a
     second; poses between those of a trajectory lie on the straight line between them. A partial data
@@ -55,41 +60,39 @@ def save(
         raise FileExistsError(f"{folder} exists; name a new folder")
     if not (isinstance(fps, int) and 1 <= fps <= 1000):
         raise ValueError("`fps` is a whole number from 1 to 1000")
-    taken = [(task, trajectory, *_frames(trajectory, fps)) for task, trajectory in episodes]
+    taken = [_of_run(one, fps) if isinstance(one, Run) else _of_trajectory(*one, fps) for one in episodes]
     if not taken:
         raise ValueError("a data set has one episode or more")
-    names = taken[0][1].objects
-    for _, trajectory, *_ in taken:
-        if trajectory.objects != names:
-            raise ValueError(
-                f"episodes of one data set have the same objects: {names} and {trajectory.objects}"
-            )
-    words = list(dict.fromkeys(_words(task) for task, *_ in taken))
+    names = taken[0].names
+    for one in taken:
+        if one.names != names:
+            raise ValueError(f"episodes of one data set have the same objects: {names} and {one.names}")
+    words = list(dict.fromkeys(one.words for one in taken))
     features = _features(names)
     columns: dict[str, list[Any]] = {name: [] for name in features}
     rows: list[dict[str, Any]] = []
     first = 0
-    for number, (task, trajectory, tool, objects) in enumerate(taken):
-        length = len(tool)
+    for number, one in enumerate(taken):
+        tool, length = one.tool, len(one.tool)
         done = np.arange(length) == length - 1
         episode: dict[str, npt.NDArray[Any]] = {
             "observation.state": tool.astype(np.float32),
-            "observation.environment_state": objects.astype(np.float32),
+            "observation.environment_state": one.objects.astype(np.float32),
             # At the end the tool stays where it is.
             "action": np.concatenate([tool[1:], tool[-1:]]).astype(np.float32),
             "next.done": done,
-            "next.success": done & trajectory.reached,
+            "next.success": done & one.reached,
             "timestamp": (np.arange(length) / fps).astype(np.float32),
             "frame_index": np.arange(length),
             "episode_index": np.full(length, number),
             "index": first + np.arange(length),
-            "task_index": np.full(length, words.index(_words(task))),
+            "task_index": np.full(length, words.index(one.words)),
         }
         for name, values in episode.items():
             columns[name].append(values)
         row: dict[str, Any] = {
             "episode_index": number,
-            "tasks": [_words(task)],
+            "tasks": [one.words],
             "length": length,
             "data/chunk_index": 0,
             "data/file_index": 0,
@@ -149,24 +152,78 @@ def _pyarrow() -> tuple[Any, Any]:
     return pyarrow.parquet, pyarrow
 
 
-def _words(task: Task) -> str:
-    """What the task is, in words."""
-    mapping: Any = task.to_dict()
-    return str(mapping.get("description") or task.name)
+@dataclass
+class _Episode:
+    """Poses of the tool ``[frames, 3]``, and of all objects ``[frames, objects * 3]``, at equal steps."""
+
+    words: str
+    names: list[str]
+    tool: _Floats
+    objects: _Floats
+    reached: bool
 
 
-def _frames(trajectory: Trajectory, fps: int) -> tuple[_Floats, _Floats]:
-    """Poses of the tool `[frames, 3]`, and of all objects `[frames, objects * 3]`, at equal steps."""
+def _of_trajectory(task: Task, trajectory: Trajectory, fps: int) -> _Episode:
     times = trajectory.times - trajectory.times[0]
-    steps = np.arange(int(np.ceil(times[-1] * fps - 1e-9)) + 1) / fps
-    poses = trajectory.poses.reshape(len(times), -1)
-
-    def at(values: _Floats) -> _Floats:
-        return np.stack([np.interp(steps, times, column) for column in values.T], axis=1)
-
+    steps = _steps(float(times[-1]), fps)
     tool = trajectory.tool_poses.copy()
     tool[:, 2] = np.unwrap(tool[:, 2])
-    return at(tool), at(poses)
+    poses = trajectory.poses.reshape(len(times), -1)
+    mapping: Any = task.to_dict()
+    return _Episode(
+        _words(mapping), trajectory.objects, _at(steps, times, tool), _at(steps, times, poses), trajectory.reached
+    )
+
+
+def _of_run(run: Run, fps: int) -> _Episode:
+    trace = run.to_dict()
+    names = [thing["name"] for thing in trace["task"]["scene"]["objects"]]
+    tools, objects = [], []
+    seen = _seen(trace["first"]["seen"]) if trace["first"] else np.full((len(names), 3), np.nan)
+    for step in trace["steps"]:
+        way = step["predicted"]
+        times = np.array([0.0] + [look["time"] for look in step["looks"]])
+        sights = np.array([seen] + [_seen(look["seen"]) for look in step["looks"]])
+        # What is not seen is where it was seen before.
+        for before, after in zip(sights, sights[1:]):
+            np.copyto(after, before, where=np.isnan(after))
+        seen = sights[-1]
+        steps = _steps(max(float(times[-1]), way[-1]["time"]), fps)
+        tool = np.array([_pose(frame["tool"]) for frame in way])
+        tools.append(_at(steps, np.array([frame["time"] for frame in way]), tool))
+        objects.append(_at(steps, times, sights.reshape(len(times), -1)))
+    if not tools:
+        raise ValueError(f"the run of `{trace['task']['name']}` made no push")
+    tool, poses = np.concatenate(tools), np.concatenate(objects).reshape(-1, len(names), 3)
+    tool[:, 2], poses[:, :, 2] = np.unwrap(tool[:, 2]), np.unwrap(poses[:, :, 2], axis=0)
+    return _Episode(_words(trace["task"]), names, tool, poses.reshape(len(poses), -1), run.reached)
+
+
+def _pose(pose: Any) -> list[float]:
+    return [*pose["position"], pose["heading"]]
+
+
+def _seen(sights: Any) -> _Floats:
+    """What is seen of every object, NaN where it is not."""
+    rows = [
+        [np.nan] * 3 if sight is None else [*sight["position"], np.nan if sight["heading"] is None else sight["heading"]]
+        for sight in sights
+    ]
+    return np.array(rows)
+
+
+def _words(mapping: Any) -> str:
+    """What a task is, in words."""
+    return str(mapping.get("description") or mapping["name"])
+
+
+def _steps(duration: float, fps: int) -> _Floats:
+    return np.arange(int(np.ceil(duration * fps - 1e-9)) + 1) / fps
+
+
+def _at(steps: _Floats, times: _Floats, values: _Floats) -> _Floats:
+    """Columns of numbers at other times, on straight lines."""
+    return np.stack([np.interp(steps, times, column) for column in values.T], axis=1)
 
 
 def _features(names: list[str]) -> dict[str, Any]:
