@@ -1,4 +1,4 @@
-"""Logs of trackers as recordings: CSV with stated columns and units.
+"""Logs of trackers as recordings: CSV with stated columns and units, and MCAP.
 
     from pushplan import logs
 
@@ -11,6 +11,13 @@
         length="mm", angle="rad",
     )
     print(pushplan.infer(recording), pushplan.fit([recording]))
+
+    recording = logs.read_mcap(
+        "bag_0.mcap",
+        scene={"objects": [box]},
+        pusher={"cylinder": {"radius": 0.005, "height": 0.05}},
+        topics={"pusher": "/tip/pose", "box": "/tf#box"},
+    )
 
 What a log cannot be is an error that says where: wrong units, times that go back, seconds that are lost,
 poses that stand still while others move on.
@@ -29,9 +36,10 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
+from . import _bags
 from ._native import Recording
 
-__all__ = ["read_csv", "write_json"]
+__all__ = ["read_csv", "read_mcap", "write_json"]
 
 _LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 0.0254}
 _TIMES = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
@@ -74,6 +82,51 @@ def read_csv(
     )
 
 
+def read_mcap(
+    path: str | Path,
+    *,
+    scene: Mapping[str, Any] | None = None,
+    pusher: Mapping[str, Any] | None = None,
+    topics: Mapping[str, str] | None = None,
+    start: float | None = None,
+    end: float | None = None,
+) -> Recording:
+    """The recording in an MCAP file: one of `pushplan export --format mcap`, which needs nothing else, or a
+    bag of ROS 2.
+
+    Of a bag ``topics`` names for the pusher and for every object where its poses are, in the frame of the
+    table: messages `PoseStamped`, `PoseWithCovarianceStamped` or `TransformStamped` of geometry_msgs, `Odometry`
+    of nav_msgs, or `TFMessage` of tf2_msgs, of which ``"/tf#box"`` takes the child frame ``box``. Times are
+    those of the pusher's stamps, from when all are seen on; between two of its poses an object is on the
+    straight line. ``scene``, ``pusher``, ``start`` and ``end`` are as in `read_csv`. Needs the package ``mcap``
+    (``pip install 'pushplan[mcap]'``). Raises `ValueError` for what a log cannot be and `FileError` for what a
+    recording cannot be.
+    """
+    path = Path(path)
+    if topics is None:
+        if scene is not None or pusher is not None:
+            raise ValueError("a bag needs `topics`, and a file of pushplan neither `scene` nor `pusher`")
+        return Recording.of(_bags.own(path))
+    if scene is None or pusher is None:
+        raise ValueError("a bag holds poses alone: state `scene` and `pusher`")
+    names = [_PUSHER, *(str(thing["name"]) for thing in scene["objects"])]
+    if set(topics) != set(names):
+        raise ValueError(f"`topics` names those of {', '.join(names)}, not of {', '.join(topics)}")
+    seen = _bags.poses_of(path, topics)
+    first, last = max(times[0] for times, _ in seen.values()), min(times[-1] for times, _ in seen.values())
+    stamps = seen[_PUSHER][0]
+    stamps = stamps[(stamps >= first) & (stamps <= last)]
+    if len(stamps) < 2:
+        raise ValueError(f"{path}: the poses of {', '.join(names)} are not of the same time")
+    bodies = {}
+    for name in names:
+        times, poses = seen[name]
+        poses = np.column_stack([poses[:, :2], np.degrees(np.unwrap(poses[:, 2]))])
+        bodies[name] = np.column_stack([np.interp(stamps, times, column) for column in poses.T])
+    times, lines = stamps - stamps[0], np.arange(1, len(stamps) + 1)
+    return Recording.of(_recorded(path, (scene, pusher), (times, lines), bodies, "m", (start, end)))
+
+
 def write_json(path: str | Path, csv_path: str | Path, **stated: Any) -> None:
     """Writes the recording of `read_csv` as a file for the command."""
     units = (stated.pop("length"), stated.pop("angle", "deg"), stated.pop("clock", "s"))
@@ -103,24 +156,37 @@ def _mapping(
     wanted = [time, *(column for name in names for column in poses[name])]
     lines, table = _columns(Path(path), wanted)
     times = table[time] * _TIMES[clock]
-    times = times - times[0]
-    _check_times(path, times, lines)
-    begin, stop = cut[0] or 0.0, math.inf if cut[1] is None else cut[1]
-    kept = (times >= begin) & (times <= stop)
-    if kept.sum() < 2:
-        raise ValueError(f"{path}: fewer than two lines from {begin} to {stop} s")
     bodies = {}
     for name in names:
         columns = poses[name]
         if len(columns) not in (2, 3):
             raise ValueError(f"the columns of `{name}` are those of x, y and perhaps heading")
-        raw = np.stack([table[column] for column in columns], axis=1)[kept]
+        raw = np.stack([table[column] for column in columns], axis=1)
         place = raw[:, :2] * _LENGTHS[length]
-        _check_length(path, name, place, length)
         if len(columns) == 3:
-            heading = _degrees(path, name, raw[:, 2], angle)
-            place = np.column_stack([place, heading])
+            place = np.column_stack([place, _degrees(path, name, raw[:, 2], angle)])
         bodies[name] = place
+    return _recorded(path, (scene, pusher), (times - times[0], lines), bodies, length, cut)
+
+
+def _recorded(
+    path: str | Path,
+    stated: tuple[Mapping[str, Any], Mapping[str, Any]],
+    clock: tuple[_Floats, npt.NDArray[np.int64]],
+    bodies: Mapping[str, _Floats],
+    length: str,
+    cut: tuple[float | None, float | None],
+) -> dict[str, Any]:
+    """A recording of poses in metres and degrees, at times with the lines that they stand in."""
+    times, lines = clock
+    _check_times(path, times, lines)
+    begin, stop = cut[0] or 0.0, math.inf if cut[1] is None else cut[1]
+    kept = (times >= begin) & (times <= stop)
+    if kept.sum() < 2:
+        raise ValueError(f"{path}: fewer than two lines from {begin} to {stop} s")
+    bodies = {name: place[kept] for name, place in bodies.items()}
+    for name, place in bodies.items():
+        _check_length(path, name, place[:, :2], length)
     times, lines = times[kept], lines[kept]
     _check_gaps(path, times, lines, bodies)
     _check_stale(path, times, lines, bodies)
@@ -130,13 +196,12 @@ def _mapping(
             f"{path}: nothing moves by more than {1e3 * moved:.3f} mm: is `{length}` the unit of "
             "length?"
         )
+    objects = [place for name, place in bodies.items() if name != _PUSHER]
     frames = [
-        {
-            "pusher": bodies[_PUSHER][k].tolist(),
-            "objects": [bodies[name][k].tolist() for name in names[1:]],
-        }
+        {"pusher": bodies[_PUSHER][k].tolist(), "objects": [place[k].tolist() for place in objects]}
         for k in range(len(times))
     ]
+    scene, pusher = stated
     return {
         "schema_version": 1,
         "kind": "recording",

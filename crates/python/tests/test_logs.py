@@ -103,3 +103,94 @@ def test_stale_poses_and_small_angles_are_said(tmp_path: Path) -> None:
     small = set_at(5, lambda k, yaw: 0.002 * k)
     with pytest.warns(UserWarning, match="are they radians"):
         logs.read_csv(written(tmp_path / "log.csv", small), **{**STATED, "angle": "deg"})
+
+
+def bag(path: Path, table: list[Row], late: float = 0.0) -> Path:
+    """The same as rosbag2 writes it, by somebody else's code: the box turned in space by a quaternion, and
+    its stamps `late`."""
+    support = pytest.importorskip("mcap_ros2.writer")
+    stamp = "int32 sec\nuint32 nanosec\n"
+    header = "builtin_interfaces/Time stamp\nstring frame_id\n"
+    line = "=" * 80 + "\n"
+    vector = "float64 x\nfloat64 y\nfloat64 z\n"
+    shared = (
+        f"{line}MSG: std_msgs/Header\n{header}{line}MSG: builtin_interfaces/Time\n{stamp}"
+        f"{line}MSG: geometry_msgs/Quaternion\n{vector}float64 w\n"
+    )
+    pose = (
+        f"std_msgs/Header header\ngeometry_msgs/Pose pose\n{line}MSG: geometry_msgs/Pose\n"
+        f"geometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n"
+        f"{line}MSG: geometry_msgs/Point\n{vector}{shared}"
+    )
+    tf = (
+        f"geometry_msgs/TransformStamped[] transforms\n{line}MSG: geometry_msgs/TransformStamped\n"
+        "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n"
+        f"{line}MSG: geometry_msgs/Transform\ngeometry_msgs/Vector3 translation\n"
+        f"geometry_msgs/Quaternion rotation\n{line}MSG: geometry_msgs/Vector3\n{vector}{shared}"
+    )
+
+    def head(time: float) -> Any:
+        nanos = round(1e9 * (100.0 + time))
+        return {"stamp": {"sec": nanos // 10**9, "nanosec": nanos % 10**9}, "frame_id": "table"}
+
+    with path.open("wb") as file:
+        writer = support.Writer(file)
+        poses = writer.register_msgdef("geometry_msgs/msg/PoseStamped", pose)
+        frames = writer.register_msgdef("tf2_msgs/msg/TFMessage", tf)
+        for time, tip_x, tip_y, x, y, yaw in table:
+            nanos = round(1e9 * (100.0 + time))
+            still = {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0}
+            at = {"x": tip_x / 1e3, "y": tip_y / 1e3, "z": 0.1}
+            message = {"header": head(time), "pose": {"position": at, "orientation": still}}
+            writer.write_message("/tip/pose", poses, message, log_time=nanos, publish_time=nanos)
+            turn = {"x": 0.0, "y": 0.0, "z": math.sin(yaw / 2), "w": math.cos(yaw / 2)}
+            transforms = [
+                {"header": head(time + late), "child_frame_id": child, "transform": {"translation": at, "rotation": turn}}
+                for child, at in [("camera", {"x": 9.0, "y": 9.0, "z": 9.0}), ("box", {"x": x / 1e3, "y": y / 1e3, "z": 0.01})]
+            ]
+            writer.write_message("/tf", frames, {"transforms": transforms}, log_time=nanos, publish_time=nanos)
+        writer.finish()
+    return path
+
+
+ROS: dict[str, Any] = {
+    "scene": STATED["scene"], "pusher": STATED["pusher"], "topics": {"box": "/tf#box", "pusher": "/tip/pose"},
+}
+
+
+def test_a_bag_of_ros_is_the_same_recording(tmp_path: Path) -> None:
+    wanted = logs.read_csv(written(tmp_path / "log.csv", rows()), **STATED)
+    found = logs.read_mcap(bag(tmp_path / "log.mcap", rows()), **ROS)
+    assert (found.name, found.objects) == ("log", ["box"])
+    assert found.times == pytest.approx(wanted.times, abs=1e-6)
+    assert found.poses == pytest.approx(wanted.poses, abs=1e-6)
+    # Stamps that are off by half a step are where they belong in time.
+    late = logs.read_mcap(bag(tmp_path / "late.mcap", rows(), late=0.01), **ROS)
+    assert len(late) == len(wanted) - 1
+    assert late.poses[:, 0, 0] == pytest.approx(np.maximum(0.1, late.poses[:, 0, 0]))
+    assert late.poses[-1, 0, 0] == pytest.approx((wanted.poses[-2, 0, 0] + wanted.poses[-1, 0, 0]) / 2, abs=1e-6)
+    part = logs.read_mcap(tmp_path / "log.mcap", **ROS, end=1.0)
+    assert len(part) == 51
+    with pytest.raises(ValueError, match=r"/tf \(tf2_msgs/msg/TFMessage\)"):
+        logs.read_mcap(tmp_path / "log.mcap", **{**ROS, "topics": {"box": "/tf#bottle", "pusher": "/tip/pose"}})
+    with pytest.raises(ValueError, match="names those of pusher, box"):
+        logs.read_mcap(tmp_path / "log.mcap", **{**ROS, "topics": {"box": "/tf#box"}})
+    with pytest.raises(ValueError, match="no plan of pushplan"):
+        logs.read_mcap(tmp_path / "log.mcap")
+
+
+def test_an_exported_plan_is_read_back(tmp_path: Path) -> None:
+    pytest.importorskip("mcap")
+    task = pushplan.Task.example("pull-back-twice")
+    plan = pushplan.solve(task, effort="draft").best
+    assert plan is not None and len(plan.pushes) == 2
+    predicted = pushplan.predict(plan, "planar")
+    pushplan.export_mcap(plan, tmp_path / "plan.mcap", trajectory=predicted)
+    recording = logs.read_mcap(tmp_path / "plan.mcap")
+    assert recording.objects == predicted.objects
+    assert recording.times == pytest.approx(predicted.times, abs=1e-9)
+    assert recording.poses == pytest.approx(predicted.poses, abs=1e-9)
+    # Whoever predicts it again finds what the file says.
+    (tmp_path / "bad.mcap").write_bytes(b"no such thing")
+    with pytest.raises(Exception, match="(?i)mcap|magic"):
+        logs.read_mcap(tmp_path / "bad.mcap")
