@@ -1,7 +1,8 @@
 """A node of ROS 2 that plans and carries out: ``python -m pushplan.ros TASK``.
 
 Needs `rclpy` and messages: those of a ROS 2 that is installed, or ``pip install 'pushplan[ros]'`` (CPython
-3.11). Standard messages only, so that nothing has to be built:
+3.11). Standard messages only, so that nothing has to be built; where there are types of the action `Push`
+(``python -m pushplan.ros_types FOLDER``), the node has that action, too:
 
 ==================  ============================  ====================================================
 ``~/pose/OBJECT``   geometry_msgs/PoseStamped     in: where an object is, in the table's frame, its
@@ -11,6 +12,9 @@ Needs `rclpy` and messages: those of a ROS 2 that is installed, or ``pip install
 ``~/run``           std_srvs/Trigger              looks, plans, sends, waits, and again until the goal is
                                                   reached; answers at once whether it has begun
 ``~/cancel``        std_srvs/Trigger              stops what is going on, and the robot
+``~/push``          pushplan_interfaces/Push      an action: what ``~/run`` does, with feedback, cancel and
+                                                  result, and for a task of the client's with the same
+                                                  objects
 ``~/feedback``      std_msgs/String               out: JSON with ``state`` and what belongs to it
 ``~/path``          nav_msgs/Path                 out: the way of the end effector in what is to be
                                                   done now, two poses for each push
@@ -67,6 +71,8 @@ class Node:
         self._answer: Optional[str] = None
         self._cancelled = threading.Event()
         self._worker: Optional[threading.Thread] = None
+        self._one = threading.Lock()
+        self._goal: Any = None
         group = ros["ReentrantCallbackGroup"]()
         for thing in task.objects:
             topic = "~/pose/" + re.sub(r"\W", "_", thing)
@@ -81,6 +87,11 @@ class Node:
         self.trajectory = self.node.create_publisher(ros["JointTrajectory"], "~/trajectory", 10)
         for service, answer in [("solve", self._solve), ("run", self._run), ("cancel", self._cancel)]:
             self.node.create_service(ros["Trigger"], f"~/{service}", answer, callback_group=group)
+        if ros["Push"] is not None:
+            self.action = ros["ActionServer"](
+                self.node, ros["Push"], "~/push", self._pursue, callback_group=group,
+                goal_callback=self._may_begin, cancel_callback=self._may_cancel,
+            )
 
     def spin(self) -> None:
         """Answers until the context is shut down."""
@@ -102,7 +113,8 @@ class Node:
         heading = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
         pose = np.array([at.x, at.y, heading])
         if not np.isfinite(pose).all():
-            return self._say("ignored", what=f"a pose of {thing} that is not finite")
+            self._say("ignored", what=f"a pose of {thing} that is not finite")
+            return
         with self._changed:
             self._seen[thing] = (time.monotonic(), pose)
             self._changed.notify_all()
@@ -115,10 +127,10 @@ class Node:
     # Services.
 
     def _solve(self, _: Any, answer: Any) -> Any:
-        if self._busy():
+        if self._one.locked():
             return _answer(answer, False, {"error": "a run is going on; cancel it first"})
         try:
-            solution = self._planned(self._look(time.monotonic() - FRESH))
+            solution = self._planned(self._look(self.task, time.monotonic() - FRESH))
         except (Stopped, ValueError, RuntimeError) as error:
             return _answer(answer, False, {"error": str(error)})
         best = solution.best
@@ -127,36 +139,82 @@ class Node:
         })
 
     def _run(self, _: Any, answer: Any) -> Any:
-        if self._busy():
+        if not self._one.acquire(blocking=False):
             return _answer(answer, False, {"error": "a run is going on already"})
         self._cancelled.clear()
-        self._worker = threading.Thread(target=self._runs, daemon=True)
+        self._worker = threading.Thread(target=self._runs, args=(self.task,), daemon=True)
         self._worker.start()
         return _answer(answer, True, {"state": "begun"})
 
     def _cancel(self, _: Any, answer: Any) -> Any:
-        going = self._busy()
+        return _answer(answer, True, {"cancelled": self._stop()})
+
+    def _stop(self) -> bool:
+        """Stops what is going on, and the robot; says whether anything was."""
+        going = self._one.locked()
         self._cancelled.set()
         # A controller stops at a trajectory without points.
         self.trajectory.publish(self.ros["JointTrajectory"]())
         with self._changed:
             self._changed.notify_all()
-        return _answer(answer, True, {"cancelled": going})
+        return going
+
+    # The action.
+
+    def _may_begin(self, goal: Any) -> Any:
+        answers = self.ros["GoalResponse"]
+        try:
+            self._task_of(goal)
+        except ValueError as error:
+            self._say("refused", why=str(error))
+            return answers.REJECT
+        # Held until the goal has its end.
+        if not self._one.acquire(blocking=False):
+            return answers.REJECT
+        self._cancelled.clear()
+        return answers.ACCEPT
+
+    def _may_cancel(self, _: Any) -> Any:
+        self._stop()
+        return self.ros["CancelResponse"].ACCEPT
+
+    def _pursue(self, goal: Any) -> Any:
+        self._goal = goal
+        last = self._runs(self._task_of(goal.request))
+        if last["state"] == "cancelled" and goal.is_cancel_requested:
+            goal.canceled()
+        elif last["state"] == "ended":
+            goal.succeed()
+        else:
+            goal.abort()
+        return self.ros["Push"].Result(reached=bool(last.get("reached")), report=json.dumps(last))
+
+    def _task_of(self, goal: Any) -> _native.Task:
+        if not goal.task:
+            return self.task
+        task = _native.Task.parse(goal.task)
+        if task.objects != self.task.objects:
+            raise ValueError(f"the node sees {', '.join(self.task.objects)}, the task has {', '.join(task.objects)}")
+        return task
 
     # The run.
 
-    def _runs(self) -> None:
+    def _runs(self, task: _native.Task) -> dict[str, Any]:
+        """Runs to the end; what was said of it."""
         try:
-            self._say("ended", **self._run_through())
+            return self._say("ended", **self._run_through(task))
         except Stopped as stop:
-            self._say("cancelled" if self._cancelled.is_set() else "failed", why=str(stop))
+            return self._say("cancelled" if self._cancelled.is_set() else "failed", why=str(stop))
         except Exception as error:  # noqa: BLE001 - whoever waits for the end must hear of it
-            self._say("failed", why=f"{type(error).__name__}: {error}")
+            return self._say("failed", why=f"{type(error).__name__}: {error}")
+        finally:
+            self._goal = None
+            self._one.release()
 
-    def _run_through(self) -> dict[str, Any]:
+    def _run_through(self, given: _native.Task) -> dict[str, Any]:
         since = time.monotonic() - FRESH
         for tried in range(self.tries + 1):
-            task = self._look(since)
+            task = self._look(given, since)
             score = task.score(np.array(task.start))
             self._say("looked", tried=tried, score=score)
             if score <= 1.0:
@@ -172,17 +230,17 @@ class Node:
             since = time.monotonic()
         return {"reached": False, "plans": self.tries, "why": "as often tried as allowed"}
 
-    def _look(self, since: float) -> _native.Task:
-        """The task with its objects where they have been seen after this moment."""
+    def _look(self, task: _native.Task, since: float) -> _native.Task:
+        """A task with its objects where they have been seen after this moment."""
         until = time.monotonic() + PATIENCE
         with self._changed:
             while True:
                 missing = [
-                    thing for thing in self.task.objects
+                    thing for thing in task.objects
                     if thing not in self._seen or self._seen[thing][0] < since
                 ]
                 if not missing:
-                    return self.task.at(np.array([self._seen[thing][1] for thing in self.task.objects]))
+                    return task.at(np.array([self._seen[thing][1] for thing in task.objects]))
                 self._go_on()
                 if time.monotonic() > until:
                     raise Stopped(f"no pose of {', '.join(missing)} within {PATIENCE:.0f} s")
@@ -213,16 +271,18 @@ class Node:
                 raise Stopped(f"the robot: {self._answer}")
 
     def _go_on(self) -> None:
-        if self._cancelled.is_set() and self._busy():
+        if self._cancelled.is_set() and self._one.locked():
             raise Stopped("cancelled")
-
-    def _busy(self) -> bool:
-        return self._worker is not None and self._worker.is_alive()
 
     # What goes out.
 
-    def _say(self, state: str, **more: Any) -> None:
-        self.feedback.publish(self.ros["String"](data=json.dumps({"state": state, **more})))
+    def _say(self, state: str, **more: Any) -> dict[str, Any]:
+        said = {"state": state, **more}
+        self.feedback.publish(self.ros["String"](data=json.dumps(said)))
+        goal = self._goal
+        if goal is not None:
+            goal.publish_feedback(self.ros["Push"].Feedback(state=state, report=json.dumps(more)))
+        return said
 
     def _path_of(self, plan: _native.Plan) -> Any:
         path = self.ros["Path"]()
@@ -264,6 +324,7 @@ def _ros() -> dict[str, Any]:
     try:
         from geometry_msgs.msg import PoseStamped  # type: ignore[import-not-found,import-untyped,unused-ignore]
         from nav_msgs.msg import Path  # type: ignore[import-not-found,import-untyped,unused-ignore]
+        from rclpy.action import ActionServer, CancelResponse, GoalResponse  # type: ignore[import-not-found,import-untyped,unused-ignore]
         from rclpy.callback_groups import ReentrantCallbackGroup  # type: ignore[import-not-found,import-untyped,unused-ignore]
         from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor  # type: ignore[import-not-found,import-untyped,unused-ignore]
         from rclpy.node import Node as RosNode  # type: ignore[import-not-found,import-untyped,unused-ignore]
@@ -272,6 +333,10 @@ def _ros() -> dict[str, Any]:
         from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint  # type: ignore[import-not-found,import-untyped,unused-ignore]
     except ImportError as error:
         raise ImportError("a node needs ROS 2: source it, or pip install 'pushplan[ros]'") from error
+    try:
+        from pushplan_interfaces.action import Push  # type: ignore[import-not-found,import-untyped,unused-ignore]
+    except ImportError:
+        Push = None
     names = locals()
     return {("Node" if name == "RosNode" else name): thing for name, thing in names.items()}
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import sys
 import threading
 import time
 from typing import Any, Callable, Iterator
@@ -158,5 +159,90 @@ def test_a_run_is_cancelled_and_either_side_starts_again(context: None) -> None:
     robot.poses = np.array(robot.task.start)
     assert robot.call("run")["success"]
     assert robot.state("ended", "failed").get("reached"), robot.states
+    node.stop()
+    turning.stop()
+
+
+@pytest.fixture(scope="module")
+def types(tmp_path_factory: pytest.TempPathFactory) -> Any:
+    """The action `Push`, whose types are generated and compiled here."""
+    for module in ("rosidl_adapter.action", "rosidl_generator_c", "catkin_pkg", "em"):
+        pytest.importorskip(module)
+    from pushplan import ros_types
+
+    sys.path.insert(0, str(ros_types.build(tmp_path_factory.mktemp("types"))))
+    from pushplan_interfaces.action import Push  # type: ignore[import-not-found,unused-ignore]
+
+    return Push
+
+
+class Client:
+    """Asks for what a task says, as a client of the action."""
+
+    def __init__(self, node: Any, kind: Any) -> None:
+        from rclpy.action import ActionClient  # type: ignore[import-not-found,unused-ignore]
+
+        self.kind, self.said = kind, []
+        self.client = ActionClient(node, kind, "/pushplan/push")
+
+    def asks(self, task: str = "") -> Any:
+        assert self.client.wait_for_server(timeout_sec=20)
+        self.said = []
+        asked = self.client.send_goal_async(
+            self.kind.Goal(task=task), feedback_callback=lambda message: self.said.append(message.feedback.state)
+        )
+        wait(asked.done, 60)
+        return asked.result()
+
+    @staticmethod
+    def ends(goal: Any) -> tuple[str, dict[str, Any]]:
+        from action_msgs.msg import GoalStatus  # type: ignore[import-not-found,unused-ignore]
+
+        result = goal.get_result_async()
+        wait(result.done, 60)
+        names = {GoalStatus.STATUS_SUCCEEDED: "succeeded", GoalStatus.STATUS_CANCELED: "cancelled"}
+        found = result.result()
+        return names.get(found.status, "aborted"), {**json.loads(found.result.report), "reached": found.result.reached}
+
+
+def test_a_goal_has_feedback_a_result_and_is_cancelled(types: Any, context: None) -> None:
+    _, node, robot, turning = started()
+    client = Client(robot.node, types)
+    goal = client.asks()
+    assert goal.accepted
+    status, report = client.ends(goal)
+    assert status == "succeeded" and report["reached"] and report["state"] == "ended", report
+    assert client.said[0] == "looked" and client.said[-1] == "ended" and {"planned", "sent"} <= set(client.said)
+    assert np.linalg.norm(robot.poses[0, :2] - [0.55, 0.1]) <= 0.02
+    # Another goal for the same can, and one for what the node does not see.
+    further: Any = json.loads(json.dumps(TASK))
+    further["goal"]["position"] = [0.55, 0.2]
+    status, report = client.ends(client.asks(json.dumps(further)))
+    assert status == "succeeded" and report["reached"], report
+    assert np.linalg.norm(robot.poses[0, :2] - [0.55, 0.2]) <= 0.02
+    further["scene"]["objects"][0]["name"] = further["goal"]["object"] = "cup"
+    assert not client.asks(json.dumps(further)).accepted
+    assert not client.asks("no task").accepted
+    # The robot does not answer: the goal is cancelled, and nothing else begins meanwhile.
+    robot.stuck, robot.poses = True, np.array(robot.task.start)
+    time.sleep(0.3)
+    goal = client.asks()
+    wait(lambda: "sent" in client.said, 60)
+    assert not client.asks().accepted and not robot.call("run")["success"]
+    stops = robot.stops
+    goal.cancel_goal_async()
+    assert client.ends(goal)[0] == "cancelled"
+    wait(lambda: robot.stops > stops, 10)
+    # Either side starts again.
+    robot.stuck = False
+    node.stop()
+    node = Turning(ros.Node(robot.task, effort="draft").node)
+    status, report = client.ends(client.asks())
+    assert status == "succeeded" and report["reached"], report
+    turning.stop()
+    robot = Robot(robot.task)
+    turning = Turning(robot.node)
+    status, report = Client.ends(Client(robot.node, types).asks())
+    assert status == "succeeded" and report["reached"], report
     node.stop()
     turning.stop()
