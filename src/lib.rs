@@ -144,5 +144,7 @@ pub use scene::{
     State, Step, TableFit, Task, Tool, ToolMotion, Trajectory, Truth, Unknowns, Verdict, Warning,
 };
 pub use sim::Simulator;
-pub use solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
+pub use solve::{
+    Design, DesignSettings, Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError,
+};
 pub use verify::Verifier;

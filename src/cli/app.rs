@@ -8,7 +8,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 #[cfg(feature = "formats")]
 use super::import;
 use super::{
-    bench, check, completions,
+    bench, check, completions, design,
     error::CliError,
     exit_code, export, fit,
     groups::{Groups, grouped},
@@ -35,6 +35,7 @@ enum Command {
     Run(super::run::RunArgs),
     Verify(verify::VerifyArgs),
     Predict(predict::PredictArgs),
+    Design(design::DesignArgs),
     Check(check::CheckArgs),
     #[cfg(feature = "formats")]
     Import(import::ImportArgs),
@@ -48,7 +49,7 @@ enum Command {
 
 /// What the commands are for, in the order of `--help`.
 const GROUPS: Groups = &[
-    ("Plan and carry out", &["new", "solve", "run", "verify", "predict"]),
+    ("Plan and carry out", &["new", "solve", "run", "verify", "predict", "design"]),
     ("Files", &["check", "import", "export"]),
     ("Learn from what was recorded", &["fit", "infer"]),
     ("Measure", &["bench"]),
@@ -105,6 +106,7 @@ fn execute(cli: &Cli, session: &Session) -> Result<u8, CliError> {
         Command::Run(args) => super::run::run(args, session),
         Command::Verify(args) => verify::run(args, session),
         Command::Predict(args) => predict::run(args, session),
+        Command::Design(args) => design::run(args, session),
         Command::Export(args) => export::run(args, session),
         #[cfg(feature = "formats")]
         Command::Import(args) => import::run(args, session),

@@ -7,6 +7,7 @@ pub mod app;
 pub mod bench;
 pub mod check;
 pub mod completions;
+pub mod design;
 pub mod error;
 pub mod exit_code;
 pub mod export;

@@ -1,12 +1,12 @@
 //! `pushplan solve`: from a task file to a verified plan with a picture and a page.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
 
 use crate::asset::PlanFile;
-use crate::report::{PageView, TaskSource, plan_figures, solution_document, solution_page};
+use crate::report::{Origin, PageView, plan_figures, solution_document, solution_page};
 use crate::scene::{Models, Situation, Task};
 use crate::solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
 
@@ -105,16 +105,17 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     for warning in &solution.warnings {
         session.warn(&warning.to_string());
     }
-    let (code, suffix) = match solution.status {
-        PlanStatus::Solved => (exit_code::DONE, ""),
-        PlanStatus::Fragile => (exit_code::FRAGILE, ".fragile"),
-        PlanStatus::Partial => (exit_code::PARTIAL, ".partial"),
-        PlanStatus::NoPlan => (exit_code::NO_PLAN, ".nearest"),
-        PlanStatus::FailedVerification => (exit_code::FAILED_VERIFICATION, ".failed"),
-    };
+    let (code, suffix) = ending(solution.status);
     let written = match solution.best() {
         Some(best) => {
-            write(args, session, (&task, args.task.source()), &planner, (&solution, best), suffix)
+            let results = Results {
+                out: &args.out,
+                name: format!("{}{suffix}", task.name),
+                page: args.page,
+                animate: args.animate,
+                origin: &|model| args.library.origin(args.task.source(), model),
+            };
+            results.write(session, &task, &planner, (&solution, best))
         }
         None => Ok(Vec::new()),
     };
@@ -154,41 +155,67 @@ pub fn solve_error(error: SolveError) -> CliError {
     }
 }
 
-/// The plan file, the pictures and the page of a task that was read from `source`.
-///
-/// # Errors
-/// Results that cannot be written.
-fn write(
-    args: &SolveArgs,
-    session: &Session,
-    (task, source): (&Task, TaskSource),
-    planner: &Planner,
-    (solution, best): (&Solution, &RankedPlan),
-    suffix: &str,
-) -> Result<Vec<PathBuf>, CliError> {
-    let situation = Situation::stated(&task.scene);
-    let replays = session.compute(|| best.replays(task, &situation));
-    let name = format!("{}{suffix}", task.name);
-    let path = args.out.join(format!("{name}.plan.json"));
-    let file = PlanFile {
-        task: task.clone(),
-        tools: best.tools.clone(),
-        plan: best.plan.clone(),
-        model: Some(best.predicted.by.clone()),
-        fit: planner.fit().cloned(),
-        predicted: Some(best.outcome.clone()),
-        verdict: best.verdict.clone(),
-        joints: best.joints.clone(),
-    };
-    file.write(&path).map_err(CliError::Output)?;
-    let mut written = vec![path];
-    let figures = plan_figures(task, best, &replays, &name, args.animate);
-    written.extend(output::write_figures(&args.out, &figures)?);
-    let recipe = |ranked: &RankedPlan| {
-        let model = Some(ranked.predicted.by.clone().into());
-        args.library.origin(source.clone(), model).plan(&ranked.plan)
-    };
-    let page = solution_page(task, solution, &replays, &recipe, args.page);
-    written.push(output::write(&args.out, &format!("{name}.html"), page.as_bytes())?);
-    Ok(written)
+/// The exit code of a status, and what the names of its files end in.
+pub fn ending(status: PlanStatus) -> (u8, &'static str) {
+    match status {
+        PlanStatus::Solved => (exit_code::DONE, ""),
+        PlanStatus::Fragile => (exit_code::FRAGILE, ".fragile"),
+        PlanStatus::Partial => (exit_code::PARTIAL, ".partial"),
+        PlanStatus::NoPlan => (exit_code::NO_PLAN, ".nearest"),
+        PlanStatus::FailedVerification => (exit_code::FAILED_VERIFICATION, ".failed"),
+    }
+}
+
+/// What is written of a solution, and where.
+pub struct Results<'a> {
+    /// The folder.
+    pub out: &'a Path,
+    /// What the files are called.
+    pub name: String,
+    /// What the page shows.
+    pub page: PageView,
+    /// Whether a moving picture is drawn, too.
+    pub animate: bool,
+    /// From what plans of a model are made.
+    pub origin: &'a dyn Fn(Option<Models>) -> Origin,
+}
+
+impl Results<'_> {
+    /// Writes the plan file, the pictures and the page.
+    ///
+    /// # Errors
+    /// Results that cannot be written.
+    pub fn write(
+        &self,
+        session: &Session,
+        task: &Task,
+        planner: &Planner,
+        (solution, best): (&Solution, &RankedPlan),
+    ) -> Result<Vec<PathBuf>, CliError> {
+        let Self { out, name, .. } = self;
+        let situation = Situation::stated(&task.scene);
+        let replays = session.compute(|| best.replays(task, &situation));
+        let path = out.join(format!("{name}.plan.json"));
+        let file = PlanFile {
+            task: task.clone(),
+            tools: best.tools.clone(),
+            plan: best.plan.clone(),
+            model: Some(best.predicted.by.clone()),
+            fit: planner.fit().cloned(),
+            predicted: Some(best.outcome.clone()),
+            verdict: best.verdict.clone(),
+            joints: best.joints.clone(),
+        };
+        file.write(&path).map_err(CliError::Output)?;
+        let mut written = vec![path];
+        let figures = plan_figures(task, best, &replays, name, self.animate);
+        written.extend(output::write_figures(out, &figures)?);
+        let recipe = |ranked: &RankedPlan| {
+            let model = Some(ranked.predicted.by.clone().into());
+            (self.origin)(model).plan(&ranked.plan)
+        };
+        let page = solution_page(task, solution, &replays, &recipe, self.page);
+        written.push(output::write(out, &format!("{name}.html"), page.as_bytes())?);
+        Ok(written)
+    }
 }

@@ -35,13 +35,14 @@ pub use evaluate::{Evaluation, evaluate};
 pub use field::Field;
 pub use found::{Found, kinds};
 pub use infeasible::Infeasible;
-pub use preference::{Cost, in_order, preferred};
+pub use preference::{Cost, NEAR, in_order, preferred};
 pub use qp::{QpProblem, QpSolution, QpSolver, QpStatus};
 pub use refine::{FOUND_RADIUS, RefineSettings, Refined, refine};
 pub use rollouts::Rollouts;
 pub use score::{bare, behind, is_behind};
 pub use scored::ScoredPush;
 pub use search::{Search, SearchSettings};
+pub use spread::Spread;
 pub use statistics::{RefineStatistics, SearchStatistics};
 pub use workspace::{
     MIN_LENGTH, Margins, OBSTACLE_CLEARANCE, SET_DOWN_CLEARANCE, STAND_OFF, Workspace,

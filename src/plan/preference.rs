@@ -14,7 +14,7 @@ use super::{Evaluation, Refined, Workspace};
 
 /// Predictions within this share of the tolerance are equally near: a quarter, where half is still well
 /// inside in another engine.
-const NEAR: f64 = 0.25;
+pub const NEAR: f64 = 0.25;
 
 /// What is moved by so much is counted, metres: less is what models differ by.
 const COUNTED: f64 = 0.01;

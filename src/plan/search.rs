@@ -81,13 +81,23 @@ pub struct Search<'a> {
 impl<'a> Search<'a> {
     /// Prepares a search; rolls nothing out.
     pub fn new(workspace: Workspace<'a>, situation: &Situation, settings: SearchSettings) -> Self {
+        let laid = (Field::new(workspace.task), Spread::around(situation));
+        Self::laid(workspace, situation, settings, laid)
+    }
+
+    /// The same with the task's field and the situation's spread, which serve many searches.
+    pub fn laid(
+        workspace: Workspace<'a>,
+        situation: &Situation,
+        settings: SearchSettings,
+        laid: (Field<'a>, Spread),
+    ) -> Self {
         let yaws = &workspace.task.pushes.grip_yaws;
         let grips = (0..workspace.tools.len())
             .flat_map(|tool| yaws.iter().map(move |&yaw| (tool, yaw)))
             .collect();
-        let (field, spread) = (Field::new(workspace.task), Spread::around(situation));
         let grips = Grips { all: grips, changes: None };
-        Self::from_start(workspace, situation, settings, (field, spread), grips)
+        Self::from_start(workspace, situation, settings, laid, grips)
     }
 
     /// The same search from its start for plans that may take another tool, and hold it otherwise, before

@@ -11,7 +11,10 @@ use rand_pcg::Pcg64;
 
 use crate::effect::Job;
 use crate::geometry::{Pose, Vector, wrap_angle};
-use crate::scene::{Physics, Scene, Situation, State, Tool, ToolMotion};
+use crate::scene::{Physics, Record, Scene, Situation, State, Tool, ToolMotion};
+
+use super::score::final_score;
+use super::{Evaluation, Rollouts, Workspace};
 
 /// Rollouts with errors for every state. The largest of six is about the 85th percentile.
 const DRAWS: usize = 6;
@@ -27,7 +30,7 @@ const MOST: f64 = 0.03;
 
 /// Possible differences from what is believed: the same draws for a whole search.
 #[derive(Clone, Debug)]
-pub(super) struct Spread {
+pub struct Spread {
     physics: Vec<Arc<Physics>>,
     /// Relative changes of the tools' friction.
     tools: Vec<f64>,
@@ -74,6 +77,17 @@ impl Spread {
     /// The states at the start.
     pub fn starts(&self) -> &[State] {
         &self.starts
+    }
+
+    /// Score of a candidate in the draw in which it ends farthest from the goal.
+    pub fn worst(&self, workspace: &Workspace, rollouts: &mut Rollouts, one: &Evaluation) -> f64 {
+        let motions = one.motions(workspace);
+        let each: Vec<Vec<Job>> =
+            motions.iter().map(|motion| self.jobs(motion, &self.starts)).collect();
+        let of = |draw: usize| each.iter().map(|jobs| jobs[draw].clone()).collect();
+        let sequences: Vec<Vec<Job>> = (0..self.starts.len()).map(of).collect();
+        let ends = rollouts.in_turn(&sequences, Record::Outcome);
+        ends.iter().map(|end| final_score(workspace.task, end)).fold(one.score, f64::max)
     }
 
     /// `motion` from each of `states`, which come from the draws in order.

@@ -12,6 +12,7 @@ mod asked;
 mod cause;
 mod change;
 mod check;
+mod design;
 mod efforts;
 mod error;
 mod grade;
@@ -31,6 +32,7 @@ mod widen;
 
 pub use asked::{ActionError, Asked, AskedPush, AskedStart, asked_plan};
 pub use cause::Cause;
+pub use design::{Design, DesignSettings, Proposal, Spent};
 pub use error::SolveError;
 pub use levering::{AskedLever, AskedPlace, LeverActionError, LeverSettings, asked_lever};
 pub use planner::{Planner, PlannerBuilder, Prediction};

@@ -98,7 +98,7 @@ const DOORS: [(&str, &str); 30] = [
     ("clarabel", "plan"),
     (
         "rand",
-        "network effect judge belief plan verify act bench lab/bench lab/image lab/parts \
+        "network effect judge belief plan verify solve act bench lab/bench lab/image lab/parts \
          learn/dataset learn/train",
     ),
     (

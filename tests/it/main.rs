@@ -15,6 +15,7 @@ mod cli;
 mod closed_loop;
 mod constraints;
 mod coverages;
+mod design;
 mod doors;
 mod export;
 mod facade;

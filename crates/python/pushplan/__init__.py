@@ -13,6 +13,7 @@ the robot's base at the origin. Results do not depend on the number of threads.
 
 from ._native import (
     Belief,
+    Design,
     Motion,
     Plan,
     Push,
@@ -28,6 +29,7 @@ from ._native import (
     Trajectory,
     Verdict,
     __version__,
+    design,
     export_mcap,
     export_mjcf,
     fit,
@@ -58,6 +60,7 @@ from .loaded import scene_from
 __all__ = [
     "ActionError",
     "Belief",
+    "Design",
     "Fault",
     "FileError",
     "ModelError",
@@ -79,6 +82,7 @@ __all__ = [
     "Trajectory",
     "Verdict",
     "__version__",
+    "design",
     "export_mcap",
     "export_mjcf",
     "fit",

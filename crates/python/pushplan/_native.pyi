@@ -11,6 +11,7 @@ from .files import TaskFile, ToolFile
 
 __all__ = [
     "Belief",
+    "Design",
     "Motion",
     "Plan",
     "Push",
@@ -25,6 +26,7 @@ __all__ = [
     "ToolLibrary",
     "Trajectory",
     "Verdict",
+    "design",
     "export_mcap",
     "export_mjcf",
     "fit",
@@ -50,6 +52,7 @@ _Path = str | os.PathLike[str]
 _Floats = npt.NDArray[np.float64]
 _Effort = Literal["draft", "standard", "thorough"]
 _Outside = Literal["warn", "simulate", "refuse"]
+_Status = Literal["solved", "fragile", "partial", "no_plan", "failed_verification"]
 
 @final
 class TableFit:
@@ -327,7 +330,7 @@ class Verdict:
 @final
 class Solution:
     @property
-    def status(self) -> Literal["solved", "fragile", "partial", "no_plan", "failed_verification"]: ...
+    def status(self) -> _Status: ...
     @property
     def solved(self) -> bool: ...
     @property
@@ -347,6 +350,18 @@ class Solution:
     def parse(text: str) -> Solution: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __reduce__(self) -> tuple[Any, ...]: ...
+
+@final
+class Design:
+    @property
+    def status(self) -> _Status: ...
+    @property
+    def tool(self) -> Tool | None: ...
+    @property
+    def solution(self) -> Solution | None: ...
+    @property
+    def known(self) -> Solution: ...
+    def to_dict(self) -> dict[str, Any]: ...
 
 @final
 class Rollouts:
@@ -486,6 +501,16 @@ def solve_all(
     fit: TableFit | None = None,
     threads: int = 0,
 ) -> list[Solution]: ...
+def design(
+    task: Task,
+    tools: ToolLibrary | None = None,
+    *,
+    parts: int = 3,
+    candidates: int = 1000,
+    effort: _Effort = "standard",
+    seed: int = 0,
+    threads: int = 0,
+) -> Design: ...
 def predict(
     plan: Plan, model: str = "network", *, outside: _Outside = "warn", threads: int = 0
 ) -> Trajectory: ...

@@ -10,6 +10,7 @@ use pyo3::prelude::*;
 mod arrays;
 mod belief;
 mod command;
+mod design;
 mod errors;
 mod formats;
 mod json;
@@ -39,6 +40,8 @@ mod _native {
     use super::belief::{PyBelief, PyRecording, infer};
     #[pymodule_export]
     use super::command::main;
+    #[pymodule_export]
+    use super::design::{PyDesign, design};
     #[pymodule_export]
     use super::formats::{export_mcap, export_mjcf, import_task, import_tool};
     #[pymodule_export]

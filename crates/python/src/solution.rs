@@ -13,7 +13,7 @@ use serde_json::json;
 
 use crate::plan::PyPlan;
 use crate::task::PyTask;
-use crate::{json, page, work};
+use crate::{json, page, words, work};
 
 /// How solving a task ended, with the plans that were found.
 #[pyclass(name = "Solution", module = "pushplan", frozen)]
@@ -32,13 +32,7 @@ impl PySolution {
     /// nearest. `"failed_verification"`: none of the plans that were replayed works.
     #[getter]
     fn status(&self) -> &'static str {
-        match self.solution.status {
-            PlanStatus::Solved => "solved",
-            PlanStatus::Fragile => "fragile",
-            PlanStatus::Partial => "partial",
-            PlanStatus::NoPlan => "no_plan",
-            PlanStatus::FailedVerification => "failed_verification",
-        }
+        words::status(self.solution.status)
     }
 
     /// Whether the first plan passes.

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use pushplan::effect::{EffectModels, Outside, Routed};
 use pushplan::scene::{Engine, TableFit};
-use pushplan::{Effort, ModelSpec, Models};
+use pushplan::{Effort, ModelSpec, Models, PlanStatus};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -14,6 +14,17 @@ use crate::errors;
 /// The effort of this name.
 pub fn effort(word: &str) -> PyResult<Effort> {
     one_of("effort", word, &Effort::ALL)
+}
+
+/// The word for how solving ended.
+pub fn status(status: PlanStatus) -> &'static str {
+    match status {
+        PlanStatus::Solved => "solved",
+        PlanStatus::Fragile => "fragile",
+        PlanStatus::Partial => "partial",
+        PlanStatus::NoPlan => "no_plan",
+        PlanStatus::FailedVerification => "failed_verification",
+    }
 }
 
 /// What to do where a model should not be trusted.

@@ -1,0 +1,201 @@
+#!/usr/bin/env python3
+"""Writes tasks that no shipped tool solves, and has tools designed for them.
+
+    python3 crates/lab/benches/design.py --out designed --solve target/release/pushplan
+    python3 crates/lab/benches/design.py --out designed --solve target/release/pushplan --random
+    pushplan export designed/plans/*.plan.json --out designed/mjcf
+    python3 designed/mjcf/replay.py designed/mjcf > designed/mujoco.jsonl
+
+Tasks of seven kinds are drawn, and those kept for which `solve` with the shipped tools finds no plan that works: up to
+`--count` of each kind. Nobody knows whether a tool solves them. `design` then looks at `--candidates` tools; with
+`--random` all of them are drawn by chance from the same forms and none is varied, the baseline: the best of as many random tools.
+Tasks that are there already are not drawn again. A plan that is not solved has another name (`.failed.plan.json` and
+so on): leave it out of the export. Lengths are in metres, masses in kilograms. Files are JSON, which is YAML. Nothing
+but Python is needed.
+"""
+
+import argparse
+import json
+import math
+import random
+import subprocess
+from pathlib import Path
+
+NO_PLAN, FAILED = 4, 5
+
+
+class Draw:
+    """One task as it is drawn, mirrored in half of the cases."""
+
+    def __init__(self, seed):
+        self.rng = random.Random(seed)
+        self.side = self.rng.choice([-1, 1])
+        self.objects, self.obstacles = [], []
+
+    def u(self, low, high):
+        return round(self.rng.uniform(low, high), 3)
+
+    def at(self, x, y):
+        return [round(x, 4), round(self.side * y, 4)]
+
+    def can(self, x, y, radius, name="can"):
+        self.objects.append({
+            "name": name, "shape": {"cylinder": {"radius": radius, "height": 0.1}}, "mass": self.u(0.2, 0.6),
+            "friction": self.u(0.3, 0.5), "position": self.at(x, y),
+        })
+
+    def box(self, x, y, wide, name="can"):
+        self.objects.append({
+            "name": name, "shape": {"cuboid": {"size": [wide, self.u(0.05, 0.08), 0.08]}}, "mass": self.u(0.2, 0.6),
+            "friction": self.u(0.3, 0.5), "position": self.at(x, y),
+        })
+
+    def wall(self, x, y, long, wide, height):
+        name = f"wall-{len(self.obstacles)}"
+        self.obstacles.append({"name": name, "size": [round(long, 4), round(wide, 4), height], "position": self.at(x, y)})
+
+    def slot(self, x, y, width, height, thick=0.03):
+        """A wall across the table with one way through."""
+        for sign in (-1, 1):
+            self.wall(x, y + sign * (width / 2 + 0.7), thick, 1.4, height)
+
+    def task(self, reach, *goals, **pushes):
+        goals = [{"object": name, "position": self.at(x, y), "tolerance": 0.02} for name, x, y in goals]
+        return {
+            "scene": {"objects": self.objects, "obstacles": self.obstacles},
+            "robot": {"reach": {"min": 0.25, "max": reach}}, "tools": "all",
+            "pushes": {"max_count": 2} | pushes, "goal": goals if len(goals) > 1 else goals[0],
+        }
+
+
+def far(d):
+    """Farther away than the longest tool, to be pushed on or pulled back."""
+    x, y = d.u(1.17, 1.32), d.u(0.0, 0.1)
+    d.rng.choice([lambda: d.can(x, y, d.u(0.03, 0.05)), lambda: d.box(x, y, d.u(0.06, 0.1))])()
+    return d.task(0.5, ("can", x + d.rng.choice([-1, 1]) * d.u(0.08, 0.16), y))
+
+
+def around(d):
+    """Behind the middle of a wide wall, to be pulled to it or to its end."""
+    x, half = d.u(0.72, 0.8), d.u(0.24, 0.3)
+    d.wall(x, 0.0, 0.03, 2 * half, 0.2)
+    radius = d.u(0.03, 0.04)
+    at = x + d.u(0.2, 0.26), d.u(-0.05, 0.05)
+    d.can(*at, radius)
+    d.wall(at[0] + d.u(0.16, 0.22), 0.0, 0.03, 2 * half + 0.2, 0.2)
+    way = d.rng.choice([(-d.u(0.08, 0.12), 0.0), (0.0, d.u(0.08, 0.15))])
+    return d.task(0.62, ("can", at[0] + way[0], at[1] + way[1]))
+
+
+def slot(d):
+    """Behind a wall with a slot too narrow for a shipped handle, to be pushed on."""
+    x, y, width = d.u(0.72, 0.8), d.u(0.0, 0.1), d.u(0.024, 0.037)
+    d.slot(x, y, width, 0.15)
+    at = x + d.u(0.1, 0.2)
+    d.can(at, y + d.u(-0.005, 0.005), d.u(0.03, 0.05))
+    return d.task(0.65, ("can", at + d.u(0.08, 0.15), y))
+
+
+def pocket(d):
+    """In a pocket with little room around it, to be pulled out."""
+    radius, x, y = d.u(0.028, 0.04), d.u(0.8, 0.9), d.u(-0.1, 0.1)
+    beside, behind, deep = d.u(0.022, 0.034), d.u(0.024, 0.037), d.u(0.0, 0.03)
+    back = x + radius + behind
+    front = x - radius - deep
+    for sign in (-1, 1):
+        d.wall((front + back) / 2, y + sign * (radius + beside + 0.015), back - front, 0.03, 0.2)
+    d.wall(back + 0.015, y, 0.03, 2 * (radius + beside) + 0.06, 0.2)
+    d.can(x, y, radius)
+    return d.task(0.6, ("can", x - d.u(0.1, 0.16), y))
+
+
+def together(d):
+    """Two or three cans far apart, to be pushed on together by one push."""
+    x, apart, way = d.u(0.45, 0.6), d.u(0.6, 0.74), d.u(0.1, 0.15)
+    places = [-apart / 2, apart / 2] + ([0.0] if d.rng.random() < 0.3 else [])
+    radius = d.u(0.03, 0.04)
+    for k, y in enumerate(places):
+        d.can(x, y, radius, f"can-{k}")
+    return d.task(0.8, *((f"can-{k}", x + way, y) for k, y in enumerate(places)), max_count=1)
+
+
+def walls(d):
+    """Behind two walls whose ways through are not in line, to be pushed on."""
+    x, apart, aside = d.u(0.66, 0.72), d.u(0.2, 0.26), d.u(0.1, 0.2)
+    d.slot(x, aside, d.u(0.05, 0.08), 0.2)
+    d.slot(x + apart, 0.0, d.u(0.05, 0.08), 0.2)
+    at = x + apart + d.u(0.09, 0.12)
+    d.can(at, d.u(-0.01, 0.01), d.u(0.03, 0.045))
+    return d.task(0.62, ("can", at + d.u(0.06, 0.1), 0.0))
+
+
+def gap(d):
+    """Deep in a gap that no hand fits into, to be pushed on or pulled back."""
+    x, width, deep = d.u(0.5, 0.56), d.u(0.09, 0.115), d.u(0.64, 0.72)
+    for sign in (-1, 1):
+        d.wall(x + 0.5, sign * (width / 2 + 0.02), 1.0, 0.04, 0.25)
+    d.can(x + deep, 0.0, d.u(0.024, 0.03))
+    return d.task(0.7, ("can", x + deep + d.rng.choice([-1, 1]) * d.u(0.08, 0.14), 0.0))
+
+
+KINDS = {"far": far, "around": around, "slot": slot, "pocket": pocket, "together": together, "walls": walls, "gap": gap}
+
+
+def unsolved(arguments, kind):
+    """Up to `--count` tasks of a kind that no shipped tool solves."""
+    kept = []
+    for k in range(8 * arguments.count):
+        if len(kept) == arguments.count:
+            break
+        path = arguments.out / f"{kind}-{k:02}.yaml"
+        if not path.exists():
+            path.write_text(json.dumps(KINDS[kind](Draw(f"{arguments.seed} {kind} {k}")), indent=1))
+            command = [arguments.solve, "solve", path, "--quiet", "--out", arguments.out / "known"]
+            done = subprocess.run(command, capture_output=True, text=True)
+            if done.returncode not in (NO_PLAN, FAILED):
+                path.write_text("")  # It is not drawn again.
+                if done.returncode == 3:
+                    raise SystemExit(done.stderr)
+        if path.stat().st_size > 0:
+            kept.append(path)
+    return kept
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--out", type=Path, required=True, help="folder of the tasks")
+    parser.add_argument("--solve", required=True, help="the program that is asked")
+    parser.add_argument("--count", type=int, default=6, help="tasks of each kind; default 6")
+    parser.add_argument("--seed", type=int, default=1, help="of all draws; default 1")
+    parser.add_argument("--kind", action="append", choices=KINDS, help="these alone; default all")
+    parser.add_argument("--candidates", type=int, default=1000, help="tools that are looked at; default 1000")
+    parser.add_argument("--parts", type=int, default=3, help="the most parts of a tool; default 3")
+    parser.add_argument("--random", action="store_true", help="draw all of them by chance")
+    arguments = parser.parse_args()
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    name = "random" if arguments.random else "plans"
+    records = []
+    for kind in arguments.kind or KINDS:
+        for path in unsolved(arguments, kind):
+            command = [arguments.solve, "design", path, "--quiet", "--json", "--out", arguments.out / name]
+            command += ["--candidates", str(arguments.candidates), "--parts", str(arguments.parts)]
+            command += ["--random"] if arguments.random else []
+            done = subprocess.run(command, capture_output=True, text=True)
+            found = json.loads(done.stdout)
+            plans, tool = found["solution"]["plans"], found["tool"]
+            verdict = plans[0]["verdict"] if plans else None
+            records.append({
+                "task": path.stem, "kind": kind, "solved": done.returncode == 0, "status": found["status"],
+                "tool": tool and tool["name"], "parts": tool and len(tool["parts"]),
+                "robustness": verdict and verdict["robustness"], "spent": found["spent"],
+            })
+            print(json.dumps(records[-1]), flush=True)
+        own = [record for record in records if record["kind"] == kind]
+        print(f"{kind}: {sum(record['solved'] for record in own)} of {len(own)} solved", flush=True)
+    (arguments.out / f"{name}.json").write_text(json.dumps(records, indent=1))
+    rollouts = sum(record["spent"]["rollouts"] for record in records)
+    print(f"{sum(record['solved'] for record in records)} of {len(records)} solved, {rollouts} rollouts")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,84 @@
+//! A proposed tool, with what it does for its task.
+
+use serde_json::json;
+
+use crate::geometry::Vector;
+use crate::scene::{Part, Task, Tool, ToolChoice};
+use crate::solve::{Design, PlanStatus};
+
+use super::document::{Document, Section};
+use super::number::{degrees, millimetres};
+use super::plan_text::point;
+use super::solution::{headline, solution_document};
+use super::table::{Align, Table};
+
+/// A tool to make, or why none is proposed.
+pub fn design_document(task: &Task, design: &Design) -> Document {
+    let known = format!("tools that there are: {}", headline(task, &design.known));
+    let spent = format!(
+        "tools: {} looked at in {} rollouts, {} of them promising, {} solved with",
+        design.spent.looked_at, design.spent.rollouts, design.spent.promising, design.spent.solved
+    );
+    let mut document = solution_document(task, design.best());
+    let solution = std::mem::take(&mut document.json);
+    let tool = design.proposal.as_ref().map(|proposal| &*proposal.tool);
+    match tool {
+        Some(tool) => {
+            let mut section = parts(tool);
+            if task.tools != ToolChoice::All {
+                section.lines.push(format!("add {} to `tools` of the task to use it", tool.name));
+            }
+            document.sections.insert(0, section);
+        }
+        None => document.title = format!("{}: {}", task.name, without(design)),
+    }
+    document.notes.push(known);
+    document.sections.push(Section { lines: vec![spent], ..Section::default() });
+    document.json = json!({
+        "task": task.name,
+        "status": design.status(),
+        "stopped": design.stopped,
+        "tool": tool.map(Tool::to_json),
+        "solution": solution,
+        "known": solution_document(task, &design.known).json,
+        "spent": design.spent,
+    });
+    document
+}
+
+/// Why no tool is proposed.
+fn without(design: &Design) -> String {
+    let nothing = match design.spent.looked_at {
+        0 => "none could do so with more margin",
+        _ => "none was found with more margin",
+    };
+    match design.known.status {
+        PlanStatus::Solved => format!("no new tool; there is one that solves it, and {nothing}"),
+        _ => "no new tool; none was found that does better".to_owned(),
+    }
+}
+
+fn parts(tool: &Tool) -> Section {
+    let size = |part: &&Part| {
+        let across = |axis: Vector| part.footprint().extent(axis) + part.footprint().extent(-axis);
+        let [x, y] = [Vector::x(), Vector::y()].map(across);
+        [x, y, part.shape.height()].map(millimetres).join(" x ")
+    };
+    Section {
+        title: format!(
+            "The tool {}, held at its origin with the grip turned by {}",
+            tool.name,
+            degrees(tool.grip.heading)
+        ),
+        table: Table::of(
+            tool.parts(),
+            &[
+                ("part", Align::Left, &|part| part.name.clone()),
+                ("size", Align::Left, &size),
+                ("centre", Align::Left, &|part| point(part.pose.position)),
+                ("turn", Align::Right, &|part| degrees(part.pose.heading)),
+            ],
+        ),
+        ..Section::default()
+    }
+}

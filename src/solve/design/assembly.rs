@@ -1,0 +1,320 @@
+//! A tool as numbers: cuboids that a search can draw and vary.
+
+use std::f64::consts::FRAC_PI_2;
+
+use rand::Rng;
+
+use crate::geometry::{Pose, Vector};
+use crate::scene::{Part, Tool};
+
+use super::form::{Form, Head};
+
+/// How many numbers say how large everything is and where.
+pub(super) const NUMBERS: usize = 16;
+
+/// Height of the parts, metres: that of all shipped tools.
+pub(super) const HEIGHT: f64 = 0.05;
+
+/// Lengths of the links of a handle, metres. The longest are what the shipped networks were trained on.
+const LINKS: [f64; 2] = [0.03, 0.5];
+
+/// Lengths of other bars, metres.
+const BARS: [f64; 2] = [0.02, 0.5];
+
+/// Widths, metres: thinner bars would bend, wider ones are rare among shipped tools.
+const WIDTHS: [f64; 2] = [0.01, 0.08];
+
+/// A handle is turned against the hand by at most this, degrees.
+const TURN: f64 = 180.0;
+
+/// A link is turned against the one before by at most this, degrees.
+const BEND: f64 = 135.0;
+
+/// A bar is turned from straight across the handle by at most this, degrees.
+const SLANT: f64 = 60.0;
+
+/// Of numbers that have a middle, the share that is taken for it, and beyond which the ends are.
+const MIDDLE: f64 = 0.4;
+const END: f64 = 0.85;
+
+/// A form with all its numbers, each from 0 to 1.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Assembly {
+    pub form: Form,
+    pub numbers: [f64; NUMBERS],
+}
+
+/// A handle along points, and a bar at its end.
+pub(super) struct Run {
+    /// Where it is held, where it bends, and where it ends, metres, seen by the end effector.
+    pub points: Vec<Vector>,
+    /// Its width, metres.
+    pub width: f64,
+    /// Length of the bar at its end, metres, and its heading; none without one.
+    pub bar: Option<(f64, f64)>,
+}
+
+impl Assembly {
+    /// The one that runs like this, as nearly as there is one.
+    pub fn along(run: &Run) -> Option<Self> {
+        let ways: Vec<Vector> = run.points.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let links = ways.len();
+        if !(1..=Form::LINKS).contains(&links) {
+            return None;
+        }
+        let heading = |way: &Vector| way.y.atan2(way.x).to_degrees();
+        let mut numbers = [0.5; NUMBERS];
+        numbers[0] = log_number(WIDTHS, run.width);
+        numbers[1] = number_around(wrap(heading(&ways[0])) / TURN);
+        for (k, way) in ways.iter().enumerate() {
+            numbers[2 + k] = even_number(LINKS, way.norm());
+            if k > 0 {
+                numbers[4 + k] = number_around(wrap(heading(way) - heading(&ways[k - 1])) / BEND);
+            }
+        }
+        let mut head = Head::Plain;
+        if let Some((length, across)) = run.bar {
+            let slant = wrap(across.to_degrees() - heading(ways.last()?) - 90.0);
+            // A bar is the same turned by half a turn.
+            let slant = if slant.abs() > 90.0 { wrap(slant + 180.0) } else { slant };
+            head = Head::Bar;
+            numbers[7] = log_number(BARS, length);
+            numbers[8] = log_number(WIDTHS, run.width);
+            numbers[9] = 1.0;
+            numbers[11] = number_around(slant / SLANT);
+        }
+        Some(Self { form: Form { links, head }, numbers })
+    }
+
+    /// Varies some of the numbers by up to `spread`.
+    pub fn varied(&self, random: &mut impl Rng, spread: f64) -> Self {
+        let mut numbers = self.numbers;
+        let one = random.random_range(0..NUMBERS);
+        for (k, number) in numbers.iter_mut().enumerate() {
+            let by = random.random::<f64>() - random.random::<f64>();
+            if k == one || random.random_bool(0.4) {
+                *number = (*number + spread * by).clamp(0.0, 1.0);
+            }
+        }
+        Self { numbers, ..self.clone() }
+    }
+
+    /// How far another one of this form is from it: the largest difference of their numbers.
+    pub fn distance(&self, other: &Self) -> f64 {
+        let pairs = self.numbers.iter().zip(&other.numbers);
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    }
+
+    /// What such a tool is called.
+    pub fn name(&self) -> &'static str {
+        let bends = (1..self.form.links).filter(|k| around(self.numbers[4 + k]) != 0.0);
+        match (self.form.head, bends.count()) {
+            (Head::Plain, 0) => "bar",
+            (Head::Plain, 1) | (Head::Bar, _) => "hook",
+            (Head::Plain, _) => "crank",
+            (Head::Catch, _) => "catch",
+            (Head::Bars, _) => "double-hook",
+            (Head::Fork, _) => "fork",
+            (Head::Ring, _) => "ring",
+        }
+    }
+
+    /// The tool, held at the near end of its handle; `None` if its parts came apart by rounding.
+    pub fn tool(&self, name: &str) -> Option<Tool> {
+        let [wide, turn, ..] = self.numbers;
+        let width = log(WIDTHS, wide);
+        let bend = |k: usize| match k {
+            0 => 0.0,
+            k if k < self.form.links => degrees(BEND * around(self.numbers[4 + k])),
+            _ => 0.0,
+        };
+        let mut parts = Vec::new();
+        let mut shaft = Shaft { from: Pose::default(), length: 0.0, width };
+        for k in 0..self.form.links {
+            let from = shaft.from * Pose::new(shaft.length, 0.0, bend(k));
+            let length = millimetres(even(LINKS, self.numbers[2 + k]));
+            shaft = Shaft { from, length, width };
+            // At a corner links reach over each other.
+            let over = |k| if bend(k) == 0.0 { 0.0 } else { width / 2.0 };
+            let whole = (over(k) + length + over(k + 1)).min(LINKS[1]);
+            let middle = (length + over(k + 1) - over(k)) / 2.0;
+            let name = match self.form.links {
+                1 => "handle".to_owned(),
+                _ => format!("handle-{}", k + 1),
+            };
+            parts.push(part(&name, [whole, width], from * Pose::new(middle, 0.0, 0.0)));
+        }
+        self.add_head(&shaft, &mut parts);
+        let grip = Pose::new(0.0, 0.0, degrees(-TURN * around(turn)) + 0.0);
+        Some(Tool::new(name, parts).ok()?.held_at(grip))
+    }
+
+    fn add_head(&self, shaft: &Shaft, parts: &mut Vec<Part>) {
+        let [.., long, wide, place, shift, slant, more, thick, second, back] = self.numbers;
+        let (length, width) = (log(BARS, long), log(WIDTHS, wide));
+        let slant = FRAC_PI_2 + degrees(SLANT * around(slant));
+        let shift = around(shift);
+        let across = |place: f64, shift: f64| {
+            let place = (place / END).min(1.0);
+            let along = width / 2.0 + place * (shaft.length - width).max(0.0);
+            let aside = shift * (length - length.min(shaft.width)) / 2.0;
+            shaft.from * Pose::new(along, 0.0, slant) * Pose::new(aside, 0.0, 0.0)
+        };
+        let bar = across(place, shift);
+        if self.form.head == Head::Plain {
+            return;
+        }
+        parts.push(part("bar", [length, width], bar));
+        let (reach, thick) = (log(BARS, more), log(WIDTHS, thick));
+        // Left of a bar that points left is back to the grip.
+        let ways = if back < 0.5 { 1.0 } else { -1.0 };
+        let tip = |side: f64| {
+            let out = side * (length - length.min(thick)) / 2.0;
+            let on = ways * (reach - reach.min(width)) / 2.0;
+            part(name_of_tip(self.form, side), [reach, thick], bar * Pose::new(out, on, FRAC_PI_2))
+        };
+        match self.form.head {
+            Head::Plain | Head::Bar => {}
+            Head::Catch => parts.push(tip(if shift < 0.0 { -1.0 } else { 1.0 })),
+            Head::Bars => {
+                parts.push(part("second-bar", [length, width], across(second, signed(more))));
+            }
+            Head::Fork | Head::Ring => {
+                parts.extend([tip(1.0), tip(-1.0)]);
+                if self.form.head == Head::Ring {
+                    let on = ways * (reach - reach.min(width));
+                    parts.push(part("end", [length, width], bar * Pose::new(0.0, on, 0.0)));
+                }
+            }
+        }
+    }
+}
+
+/// The last link of a handle: where it begins and points.
+struct Shaft {
+    from: Pose,
+    length: f64,
+    width: f64,
+}
+
+fn name_of_tip(form: Form, side: f64) -> &'static str {
+    match (form.head, side > 0.0) {
+        (Head::Catch, _) => "tip",
+        (_, true) => "tine-left",
+        (_, false) => "tine-right",
+    }
+}
+
+/// A cuboid of whole millimetres and degrees, as files are for people; its place is exact enough for
+/// flush parts to touch.
+fn part(name: &str, [length, width]: [f64; 2], at: Pose) -> Part {
+    let place = at.position.map(|metres| (1e5 * metres).round() / 1e5);
+    let at = Pose { position: place, heading: degrees(at.heading.to_degrees()) };
+    Part::cuboid(name, [millimetres(length), millimetres(width), HEIGHT], at)
+}
+
+fn millimetres(metres: f64) -> f64 {
+    (1e3 * metres).round() / 1e3
+}
+
+/// Whole degrees, in radians.
+fn degrees(degrees: f64) -> f64 {
+    degrees.round().to_radians()
+}
+
+fn even([low, high]: [f64; 2], number: f64) -> f64 {
+    low + (high - low) * number
+}
+
+/// Evenly in ratios: from 1 to 2 cm is as far as from 4 to 8.
+fn log([low, high]: [f64; 2], number: f64) -> f64 {
+    low * (high / low).powf(number)
+}
+
+/// From -1 to 1, with more than a chance of the middle and of the ends: what is straight, square or
+/// flush is simple to build.
+fn around(number: f64) -> f64 {
+    let out = 2.0 * number - 1.0;
+    out.signum() * ((out.abs() - MIDDLE) / (END - MIDDLE)).clamp(0.0, 1.0)
+}
+
+/// From -1 to 1.
+fn signed(number: f64) -> f64 {
+    2.0 * number - 1.0
+}
+
+/// The number that [`even`] takes for a value.
+fn even_number([low, high]: [f64; 2], value: f64) -> f64 {
+    ((value - low) / (high - low)).clamp(0.0, 1.0)
+}
+
+/// The number that [`log`] takes for a value.
+fn log_number([low, high]: [f64; 2], value: f64) -> f64 {
+    ((value / low).ln() / (high / low).ln()).clamp(0.0, 1.0)
+}
+
+/// The number that [`around`] takes for a value.
+fn number_around(value: f64) -> f64 {
+    match value.abs().min(1.0) {
+        size if size < 1e-3 => 0.5,
+        size => (1.0 + value.signum() * (MIDDLE + size * (END - MIDDLE))) / 2.0,
+    }
+}
+
+/// The same turn within half a turn, degrees.
+fn wrap(degrees: f64) -> f64 {
+    degrees - 360.0 * (degrees / 360.0).round()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::seeded::generator;
+
+    /// A tool comes apart only if what joins it was forgotten or rounded away.
+    #[test]
+    fn every_assembly_is_one_piece_of_its_parts_and_a_file_says_the_same() {
+        for (k, form) in Form::up_to(usize::MAX).into_iter().enumerate() {
+            for draw in 0..50 {
+                let mut random = generator(draw, k as u64);
+                let drawn = Assembly { form, numbers: std::array::from_fn(|_| random.random()) };
+                for assembly in [drawn.varied(&mut random, 0.3), drawn] {
+                    let tool = assembly.tool("tool").expect("one piece");
+                    assert_eq!(tool.parts().len(), form.parts(), "{form:?}");
+                    let text = tool.to_yaml().expect("a file");
+                    assert_eq!(Tool::parse(&text, "tool.yaml").expect("a tool"), tool);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_handle_runs_along_its_points() {
+        let points = [[0.0, 0.0], [0.2, 0.1], [0.2, 0.3], [0.1, 0.3]];
+        let points: Vec<Vector> = points.iter().map(|[x, y]| Vector::new(*x, *y)).collect();
+        let run = Run { points: points.clone(), width: 0.02, bar: Some((0.08, 1.0)) };
+        let tool = Assembly::along(&run).expect("three links").tool("tool").expect("one piece");
+        // Of the end effector at the origin.
+        let frame = tool.pose(Pose::default());
+        let [one, two, three, bar] = [0, 1, 2, 3].map(|k| tool.part_pose(k, &frame));
+        for (pose, ends) in [one, two, three].iter().zip(points.windows(2)) {
+            let along = Vector::new(pose.heading.cos(), pose.heading.sin());
+            let way = (ends[1] - ends[0]).normalize();
+            assert!(along.dot(&way) > 0.9998, "{pose:?} along {way}");
+        }
+        assert!(
+            (bar.position - points[3]).norm() < 0.02
+                && (bar.heading.sin() - 1f64.sin()).abs() < 0.02
+        );
+    }
+
+    #[test]
+    fn middle_and_ends_are_met_more_than_by_chance() {
+        let met = |number: f64| around(number);
+        assert_eq!(
+            [0.0, 0.05, 0.4, 0.5, 0.6, 0.95, 1.0].map(met),
+            [-1.0, -1.0, 0.0, 0.0, 0.0, 1.0, 1.0]
+        );
+        assert!(met(0.8) > 0.0 && met(0.8) < 1.0);
+    }
+}

@@ -1,0 +1,16 @@
+//! Proposes a tool for a task: cuboids in one of a few forms, drawn and varied, each judged by a first
+//! look, and the best of them solved with and verified like any other tool.
+//!
+//! Does not draw, write files or change the library.
+
+mod assembly;
+mod form;
+mod look;
+mod propose;
+mod proposed;
+mod search;
+mod settings;
+mod trace;
+
+pub use proposed::{Design, Proposal, Spent};
+pub use settings::DesignSettings;

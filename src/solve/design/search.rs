@@ -1,0 +1,155 @@
+//! Which tools are looked at: first evenly drawn ones, then variations of the best so far.
+//!
+//! A seeded evolution in generations without gradients: a tool's worth jumps wherever a contact comes
+//! or goes. Every tool has a random generator of its own, and generations are compared in the order in
+//! which they were drawn, so results are the same for any number of threads.
+
+use rand::Rng;
+use rayon::prelude::*;
+
+use crate::seeded::generator;
+use crate::watch::Count;
+
+use super::DesignSettings;
+use super::assembly::{Assembly, NUMBERS};
+use super::form::Form;
+use super::look::{Look, Looking};
+use super::trace::traced;
+
+/// Variations that are looked at together.
+const GENERATION: usize = 40;
+
+/// The best so far that are varied, and at most how many of one form.
+const PARENTS: usize = 12;
+const OF_A_FORM: usize = 5;
+
+/// Numbers are varied by up to this in the first generation and in the last.
+const SPREAD: [f64; 2] = [0.4, 0.06];
+
+/// How often a variation takes on another form.
+const REFORMED: f64 = 0.15;
+
+/// Two of a form whose numbers differ by no more are alike.
+const ALIKE: f64 = 0.05;
+
+/// A tool that was looked at.
+#[derive(Clone)]
+pub(super) struct Seen {
+    pub assembly: Assembly,
+    pub look: Look,
+}
+
+/// Looks at tools, and gives all of them, best first.
+pub(super) fn search(looking: &Looking, settings: &DesignSettings, seed: u64) -> Vec<Seen> {
+    let forms = Form::up_to(settings.parts);
+    let count = Count::new(looking.watch, 0, settings.candidates);
+    let mut first = traced(looking.task, &looking.field, settings.parts);
+    first.truncate(settings.traced);
+    first.extend(drawn_evenly(&forms, settings.drawn, seed));
+    first.truncate(settings.candidates);
+    let mut seen = look_at(looking, &first, &count);
+    seen.sort_by(|a, b| a.look.compare(&b.look));
+    let drawn = first.len();
+    while seen.len() < settings.candidates && !looking.watch.cancelled() {
+        let parents = kept(&seen, PARENTS, OF_A_FORM);
+        let done = (seen.len() - drawn) as f64 / (settings.candidates - drawn).max(1) as f64;
+        let spread = SPREAD[0] * (SPREAD[1] / SPREAD[0]).powf(done);
+        let many = GENERATION.min(settings.candidates - seen.len());
+        let children: Vec<Assembly> = (seen.len()..seen.len() + many)
+            .map(|index| {
+                let mut random = generator(seed, index as u64);
+                // The better of two: better ones are varied more often.
+                let one = random.random_range(0..parents.len().max(1));
+                let one = one.min(random.random_range(0..parents.len().max(1)));
+                let mut child = match parents.get(one) {
+                    Some(parent) => parent.assembly.varied(&mut random, spread),
+                    None => Assembly { form: forms[0], numbers: [0.5; NUMBERS] },
+                };
+                if random.random_bool(REFORMED) {
+                    child.form = forms[random.random_range(0..forms.len())];
+                }
+                child
+            })
+            .collect();
+        seen.extend(look_at(looking, &children, &count));
+        // Stable: of equals the earlier one.
+        seen.sort_by(|a, b| a.look.compare(&b.look));
+    }
+    seen
+}
+
+/// The best of those seen, sorted, that are not alike: at most so many in all and of each form.
+pub(super) fn kept(seen: &[Seen], most: usize, of_a_form: usize) -> Vec<&Seen> {
+    let mut kept: Vec<&Seen> = Vec::new();
+    for one in seen {
+        if kept.len() == most {
+            break;
+        }
+        let same = kept.iter().filter(|other| other.assembly.form == one.assembly.form);
+        let alike = |other: &&&Seen| one.assembly.distance(&other.assembly) <= ALIKE;
+        if same.clone().count() < of_a_form && !same.clone().any(|other| alike(&other)) {
+            kept.push(one);
+        }
+    }
+    kept
+}
+
+fn look_at(looking: &Looking, assemblies: &[Assembly], count: &Count) -> Vec<Seen> {
+    let look = |assembly: &Assembly| {
+        let tool = assembly.tool("tool").filter(|_| !looking.watch.cancelled())?;
+        let look = looking.at(tool);
+        count.one();
+        Some(Seen { assembly: assembly.clone(), look })
+    };
+    assemblies.par_iter().filter_map(look).collect()
+}
+
+/// Forms in turn, the numbers of each spread evenly: multiples of the powers of a generalised golden
+/// ratio, from a start by the seed (Roberts 2018, "The unreasonable effectiveness of quasirandom
+/// sequences").
+fn drawn_evenly(forms: &[Form], count: usize, seed: u64) -> Vec<Assembly> {
+    let golden = (0..64).fold(1.5f64, |x, _| (1.0 + x).powf(1.0 / (NUMBERS as f64 + 1.0)));
+    let mut random = generator(seed, u64::MAX);
+    let starts: Vec<[f64; NUMBERS]> =
+        forms.iter().map(|_| std::array::from_fn(|_| random.random())).collect();
+    let drawn = |k: usize| {
+        let (form, turn) = (k % forms.len(), (k / forms.len()) as f64);
+        let number = |j: usize| (starts[form][j] + turn * golden.powi(-(j as i32) - 1)).fract();
+        Assembly { form: forms[form], numbers: std::array::from_fn(number) }
+    };
+    (0..count).map(drawn).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn first_tools_are_spread_over_forms_and_numbers() {
+        let forms = Form::up_to(3);
+        let drawn = drawn_evenly(&forms, 40 * forms.len(), 7);
+        for form in &forms {
+            let own: Vec<_> = drawn.iter().filter(|one| one.form == *form).collect();
+            assert_eq!(own.len(), 40);
+            for number in 0..NUMBERS {
+                let below = own.iter().filter(|one| one.numbers[number] < 0.5).count();
+                assert!((16..=24).contains(&below), "{form:?} {number}: {below} of 40");
+            }
+        }
+    }
+
+    #[test]
+    fn the_best_are_kept_that_are_not_alike() {
+        let form = Form::up_to(1)[0];
+        let seen = |number: f64| Seen {
+            assembly: Assembly { form, numbers: [number; NUMBERS] },
+            look: Look { misses: 0.0, pushes: 1, pieces: 1, size: number, rollouts: 0 },
+        };
+        let all = [0.1, 0.12, 0.3, 0.5, 0.7].map(seen);
+        let sizes = |most, of_a_form| -> Vec<f64> {
+            kept(&all, most, of_a_form).iter().map(|one| one.look.size).collect()
+        };
+        assert_eq!(sizes(3, 9), [0.1, 0.3, 0.5]);
+        assert_eq!(sizes(3, 2), [0.1, 0.3]);
+    }
+}

@@ -1,0 +1,50 @@
+//! How hard to look for a tool.
+
+use serde::{Deserialize, Serialize};
+
+/// Budgets, all counted and none in seconds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct DesignSettings {
+    /// The most parts of a tool.
+    pub parts: usize,
+    /// Tools that are looked at.
+    pub candidates: usize,
+    /// Of these, at most how many run where there is room for a handle.
+    pub traced: usize,
+    /// Of these, how many are drawn by chance before the best are varied.
+    pub drawn: usize,
+    /// Of the best, how many are solved with in full, plans verified.
+    pub solved: usize,
+}
+
+impl DesignSettings {
+    /// Three parts make a J, or a hook of two thirds of a metre.
+    pub const PARTS: usize = 3;
+
+    /// As many take ten to thirty seconds of two cores.
+    pub const CANDIDATES: usize = 1000;
+
+    /// Of a thousand.
+    const TRACED: usize = 150;
+    const DRAWN: usize = 300;
+
+    /// The most parts that a form has.
+    pub const MOST_PARTS: usize = 7;
+
+    /// So many tools.
+    pub fn looking_at(candidates: usize) -> Self {
+        let [traced, drawn] = [Self::TRACED, Self::DRAWN].map(|share| candidates * share / 1000);
+        Self { parts: Self::PARTS, candidates, traced, drawn, solved: 8 }
+    }
+
+    /// As many drawn by chance, and none that is traced or varied: what a search is measured against.
+    pub fn at_random(self) -> Self {
+        Self { traced: 0, drawn: self.candidates, ..self }
+    }
+}
+
+impl Default for DesignSettings {
+    fn default() -> Self {
+        Self::looking_at(Self::CANDIDATES)
+    }
+}

@@ -1,0 +1,121 @@
+//! Tools that are proposed for tasks which no shipped one solves.
+
+use std::fs;
+use std::sync::Arc;
+
+use rayon::ThreadPoolBuilder;
+use serde_json::Value as Json;
+use tempfile::TempDir;
+
+use pushplan::watch::Unwatched;
+use pushplan::{Design, DesignSettings, Effort, PlanStatus, Planner, Task, Tool, ToolLibrary};
+
+use crate::program::{run, stderr};
+
+/// A can behind a slot in a wall, 3 cm wide, that no hand reaches over: the narrowest shipped handle needs 4 cm.
+const SLOT: &str = "
+scene:
+  objects:
+    - {name: can, shape: {cylinder: {radius: 0.04, height: 0.10}}, mass: 0.3, friction: 0.4, position: [0.90, 0.0]}
+  obstacles:
+    - {name: left, size: [0.03, 1.0, 0.15], position: [0.76, 0.515]}
+    - {name: right, size: [0.03, 1.0, 0.15], position: [0.76, -0.515]}
+robot: {reach: {min: 0.25, max: 0.6}}
+tools: all
+pushes: {max_count: 1}
+goal: {object: can, position: [1.0, 0.0], tolerance: 0.02}
+";
+
+fn designed(text: &str, settings: &DesignSettings) -> (Task, Design) {
+    let library = ToolLibrary::embedded().unwrap();
+    let task = Task::parse(text, "slot.yaml").unwrap();
+    let planner = Planner::for_effort(Effort::Draft).unwrap().build();
+    let design = planner.design(&task, &library, settings, &Unwatched).unwrap();
+    (task, design)
+}
+
+#[test]
+fn a_tool_is_proposed_that_passes_where_no_shipped_one_does() {
+    let (task, design) = designed(SLOT, &DesignSettings::looking_at(120));
+    assert_eq!(design.known.status, PlanStatus::NoPlan);
+    assert_eq!(design.status(), PlanStatus::Solved);
+    let tool = design.proposal.as_ref().map(|proposal| &proposal.tool).unwrap();
+    // A bar does, so none of several parts is proposed.
+    assert_eq!(tool.outline().len(), 1, "{}", tool.to_yaml().unwrap());
+    let read = Tool::parse(&tool.to_yaml().unwrap(), "tool.yaml").unwrap();
+    assert_eq!(read, **tool);
+
+    // Whoever makes the tool of its file gets the same answer.
+    let library = ToolLibrary::embedded().unwrap().with(Arc::new(read)).unwrap();
+    let planner = Planner::for_effort(Effort::Standard).unwrap().build();
+    let solution = planner.solve(&task, &library).unwrap();
+    assert_eq!(solution.status, PlanStatus::Solved);
+    let best = solution.best().unwrap();
+    assert_eq!(best.plan.tool(), tool.name);
+}
+
+#[test]
+fn proposals_do_not_depend_on_the_number_of_threads() {
+    let settings = DesignSettings { solved: 1, ..DesignSettings::looking_at(60) };
+    let [one, three] = [1, 3].map(|threads| {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| designed(SLOT, &settings).1)
+    });
+    assert_eq!(one.spent, three.spent);
+    assert_eq!(one.proposal.map(|one| one.tool), three.proposal.map(|one| one.tool));
+}
+
+#[test]
+fn nothing_is_proposed_where_a_shipped_tool_leaves_nothing_to_gain() {
+    let easy = "
+scene:
+  objects:
+    - {name: can, shape: {cylinder: {radius: 0.04, height: 0.10}}, mass: 0.3, friction: 0.4, position: [0.55, 0.0]}
+robot: {reach: {min: 0.25, max: 0.7}}
+tools: [finger]
+goal: {object: can, position: [0.65, 0.0], tolerance: 0.03}
+";
+    let (_, design) = designed(easy, &DesignSettings::looking_at(10));
+    assert_eq!((design.status(), design.spent.looked_at), (PlanStatus::Solved, 0));
+    assert!(design.proposal.is_none());
+}
+
+#[test]
+fn the_command_writes_a_tool_that_check_and_solve_take() {
+    let folder = TempDir::new().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (task, out) = (path("slot.yaml"), path("plans"));
+    fs::write(&task, SLOT).unwrap();
+    let options = ["--candidates", "80", "--effort", "draft", "--json", "--out", &out];
+    let output = run(&[&["design", &task][..], &options].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let json: Json = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((&json["status"], &json["known"]["status"]), (&"solved".into(), &"no_plan".into()));
+    let name = json["tool"]["name"].as_str().unwrap();
+    assert_eq!(name, "slot-bar");
+    let written: Vec<&str> =
+        json["files"].as_array().unwrap().iter().filter_map(Json::as_str).collect();
+    let ends = ["tools/slot-bar.yaml", "slot-bar.plan.json", "slot-bar.svg", "slot-bar.html"];
+    assert_eq!(written.len(), ends.len());
+    assert!(written.iter().zip(ends).all(|(file, end)| file.ends_with(end)), "{written:?}");
+
+    assert_eq!(run(&["check", written[0], written[1]]).status.code(), Some(0));
+    assert_eq!(run(&["verify", written[1], "--out", &out]).status.code(), Some(0));
+    let tools = path("plans/tools");
+    let output = run(&["solve", &task, "--more-tools", &tools, "--json", "--out", &out]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+
+    let output = run(&["design", "--example", "raise-plate", "--out", &out]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("levering"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_task_that_no_tool_solves_ends_as_solve_does() {
+    let folder = TempDir::new().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let options = ["--candidates", "30", "--effort", "draft", "--out", out];
+    let output = run(&[&["design", "tasks/too-far.yaml"][..], &options].concat());
+    assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
+    assert!(!folder.path().join("tools").exists());
+}
