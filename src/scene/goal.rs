@@ -232,8 +232,8 @@ impl Goal {
         let fall = self.fall.as_ref().map(|fall| Box::new(fall.farther(place)));
         let heading = self.heading.map(|(heading, tolerance)| (heading, less(tolerance, turn)));
         let tolerance = less(self.tolerance, place);
-        let stricter = |own: &Box<Coverage>| Box::new(own.stricter(tolerance / self.tolerance));
-        let coverage = self.coverage.as_ref().map(stricter);
+        let left = tolerance / self.tolerance;
+        let coverage = self.coverage.as_ref().map(|coverage| Box::new(coverage.stricter(left)));
         Self { tolerance, heading, area, gap, coverage, fall, ..self.clone() }
     }
 

@@ -86,6 +86,11 @@ pub enum Warning {
         /// Its name.
         object: String,
     },
+    /// An object's centre left the table, and yet something holds it up.
+    Hangs {
+        /// Its name.
+        object: String,
+    },
     /// The tool pressed harder than the robot's arm can, or an object may be pressed.
     TooMuchForce {
         /// The object, where it is the one that may not be.
@@ -257,6 +262,7 @@ impl Warning {
             | Warning::Strained
             | Warning::Jammed { .. }
             | Warning::OffTable { .. }
+            | Warning::Hangs { .. }
             | Warning::NotKept { .. }
             | Warning::KeptOut { .. }
             | Warning::TooMuchForce { .. }
@@ -324,6 +330,7 @@ impl Warning {
             Warning::NotKept { .. } => "not kept",
             Warning::KeptOut { .. } => "not kept out",
             Warning::Fell { .. } => "fallen",
+            Warning::Hangs { .. } => "hanging",
             Warning::TooMuchForce { .. } => "too much force",
             Warning::HardPush { .. } => "a hard push",
             Warning::OutOfReach { .. } => "out of reach",

@@ -75,6 +75,11 @@ pub(super) trait World: Sized {
     /// The objects that no longer stand upright.
     fn toppled(&self) -> Vec<usize>;
 
+    /// Whether this object is off the table, where falling is simulated.
+    fn has_fallen(&self, _object: usize) -> Option<bool> {
+        None
+    }
+
     /// Calls `found` with every object inside something else, as deep as it was before the last
     /// step.
     fn overlaps(&self, found: &mut dyn FnMut(Overlap));
@@ -163,6 +168,7 @@ pub(super) fn drive<W: World>(
             }
         }
     }
+    recorder.note_hanging(scene, &world);
     recorder.finish(scene, motion)
 }
 
@@ -292,6 +298,16 @@ impl Recorder {
         }
         self.seen += 1;
         true
+    }
+
+    /// Notes what has left the table at the end and has not fallen.
+    fn note_hanging<W: World>(&mut self, scene: &Scene, world: &W) {
+        let state = &self.last().state;
+        let hangs = |k: usize| scene.has_left(k, state) && world.has_fallen(k) == Some(false);
+        let found = scene.things().filter(|(k, _)| hangs(*k));
+        let found = found.map(|(_, object)| Warning::Hangs { object: object.name.clone() });
+        let found: Vec<Warning> = found.collect();
+        self.trajectory.warnings.extend(found);
     }
 
     fn note_contacts<W: World>(&mut self, world: &W) {

@@ -22,9 +22,7 @@ use super::parameters::{
     ALLOWED_ERROR, ARTICULATED_ITERATIONS, STIFF_CONTACT, is_articulated, needs_stiff_contacts,
 };
 use super::seams::Seams;
-use super::solids::{
-    CLEAR, FOOT, TABLE_DEPTH, floor, foot, raised, solid, table, undersides, weighing,
-};
+use super::solids::{CLEAR, FOOT, floor, foot, raised, solid, table, undersides, weighing};
 use super::solved::solved;
 use super::strain::{Overlap, force, overlap};
 use super::support::Support;
@@ -33,7 +31,7 @@ use super::upright::{Standing, Upright};
 mod joints;
 mod place;
 
-use place::{LOCAL, frame_of, to_rapier, yaw};
+use place::{LOCAL, brink, frame_of, to_rapier, yaw};
 
 /// An object whose axis leans further than this has toppled, radians (10 degrees).
 const TOPPLED: f64 = 10.0 * std::f64::consts::PI / 180.0;
@@ -91,12 +89,9 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
             labels: Vec::new(),
             seams: Seams::default(),
             asleep: Asleep::none(),
-            ends: scene.brink().is_some(),
+            ends: TIPS && scene.brink().is_some(),
         };
-        let top = scene.brink().map(|top| {
-            let middle = Pose { position: top.middle, heading: 0.0 };
-            (to_rapier(&middle, &this.frame, -0.5 * TABLE_DEPTH), top.size)
-        });
+        let top = brink(scene, &this.frame).filter(|_| TIPS);
         for table in [table(physics.table_friction, top), floor(top)] {
             this.world.insert_collider(table.user_data(TABLE), None);
         }
@@ -199,6 +194,11 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
             (*body.rotation() * RapierVector::Z).z < TOPPLED.cos()
         };
         (0..self.objects.len()).filter(|&index| leans(&self.objects[index])).collect()
+    }
+
+    fn has_fallen(&self, object: usize) -> Option<bool> {
+        let tracked = &self.bodies[self.objects[object].0.body];
+        self.ends.then(|| !self.world.bodies[tracked.handle].is_enabled())
     }
 
     fn overlaps(&self, found: &mut dyn FnMut(Overlap)) {

@@ -3,7 +3,7 @@
 use pushplan::asset::ToolLibrary;
 use pushplan::scene::{Edge, Engine, Rate, Record, Situation, State, Task, Warning};
 use pushplan::solve::PlanStatus;
-use pushplan::{EffectModel, Job, Push, Simulated, Simulator, ToolMotion, Vector};
+use pushplan::{EffectModel, Job, Obstacle, Pose, Push, Simulated, Simulator, ToolMotion, Vector};
 
 use crate::judged::{file, solved, works_in_mujoco};
 
@@ -85,6 +85,24 @@ fn three_dimensions_decide_whether_it_falls() {
         assert_eq!(task.reached(&solid), falls, "{y}: {}", solid.poses[0].position.y);
         assert_eq!(fell(&warned), falls);
         assert!(warned.iter().all(|warning| !warning.forbids_success()), "{warned:?}");
+    }
+}
+
+/// What leans on something beyond the edge hangs there: that is no fall.
+#[test]
+fn what_is_held_up_beyond_the_edge_has_not_fallen() {
+    let mut task = task("{object: box, off_table: left}");
+    task.scene.objects[0].pose.heading = 0.0;
+    let wall = Obstacle::new("wall", [0.3, 0.02, 0.3], Pose::new(0.65, 0.47, 0.0));
+    task.scene.obstacles.push(wall);
+    let hangs = |one: &Warning| matches!(one, Warning::Hangs { object } if object == "box");
+    for (wall, fails) in [(true, true), (false, false)] {
+        if !wall {
+            task.scene.obstacles.pop();
+        }
+        let (end, warned) = pushed(&task, Engine::Spatial, 0.42 - 0.25 + 0.02);
+        assert!(task.reached(&end), "its centre is beyond the edge");
+        assert_eq!(warned.iter().any(hangs), fails, "{warned:?}");
     }
 }
 

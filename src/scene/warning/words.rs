@@ -104,6 +104,9 @@ impl fmt::Display for Warning {
             Warning::KeptOut { object, region } => {
                 write!(f, "{object} comes into {region}, which objects keep out of")
             }
+            Warning::Hangs { object } => {
+                write!(f, "{object} hangs over the edge of the table: something holds it up")
+            }
             Warning::Fell { object } => write!(f, "{object} falls, which it may"),
             Warning::TooMuchForce { object: Some(object), needed, limit } => write!(
                 f,

@@ -4,9 +4,10 @@
 use rapier3d_f64::prelude::{Pose3, Rotation, Vector as RapierVector};
 
 use crate::geometry::{Pose, Vector};
-use crate::scene::{State, Stroke, ToolMotion};
+use crate::scene::{Scene, State, Stroke, ToolMotion};
 
 use super::super::parameters::centre;
+use super::super::solids::{TABLE_DEPTH, Top};
 
 /// For what is placed in the frame of a body.
 pub const LOCAL: Pose = Pose { position: Vector::new(0.0, 0.0), heading: 0.0 };
@@ -28,6 +29,13 @@ pub fn to_rapier(pose: &Pose, frame: &Pose, height: f64) -> Pose3 {
     let Pose { position, heading } = frame.inverse() * *pose;
     let translation = RapierVector::new(position.x, position.y, height);
     Pose3::from_parts(translation, Rotation::from_rotation_z(heading))
+}
+
+/// Where the table ends for what may fall off it.
+pub fn brink(scene: &Scene, frame: &Pose) -> Option<Top> {
+    let top = scene.brink()?;
+    let middle = Pose { position: top.middle, heading: 0.0 };
+    Some((to_rapier(&middle, frame, -0.5 * TABLE_DEPTH), top.size))
 }
 
 /// Turn about the vertical, radians.
