@@ -7,6 +7,7 @@
 
 mod beam;
 mod candidate;
+mod carry;
 mod corridor;
 mod enumerate;
 mod evaluate;
@@ -30,6 +31,7 @@ mod supports;
 mod workspace;
 
 pub use candidate::{Candidate, CandidatePush, Start};
+pub use carry::{Carrying, FollowSettings, Followed, Leg, follow};
 pub use corridor::{Corridor, alone};
 pub use evaluate::{Evaluation, evaluate};
 pub use field::Field;

@@ -125,6 +125,12 @@ impl<'a> Search<'a> {
         Self::from_start(self.workspace, &self.situation, self.settings, kept, grips)
     }
 
+    /// The same from a start that earlier pushes lead to: the first of its own gets this room, metres.
+    pub(super) fn with_first_room(mut self, room: f64) -> Self {
+        self.nodes.iter_mut().for_each(|node| node.room = room);
+        self
+    }
+
     fn from_start(
         workspace: Workspace<'a>,
         situation: &Situation,
@@ -157,6 +163,11 @@ impl<'a> Search<'a> {
     /// How much it searches.
     pub fn settings(&self) -> SearchSettings {
         self.settings
+    }
+
+    /// The tools and grip yaws (radians) that it tries.
+    pub fn grips(&self) -> &[(usize, f64)] {
+        &self.grips
     }
 
     /// Pushes per candidate that the last call of [`Search::deepen`] looked at.

@@ -9,6 +9,7 @@
 mod armed;
 mod aside;
 mod asked;
+mod carry;
 mod cause;
 mod change;
 mod check;

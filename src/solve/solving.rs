@@ -5,7 +5,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::plan::{
-    Candidate, FOUND_RADIUS, RefineSettings, Refined, Rollouts, ScoredPush, Search, Workspace,
+    Candidate, FOUND_RADIUS, Found, RefineSettings, Refined, Rollouts, ScoredPush, Search, Workspace,
     alone, bare, in_order, is_behind, refine,
 };
 use crate::scene::{ArmFault, Goal, Job, Situation, Task, Tool, Verdict};
@@ -33,7 +33,7 @@ const DECIDING: u64 = 1 << 15;
 
 /// Trust radius, in steps, for what was refined with another model: its optimum is off by as much as
 /// the two differ.
-const SCREENED_RADIUS: f64 = 1.0;
+pub(super) const SCREENED_RADIUS: f64 = 1.0;
 
 /// How many of the plans that were replayed together and work are replayed with disturbances, best
 /// first: the others miss by more.
@@ -146,6 +146,7 @@ impl<'a> Solving<'a> {
             if let Some(without) = &without {
                 self.clear_the_way(&mut clearings, without, &search);
             }
+            self.carry(&search);
         }
         self.change_grips(&search);
         search
@@ -169,7 +170,6 @@ impl<'a> Solving<'a> {
 
     /// Searches, refines and verifies plans of one push more, until one is safe.
     pub(super) fn attempt(&mut self, search: &mut Search) {
-        let settings = *self.planner.settings();
         let pushes = search.depth() + 1;
         let began = Instant::now();
         self.tell("search", pushes);
@@ -179,11 +179,16 @@ impl<'a> Solving<'a> {
             found.retain(|one| bare(one.score) <= REFINABLE);
         }
         self.statistics.timing.search += began.elapsed().as_secs_f64();
+        self.try_out(&found, pushes);
+    }
 
+    /// Refines and verifies what was found of this many pushes, until a plan is safe.
+    pub(super) fn try_out(&mut self, found: &[Found], pushes: usize) {
+        let settings = *self.planner.settings();
         let began = Instant::now();
         let at_once = self.at_once();
         let most = settings.verified_at_once.max(1) * settings.verify_batches;
-        let candidates = self.choose(&found, settings.refined, &[]);
+        let candidates = self.choose(found, settings.refined, &[]);
         let most_disturbed = (DISTURBED_SHARE * most as f64).ceil() as usize;
         let before = self.disturbed;
         let first = self.tried.len();
@@ -195,7 +200,7 @@ impl<'a> Solving<'a> {
         for batch in 0..most.div_ceil(at_once) {
             if batch > 0 {
                 let began = Instant::now();
-                self.reconsider(&mut queue, &failed, &found, (first, pushes));
+                self.reconsider(&mut queue, &failed, found, (first, pushes));
                 self.statistics.timing.refinement += began.elapsed().as_secs_f64();
             }
             let indices: Vec<usize> = queue.drain(..queue.len().min(at_once)).collect();
@@ -301,7 +306,7 @@ impl<'a> Solving<'a> {
         )
     }
 
-    fn refine_settings(&self, pushes: usize) -> RefineSettings {
+    pub(super) fn refine_settings(&self, pushes: usize) -> RefineSettings {
         let settings = self.planner.settings();
         RefineSettings {
             rounds: settings.refine_rounds,

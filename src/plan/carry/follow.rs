@@ -1,0 +1,161 @@
+//! Pushes that carry things along legs: for each the best that the search finds and refines from where
+//! the pushes before it leave everything.
+
+use crate::effect::EffectModel;
+use crate::geometry::Footprint;
+use crate::plan::spread::{Spread, room};
+use crate::plan::{
+    Candidate, Evaluation, RefineSettings, RefineStatistics, Rollouts, Search, SearchSettings,
+    Workspace, kinds, refine,
+};
+use crate::scene::{Directions, Goal, PushRules, Record, Situation, State, Task};
+use crate::watch::Watch;
+
+use super::Leg;
+
+/// An object ends a leg this near to where that leads, metres, and turned from how it stood at first by
+/// no more than this, radians: with more it would not pass the next gap.
+const NEAR: f64 = 0.01;
+const TURNED: f64 = 0.1;
+
+/// Where it ends farther off by more than this factor, the legs after it do not begin there.
+const LOST: f64 = 1.5;
+
+/// What is moved besides the leg's object counts like a miss by as many units, metres.
+const BESIDE: f64 = 0.02;
+
+/// A push may be so much longer than its leg, metres: the tool begins farther away.
+const LONGER: f64 = 0.05;
+
+/// How much to look for.
+#[derive(Clone, Copy, Debug)]
+pub struct FollowSettings {
+    /// Of the search for each push.
+    pub search: SearchSettings,
+    /// Candidates that are refined for each.
+    pub candidates: usize,
+    /// By the model that screens.
+    pub refine: RefineSettings,
+    /// By the one that decides, if that is another.
+    pub decide: RefineSettings,
+}
+
+/// How far legs could be followed.
+#[derive(Clone, Debug)]
+pub struct Followed {
+    /// The pushes.
+    pub candidate: Candidate,
+    /// Legs that were followed to their ends.
+    pub legs: usize,
+    /// Where everything is then.
+    pub state: State,
+}
+
+/// Makes pushes of `legs` with a tool and grip yaw, as `models` predict them: the first screens, the
+/// second decides. `used` counts their rollouts.
+pub fn follow(
+    workspace: &Workspace,
+    situation: &Situation,
+    (tool, grip_yaw): (usize, f64),
+    legs: &[Leg],
+    (models, settings): ([&dyn EffectModel; 2], FollowSettings),
+    used: &mut [usize; 2],
+    watch: &dyn Watch,
+) -> Followed {
+    let mut followed = Followed {
+        candidate: Candidate { tool, grip_yaw, pushes: Vec::new() },
+        legs: 0,
+        state: situation.start.clone(),
+    };
+    let spread = Spread::around(situation);
+    let mut others = spread.starts().to_vec();
+    for (k, leg) in legs.iter().enumerate() {
+        let now = Situation { start: followed.state.clone(), ..situation.clone() };
+        let task = towards(workspace.task, leg, situation, grip_yaw);
+        let own = Workspace { task: &task, tools: &workspace.tools[tool..=tool] };
+        let error = settings.search.model_error;
+        let first_room = match k {
+            0 => 0.0,
+            _ => room(&situation.scene, leg.object, &now.start, &others, error),
+        };
+        let Some(best) = push(&own, &now, first_room, (models, settings), used, watch) else {
+            break;
+        };
+        if best.score > LOST {
+            break;
+        }
+        let mut rollouts = Rollouts::new(models[0], now);
+        let ends = rollouts.run(&spread.jobs(&best.motion(&own), &others), Record::Outcome);
+        used[0] += rollouts.used();
+        others = ends.iter().map(|end| end.outcome().clone()).collect();
+        followed.candidate.pushes.extend(&best.candidate.pushes);
+        followed.state = best.outcome;
+        followed.legs += 1;
+    }
+    followed
+}
+
+/// The task of carrying one object to the end of a leg.
+fn towards(task: &Task, leg: &Leg, situation: &Situation, grip_yaw: f64) -> Task {
+    let object = &task.scene.objects[leg.object];
+    let own = task.goals().find(|goal| leg.last && goal.object == leg.object);
+    let tolerance = own.map_or(NEAR, |goal| goal.tolerance.min(NEAR));
+    let goal = Goal::new(leg.object, [leg.to.x, leg.to.y], tolerance);
+    let turns = !matches!(object.shape.footprint(), Footprint::Disc { .. });
+    let goal = match turns {
+        true => goal.facing(situation.start.poses[leg.object].heading, TURNED),
+        false => goal,
+    };
+    let pushes = PushRules {
+        directions: Directions::List(vec![leg.direction]),
+        grip_yaws: vec![grip_yaw],
+        length: (leg.to - leg.from).norm() + LONGER,
+        max_count: 1,
+        ..task.pushes.clone()
+    };
+    Task { goal, further: Vec::new(), pushes, ..task.clone() }
+}
+
+/// The best single push for a task from here.
+fn push(
+    workspace: &Workspace,
+    now: &Situation,
+    first_room: f64,
+    (models, settings): ([&dyn EffectModel; 2], FollowSettings),
+    used: &mut [usize; 2],
+    watch: &dyn Watch,
+) -> Option<Evaluation> {
+    let mut screening = Rollouts::new(models[0], now.clone());
+    let mut search = Search::new(*workspace, now, settings.search).with_first_room(first_room);
+    let found = search.deepen(&mut screening, watch);
+    let chosen = kinds(&found, settings.candidates);
+    let candidates: Vec<Candidate> = match chosen.len() {
+        0 => return None,
+        _ => {
+            let others = (0..found.len()).filter(|k| !chosen.contains(k));
+            let all = chosen.iter().copied().chain(others).take(settings.candidates);
+            all.map(|k| found[k].candidate.clone()).collect()
+        }
+    };
+    let mut statistics = RefineStatistics::default();
+    let mut refined =
+        refine(workspace, &mut screening, &candidates, settings.refine, &mut statistics, watch);
+    used[0] += screening.used();
+    if !std::ptr::addr_eq(models[0], models[1]) {
+        let candidates: Vec<Candidate> =
+            refined.iter().map(|one| one.best.candidate.clone()).collect();
+        let mut deciding = Rollouts::new(models[1], now.clone());
+        refined =
+            refine(workspace, &mut deciding, &candidates, settings.decide, &mut statistics, watch);
+        used[1] += deciding.used();
+    }
+    let moved = |one: &Evaluation| {
+        let goal = workspace.task.goal.object;
+        let others = now.scene.things().map(|(k, _)| k).filter(|k| *k != goal);
+        let ways = others
+            .map(|k| (one.outcome.poses[k].position - now.start.poses[k].position).norm());
+        ways.sum::<f64>() / BESIDE
+    };
+    let sound = refined.into_iter().map(|one| one.best).filter(Evaluation::is_sound);
+    sound.min_by(|a, b| (a.score + moved(a)).total_cmp(&(b.score + moved(b))))
+}

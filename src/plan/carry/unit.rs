@@ -1,0 +1,289 @@
+//! The things that are carried, and how a tool holds on to them.
+
+use crate::geometry::{Footprint, Pose, Vector, perpendicular};
+use crate::scene::{Goal, Mover, Region, Scene, Situation, State};
+
+use super::lattice::{Extent, Lattice, Solid};
+use crate::plan::workspace::{HAND_CLEARANCE, OBSTACLE_CLEARANCE};
+use crate::plan::{CandidatePush, SET_DOWN_CLEARANCE, Start, Workspace};
+
+/// A thing keeps so clear of what stands still, metres: as far as one is off that was pushed twice.
+const APART: f64 = 0.003;
+
+/// Where it has as much room on all sides it has enough, metres.
+pub(super) const ROOMY: f64 = 0.03;
+
+/// Room about everything that matters, metres.
+const BORDER: f64 = 0.2;
+
+/// Rounding, metres.
+const SLACK: f64 = 1e-6;
+
+/// Offsets that are looked at, in shares of the widest.
+const OFFSETS: [f64; 5] = [0.0, 0.35, -0.35, 0.7, -0.7];
+
+/// Holds of one direction.
+const HOLDS: usize = 3;
+
+/// Holds nearer together are one, metres.
+const SAME_HOLD: f64 = 0.015;
+
+/// The tool is set down so far from a thing more than it must, metres.
+const ROOM: f64 = 0.005;
+
+/// A push that leads past a thing's centre by more than this share of its mean radius beyond the face
+/// turns it over.
+const BESIDE: f64 = 0.25;
+
+/// A thing that one push carries along.
+pub(super) struct Unit {
+    pub thing: usize,
+    pub solids: Vec<Solid>,
+    pub lattice: Lattice,
+    /// Where it is to come to, and the place next to that.
+    pub goal: Option<(Vector, usize)>,
+    /// For every place the gap to what stands still, at most [`ROOMY`]; negative where it cannot be.
+    pub clear: Vec<f32>,
+}
+
+/// A tool behind a thing.
+pub(super) struct Hold {
+    /// Radians from world +x.
+    pub direction: f64,
+    pub step: [i32; 2],
+    /// What comes along.
+    pub solids: Vec<Solid>,
+    /// For every place of the thing whether the tool can be there.
+    pub free: Vec<bool>,
+}
+
+/// All things that can be carried from `situation`; `None` where a goal asks for more than to be carried
+/// somewhere.
+pub(super) fn units(workspace: &Workspace, situation: &Situation) -> Option<Vec<Unit>> {
+    let (task, state) = (workspace.task, &situation.start);
+    let scene = &*situation.scene;
+    let goals: Vec<&Goal> = task.goals().collect();
+    let groups = situation.physics.groups(|_| true);
+    let joined = |thing: usize| {
+        (0..groups.len()).any(|k| groups[k] == groups[thing] && scene.thing(k) != thing)
+            || scene.mount(thing).is_some()
+    };
+    let loose: Vec<usize> = scene
+        .things()
+        .map(|(k, _)| k)
+        .filter(|&k| !joined(k) && scene.objects[k].keep.is_none())
+        .collect();
+    for goal in &goals {
+        let turned = match (goal.heading, goal.heading_error(state)) {
+            (Some((_, tolerance)), Some(error)) => error > tolerance,
+            _ => false,
+        };
+        if turned || !goal.has_place() || goal.gap.is_some() || !loose.contains(&goal.object) {
+            return None;
+        }
+    }
+    let mut extent = Extent::around(state.poses[task.goal.object].position);
+    let mut include = |footprint: &Footprint, pose: &Pose| {
+        let wide = |axis: Vector| footprint.extent(pose.local_vector(axis)) + BORDER;
+        let [x, y] = [Vector::x(), Vector::y()];
+        extent.include(pose.position - Vector::new(wide(-x), wide(-y)));
+        extent.include(pose.position + Vector::new(wide(x), wide(y)));
+    };
+    for (object, pose) in scene.objects.iter().zip(&state.poses) {
+        include(&object.shape.footprint(), pose);
+    }
+    scene.obstacles.iter().for_each(|o| include(&o.shape().footprint(), &o.pose));
+    for goal in &goals {
+        include(&task.scene.objects[goal.object].shape.footprint(), &Pose { position: goal.place(state), heading: 0.0 });
+    }
+    let reach = task.robot.reach_max + BORDER;
+    let [low, high] = [extent.low, extent.high].map(|p| p.map(|v| v.clamp(-reach, reach)));
+    let extent = Extent { low, high };
+    let spacing = extent.spacing();
+    let unit = |&thing: &usize| {
+        let at = state.poses[thing].position;
+        let solids = solids_of(scene, state, thing);
+        let lattice = Lattice::new(at, &extent, spacing);
+        let own = goals.iter().find(|goal| goal.object == thing);
+        let goal = own.map(|goal| {
+            let at = if goal.reached(state) { at } else { goal.place(state) };
+            (at, lattice.nearest(at))
+        });
+        let clear = clear(scene, (state, &loose), (thing, &solids), &lattice);
+        Unit { thing, solids, lattice, goal, clear }
+    };
+    Some(loose.iter().map(unit).collect())
+}
+
+/// The solids of a thing, against where it is.
+fn solids_of(scene: &Scene, state: &State, thing: usize) -> Vec<Solid> {
+    let at = state.poses[thing].position;
+    let solid = |k: usize| {
+        let (object, pose) = (&scene.objects[k], state.poses[k]);
+        Solid {
+            footprint: object.shape.footprint(),
+            pose: Pose { position: pose.position - at, ..pose },
+            span: object.span(),
+            apart: APART,
+        }
+    };
+    [thing].into_iter().chain(scene.parts_of(thing)).map(solid).collect()
+}
+
+/// What a thing keeps clear of: obstacles, regions that are not for objects, what cannot be carried.
+fn clear(
+    scene: &Scene,
+    (state, loose): (&State, &[usize]),
+    (thing, solids): (usize, &[Solid]),
+    lattice: &Lattice,
+) -> Vec<f32> {
+    let mut clear = vec![ROOMY as f32; lattice.count()];
+    let here = lattice.position(lattice.nearest(state.poses[thing].position));
+    for solid in solids {
+        let mut keep = |footprint: Footprint, pose: Pose, apart: f64| {
+            let still = (&footprint, &pose);
+            // What stands nearer already may slide along.
+            let apart = apart.min(solid.gap(here, still, ROOMY) - SLACK);
+            lattice.near(solid, still, ROOMY, |place, gap| {
+                let gap = if gap < apart { -1.0 } else { gap.max(0.0) };
+                clear[place] = clear[place].min(gap as f32);
+            });
+        };
+        for obstacle in scene.obstacles.iter().filter(|o| o.meets(solid.span)) {
+            keep(obstacle.shape().footprint(), obstacle.pose, solid.apart);
+        }
+        for region in scene.keep_out.iter().filter(|region| region.objects) {
+            keep(region.footprint(), region.pose, Region::MARGIN);
+        }
+        for (k, object) in scene.objects.iter().enumerate() {
+            if !loose.contains(&scene.thing(k)) && object.meets(solid.span) {
+                keep(object.shape.footprint(), state.poses[k], solid.apart);
+            }
+        }
+    }
+    if let Some(top) = scene.table_top {
+        for (place, clear) in clear.iter_mut().enumerate() {
+            if !top.holds(lattice.position(place)) {
+                *clear = -1.0;
+            }
+        }
+    }
+    clear
+}
+
+/// How a tool with this grip yaw can be behind a thing, for every direction.
+pub(super) fn holds(
+    workspace: &Workspace,
+    pair: (usize, f64),
+    situation: &Situation,
+    (unit, units): (&Unit, &[Unit]),
+) -> Vec<Hold> {
+    let (task, scene, state) = (workspace.task, &*situation.scene, &situation.start);
+    let centre = scene.centre(unit.thing, state);
+    let at = state.poses[unit.thing].position;
+    let mut found = Vec::new();
+    for direction in task.pushes.directions.headings() {
+        let ahead = Vector::new(direction.cos(), direction.sin());
+        let step = [ahead.x.round() as i32, ahead.y.round() as i32];
+        if (ahead - Vector::new(f64::from(step[0]), f64::from(step[1]))).norm() > SLACK {
+            continue;
+        }
+        let left = perpendicular(ahead);
+        let mut ways: Vec<(f64, Vector)> = Vec::new();
+        for object in [unit.thing].into_iter().chain(scene.parts_of(unit.thing)) {
+            for (part, face) in workspace.tools[pair.0].parts().iter().enumerate() {
+                let span = workspace.offset_span(pair, (state, object), part, direction);
+                let tool = workspace.tools[pair.0].pose(Pose::new(0.0, 0.0, pair.1));
+                let across = (tool * face.pose).local_vector(left);
+                let half = face.footprint().extent(across).max(face.footprint().extent(-across));
+                let radius = scene.objects[object].shape.footprint().mean_radius();
+                for share in OFFSETS {
+                    let offset = share * span;
+                    let start = Start::Placed { part, offset };
+                    let push = CandidatePush { object, start, direction, length: 0.0, room: ROOM };
+                    // The thing's centre from the middle of the face.
+                    let past = offset + (centre - state.poses[object].position).dot(&left);
+                    let Ok(effector) = workspace.place(pair, state, &push, None) else { continue };
+                    if past.abs() < half + BESIDE * radius {
+                        ways.push((past.abs(), effector - at));
+                    }
+                }
+            }
+        }
+        ways.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let first = found.len();
+        let mut taken: Vec<Vector> = Vec::new();
+        for (_, effector) in ways {
+            let known = taken.iter().any(|other| (other - effector).norm() < SAME_HOLD);
+            if known || found.len() - first == HOLDS {
+                continue;
+            }
+            taken.push(effector);
+            let solids = tool_solids(workspace, pair, effector);
+            let own = |solid: &Solid| {
+                unit.solids.iter().all(|other| {
+                    let still = (&other.footprint, &other.pose);
+                    !solid.meets(other)
+                        || solid.gap(Vector::zeros(), still, ROOMY) >= SET_DOWN_CLEARANCE
+                })
+            };
+            if solids.iter().all(own) {
+                let free = free(workspace, situation, (unit, units), (effector, pair.1), &solids);
+                found.push(Hold { direction, step, solids, free });
+            }
+        }
+    }
+    found
+}
+
+/// The tool, and what holds it as low as things are, against the thing behind which it is.
+fn tool_solids(workspace: &Workspace, (tool, yaw): (usize, f64), effector: Vector) -> Vec<Solid> {
+    let (task, tool) = (workspace.task, &*workspace.tools[tool]);
+    let frame = tool.pose(Pose { position: effector, heading: yaw });
+    let lift = task.pushes.lift;
+    let parts = tool.parts().iter().map(|part| Solid {
+        footprint: part.footprint(),
+        pose: frame * part.pose,
+        span: [lift, lift + part.shape.height()],
+        apart: OBSTACLE_CLEARANCE,
+    });
+    let carried = task.robot.carried(tool, lift).into_iter().flatten().map(|one| Solid {
+        footprint: one.footprint,
+        pose: frame * one.pose,
+        span: one.span,
+        apart: HAND_CLEARANCE,
+    });
+    parts.chain(carried).collect()
+}
+
+/// For every place of a thing whether the tool can be there.
+fn free(
+    workspace: &Workspace,
+    situation: &Situation,
+    (unit, units): (&Unit, &[Unit]),
+    (effector, yaw): (Vector, f64),
+    solids: &[Solid],
+) -> Vec<bool> {
+    let (task, scene, state) = (workspace.task, &*situation.scene, &situation.start);
+    let lattice = &unit.lattice;
+    let stands = |place| task.stands(lattice.position(place) + effector, yaw);
+    let mut free: Vec<bool> =
+        (0..lattice.count()).map(|place| unit.clear[place] >= 0.0 && stands(place)).collect();
+    let parts = workspace.task.pushes.lift;
+    for solid in solids {
+        let mover = if solid.span[0] <= parts { Mover::Tool } else { Mover::Hand };
+        let mut keep = |footprint: &Footprint, pose: &Pose| {
+            lattice.near(solid, (footprint, pose), solid.apart, |place, _| free[place] = false);
+        };
+        for fixed in scene.fixed(mover, solid.span) {
+            keep(&fixed.footprint, &fixed.pose);
+        }
+        for (k, object) in scene.objects.iter().enumerate() {
+            let carried = units.iter().any(|unit| unit.thing == scene.thing(k));
+            if !carried && object.meets(solid.span) {
+                keep(&object.shape.footprint(), &state.poses[k]);
+            }
+        }
+    }
+    free
+}

@@ -1,0 +1,106 @@
+//! The cheapest way of one thing to all places: by the fewest pushes, then the shortest and roomiest.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use super::unit::{Hold, ROOMY, Unit};
+
+/// Cost of a metre that is carried, in pushes.
+const METRE: f64 = 1.0;
+
+/// Cost of a metre in the narrowest gap, in pushes, and of a stop there.
+const NARROW_METRE: f64 = 2.0;
+const NARROW_STOP: f64 = 0.5;
+
+/// A shorter push is none, metres: a tool moves half of it before it meets anything.
+const SHORTEST: f64 = 0.015;
+
+/// Places in which a thing, and the tool behind it, cannot be for what else can be carried.
+#[derive(Clone)]
+pub(super) struct Taken {
+    pub thing: Vec<bool>,
+    pub holds: Vec<Vec<bool>>,
+}
+
+/// One push: from a place, held so, to another place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Stretch {
+    pub from: usize,
+    pub hold: usize,
+    pub to: usize,
+}
+
+/// Ways to places.
+pub(super) struct Ways {
+    /// For every place, in pushes.
+    pub cost: Vec<f64>,
+    last: Vec<Option<(usize, usize)>>,
+}
+
+impl Ways {
+    /// Of a thing from one place, with pushes of at most `longest` metres, as far as `enough` does not
+    /// say of the next place and its cost that it is.
+    pub fn from(
+        (unit, holds): (&Unit, &[Hold]),
+        start: usize,
+        taken: &Taken,
+        longest: f64,
+        mut enough: impl FnMut(usize, f64) -> bool,
+    ) -> Self {
+        let (lattice, count) = (&unit.lattice, unit.lattice.count());
+        let mut ways = Self { cost: vec![f64::INFINITY; count], last: vec![None; count] };
+        let mut passed = vec![vec![f64::INFINITY; count]; holds.len()];
+        let mut queue = BinaryHeap::new();
+        ways.cost[start] = 0.0;
+        queue.push(Reverse((0.0f64.to_bits(), start)));
+        let narrow = |place: usize| 1.0 - f64::from(unit.clear[place]) / ROOMY;
+        while let Some(Reverse((bits, place))) = queue.pop() {
+            let cost = f64::from_bits(bits);
+            if cost > ways.cost[place] {
+                continue;
+            }
+            if enough(place, cost) {
+                break;
+            }
+            for (k, hold) in holds.iter().enumerate() {
+                let free = |at: usize| {
+                    hold.free[at] && !taken.holds[k][at] && (at == start || !taken.thing[at])
+                };
+                if !free(place) {
+                    continue;
+                }
+                let (mut at, mut length, mut on_the_way) = (place, 0.0, cost);
+                while let Some(next) = lattice.next(at, hold.step).filter(|next| free(*next)) {
+                    at = next;
+                    length += lattice.spacing;
+                    on_the_way += lattice.spacing * (METRE + NARROW_METRE * narrow(at));
+                    // One push, and one more for every full length.
+                    let so_far = on_the_way + 1.0 + ((length - 1e-9) / longest).floor();
+                    if passed[k][at] <= so_far {
+                        break;
+                    }
+                    passed[k][at] = so_far;
+                    let end = so_far + NARROW_STOP * narrow(at);
+                    if length >= SHORTEST && end < ways.cost[at] {
+                        ways.cost[at] = end;
+                        ways.last[at] = Some((place, k));
+                        queue.push(Reverse((end.to_bits(), at)));
+                    }
+                }
+            }
+        }
+        ways
+    }
+
+    /// The pushes to a place; none if there is no way.
+    pub fn to(&self, place: usize) -> Vec<Stretch> {
+        let mut way = Vec::new();
+        let mut at = place;
+        while let Some((from, hold)) = self.last[at] {
+            way.push(Stretch { from, hold, to: at });
+            at = from;
+        }
+        way.reverse();
+        way
+    }
+}
