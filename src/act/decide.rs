@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::belief::Belief;
 use crate::geometry::Vector;
 use crate::scene::{Plan, Push, PushForm, Situation, Task, Tool};
-use crate::solve::{AskedPush, AskedStart, SolveError, asked_plan};
+use crate::solve::{Approach, AskedPush, AskedStart, SolveError, asked_plan};
 use crate::watch::Watch;
 
 use super::error::ActError;
@@ -16,6 +16,12 @@ use super::trace::{Step, Trace, Why};
 
 /// A plan that misses in all samples is worth a push if it comes nearer by this share on average.
 const NEARER: f64 = 0.05;
+
+/// Plans of so many pushes are made at once; where more are left, only the first of them.
+const AT_ONCE: usize = 3;
+
+/// Plans of more pushes are not looked for, however many the task allows.
+const MOST_AT_ONCE: usize = 6;
 
 /// What is done next.
 #[derive(Clone, Debug)]
@@ -66,7 +72,16 @@ impl Runner<'_> {
                 return Ok(Decision::Do { why: Why::Rest, plan, tool, chance });
             }
         }
-        let Some(mut judged) = self.plans(task, &samples.now, samples, watch)? else {
+        // The first pushes of a long way are planned by themselves: no search grows with what is left.
+        if task.pushes.max_count > AT_ONCE
+            && let Some(decision) = self.approach(task, samples, AT_ONCE + 1, watch)?
+        {
+            return Ok(decision);
+        }
+        let mut near = task.clone();
+        near.pushes.max_count = near.pushes.max_count.min(MOST_AT_ONCE);
+        let planned = &near;
+        let Some(mut judged) = self.plans(planned, &samples.now, samples, watch)? else {
             return Ok(Decision::Done);
         };
         let sure = |judged: &Judged| {
@@ -80,7 +95,7 @@ impl Runner<'_> {
             let Some(sample) = samples_left.find(missed) else { break };
             let physics = Arc::clone(&samples.physics[sample]);
             let other = Situation { physics, ..samples.now.clone() };
-            if let Some(more) = self.plans(task, &other, samples, watch)? {
+            if let Some(more) = self.plans(planned, &other, samples, watch)? {
                 judged.plans.extend(more.plans);
                 judged.reach.extend(more.reach);
             }
@@ -99,11 +114,35 @@ impl Runner<'_> {
             }
         }
         let nothing = task.score(&samples.now.start);
-        let Some(((plan, tools), chance)) = judged.best() else { return Ok(Decision::Nothing) };
+        let best = judged.best();
+        // What reaches no goal may lead into a dead end; the first pushes of a way do not.
+        if best.is_none_or(|(_, chance)| chance.share == 0.0)
+            && let Some(decision) = self.approach(task, samples, 1, watch)?
+        {
+            return Ok(decision);
+        }
+        let Some(((plan, tools), chance)) = best else { return Ok(Decision::Nothing) };
         let why = if chance.share >= settings.enough { Why::Plan } else { Why::Best };
         let helps = chance.share > 0.0 || chance.score < (1.0 - NEARER) * nothing;
         let (plan, tool) = (plan.clone(), Arc::clone(&tools[0]));
         Ok(if helps { Decision::Do { why, plan, tool, chance } } else { Decision::Nothing })
+    }
+
+    /// The first pushes of a way of at least `least` pushes, if there is one.
+    fn approach(
+        &self,
+        task: &Task,
+        samples: &Samples,
+        least: usize,
+        watch: &dyn Watch,
+    ) -> Result<Option<Decision>, ActError> {
+        let quiet = Quiet(watch);
+        let found = self.planner.approach(&samples.now, task, self.library, least, &quiet)?;
+        let Some(Approach { plan, tool, .. }) = found else { return Ok(None) };
+        let plans = [(plan, vec![Arc::clone(&tool)])];
+        let chance = Chance::of(&samples.reach(self.planner.model(), task, &plans)[0]);
+        let [(plan, _)] = plans;
+        Ok(Some(Decision::Do { why: Why::Approach, plan, tool, chance }))
     }
 
     /// Plans for a situation, judged under the samples; `None` if no push is needed.

@@ -75,6 +75,8 @@ pub enum Why {
     Rest,
     /// No plan reaches the goal in enough samples; it begins the one that is best on average.
     Best,
+    /// It is the first of a way to the goals that takes more pushes than are planned at once.
+    Approach,
     /// It tells apart what the task depends on.
     Probe,
 }

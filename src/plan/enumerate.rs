@@ -30,6 +30,14 @@ pub(super) struct Grips {
 }
 
 impl Grips {
+    /// The same with changes before every push; `None` where the task has no room for any.
+    pub fn changing(&self, workspace: &Workspace) -> Option<Self> {
+        let (task, changes) = (workspace.task, workspace.task.tool_changes());
+        let others = if changes > 0 { self.all.len() } else { task.pushes.grip_yaws.len() };
+        let any = others > 1 && workspace.is_placed() && task.pushes.max_count > 1;
+        any.then(|| Self { changes: Some(changes), ..self.clone() })
+    }
+
     /// Those that may continue a node: all at the start.
     fn next(&self, node: &Node) -> Vec<(usize, f64)> {
         let last = node.candidate.as_ref().and_then(|candidate| candidate.pushes.last());

@@ -31,7 +31,7 @@ mod supports;
 mod workspace;
 
 pub use candidate::{Candidate, CandidatePush, Start};
-pub use carry::{Carrying, FollowSettings, Followed, Leg, follow};
+pub use carry::{Carrying, FollowSettings, Followed, Leg, Things, follow};
 pub use corridor::{Corridor, alone};
 pub use evaluate::{Evaluation, evaluate};
 pub use field::Field;

@@ -103,16 +103,8 @@ impl<'a> Search<'a> {
     /// The same search from its start for plans that may take another tool, and hold it otherwise, before
     /// every push; `None` where that makes no difference.
     pub fn changing(&self) -> Option<Self> {
-        let changes = self.workspace.task.tool_changes();
-        let any = match changes {
-            0 => self.workspace.task.pushes.grip_yaws.len() > 1,
-            _ => self.grips.all.len() > 1,
-        };
-        if !any || !self.workspace.is_placed() || self.workspace.task.pushes.max_count < 2 {
-            return None;
-        }
+        let grips = self.grips.changing(&self.workspace)?;
         let kept = (self.field.clone(), self.spread.clone());
-        let grips = Grips { changes: Some(changes), ..self.grips.clone() };
         Some(Self::from_start(self.workspace, &self.situation, self.settings, kept, grips))
     }
 
@@ -167,7 +159,7 @@ impl<'a> Search<'a> {
 
     /// The tools and grip yaws (radians) that it tries.
     pub fn grips(&self) -> &[(usize, f64)] {
-        &self.grips
+        &self.grips.all
     }
 
     /// Pushes per candidate that the last call of [`Search::deepen`] looked at.

@@ -121,6 +121,7 @@ fn why(why: Why) -> &'static str {
         Why::Plan => "plan",
         Why::Rest => "rest of the plan",
         Why::Best => "best known",
+        Why::Approach => "approach",
         Why::Probe => "probe",
     }
 }

@@ -32,6 +32,7 @@ mod typical;
 mod widen;
 
 pub use asked::{ActionError, Asked, AskedPush, AskedStart, asked_plan};
+pub use carry::Approach;
 pub use cause::Cause;
 pub use design::{Design, DesignSettings, Proposal, Spent};
 pub use error::SolveError;

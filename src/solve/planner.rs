@@ -43,7 +43,7 @@ pub struct Planner {
     outside: Outside,
     settings: Settings,
     seed: u64,
-    time_limit: Option<Duration>,
+    pub(super) time_limit: Option<Duration>,
     fit: Option<TableFit>,
 }
 

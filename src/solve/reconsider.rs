@@ -114,6 +114,22 @@ impl Solving<'_> {
         *queue = next;
     }
 
+    /// Refines changed candidates of plans that were replayed already: what was decided on is not screened
+    /// again.
+    fn refined_again(
+        &mut self,
+        candidates: &[Candidate],
+        aims: &[Goal],
+        pushes: usize,
+    ) -> Vec<usize> {
+        if self.deciding.is_none() {
+            return self.refined(candidates, aims, pushes);
+        }
+        self.tell("refine", pushes);
+        let decided = self.decided(candidates, aims, pushes);
+        self.worth_verifying(decided, aims)
+    }
+
     /// Plans that reached the goal after an earlier push than the last, in both engines, without
     /// the pushes that spoiled it.
     fn shortened(&mut self, failed: &[usize]) -> Vec<usize> {

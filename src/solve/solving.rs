@@ -5,8 +5,8 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::plan::{
-    Candidate, FOUND_RADIUS, Found, RefineSettings, Refined, Rollouts, ScoredPush, Search, Workspace,
-    alone, bare, in_order, is_behind, refine,
+    Candidate, FOUND_RADIUS, Found, RefineSettings, Refined, Rollouts, ScoredPush, Search,
+    Workspace, alone, bare, in_order, is_behind, refine,
 };
 use crate::scene::{ArmFault, Goal, Job, Situation, Task, Tool, Verdict};
 use crate::verify::{Verifier, VerifySettings};
@@ -46,6 +46,9 @@ const DISTURBED_SHARE: f64 = 0.375;
 
 /// Where there are several goals, refinement brings no plan to them that misses one by more tolerances.
 const REFINABLE: f64 = 5.0;
+
+/// Plans of more pushes are not searched for, only made after legs: they cost more with every push.
+const LONGEST: usize = 8;
 
 pub(super) struct Solving<'a> {
     pub planner: &'a Planner,
@@ -128,8 +131,8 @@ impl<'a> Solving<'a> {
         self.ranked(status, best, began)
     }
 
-    /// Looks at plans of one push, then of one more, until one is good enough.
-    pub(super) fn search(&mut self) -> Search<'a> {
+    /// The search before anything is looked at.
+    pub(super) fn prepared(&self) -> Search<'a> {
         let errors = self.workspace.tools.iter().map(|tool| {
             let start = &self.situation.start;
             let job = Job::new(self.situation, typical(self.task, start, tool));
@@ -137,10 +140,15 @@ impl<'a> Solving<'a> {
         });
         let error = errors.fold(0.0, f64::max).min(MOST_ROOM_FOR_MODEL);
         let settings = self.planner.settings().search(error);
-        let mut search = Search::new(self.workspace, self.situation, settings);
+        Search::new(self.workspace, self.situation, settings)
+    }
+
+    /// Looks at plans of one push, then of one more, until one is good enough.
+    pub(super) fn search(&mut self) -> Search<'a> {
+        let mut search = self.prepared();
         let without = alone(self.task, self.situation).filter(|_| self.workspace.is_placed());
         let mut clearings = None;
-        while self.goes_on(search.depth()) && search.can_deepen() {
+        while self.goes_on(search.depth()) && search.can_deepen() && search.depth() < LONGEST {
             self.attempt(&mut search);
             self.settle(Class::Edge);
             if let Some(without) = &without {
@@ -229,7 +237,7 @@ impl<'a> Solving<'a> {
     }
 
     /// Says what is done to plans of a number of pushes.
-    fn tell(&self, stage: &str, pushes: usize) {
+    pub(super) fn tell(&self, stage: &str, pushes: usize) {
         let s = if pushes == 1 { "" } else { "es" };
         self.watch.stage(&format!("{stage}, plans of {pushes} push{s}"));
     }
@@ -268,24 +276,13 @@ impl<'a> Solving<'a> {
         self.worth_verifying(refined, aims)
     }
 
-    /// The same for changed candidates of plans that were replayed already: what was decided on is not
-    /// screened again.
-    pub(super) fn refined_again(
+    /// Where the model that decides says candidates end, the best of them refined by it.
+    pub(super) fn decided(
         &mut self,
         candidates: &[Candidate],
         aims: &[Goal],
         pushes: usize,
-    ) -> Vec<usize> {
-        if self.deciding.is_none() {
-            return self.refined(candidates, aims, pushes);
-        }
-        self.tell("refine", pushes);
-        let decided = self.decided(candidates, aims, pushes);
-        self.worth_verifying(decided, aims)
-    }
-
-    /// Where the model that decides says candidates end, the best of them refined by it.
-    fn decided(&mut self, candidates: &[Candidate], aims: &[Goal], pushes: usize) -> Vec<Refined> {
+    ) -> Vec<Refined> {
         let settings = *self.planner.settings();
         let all = self.refine_settings(pushes);
         let task = self.task.aiming(aims);
@@ -321,7 +318,11 @@ impl<'a> Solving<'a> {
     }
 
     /// Keeps what was refined towards `aims`; the indices of those worth verifying, best first.
-    fn worth_verifying(&mut self, mut refined: Vec<Refined>, aims: &[Goal]) -> Vec<usize> {
+    pub(super) fn worth_verifying(
+        &mut self,
+        mut refined: Vec<Refined>,
+        aims: &[Goal],
+    ) -> Vec<usize> {
         in_order(&mut refined, &self.workspace, self.situation);
         let aimed = self.task.aiming(aims);
         let mut worth = Vec::new();

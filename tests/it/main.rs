@@ -11,6 +11,7 @@ mod believing;
 mod bench_store;
 mod benchmarks;
 mod book;
+mod carry;
 mod cli;
 mod closed_loop;
 mod constraints;

@@ -356,7 +356,7 @@ const TOOL_CHANGES: Value = Value::Count(Range {
 const MAX_COUNT: Value = Value::Count(Range {
     what: "a number of pushes",
     low: 1.0,
-    high: 8.0,
+    high: 16.0,
     advice: "three pushes bring an object around a corner",
 });
 

@@ -5,8 +5,8 @@ use crate::effect::EffectModel;
 use crate::geometry::Footprint;
 use crate::plan::spread::{Spread, room};
 use crate::plan::{
-    Candidate, Evaluation, RefineSettings, RefineStatistics, Rollouts, Search, SearchSettings,
-    Workspace, kinds, refine,
+    Candidate, CandidatePush, Evaluation, RefineSettings, RefineStatistics, Rollouts, Search,
+    SearchSettings, Workspace, kinds, refine,
 };
 use crate::scene::{Directions, Goal, PushRules, Record, Situation, State, Task};
 use crate::watch::Watch;
@@ -62,11 +62,8 @@ pub fn follow(
     used: &mut [usize; 2],
     watch: &dyn Watch,
 ) -> Followed {
-    let mut followed = Followed {
-        candidate: Candidate { tool, grip_yaw, pushes: Vec::new() },
-        legs: 0,
-        state: situation.start.clone(),
-    };
+    let mut followed =
+        Followed { candidate: Candidate::default(), legs: 0, state: situation.start.clone() };
     let spread = Spread::around(situation);
     let mut others = spread.starts().to_vec();
     for (k, leg) in legs.iter().enumerate() {
@@ -85,10 +82,14 @@ pub fn follow(
             break;
         }
         let mut rollouts = Rollouts::new(models[0], now);
-        let ends = rollouts.run(&spread.jobs(&best.motion(&own), &others), Record::Outcome);
+        let jobs: Vec<_> =
+            best.motions(&own).iter().flat_map(|motion| spread.jobs(motion, &others)).collect();
+        let ends = rollouts.run(&jobs, Record::Outcome);
         used[0] += rollouts.used();
         others = ends.iter().map(|end| end.outcome().clone()).collect();
-        followed.candidate.pushes.extend(&best.candidate.pushes);
+        // It knew of one tool alone.
+        let pushes = best.candidate.pushes.iter().map(|push| CandidatePush { tool, ..*push });
+        followed.candidate.pushes.extend(pushes);
         followed.state = best.outcome;
         followed.legs += 1;
     }
@@ -152,8 +153,8 @@ fn push(
     let moved = |one: &Evaluation| {
         let goal = workspace.task.goal.object;
         let others = now.scene.things().map(|(k, _)| k).filter(|k| *k != goal);
-        let ways = others
-            .map(|k| (one.outcome.poses[k].position - now.start.poses[k].position).norm());
+        let ways =
+            others.map(|k| (one.outcome.poses[k].position - now.start.poses[k].position).norm());
         ways.sum::<f64>() / BESIDE
     };
     let sound = refined.into_iter().map(|one| one.best).filter(Evaluation::is_sound);

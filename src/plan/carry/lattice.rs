@@ -114,7 +114,8 @@ impl Lattice {
     pub fn next(&self, place: usize, [x, y]: [i32; 2]) -> Option<usize> {
         let column = (place % self.columns) as i32 + x;
         let row = (place / self.columns) as i32 + y;
-        let inside = (0..self.columns as i32).contains(&column) && (0..self.rows as i32).contains(&row);
+        let inside =
+            (0..self.columns as i32).contains(&column) && (0..self.rows as i32).contains(&row);
         inside.then(|| row as usize * self.columns + column as usize)
     }
 

@@ -7,11 +7,12 @@
 //! among movable obstacles: real-time reasoning in complex environments"). Nothing is rolled out for that; [`follow`] then makes real pushes of them, one
 //! after another.
 
+mod carrying;
 mod follow;
 mod lattice;
 mod order;
 mod unit;
 mod way;
 
+pub use carrying::{Carrying, Leg, Things};
 pub use follow::{FollowSettings, Followed, follow};
-pub use order::{Carrying, Leg};

@@ -94,7 +94,10 @@ pub(super) fn units(workspace: &Workspace, situation: &Situation) -> Option<Vec<
     }
     scene.obstacles.iter().for_each(|o| include(&o.shape().footprint(), &o.pose));
     for goal in &goals {
-        include(&task.scene.objects[goal.object].shape.footprint(), &Pose { position: goal.place(state), heading: 0.0 });
+        include(
+            &task.scene.objects[goal.object].shape.footprint(),
+            &Pose { position: goal.place(state), heading: 0.0 },
+        );
     }
     let reach = task.robot.reach_max + BORDER;
     let [low, high] = [extent.low, extent.high].map(|p| p.map(|v| v.clamp(-reach, reach)));
@@ -200,10 +203,12 @@ pub(super) fn holds(
                 for share in OFFSETS {
                     let offset = share * span;
                     let start = Start::Placed { part, offset };
-                    let push = CandidatePush { object, start, direction, length: 0.0, room: ROOM };
+                    let ((tool, grip_yaw), length, room) = (pair, 0.0, ROOM);
+                    let push =
+                        CandidatePush { tool, grip_yaw, object, start, direction, length, room };
                     // The thing's centre from the middle of the face.
                     let past = offset + (centre - state.poses[object].position).dot(&left);
-                    let Ok(effector) = workspace.place(pair, state, &push, None) else { continue };
+                    let Ok(effector) = workspace.place(state, &push, None) else { continue };
                     if past.abs() < half + BESIDE * radius {
                         ways.push((past.abs(), effector - at));
                     }

@@ -16,7 +16,6 @@ const NARROW_STOP: f64 = 0.5;
 const SHORTEST: f64 = 0.015;
 
 /// Places in which a thing, and the tool behind it, cannot be for what else can be carried.
-#[derive(Clone)]
 pub(super) struct Taken {
     pub thing: Vec<bool>,
     pub holds: Vec<Vec<bool>>,

@@ -1,0 +1,270 @@
+//! What one grip of a tool can carry where, with everything else where it is.
+
+use std::cell::{OnceCell, RefCell};
+use std::collections::HashMap;
+use std::rc::Rc;
+
+use crate::geometry::Vector;
+use crate::plan::Workspace;
+use crate::scene::Situation;
+
+use super::lattice::Solid;
+use super::unit::{Hold, Unit, holds, units};
+use super::way::{Stretch, Taken, Ways};
+
+/// Things keep so far from each other, metres, and from a tool that carries another.
+const BESIDE: f64 = 0.004;
+
+/// How densely ways are sampled for what stands beside them, in places.
+const SAMPLE: usize = 3;
+
+/// One push that carries a thing straight along.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Leg {
+    /// Index of the object.
+    pub object: usize,
+    /// Radians from world +x.
+    pub direction: f64,
+    /// From where, metres.
+    pub from: Vector,
+    /// Where to, metres.
+    pub to: Vector,
+    /// Whether that is the goal.
+    pub last: bool,
+}
+
+/// What can be carried, with any tool.
+pub struct Things(Vec<Unit>);
+
+impl Things {
+    /// Of a situation; `None` where a goal asks for more than to be carried somewhere.
+    pub fn of(workspace: &Workspace, situation: &Situation) -> Option<Self> {
+        units(workspace, situation).map(Self)
+    }
+}
+
+/// Things that one grip of a tool carries.
+pub struct Carrying<'a> {
+    workspace: Workspace<'a>,
+    situation: &'a Situation,
+    pair: (usize, f64),
+    pub(super) units: &'a [Unit],
+    /// Of every thing, once it is asked for.
+    holds: Vec<OnceCell<Vec<Hold>>>,
+    longest: f64,
+    marks: RefCell<HashMap<(usize, usize, usize), Rc<Marks>>>,
+    alone: RefCell<HashMap<(usize, usize), Rc<Course>>>,
+}
+
+/// Places that another thing takes from one and from the tool behind it, in order.
+struct Marks {
+    thing: Vec<usize>,
+    holds: Vec<Vec<usize>>,
+}
+
+/// How a thing would come to its goal if nothing else could stand in its way.
+pub(super) struct Course {
+    pub cost: f64,
+    pub way: Vec<Stretch>,
+    pub pushes: usize,
+}
+
+impl<'a> Carrying<'a> {
+    /// With this tool and grip yaw (radians) and pushes of at most `longest` metres; `None` where a goal's
+    /// object finds no way even alone.
+    pub fn new(
+        workspace: Workspace<'a>,
+        situation: &'a Situation,
+        Things(units): &'a Things,
+        pair: (usize, f64),
+        longest: f64,
+    ) -> Option<Self> {
+        let (marks, alone) = Default::default();
+        let holds = units.iter().map(|_| OnceCell::new()).collect();
+        let carrying = Self { workspace, situation, pair, units, holds, longest, marks, alone };
+        let start = carrying.start();
+        let finds = |&k: &usize| carrying.alone(k, start[k]).cost.is_finite();
+        carrying.wanting(&start).iter().all(finds).then_some(carrying)
+    }
+
+    /// What is left to do at least, in pushes.
+    pub fn least(&self) -> f64 {
+        let start = self.start();
+        self.wanting(&start).into_iter().map(|k| self.alone(k, start[k]).cost).sum()
+    }
+
+    /// Where everything is at first.
+    pub(super) fn start(&self) -> Vec<usize> {
+        self.units
+            .iter()
+            .map(|unit| unit.lattice.nearest(unit.lattice.position_of_origin()))
+            .collect()
+    }
+
+    /// How the tool holds on to a thing.
+    pub(super) fn holds(&self, k: usize) -> &[Hold] {
+        let unit = &self.units[k];
+        self.holds[k]
+            .get_or_init(|| holds(&self.workspace, self.pair, self.situation, (unit, self.units)))
+    }
+
+    /// The things that are not at their goals.
+    pub(super) fn wanting(&self, places: &[usize]) -> Vec<usize> {
+        let off = |k: &usize| self.units[*k].goal.is_some_and(|(_, goal)| places[*k] != goal);
+        (0..self.units.len()).filter(off).collect()
+    }
+
+    /// What a thing and the tool behind it pass, sampled: where the thing is, and the solids about that.
+    pub(super) fn passed(&self, k: usize, way: &[Stretch]) -> Vec<(Vector, &[Solid])> {
+        let unit = &self.units[k];
+        let mut passed = Vec::new();
+        for stretch in way {
+            let hold = &self.holds(k)[stretch.hold];
+            let places = places(unit, hold, stretch);
+            let last = places.len() - 1;
+            for (n, place) in places.into_iter().enumerate() {
+                if n % SAMPLE == 0 || n == last {
+                    let at = unit.lattice.position(place);
+                    passed.push((at, unit.solids.as_slice()));
+                    passed.push((at, hold.solids.as_slice()));
+                }
+            }
+        }
+        passed
+    }
+
+    /// What stands in a way.
+    pub(super) fn blocking(&self, k: usize, way: &[Stretch], places_of: &[usize]) -> Vec<usize> {
+        let blocks = |other: &usize| {
+            let marks = self.marks(k, *other, places_of[*other]);
+            way.iter().any(|stretch| {
+                let passed = places(&self.units[k], &self.holds(k)[stretch.hold], stretch);
+                let held = &marks.holds[stretch.hold];
+                passed.iter().any(|place| {
+                    held.binary_search(place).is_ok()
+                        || (*place != stretch.from && marks.thing.binary_search(place).is_ok())
+                })
+            })
+        };
+        (0..self.units.len()).filter(|other| *other != k).filter(blocks).collect()
+    }
+
+    /// A stretch as pushes that are short enough.
+    pub(super) fn parted(&self, k: usize, stretch: Stretch) -> Vec<(usize, Stretch)> {
+        let (unit, hold) = (&self.units[k], &self.holds(k)[stretch.hold]);
+        let passed = places(unit, hold, &stretch);
+        let steps = passed.len() - 1;
+        let count =
+            (steps as f64 * unit.lattice.spacing / self.longest - 1e-9).ceil().max(1.0) as usize;
+        let end = |n: usize| passed[steps * n / count];
+        (0..count).map(|n| (k, Stretch { from: end(n), to: end(n + 1), ..stretch })).collect()
+    }
+
+    /// The way of a thing to its goal if nothing else stood on the table.
+    pub(super) fn alone(&self, k: usize, place: usize) -> Rc<Course> {
+        if let Some(known) = self.alone.borrow().get(&(k, place)) {
+            return Rc::clone(known);
+        }
+        let nobody = self.taken(k, &[]);
+        let course = match self.units[k].goal {
+            Some((_, goal)) => {
+                let ways = self.ways(k, place, &nobody, |at, _| at == goal);
+                let way = ways.to(goal);
+                let pushes = way.iter().map(|stretch| self.parted(k, *stretch).len()).sum();
+                Course { cost: ways.cost[goal], way, pushes }
+            }
+            None => Course { cost: 0.0, way: Vec::new(), pushes: 0 },
+        };
+        let course = Rc::new(course);
+        self.alone.borrow_mut().insert((k, place), Rc::clone(&course));
+        course
+    }
+
+    /// Its ways from a place.
+    pub(super) fn ways(
+        &self,
+        k: usize,
+        start: usize,
+        taken: &Taken,
+        enough: impl FnMut(usize, f64) -> bool,
+    ) -> Ways {
+        Ways::from((&self.units[k], self.holds(k)), start, taken, self.longest, enough)
+    }
+
+    /// Where a thing cannot be for all others.
+    pub(super) fn taken_by_others(&self, k: usize, places: &[usize]) -> Taken {
+        let others: Vec<(usize, usize)> =
+            places.iter().copied().enumerate().filter(|(other, _)| *other != k).collect();
+        self.taken(k, &others)
+    }
+
+    /// Where a thing cannot be for others at these places.
+    pub(super) fn taken(&self, k: usize, others: &[(usize, usize)]) -> Taken {
+        let count = self.units[k].lattice.count();
+        let mut all = Taken {
+            thing: vec![false; count],
+            holds: vec![vec![false; count]; self.holds(k).len()],
+        };
+        for &(other, place) in others {
+            let marks = self.marks(k, other, place);
+            marks.thing.iter().for_each(|place| all.thing[*place] = true);
+            for (all, marks) in all.holds.iter_mut().zip(&marks.holds) {
+                marks.iter().for_each(|place| all[*place] = true);
+            }
+        }
+        all
+    }
+
+    /// The same for one of them.
+    fn marks(&self, k: usize, other: usize, place: usize) -> Rc<Marks> {
+        let key = (k, other, place);
+        if let Some(known) = self.marks.borrow().get(&key) {
+            return Rc::clone(known);
+        }
+        let (unit, still) = (&self.units[k], &self.units[other]);
+        let (lattice, at) = (&unit.lattice, still.lattice.position(place));
+        let here = lattice.position_of_origin();
+        let stood = place == still.lattice.nearest(still.lattice.position_of_origin());
+        let mark = |solids: &[Solid], own: bool| {
+            let mut marked = Vec::new();
+            for solid in solids {
+                for one in still.solids.iter().filter(|one| one.meets(solid)) {
+                    let there = one.at(at);
+                    let other = (&one.footprint, &there);
+                    let apart = match own && stood {
+                        // What stands nearer already may slide along.
+                        true => BESIDE.min(solid.gap(here, other, BESIDE) - 1e-6),
+                        false => BESIDE,
+                    };
+                    lattice.near(solid, other, BESIDE, |place, gap| {
+                        if gap < apart {
+                            marked.push(place);
+                        }
+                    });
+                }
+            }
+            marked.sort_unstable();
+            marked.dedup();
+            marked
+        };
+        let marks = Rc::new(Marks {
+            thing: mark(&unit.solids, true),
+            holds: self.holds(k).iter().map(|hold| mark(&hold.solids, false)).collect(),
+        });
+        self.marks.borrow_mut().insert(key, Rc::clone(&marks));
+        marks
+    }
+}
+
+/// All places of a stretch, both ends included.
+fn places(unit: &Unit, hold: &Hold, stretch: &Stretch) -> Vec<usize> {
+    let mut places = vec![stretch.from];
+    let mut at = stretch.from;
+    while at != stretch.to
+        && let Some(next) = unit.lattice.next(at, hold.step)
+    {
+        at = next;
+        places.push(at);
+    }
+    places
+}
