@@ -5,7 +5,7 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Optional
+from typing import Any, Optional
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
@@ -13,9 +13,6 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
-
-if TYPE_CHECKING:
-    import mujoco  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
 __all__ = ["scene_from"]
 
@@ -29,8 +26,8 @@ _Pose = tuple[_Floats, _Floats]
 
 
 def scene_from(
-    model: mujoco.MjModel,
-    data: Optional[mujoco.MjData] = None,
+    model: Any,
+    data: Any = None,
     *,
     bodies: Optional[Sequence[str]] = None,
     name: Optional[str] = None,
@@ -39,8 +36,8 @@ def scene_from(
     free: Optional[Sequence[str]] = None,
     density: Optional[float] = None,
 ) -> _native.Task:
-    """A task with the objects and obstacles of a model of MuJoCo that is loaded, where they are in `data`, by
-    default where the model puts them.
+    """A task with the objects and obstacles of a model of MuJoCo that is loaded (`mujoco.MjModel`), where they
+    are in `data` (`mujoco.MjData`), by default where the model puts them.
 
     What becomes what is as with :func:`import_task`, of which the other arguments are; `model` may be of any
     origin: a file, a text, `mujoco.MjSpec`, another library. Positions of joints are kept as they are in
@@ -60,7 +57,7 @@ class _Written:
     """A model as MJCF, as far as it is imported."""
 
     def __init__(self, model: Any, data: Any) -> None:
-        import mujoco
+        import mujoco  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
         now = mujoco.MjData(model)
         if data is not None:
@@ -75,6 +72,9 @@ class _Written:
         asset = SubElement(self.root, "asset")
         for mesh in meshes:
             self._mesh(asset, mesh)
+        custom = SubElement(self.root, "custom")
+        for numeric in map(model.numeric, range(model.nnumeric)):
+            SubElement(custom, "numeric", name=numeric.name, data=_numbers(numeric.data))
         world = SubElement(self.root, "worldbody")
         elements = {_WORLD: world}
         for body in range(1, model.nbody):
@@ -82,16 +82,13 @@ class _Written:
         for geom in range(model.ngeom):
             self._geom(elements[int(model.geom_bodyid[geom])], geom)
         self._contact()
-        custom = SubElement(self.root, "custom")
-        for numeric in map(model.numeric, range(model.nnumeric)):
-            SubElement(custom, "numeric", name=numeric.name, data=_numbers(numeric.data))
         for section, count in [("equality", model.neq), ("tendon", model.ntendon), ("actuator", model.nu)]:
             if count:
                 # What they are does not matter: none is imported.
                 SubElement(SubElement(self.root, section), "general")
 
     def _option(self) -> None:
-        import mujoco
+        import mujoco  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
         chosen = self.model.opt
         option = SubElement(

@@ -53,7 +53,7 @@ def build(folder: str | Path) -> Path:
         for kind in ("rosidl_generator_c", "rosidl_generator_py", "rosidl_typesupport_fastrtps_c", "rosidl_typesupport_c"):
             libraries.append(_library(prefix, f"{name}__{kind}"))
     with tempfile.TemporaryDirectory() as made:
-        objects = []
+        objects: list[str] = []
         for source in sorted([*package.rglob("*.c"), *package.rglob("*.cpp")]):
             compiler = ["cc"] if source.suffix == ".c" else ["c++", "-std=c++17"]
             objects.append(f"{made}/{len(objects)}.o")

@@ -182,7 +182,8 @@ class Client:
     def __init__(self, node: Any, kind: Any) -> None:
         from rclpy.action import ActionClient  # type: ignore[import-not-found,unused-ignore]
 
-        self.kind, self.said = kind, []
+        self.kind = kind
+        self.said: list[str] = []
         self.client = ActionClient(node, kind, "/pushplan/push")
 
     def asks(self, task: str = "") -> Any:
