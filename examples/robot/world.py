@@ -86,9 +86,11 @@ class World:
         times = np.array([point["time"] for point in way])
         places = np.array([point["positions"] for point in way])
         speeds = np.array([point["velocities"] for point in way])
-        takes = 1.5 * np.abs(places[-1] - places[0]).max() / HOMEWARDS + 0.1
-        times = np.append(times, times[-1] + takes)
-        places, speeds = np.vstack([places, places[0]]), np.vstack([speeds, 0 * speeds[0]])
+        if not np.allclose(places[-1], places[0]):
+            # The plan found no way home past what stands there; what is lifted mostly meets nothing.
+            takes = 1.5 * np.abs(places[-1] - places[0]).max() / HOMEWARDS
+            times = np.append(times, times[-1] + takes)
+            places, speeds = np.vstack([places, places[0]]), np.vstack([speeds, 0 * speeds[0]])
         self.data.qpos[self.joints] = places[0]
         for k in range(math.ceil(times[-1] / self.step)):
             self._steer(*between(times, places, speeds, k * self.step))
@@ -138,9 +140,8 @@ class World:
             stick(spec, spec.body(f"object/{name}"), FIRST + k, ON_OBJECTS, [0, 0, heights[name] / 2 + 2e-4])
         for geom in spec.geoms:
             geom.rgba = COLOURS.get(geom.name.split("/")[0], geom.rgba)
-        # The column that stands for the arm's base in plans would hide it.
-        for geom in spec.geoms:
             if geom.name == "obstacle/robot base":
+                # The column that stands for the arm's base in plans would hide it.
                 geom.rgba[3] = 0
         if not plan.pushes:
             # Nothing is in the hand, and there is no arm to see.
