@@ -14,14 +14,10 @@ use super::table::{Align, Table};
 
 /// A tool to make, or why none is proposed.
 pub fn design_document(task: &Task, design: &Design) -> Document {
-    let known = format!("tools that there are: {}", headline(task, &design.known));
-    let spent = format!(
-        "tools: {} looked at in {} rollouts, {} of them promising, {} solved with",
-        design.spent.looked_at, design.spent.rollouts, design.spent.promising, design.spent.solved
-    );
     let mut document = solution_document(task, design.best());
     let solution = std::mem::take(&mut document.json);
     let tool = design.proposal.as_ref().map(|proposal| &*proposal.tool);
+    let known = headline(task, &design.known);
     match tool {
         Some(tool) => {
             let mut section = parts(tool);
@@ -29,11 +25,18 @@ pub fn design_document(task: &Task, design: &Design) -> Document {
                 section.lines.push(format!("add {} to `tools` of the task to use it", tool.name));
             }
             document.sections.insert(0, section);
+            document.notes.push(format!("tools that there are: {known}"));
         }
-        None => document.title = format!("{}: {}", task.name, without(design)),
+        None => document.title = format!("{}: no new tool; {known}{}", task.name, why_none(design)),
     }
-    document.notes.push(known);
-    document.sections.push(Section { lines: vec![spent], ..Section::default() });
+    let spent = &design.spent;
+    if spent.looked_at > 0 {
+        let line = format!(
+            "tools: {} looked at in {} rollouts, {} of them promising; solved with {} of these",
+            spent.looked_at, spent.rollouts, spent.promising, spent.solved
+        );
+        document.sections.push(Section { lines: vec![line], ..Section::default() });
+    }
     document.json = json!({
         "task": task.name,
         "status": design.status(),
@@ -46,15 +49,12 @@ pub fn design_document(task: &Task, design: &Design) -> Document {
     document
 }
 
-/// Why no tool is proposed.
-fn without(design: &Design) -> String {
-    let nothing = match design.spent.looked_at {
-        0 => "none could do so with more margin",
-        _ => "none was found with more margin",
-    };
-    match design.known.status {
-        PlanStatus::Solved => format!("no new tool; there is one that solves it, and {nothing}"),
-        _ => "no new tool; none was found that does better".to_owned(),
+/// Why no tool is proposed, after what those that there are do.
+fn why_none(design: &Design) -> &'static str {
+    match (design.known.status, design.spent.looked_at) {
+        (PlanStatus::Solved, 0) => ", and none could do so with more margin",
+        (PlanStatus::Solved, _) => ", and none was found that does so with more margin",
+        _ => ", and none was found that does better",
     }
 }
 

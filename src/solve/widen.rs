@@ -32,7 +32,7 @@ const STEP: f64 = 0.01;
 const OBSTACLES: usize = 8;
 
 /// Stops as another does and tells nothing: many tasks are looked at side by side.
-struct Quiet<'a>(&'a dyn Watch);
+pub(super) struct Quiet<'a>(pub &'a dyn Watch);
 
 impl Watch for Quiet<'_> {
     fn cancelled(&self) -> bool {

@@ -115,7 +115,7 @@ fn a_task_that_no_tool_solves_ends_as_solve_does() {
     let folder = TempDir::new().unwrap();
     let out = folder.path().to_str().unwrap();
     let options = ["--candidates", "30", "--effort", "draft", "--out", out];
-    let output = run(&[&["design", "tasks/too-far.yaml"][..], &options].concat());
+    let output = run(&[&["design", "tasks/boxed-in.yaml"][..], &options].concat());
     assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
     assert!(!folder.path().join("tools").exists());
 }

@@ -6,7 +6,7 @@
     pushplan export designed/plans/*.plan.json --out designed/mjcf
     python3 designed/mjcf/replay.py designed/mjcf > designed/mujoco.jsonl
 
-Tasks of seven kinds are drawn, and those kept for which `solve` with the shipped tools finds no plan that works: up to
+Tasks of eight kinds are drawn, and those kept for which `solve` with the shipped tools finds no plan that works: up to
 `--count` of each kind. Nobody knows whether a tool solves them. `design` then looks at `--candidates` tools; with
 `--random` all of them are drawn by chance from the same forms and none is varied, the baseline: the best of as many random tools.
 Tasks that are there already are not drawn again. A plan that is not solved has another name (`.failed.plan.json` and
@@ -16,12 +16,11 @@ but Python is needed.
 
 import argparse
 import json
-import math
 import random
 import subprocess
 from pathlib import Path
 
-NO_PLAN, FAILED = 4, 5
+NO_PLAN, FAILED, PARTIAL = 4, 5, 8
 
 
 class Draw:
@@ -138,7 +137,18 @@ def gap(d):
     return d.task(0.7, ("can", x + deep + d.rng.choice([-1, 1]) * d.u(0.08, 0.14), 0.0))
 
 
-KINDS = {"far": far, "around": around, "slot": slot, "pocket": pocket, "together": together, "walls": walls, "gap": gap}
+def beside(d):
+    """Next to a long wall, out of the hand's reach, to be pushed away from it."""
+    radius, x, y = d.u(0.03, 0.04), d.u(0.75, 0.9), d.u(0.0, 0.1)
+    d.wall(x, y + radius + d.u(0.024, 0.03) + 0.015, 0.8, 0.03, 0.2)
+    d.can(x, y, radius)
+    return d.task(0.5, ("can", x, y - d.u(0.08, 0.14)), max_count=1)
+
+
+KINDS = {
+    "far": far, "around": around, "slot": slot, "pocket": pocket, "together": together, "walls": walls, "gap": gap,
+    "beside": beside,
+}
 
 
 def unsolved(arguments, kind):
@@ -152,7 +162,7 @@ def unsolved(arguments, kind):
             path.write_text(json.dumps(KINDS[kind](Draw(f"{arguments.seed} {kind} {k}")), indent=1))
             command = [arguments.solve, "solve", path, "--quiet", "--out", arguments.out / "known"]
             done = subprocess.run(command, capture_output=True, text=True)
-            if done.returncode not in (NO_PLAN, FAILED):
+            if done.returncode not in (NO_PLAN, FAILED, PARTIAL):
                 path.write_text("")  # It is not drawn again.
                 if done.returncode == 3:
                     raise SystemExit(done.stderr)
@@ -165,7 +175,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--out", type=Path, required=True, help="folder of the tasks")
     parser.add_argument("--solve", required=True, help="the program that is asked")
-    parser.add_argument("--count", type=int, default=6, help="tasks of each kind; default 6")
+    parser.add_argument("--count", type=int, default=5, help="tasks of each kind; default 5")
     parser.add_argument("--seed", type=int, default=1, help="of all draws; default 1")
     parser.add_argument("--kind", action="append", choices=KINDS, help="these alone; default all")
     parser.add_argument("--candidates", type=int, default=1000, help="tools that are looked at; default 1000")

@@ -45,26 +45,37 @@ pub(super) struct Assembly {
 }
 
 /// A handle along points, and a bar at its end.
-pub(super) struct Run {
+pub(super) struct Route {
     /// Where it is held, where it bends, and where it ends, metres, seen by the end effector.
     pub points: Vec<Vector>,
     /// Its width, metres.
     pub width: f64,
-    /// Length of the bar at its end, metres, and its heading; none without one.
-    pub bar: Option<(f64, f64)>,
+    /// What is across its end.
+    pub bar: Option<Bar>,
+}
+
+/// A bar across the end of a handle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bar {
+    /// Metres.
+    pub length: f64,
+    /// Which way it points, radians.
+    pub heading: f64,
+    /// How far its middle is from the end of the handle that way, metres.
+    pub aside: f64,
 }
 
 impl Assembly {
     /// The one that runs like this, as nearly as there is one.
-    pub fn along(run: &Run) -> Option<Self> {
-        let ways: Vec<Vector> = run.points.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    pub fn along(route: &Route) -> Option<Self> {
+        let ways: Vec<Vector> = route.points.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let links = ways.len();
         if !(1..=Form::LINKS).contains(&links) {
             return None;
         }
         let heading = |way: &Vector| way.y.atan2(way.x).to_degrees();
         let mut numbers = [0.5; NUMBERS];
-        numbers[0] = log_number(WIDTHS, run.width);
+        numbers[0] = log_number(WIDTHS, route.width);
         numbers[1] = number_around(wrap(heading(&ways[0])) / TURN);
         for (k, way) in ways.iter().enumerate() {
             numbers[2 + k] = even_number(LINKS, way.norm());
@@ -73,13 +84,17 @@ impl Assembly {
             }
         }
         let mut head = Head::Plain;
-        if let Some((length, across)) = run.bar {
+        if let Some(Bar { length, heading: across, aside }) = route.bar {
             let slant = wrap(across.to_degrees() - heading(ways.last()?) - 90.0);
             // A bar is the same turned by half a turn.
-            let slant = if slant.abs() > 90.0 { wrap(slant + 180.0) } else { slant };
+            let turned = slant.abs() > 90.0;
+            let slant = if turned { wrap(slant + 180.0) } else { slant };
+            let aside = if turned { -aside } else { aside };
             head = Head::Bar;
+            let most = (length - length.min(route.width)) / 2.0;
+            numbers[10] = number_around(if most > 0.0 { aside / most } else { 0.0 });
             numbers[7] = log_number(BARS, length);
-            numbers[8] = log_number(WIDTHS, run.width);
+            numbers[8] = log_number(WIDTHS, route.width);
             numbers[9] = 1.0;
             numbers[11] = number_around(slant / SLANT);
         }
@@ -292,8 +307,9 @@ mod tests {
     fn a_handle_runs_along_its_points() {
         let points = [[0.0, 0.0], [0.2, 0.1], [0.2, 0.3], [0.1, 0.3]];
         let points: Vec<Vector> = points.iter().map(|[x, y]| Vector::new(*x, *y)).collect();
-        let run = Run { points: points.clone(), width: 0.02, bar: Some((0.08, 1.0)) };
-        let tool = Assembly::along(&run).expect("three links").tool("tool").expect("one piece");
+        let bar = Bar { length: 0.08, heading: 1.0, aside: 0.02 };
+        let route = Route { points: points.clone(), width: 0.02, bar: Some(bar) };
+        let tool = Assembly::along(&route).expect("three links").tool("tool").expect("one piece");
         // Of the end effector at the origin.
         let frame = tool.pose(Pose::default());
         let [one, two, three, bar] = [0, 1, 2, 3].map(|k| tool.part_pose(k, &frame));
@@ -302,10 +318,9 @@ mod tests {
             let way = (ends[1] - ends[0]).normalize();
             assert!(along.dot(&way) > 0.9998, "{pose:?} along {way}");
         }
-        assert!(
-            (bar.position - points[3]).norm() < 0.02
-                && (bar.heading.sin() - 1f64.sin()).abs() < 0.02
-        );
+        let middle = points[3] + Vector::new(1f64.cos(), 1f64.sin()) * 0.02;
+        assert!((bar.position - middle).norm() < 0.015, "{bar:?} about {middle}");
+        assert!((bar.heading.sin() - 1f64.sin()).abs() < 0.02);
     }
 
     #[test]

@@ -39,6 +39,18 @@ impl Form {
         forms
     }
 
+    /// The next simpler one, if there is one.
+    pub fn simpler(self) -> Option<Self> {
+        let head = match self.head {
+            Head::Plain if self.links == 1 => return None,
+            Head::Plain => return Some(Self { links: self.links - 1, ..self }),
+            Head::Bar => Head::Plain,
+            Head::Catch | Head::Bars | Head::Fork => Head::Bar,
+            Head::Ring => Head::Fork,
+        };
+        Some(Self { head, ..self })
+    }
+
     /// How many parts it has.
     pub fn parts(self) -> usize {
         let head = match self.head {

@@ -14,6 +14,7 @@ use crate::watch::Watch;
 
 use super::super::grade::WELL_INSIDE;
 use super::super::rank::distinct;
+use super::super::widen::Quiet;
 use super::super::{LeverSettings, Settings};
 
 /// What a first look takes: about half a thousand rollouts where three pushes are allowed.
@@ -44,8 +45,9 @@ pub(super) struct Look {
     pub misses: f64,
     /// Pushes of that plan.
     pub pushes: usize,
-    /// Pieces of the tool.
+    /// Pieces of the tool, flush parts taken together, and parts.
     pub pieces: usize,
+    pub parts: usize,
     /// What its parts cover together, square metres.
     pub size: f64,
     /// Rollouts that it took.
@@ -57,7 +59,8 @@ impl Look {
     /// plans are ranked.
     pub fn compare(&self, other: &Self) -> Ordering {
         let near = self.misses.total_cmp(&other.misses);
-        let simple = (self.pushes, self.pieces).cmp(&(other.pushes, other.pieces));
+        let counts = |look: &Self| (look.pushes, look.pieces, look.parts);
+        let simple = counts(self).cmp(&counts(other));
         near.then(simple).then(self.size.total_cmp(&other.size))
     }
 }
@@ -75,8 +78,10 @@ pub(super) struct Looking<'a> {
 impl Looking<'_> {
     /// Looks at a tool.
     pub fn at(&self, tool: Tool) -> Look {
+        // Many tools are looked at side by side.
+        let watch = &Quiet(self.watch);
         let size = tool.parts().iter().map(|part| part.footprint().area()).sum();
-        let pieces = tool.outline().len();
+        let (pieces, parts) = (tool.outline().len(), tool.parts().len());
         let tools = [Arc::new(tool)];
         let workspace = Workspace { task: self.task, tools: &tools };
         let mut rollouts = Rollouts::new(self.model, self.situation.clone());
@@ -84,7 +89,7 @@ impl Looking<'_> {
         let mut search = Search::laid(workspace, self.situation, SETTINGS.search(0.0), laid);
         let (mut misses, mut pushes) = (f64::INFINITY, 0);
         while search.can_deepen() && misses > 0.0 && !self.watch.cancelled() {
-            let found = search.deepen(&mut rollouts, self.watch);
+            let found = search.deepen(&mut rollouts, watch);
             let candidates = distinct(&found, SETTINGS.refined, 0);
             let refinable = found.first().is_some_and(|one| one.score <= REFINABLE);
             let refined = refine(
@@ -101,7 +106,7 @@ impl Looking<'_> {
                     radius: FOUND_RADIUS,
                 },
                 &mut RefineStatistics::default(),
-                self.watch,
+                watch,
             );
             for one in refined.iter().filter(|one| one.best.is_sound()) {
                 let missed = self.missed(&workspace, &mut rollouts, one);
@@ -110,7 +115,7 @@ impl Looking<'_> {
                 }
             }
         }
-        Look { misses, pushes, pieces, size, rollouts: rollouts.used() }
+        Look { misses, pushes, pieces, parts, size, rollouts: rollouts.used() }
     }
 
     /// How far off a plan ends in the worst of the cases that are tried.

@@ -69,7 +69,7 @@ impl Planner {
         let (model, field) = (self.screen(), Field::new(task));
         let spread = Spread::around(&situation);
         let looking = Looking { task, situation: &situation, model, field, spread, watch };
-        let seen = search(&looking, settings, self.seed());
+        let mut seen = search(&looking, settings, self.seed());
         design.spent = Spent {
             looked_at: seen.len(),
             rollouts: seen.iter().map(|one| one.look.rollouts).sum(),
@@ -77,6 +77,8 @@ impl Planner {
             solved: 0,
         };
 
+        // With the others no push can be made.
+        seen.retain(|one| one.look.misses.is_finite());
         let mut best: Option<(Option<Grade>, Proposal)> = None;
         let finalists = kept(&seen, settings.solved, OF_A_FORM);
         for (k, one) in finalists.iter().enumerate() {

@@ -26,8 +26,9 @@ const OF_A_FORM: usize = 5;
 /// Numbers are varied by up to this in the first generation and in the last.
 const SPREAD: [f64; 2] = [0.4, 0.06];
 
-/// How often a variation takes on another form.
-const REFORMED: f64 = 0.15;
+/// How often a variation takes on any form, and how often the next simpler one.
+const REFORMED: f64 = 0.1;
+const SIMPLER: f64 = 0.15;
 
 /// Two of a form whose numbers differ by no more are alike.
 const ALIKE: f64 = 0.05;
@@ -41,7 +42,7 @@ pub(super) struct Seen {
 
 /// Looks at tools, and gives all of them, best first.
 pub(super) fn search(looking: &Looking, settings: &DesignSettings, seed: u64) -> Vec<Seen> {
-    let forms = Form::up_to(settings.parts);
+    let forms = Form::up_to(settings.parts.max(1));
     let count = Count::new(looking.watch, 0, settings.candidates);
     let mut first = traced(looking.task, &looking.field, settings.parts);
     first.truncate(settings.traced);
@@ -49,13 +50,14 @@ pub(super) fn search(looking: &Looking, settings: &DesignSettings, seed: u64) ->
     first.truncate(settings.candidates);
     let mut seen = look_at(looking, &first, &count);
     seen.sort_by(|a, b| a.look.compare(&b.look));
-    let drawn = first.len();
-    while seen.len() < settings.candidates && !looking.watch.cancelled() {
+    // Some assemblies make no tool, so it is not those seen that are counted.
+    let mut made = first.len();
+    while made < settings.candidates && !looking.watch.cancelled() {
         let parents = kept(&seen, PARENTS, OF_A_FORM);
-        let done = (seen.len() - drawn) as f64 / (settings.candidates - drawn).max(1) as f64;
+        let done = (made - first.len()) as f64 / (settings.candidates - first.len()) as f64;
         let spread = SPREAD[0] * (SPREAD[1] / SPREAD[0]).powf(done);
-        let many = GENERATION.min(settings.candidates - seen.len());
-        let children: Vec<Assembly> = (seen.len()..seen.len() + many)
+        let many = GENERATION.min(settings.candidates - made);
+        let children: Vec<Assembly> = (made..made + many)
             .map(|index| {
                 let mut random = generator(seed, index as u64);
                 // The better of two: better ones are varied more often.
@@ -67,10 +69,13 @@ pub(super) fn search(looking: &Looking, settings: &DesignSettings, seed: u64) ->
                 };
                 if random.random_bool(REFORMED) {
                     child.form = forms[random.random_range(0..forms.len())];
+                } else if random.random_bool(SIMPLER) {
+                    child.form = child.form.simpler().unwrap_or(child.form);
                 }
                 child
             })
             .collect();
+        made += many;
         seen.extend(look_at(looking, &children, &count));
         // Stable: of equals the earlier one.
         seen.sort_by(|a, b| a.look.compare(&b.look));
@@ -143,7 +148,7 @@ mod tests {
         let form = Form::up_to(1)[0];
         let seen = |number: f64| Seen {
             assembly: Assembly { form, numbers: [number; NUMBERS] },
-            look: Look { misses: 0.0, pushes: 1, pieces: 1, size: number, rollouts: 0 },
+            look: Look { misses: 0.0, pushes: 1, pieces: 1, parts: 1, size: number, rollouts: 0 },
         };
         let all = [0.1, 0.12, 0.3, 0.5, 0.7].map(seen);
         let sizes = |most, of_a_form| -> Vec<f64> {

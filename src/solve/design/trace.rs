@@ -12,7 +12,7 @@ use crate::geometry::{Footprint, Pose, Vector, clearance, perpendicular, swept_c
 use crate::plan::{Field, MIN_LENGTH, OBSTACLE_CLEARANCE, STAND_OFF};
 use crate::scene::{Mover, Task};
 
-use super::assembly::{Assembly, HEIGHT, Run};
+use super::assembly::{Assembly, Bar, HEIGHT, Route};
 use super::form::Form;
 
 /// Widths of handles that are tried, metres, simplest to push with first.
@@ -46,12 +46,16 @@ const APART: f64 = 0.1;
 /// Bars at the end are of these shares of the object's width.
 const SHARES: [f64; 3] = [1.2, 0.8, 0.5];
 
+/// The handle meets the bar that pushes in its middle, or as far aside, in half widths of the object.
+const FEET: [f64; 3] = [0.0, 0.4, -0.4];
+
 /// A push for which a tool is wanted.
 struct Wanted {
     object: usize,
     direction: f64,
     travel: f64,
     width: f64,
+    aside: f64,
 }
 
 /// Handles of at most so many parts for the first push of a task, those of few parts first.
@@ -66,7 +70,10 @@ pub(super) fn traced(task: &Task, field: &Field, parts: usize) -> Vec<Assembly> 
             let best = travels.min_by(|a, b| left(*a).total_cmp(&left(*b)));
             let Some(travel) = best.filter(|travel| left(*travel) < left(0.0)) else { continue };
             let travel = travel.max(MIN_LENGTH);
-            wanted.extend(WIDTHS.map(|width| Wanted { object, direction, travel, width }));
+            for (width, aside) in WIDTHS.iter().flat_map(|width| FEET.map(|aside| (*width, aside)))
+            {
+                wanted.push(Wanted { object, direction, travel, width, aside });
+            }
         }
     }
     let found: Vec<Vec<Assembly>> =
@@ -83,8 +90,12 @@ struct Tracing<'a> {
     wanted: &'a Wanted,
     /// The travel of the push.
     shift: Vector,
+    /// Half of the object's extent across it, metres.
+    half_width: f64,
     /// Where the face is in the middle of its thickness.
     face: Vector,
+    /// Where the handle ends.
+    foot: Vector,
     fixed: Vec<(Footprint, Pose)>,
     objects: Vec<(Footprint, Pose)>,
 }
@@ -95,6 +106,9 @@ impl<'a> Tracing<'a> {
         let ahead = Vector::new(wanted.direction.cos(), wanted.direction.sin());
         let object = &scene.objects[wanted.object];
         let back = object.shape.footprint().extent(object.pose.local_vector(-ahead));
+        let face = object.pose.position - ahead * (back + STAND_OFF + ROOM + wanted.width / 2.0);
+        let left = perpendicular(ahead);
+        let half_width = object.shape.footprint().extent(object.pose.local_vector(left));
         let span = [task.pushes.lift, task.pushes.lift + HEIGHT];
         let fixed = scene.fixed(Mover::Tool, span).map(|fixed| (fixed.footprint, fixed.pose));
         let objects = scene.objects.iter().filter(|object| object.meets(span));
@@ -102,7 +116,9 @@ impl<'a> Tracing<'a> {
             task,
             wanted,
             shift: ahead * wanted.travel,
-            face: object.pose.position - ahead * (back + STAND_OFF + ROOM + wanted.width / 2.0),
+            half_width,
+            face,
+            foot: face + left * (wanted.aside * half_width),
             fixed: fixed.collect(),
             objects: objects.map(|object| (object.shape.footprint(), object.pose)).collect(),
         }
@@ -115,12 +131,13 @@ impl<'a> Tracing<'a> {
         for way in self.ways(parts.min(Form::LINKS)) {
             let ([hand, ..], [.., before, _]) = (&way[..], &way[..]) else { continue };
             let (hand, before) = (*hand, *before);
-            let last = (self.face - before).normalize();
+            let last = (self.foot - before).normalize();
             let across = last.dot(&self.shift.normalize()).abs() < ACROSS;
+            let middle = self.wanted.aside == 0.0;
             let mut way = way.clone();
-            if across {
+            if across && middle {
                 // Such a link pushes with its side, as far as there is room.
-                let ends = SHARES.map(|share| self.face + last * (share * self.half_width()));
+                let ends = SHARES.map(|share| self.face + last * (share * self.half_width));
                 let free =
                     |end: &Vector| (end - before).norm() <= LONGEST && self.is_free(before, *end);
                 way.pop();
@@ -130,21 +147,16 @@ impl<'a> Tracing<'a> {
             let grip = Pose { position: hand, heading: yaw };
             let points: Vec<Vector> = way.iter().map(|point| grip.local_point(*point)).collect();
             let width = self.wanted.width;
-            let bar = self.bar().filter(|_| !across && way.len() <= parts);
-            let bar = bar.map(|length| (length, self.wanted.direction + FRAC_PI_2 - yaw));
-            found.extend(bar.and_then(|bar| {
-                Assembly::along(&Run { points: points.clone(), width, bar: Some(bar) })
-            }));
-            found.extend(Assembly::along(&Run { points, width, bar: None }));
+            let bar = self.bar().filter(|_| !across && way.len() <= parts).map(|length| {
+                let heading = self.wanted.direction + FRAC_PI_2 - yaw;
+                Bar { length, heading, aside: -self.wanted.aside * self.half_width }
+            });
+            let with = |bar| Assembly::along(&Route { points: points.clone(), width, bar });
+            found.extend(bar.and_then(|bar| with(Some(bar))));
+            // Without a bar only a handle that meets the object's middle pushes it straight.
+            found.extend(middle.then(|| with(None)).flatten());
         }
         found
-    }
-
-    /// Half of the object's extent across the push, metres.
-    fn half_width(&self) -> f64 {
-        let object = &self.task.scene.objects[self.wanted.object];
-        let left = perpendicular(self.shift.normalize());
-        object.shape.footprint().extent(object.pose.local_vector(left))
     }
 
     /// Length of the widest bar at the face that has room.
@@ -154,15 +166,15 @@ impl<'a> Tracing<'a> {
             let out = left * (length / 2.0);
             self.is_free(self.face - out, self.face + out)
         };
-        SHARES.map(|share| 2.0 * share * self.half_width()).into_iter().find(free)
+        SHARES.map(|share| 2.0 * share * self.half_width).into_iter().find(free)
     }
 
     /// Ways from hand to face, of as few links as do and at most so many, short ones first.
     fn ways(&self, links: usize) -> Vec<Vec<Vector>> {
-        if !self.is_free(self.face, self.face + self.shift.normalize() * 1e-3) {
+        if !self.is_free(self.foot, self.foot) {
             return Vec::new();
         }
-        let mut points = vec![self.face];
+        let mut points = vec![self.foot];
         points.extend(self.bends().into_iter().filter(|point| self.is_free(*point, *point)));
         let hands: Vec<bool> = points.iter().map(|point| self.is_hand(*point)).collect();
         // Links and length of the way from the face, and the point before.
@@ -222,8 +234,8 @@ impl<'a> Tracing<'a> {
     fn bends(&self) -> Vec<Vector> {
         let reach = self.task.robot.reach_max;
         let even = |axis: usize| {
-            let low = (-reach).min(self.face[axis] - SPACING);
-            let high = reach.max(self.face[axis] + SPACING);
+            let low = (-reach).min(self.foot[axis] - SPACING);
+            let high = reach.max(self.foot[axis] + SPACING);
             let count = ((high - low) / SPACING).ceil() as usize;
             (0..=count).map(move |k| low + SPACING * k as f64)
         };
@@ -236,7 +248,7 @@ impl<'a> Tracing<'a> {
                 let (low, high) = (middle - extent(-along), middle + extent(along));
                 [low - swept.max(0.0), high - swept.min(0.0)]
             };
-            let mut all: Vec<f64> = vec![self.face[axis]];
+            let mut all: Vec<f64> = vec![self.foot[axis]];
             all.extend(self.fixed.iter().flat_map(|fixed| sides(fixed, self.shift[axis])));
             all.extend(self.objects.iter().flat_map(|object| sides(object, 0.0)));
             all.sort_by(f64::total_cmp);
@@ -245,7 +257,7 @@ impl<'a> Tracing<'a> {
             all.extend(middles);
             all.sort_by(f64::total_cmp);
             all.dedup_by(|a, b| (*a - *b).abs() < ROOM);
-            all.sort_by(|a, b| (a - self.face[axis]).abs().total_cmp(&(b - self.face[axis]).abs()));
+            all.sort_by(|a, b| (a - self.foot[axis]).abs().total_cmp(&(b - self.foot[axis]).abs()));
             all.truncate(MOST);
             all
         };
@@ -254,7 +266,7 @@ impl<'a> Tracing<'a> {
         };
         let (xs, ys): (Vec<f64>, Vec<f64>) = (even(0).collect(), even(1).collect());
         let mut bends = grid(&near(0), &near(1));
-        bends.extend(grid(&xs, &[self.face.y]));
+        bends.extend(grid(&xs, &[self.foot.y]));
         bends.extend(grid(&xs, &ys).into_iter().filter(|at| self.task.robot.reaches(*at)));
         bends
     }
