@@ -149,10 +149,13 @@ impl Assembly {
             let from = shaft.from * Pose::new(shaft.length, 0.0, bend(k));
             let length = millimetres(even(LINKS, self.numbers[2 + k]));
             shaft = Shaft { from, length, width };
-            // At a corner links reach over each other.
-            let over = |k| if bend(k) == 0.0 { 0.0 } else { width / 2.0 };
-            let whole = (over(k) + length + over(k + 1)).min(LINKS[1]);
-            let middle = (length + over(k + 1) - over(k)) / 2.0;
+            // At a corner links reach over each other, as far as their length allows; in whole
+            // millimetres, or flush ones would not touch.
+            let corner = millimetres(width / 2.0);
+            let over = |k, spare: f64| if bend(k) == 0.0 { 0.0 } else { spare.min(corner) };
+            let before = over(k, LINKS[1] - length);
+            let after = over(k + 1, LINKS[1] - length - before);
+            let (whole, middle) = (before + length + after, (length + after - before) / 2.0);
             let name = match self.form.links {
                 1 => "handle".to_owned(),
                 _ => format!("handle-{}", k + 1),
@@ -172,6 +175,7 @@ impl Assembly {
         let across = |place: f64, shift: f64| {
             let place = (place / END).min(1.0);
             let along = width / 2.0 + place * (shaft.length - width).max(0.0);
+            let along = along.min(shaft.length);
             let aside = shift * (length - length.min(shaft.width)) / 2.0;
             shaft.from * Pose::new(along, 0.0, slant) * Pose::new(aside, 0.0, 0.0)
         };
@@ -224,7 +228,7 @@ fn name_of_tip(form: Form, side: f64) -> &'static str {
 /// flush parts to touch.
 fn part(name: &str, [length, width]: [f64; 2], at: Pose) -> Part {
     let place = at.position.map(|metres| (1e5 * metres).round() / 1e5);
-    let at = Pose { position: place, heading: degrees(at.heading.to_degrees()) };
+    let at = Pose { position: place, heading: degrees(wrap(at.heading.to_degrees())) + 0.0 };
     Part::cuboid(name, [millimetres(length), millimetres(width), HEIGHT], at)
 }
 
@@ -294,7 +298,8 @@ mod tests {
                 let mut random = generator(draw, k as u64);
                 let drawn = Assembly { form, numbers: std::array::from_fn(|_| random.random()) };
                 for assembly in [drawn.varied(&mut random, 0.3), drawn] {
-                    let tool = assembly.tool("tool").expect("one piece");
+                    let tool = assembly.tool("tool");
+                    let tool = tool.unwrap_or_else(|| panic!("{assembly:?} comes apart"));
                     assert_eq!(tool.parts().len(), form.parts(), "{form:?}");
                     let text = tool.to_yaml().expect("a file");
                     assert_eq!(Tool::parse(&text, "tool.yaml").expect("a tool"), tool);
@@ -320,7 +325,8 @@ mod tests {
         }
         let middle = points[3] + Vector::new(1f64.cos(), 1f64.sin()) * 0.02;
         assert!((bar.position - middle).norm() < 0.015, "{bar:?} about {middle}");
-        assert!((bar.heading.sin() - 1f64.sin()).abs() < 0.02);
+        // A bar is the same turned by half a turn.
+        assert!((bar.heading - 1.0).sin().abs() < 0.02);
     }
 
     #[test]

@@ -138,7 +138,7 @@ mod tests {
             assert_eq!(own.len(), 40);
             for number in 0..NUMBERS {
                 let below = own.iter().filter(|one| one.numbers[number] < 0.5).count();
-                assert!((16..=24).contains(&below), "{form:?} {number}: {below} of 40");
+                assert!((12..=28).contains(&below), "{form:?} {number}: {below} of 40");
             }
         }
     }
