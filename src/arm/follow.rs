@@ -3,7 +3,8 @@
 //! Every push is a straight line of the flange: down from above, along, back by what the tool retreats,
 //! and up. Between pushes the joints go straight, or, where that meets something, fold to how they are
 //! at home, turn, and unfold. What posture a push begins in is tried: near where the arm is, then any
-//! other; the first that carries the whole push out is taken.
+//! other; the first that carries the whole push out is taken. After the last push the arm goes home, where
+//! the next plan begins, if there is a way.
 
 use std::sync::Arc;
 
@@ -67,6 +68,14 @@ pub fn follow(
         };
         let made = push.make(&mut pieces, step).map_err(|fault| (k, fault))?;
         pushes.push(made);
+    }
+    if motion.strokes.last().is_some_and(|stroke| stroke.settle) {
+        let last = states.get(steps.len()).or(states.last());
+        let objects = last.map(|state| room.objects(state)).unwrap_or_default();
+        let home = way(&room, pieces.now(), &arm.home, &objects).unwrap_or_default();
+        for through in &home {
+            pieces.swing(through);
+        }
     }
     let joints = arm.joints.iter().map(|joint| joint.name.clone()).collect();
     Ok(JointTrajectory { joints, points: pieces.points, pushes })
@@ -173,7 +182,7 @@ impl Push<'_> {
         if self.set_down {
             let mut up = self.risen(&self.ends[0], posture, &self.before)?;
             up.reverse();
-            lines.way = self.way(now, &up[0])?;
+            lines.way = way(self.room, now, &up[0], &self.before)?;
             lines.down = up;
         }
         if let Some(back) = &self.back {
@@ -215,37 +224,46 @@ impl Push<'_> {
         }
         Ok(())
     }
+}
 
-    /// Joint positions on the way to others with the tool lifted: those themselves, or how the arm is at
-    /// home before and after it turns.
-    fn way(&self, from: &[f64], to: &[f64]) -> Result<Vec<Vec<f64>>, ArmFault> {
-        let Some(between) = self.swept(from, to) else { return Ok(vec![to.to_vec()]) };
-        let folded = |at: &[f64]| {
-            let mut folded = self.room.arm.home.clone();
-            folded[0] = at[0];
-            folded
-        };
-        let by = [folded(from), folded(to), to.to_vec()];
-        let mut at = from;
-        for next in &by {
-            if self.swept(at, next).is_some() {
-                return Err(ArmFault::NoWay { between });
-            }
-            at = next;
+/// Joint positions on the way to others with the tool lifted, past objects: those themselves, or how the
+/// arm is at home before and after it turns.
+fn way(
+    room: &Room<'_>,
+    from: &[f64],
+    to: &[f64],
+    objects: &[(&str, PlacedHull)],
+) -> Result<Vec<Vec<f64>>, ArmFault> {
+    let Some(between) = swept(room, [from, to], objects) else { return Ok(vec![to.to_vec()]) };
+    let folded = |at: &[f64]| {
+        let mut folded = room.arm.home.clone();
+        folded[0] = at[0];
+        folded
+    };
+    let by = [folded(from), folded(to), to.to_vec()];
+    let mut at = from;
+    for next in &by {
+        if swept(room, [at, next], objects).is_some() {
+            return Err(ArmFault::NoWay { between });
         }
-        Ok(by.to_vec())
+        at = next;
     }
+    Ok(by.to_vec())
+}
 
-    /// What is met on the straight way of the joints.
-    fn swept(&self, from: &[f64], to: &[f64]) -> Option<[String; 2]> {
-        let far = from.iter().zip(to).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        let steps = (far / LOOK).ceil().max(1.0) as usize;
-        (0..=steps).find_map(|step| {
-            let share = step as f64 / steps as f64;
-            let at: Vec<f64> = from.iter().zip(to).map(|(a, b)| a + share * (b - a)).collect();
-            self.room.met(&self.room.stance(&at), &self.before, true)
-        })
-    }
+/// What is met on the straight way of the joints.
+fn swept(
+    room: &Room<'_>,
+    [from, to]: [&[f64]; 2],
+    objects: &[(&str, PlacedHull)],
+) -> Option<[String; 2]> {
+    let far = from.iter().zip(to).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let steps = (far / LOOK).ceil().max(1.0) as usize;
+    (0..=steps).find_map(|step| {
+        let share = step as f64 / steps as f64;
+        let at: Vec<f64> = from.iter().zip(to).map(|(a, b)| a + share * (b - a)).collect();
+        room.met(&room.stance(&at), objects, true)
+    })
 }
 
 /// A posture with the first joint turned so that the flange is in the direction of another.

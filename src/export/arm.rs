@@ -20,6 +20,9 @@ const DENSITY: f64 = 1000.0;
 /// Of tools, kg/m3, as of wood: the stick weighs a kilogram.
 const TOOL_DENSITY: f64 = 500.0;
 
+/// Radius of the rod that is seen between flange and tool, metres.
+const MOUNT: f64 = 0.012;
+
 /// What a link without solids weighs, kg.
 const BARE: f64 = 0.1;
 
@@ -95,6 +98,19 @@ pub(super) fn bodies(xml: &mut Xml, arm: &Arm, tool: &Tool) {
     let seen = arm.flange * arm.flange_of_tool().inverse();
     open(xml, "tool".into(), &(seen * Pose3::upright(tool.grip.inverse(), 0.0)));
     pieces(xml, ("tool/", tool), &Pose::default(), 0.0, TOOL_DENSITY);
+    if arm.mount.length > FLAT {
+        // It is only seen.
+        let Pose { position: at, .. } = tool.grip;
+        let ends = [at.x, at.y, 0.0, at.x, at.y, arm.mount.length];
+        let rod = [
+            ("name", "tool/mount".into()),
+            ("type", "capsule".into()),
+            ("fromto", numbers(&ends)),
+            ("size", numbers(&[MOUNT])),
+            ("mass", "0".into()),
+        ];
+        xml.leaf("geom", &rod);
+    }
     for _ in 0..arm.bodies.len() + 1 {
         xml.close();
     }

@@ -69,9 +69,10 @@ const TABLE_DEPTH: f64 = 0.5;
 /// cylinder never does: MuJoCo's contact of a cylinder and a plane throws standing ones over.
 const CLEAR: f64 = 5e-4;
 
-/// The scene of `file`'s task with its tool and the plan's pushes, as MJCF.
+/// The scene of `file`'s task with its tool and the plan's pushes, as MJCF; of a plan with an arm that, and
+/// how its joints move.
 ///
-/// Names are `object/NAME`, `obstacle/NAME`, `region/NAME` and `tool/PARTS`, flush parts being one solid. The pushes, the goal, our rules and
+/// Names are `object/NAME`, `obstacle/NAME`, `region/NAME`, `arm/LINK` and `tool/PARTS`, flush parts being one solid. The pushes, the goal, our rules and
 /// the end of our own 3-D replay (where the file has one) stand under `custom`.
 ///
 /// # Errors

@@ -24,6 +24,18 @@ impl Ledger {
         Self { files, faults: Vec::new(), notes: Vec::new() }
     }
 
+    /// The file, and those that it includes and attaches.
+    pub fn files(&self) -> &[String] {
+        &self.files
+    }
+
+    /// More files, and at which index they begin.
+    pub fn more_files(&mut self, files: &[String]) -> usize {
+        let first = self.files.len();
+        self.files.extend_from_slice(files);
+        first
+    }
+
     fn file(&self, place: Place) -> &str {
         self.files.get(place.file).map_or("", String::as_str)
     }

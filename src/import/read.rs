@@ -66,7 +66,7 @@ pub fn read(
         return Ok((model, language, notes));
     }
     let (file, text) = read_text(path)?;
-    parsed(&text, &file, &Files::of(path, reading.root.as_deref()))
+    parsed(&text, &file, &Files::of(path, reading.root.as_deref()), 0)
 }
 
 /// Reads a text of MJCF or URDF, which names no other files; `file` names it in faults.
@@ -74,16 +74,22 @@ pub fn read(
 /// # Errors
 /// All faults of the text, each with its place.
 pub fn parse(text: &str, file: &str) -> Result<(Model, Language, Vec<String>), Faults> {
-    parsed(text, file, &Files::default())
+    parsed(text, file, &Files::default(), 0)
 }
 
-fn parsed(text: &str, file: &str, files: &Files) -> Result<(Model, Language, Vec<String>), Faults> {
+/// Reads a text that is attached to so many others.
+pub(super) fn parsed(
+    text: &str,
+    file: &str,
+    files: &Files,
+    depth: usize,
+) -> Result<(Model, Language, Vec<String>), Faults> {
     let spliced = Spliced::read(text, file, files)?;
     let document = document(&spliced.text, file)?;
     let mut source = Source::new(&spliced, Ledger::new(file, &spliced.names()));
     let root = document.root_element();
     let (model, language) = match root.tag_name().name() {
-        "mujoco" => (mjcf::model(&mut source, root, files), Language::Mjcf),
+        "mujoco" => (mjcf::model(&mut source, root, files, depth), Language::Mjcf),
         "robot" => (urdf::model(&mut source, root, files), Language::Urdf),
         other => {
             let message = format!("<{other}> is neither <mujoco> (MJCF) nor <robot> (URDF)");
@@ -96,7 +102,8 @@ fn parsed(text: &str, file: &str, files: &Files) -> Result<(Model, Language, Vec
             (None, Language::Mjcf)
         }
     };
+    let names = source.ledger.files().to_vec();
     let (mut model, notes) = source.ledger.finish(model)?;
-    model.files = spliced.names();
+    model.files = names;
     Ok((model, language, notes))
 }

@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::Output;
+use std::process::{Command, Output};
 
 use serde_json::Value as Json;
 use tempfile::TempDir;
@@ -12,6 +12,8 @@ use pushplan::asset::PlanFile;
 use pushplan::scene::{ArmFault, Reason, Situation, Warning};
 use pushplan::verify::{Verifier, VerifySettings};
 
+use crate::ROOT;
+use crate::mujoco_python::python;
 use crate::program::{run, stderr};
 
 /// Six joints: a turn of the base, shoulder, elbow, and a wrist of three.
@@ -94,7 +96,9 @@ fn a_plan_of_an_arm_carries_its_joints_and_verifies_without_the_urdf() {
     assert_eq!(joints.joints, ["turn", "shoulder", "elbow", "wrist1", "wrist2", "wrist3"]);
     assert_eq!(joints.pushes.len(), file.plan.steps.len());
     let arm = file.task.arm.as_deref().expect("an arm");
+    // It begins and ends at home, where the next plan begins.
     assert_eq!(joints.points[0].positions, arm.home);
+    assert_eq!(joints.points[joints.points.len() - 1].positions, arm.home);
 
     // A joint that is a little off, and one that is too fast, are seen.
     let judged = |change: &dyn Fn(&mut pushplan::scene::JointTrajectory)| {
@@ -147,6 +151,61 @@ fn joints_are_exported_for_ros_and_as_a_table() {
     assert_eq!(solve(folder).status.code(), Some(0));
     let output = run(&["export", &plan, "--format", "trajectory", "--out", &out]);
     assert!(stderr(&output).contains("no motion of joints"), "{}", stderr(&output));
+}
+
+#[test]
+fn servos_of_a_panda_carry_plans_out_in_mujoco() {
+    let Some(python) = python() else { return };
+    let folder = TempDir::new().expect("a folder");
+    let folder = folder.path();
+    fs::copy(Path::new(ROOT).join("examples/robot/panda.urdf"), folder.join("panda.urdf"))
+        .expect("a copy");
+    let robot = "{urdf: panda.urdf, flange: panda_link8, tool_mount: {length: 0.12}}";
+    let (out, scenes) = (at(folder, "out"), at(folder, "mjcf"));
+    // Pushed on, pulled back past a wall, turned.
+    let can = TASK.replace("robot: ROBOT", &format!("robot: {robot}"));
+    let wall = "  obstacles: [{name: wall, size: [0.03, 0.1, 0.06], position: [0.36, 0.1]}]\nrobot";
+    let back = can.replace("\nrobot", &format!("\n{wall}"));
+    let back = back.replace("[0.55, 0.1]", "[0.41, 0.1]").replace("0.45, 0.1]", "0.55, 0.1]");
+    let turned = can
+        .replace("cylinder: {radius: 0.04, height: 0.1}", "cuboid: {size: [0.12, 0.08, 0.06]}")
+        .replace("tolerance: 0.02", "tolerance: 0.02, heading_deg: 20, heading_tolerance_deg: 8");
+    let back = back.replace("[stick, paddle]", "[hook, l-hook, rake]");
+    for (name, task) in [("on", can), ("back", back), ("turned", turned)] {
+        let file = format!("{name}.yaml");
+        write(folder, &file, &task);
+        let output = run(&["solve", &at(folder, &file), "--out", &out, "--quiet"]);
+        assert_eq!(output.status.code(), Some(0), "{name}: {}", stderr(&output));
+        let plan = at(folder, &format!("out/{name}.plan.json"));
+        let output = run(&["export", &plan, "--out", &scenes]);
+        assert_eq!(output.status.code(), Some(0), "{name}: {}", stderr(&output));
+    }
+    // The arm is no object when such a scene comes back.
+    let output = run(&[
+        "import",
+        &at(folder, "mjcf/on.xml"),
+        "--as",
+        "objects",
+        "--out",
+        &at(folder, "again.yaml"),
+    ]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(stderr(&output).contains("the arm, which holds the tool, is left out"));
+    let again = Task::load(folder.join("again.yaml")).expect("a task");
+    assert_eq!(again.scene.objects.len(), 1);
+
+    let script = folder.join("mjcf/replay.py");
+    let output = Command::new(python).arg(script).arg(&scenes).output().expect("Python runs");
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(text.lines().count(), 3, "{}", String::from_utf8_lossy(&output.stderr));
+    for line in text.lines() {
+        let result: Json = serde_json::from_str(line).expect("JSON");
+        assert_eq!(result["reached"], true, "{result:#}");
+        let number = |key: &str| result[key].as_f64().expect("a number");
+        // Servos follow to within a third of a degree, and so the tool does what our engines see it do.
+        assert!(number("joints_off") < 6e-3, "{result:#}");
+        assert!(number("difference") < 0.01, "{result:#}");
+    }
 }
 
 #[test]

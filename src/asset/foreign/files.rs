@@ -34,6 +34,12 @@ impl Files {
         Self { folder: Some(folder), root: Some(root) }
     }
 
+    /// Those of another file that it found.
+    pub fn within(&self, path: &Path) -> Self {
+        let folder = path.parent().map(Path::to_path_buf);
+        Self { folder, root: self.root.clone() }
+    }
+
     /// The file of that name, which `base`, a folder of the file's own, may stand before.
     pub fn find(&self, base: &str, name: &str) -> Result<PathBuf, Refused> {
         let (Some(folder), Some(root)) = (&self.folder, &self.root) else {

@@ -84,6 +84,7 @@ fn inside<'a>(
                     body.motion = body.motion.clone().and(motion);
                 }
             }
+            "attach" => context.models.attach(source, child, (within.body, &within.pose), model),
             tag if UNSEEN.contains(&tag) => {}
             _ => {
                 let message = format!("<{tag}> is not read");
@@ -107,6 +108,11 @@ fn body<'a>(
     within: Within<'a>,
     model: &mut Model,
 ) {
+    // The arm of an exported plan, with its tool.
+    if model.ours && node.attribute("name").is_some_and(|name| name.starts_with("arm/")) {
+        source.ledger.note(source.place(node), "the arm, which holds the tool, is left out");
+        return;
+    }
     let before = source.ledger.count();
     source.only(node, &[&TURNS, &["childclass", "gravcomp", "mocap", "name", "sleep", "user"]]);
     context.defaults.check(source, node, "childclass");

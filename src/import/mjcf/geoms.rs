@@ -8,6 +8,7 @@ use crate::import::model::{Material, Outline, Solid, Weight};
 use crate::import::turns;
 use crate::import::xml::Source;
 
+use super::attach::Models;
 use super::compiler::Compiler;
 use super::defaults::{Defaults, Lookup};
 use super::meshes::Meshes;
@@ -65,6 +66,8 @@ pub(super) struct Context<'a> {
     pub defaults: Defaults<'a>,
     /// Those that geoms name.
     pub meshes: Meshes<'a>,
+    /// Those that are attached.
+    pub models: Models,
     /// Names of geoms that touch what a pair says.
     pub paired: HashSet<&'a str>,
 }

@@ -9,6 +9,7 @@ use crate::import::model::{Body, Model};
 use crate::import::xml::{Source, elements};
 use crate::scene::GRAVITY;
 
+use super::attach::Models;
 use super::bodies::{FLATTEN, world};
 use super::compiler::Compiler;
 use super::contacts::pairs;
@@ -27,6 +28,7 @@ pub(in crate::import) fn model<'a>(
     source: &mut Source<'a>,
     root: Node<'a, 'a>,
     files: &'a Files,
+    depth: usize,
 ) -> Option<Model> {
     let name = root.attribute("model").unwrap_or_default().to_owned();
     let mut model =
@@ -35,6 +37,7 @@ pub(in crate::import) fn model<'a>(
         compiler: Compiler::default(),
         defaults: Defaults::default(),
         meshes: Meshes::of(files),
+        models: Models::default(),
         paired: HashSet::new(),
     };
     // Sections that others depend on come first, wherever they are.
@@ -42,7 +45,12 @@ pub(in crate::import) fn model<'a>(
         match section.tag_name().name() {
             "compiler" => context.compiler.read(source, section),
             "default" => context.defaults.read(source, section, None),
-            "asset" => meshes(source, section, &mut context),
+            "asset" => {
+                meshes(section, &mut context);
+                for model in elements(section).filter(|asset| asset.has_tag_name("model")) {
+                    context.models.add(source, model, files, depth);
+                }
+            }
             "contact" => {
                 let ends = elements(section).filter(|pair| pair.has_tag_name("pair"));
                 let names = ends.flat_map(|pair| ["geom1", "geom2"].map(|end| pair.attribute(end)));
@@ -67,7 +75,8 @@ pub(in crate::import) fn model<'a>(
             }
             tag if HARMLESS.contains(&tag) => {}
             tag if BEYOND.contains(&tag) => {
-                if elements(section).next().is_some() {
+                let of_arm = model.ours && tag == "actuator";
+                if elements(section).next().is_some() && !of_arm {
                     model.beyond.push((source.place(section), format!("<{tag}>")));
                 }
             }
@@ -77,10 +86,7 @@ pub(in crate::import) fn model<'a>(
     Some(model)
 }
 
-fn meshes<'a>(source: &mut Source<'a>, section: Node<'a, 'a>, context: &mut Context<'a>) {
-    for model in elements(section).filter(|asset| asset.has_tag_name("model")) {
-        source.fault(model, "models of other files are not attached", FLATTEN);
-    }
+fn meshes<'a>(section: Node<'a, 'a>, context: &mut Context<'a>) {
     for mesh in elements(section).filter(|asset| asset.has_tag_name("mesh")) {
         // A mesh without a name is called like its file.
         let stem = || std::path::Path::new(mesh.attribute("file")?).file_stem()?.to_str();

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use pushplan::Vector;
 use pushplan::import::{Reading, Wanted, objects, read};
 use pushplan::scene::Support;
 
@@ -119,6 +120,54 @@ fn meshes_and_includes_lie_beside_the_file_or_below_what_is_named() {
     let circle = "<mujoco><include file='a.xml'/></mujoco>";
     let circle = taken_of(&[("a.xml", circle.as_bytes())], &Reading::default(), &all());
     assert!(circle.expect_err("a fault").contains("include each other"));
+}
+
+#[test]
+fn bodies_of_other_models_are_attached_where_the_file_says() {
+    let scene = "<mujoco><asset><model name='m' file='parts/tray.xml'/></asset><worldbody>\
+                 <geom type='plane' size='1 1 1'/>\
+                 <body name='left' pos='.5 .2 0' euler='0 0 90'><freejoint/>\
+                 <attach model='m' body='tray' prefix='a-'/></body>\
+                 <frame pos='.5 -.2 0'><attach model='m' body='can' prefix='b-'/></frame>\
+                 </worldbody></mujoco>";
+    // Its own folder of meshes, its own angles; the can hangs on the tray's stand.
+    let tray = "<mujoco model='m'><compiler angle='radian' meshdir='meshes'/><asset>\
+                <mesh name='cube' file='cube.obj' scale='.001 .001 .001'/></asset><worldbody>\
+                <body name='stand' pos='9 9 0'><body name='tray' pos='.1 0 .03' euler='0 0 1.5708'>\
+                <geom type='box' size='.05 .02 .03' mass='.3'/></body>\
+                <body name='can' pos='0 .05 .03'><freejoint/><geom type='mesh' mesh='cube'/></body>\
+                </body></worldbody></mujoco>";
+    let solid = cube(60.0);
+    let files: [(&str, &[u8]); 3] = [
+        ("scene.xml", scene.as_bytes()),
+        ("parts/tray.xml", tray.as_bytes()),
+        ("parts/meshes/cube.obj", &solid),
+    ];
+    let (task, _) = taken_of(&files, &Reading::default(), &all()).expect("a task");
+    let objects = &task.scene.objects;
+    let names: Vec<&str> = objects.iter().map(|one| one.name.as_str()).collect();
+    // A thing is called after the body that has its solids.
+    assert_eq!(names, ["a-tray", "b-can"]);
+    let at = |k: usize| objects[k].pose.position;
+    assert!((at(0) - Vector::new(0.5, 0.3)).norm() < 1e-6, "{:?}", at(0));
+    // The cube's corner is its origin.
+    assert!((at(1) - Vector::new(0.53, -0.12)).norm() < 1e-6, "{:?}", at(1));
+    assert!((objects[0].mass - 0.3).abs() < 1e-9 && (objects[1].mass - 0.216).abs() < 1e-9);
+    // Faults of the other file are in that, and only where it is attached.
+    let bad = tray.replace("angle='radian'", "eulerseq='q'");
+    let wrong = [files[0], ("parts/tray.xml", bad.as_bytes()), files[2]];
+    let fault = taken_of(&wrong, &Reading::default(), &all()).expect_err("a fault");
+    assert!(fault.contains("tray.xml:1:") && fault.contains("eulerseq"), "{fault}");
+    for (good, bad, message) in [
+        ("body='can'", "body='cup'", "the model `m` has no body `cup`"),
+        ("<attach model='m' body='can'", "<attach model='n' body='can'", "there is no model `n`"),
+        ("parts/tray.xml", "parts/none.xml", "there is no file"),
+    ] {
+        let scene = scene.replace(good, bad);
+        let files = [("scene.xml", scene.as_bytes()), files[1], files[2]];
+        let fault = taken_of(&files, &Reading::default(), &all()).expect_err("a fault");
+        assert!(fault.contains(message), "{bad}: {fault}");
+    }
 }
 
 #[test]
