@@ -156,7 +156,7 @@ mod tests {
         let (mut reached, mut missed) = (0, 0);
         for k in 0..2000 {
             let of = |factor: f64, most: f64| most * (factor * f64::from(k)).sin();
-            let own = wanted * Pose::new(of(1.3, 0.012), of(2.1, 0.012), of(0.7, 0.2));
+            let own = wanted * Pose::new(of(1.3, 0.004), of(2.1, 0.004), of(0.7, 0.06));
             let mut state = State::at_rest(vec![own; 2]);
             state.poses[1] = own * Pose::new(0.0, -0.05, 0.0);
             let covered = goal.covered(&state).expect("a coverage");
