@@ -67,7 +67,8 @@ fn its_commands_are_known() {
                 let known = ["pip", "pushplan", "pushplan-learn", "pushplan-lab"];
                 let known = known.contains(&program) || Path::new(ROOT).join(program).is_file();
                 // Of Python our own modules alone.
-                let module = || words.nth(1).is_some_and(|module| module.starts_with("pushplan."));
+                let mut module =
+                    || words.nth(1).is_some_and(|module| module.starts_with("pushplan."));
                 let known = known || program == "python" && module();
                 assert!(known, "{path}: {line}");
             }
