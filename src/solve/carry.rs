@@ -136,8 +136,10 @@ impl Solving<'_> {
         // Stable: of those that need as much the first comes first.
         all.sort_by(|a, b| a.1.least().total_cmp(&b.1.least()));
         let best = all.iter().take(GRIPS);
-        best.flat_map(|(pair, one)| one.legs(most, count).into_iter().map(|legs| (*pair, legs)))
-            .collect()
+        let ways = best
+            .flat_map(|(pair, one)| one.legs(most, count).into_iter().map(|legs| (*pair, legs)));
+        // Where the grid is too coarse to tell a goal from the start there is nothing to carry.
+        ways.filter(|(_, legs)| !legs.is_empty()).collect()
     }
 
     fn follow(&mut self, usual: &Search, pair: (usize, f64), legs: &[Leg]) -> Followed {

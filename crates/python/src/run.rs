@@ -18,7 +18,6 @@ use crate::push::PyPush;
 use crate::solve::{Asked, stated};
 use crate::table_fit::PyTableFit;
 use crate::task::PyTask;
-use crate::tool::PyTool;
 use crate::tool::{PyTool, PyToolLibrary, given};
 use crate::{errors, json, page, words, work};
 
