@@ -50,7 +50,10 @@ impl Evaluation {
                 used.push(push.tool);
             }
         }
-        used.into_iter().map(|tool| Arc::clone(&workspace.tools[tool])).collect()
+        // Where nothing is pushed some tool has to stand still.
+        let none = if used.is_empty() { workspace.tools.first() } else { None };
+        let used = used.into_iter().map(|tool| &workspace.tools[tool]);
+        used.chain(none).map(Arc::clone).collect()
     }
 
     /// The plan to make its pushes.

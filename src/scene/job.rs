@@ -42,7 +42,7 @@ impl Job {
     }
 }
 
-/// Rolls out sequences of jobs with `run`, as one trajectory each: of every sequence a job begins as the one
+/// Rolls out sequences of jobs, none of them empty, with `run`, as one trajectory each: of every sequence a job begins as the one
 /// before has left everything.
 pub fn in_turn(
     sequences: &[Vec<Job>],

@@ -67,7 +67,7 @@ fn misspelled_and_unknown_keys() {
     t.yaml:12:9: error: unknown key `hme`
       help: did you mean `home`?
     t.yaml:14:72: error: unknown key `colour`
-      help: use `form`, `directions`, `offsets`, `grip_yaws_deg`, `length`, `speed`, `max_count` or `lift`
+      help: use `form`, `directions`, `offsets`, `grip_yaws_deg`, `length`, `speed`, `max_count`, `tool_changes` or `lift`
     "#);
 }
 
