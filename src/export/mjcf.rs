@@ -148,7 +148,7 @@ fn written(
     }
     xml.open("worldbody", &[]);
     let friction = numbers(&[scene.table_friction]);
-    let mut table = vec![("name", "table".into()), ("friction", friction)];
+    let mut table = vec![("name", "table".into())];
     match scene.brink() {
         None => table.extend([("type", "plane".into()), ("size", "0 0 1".into())]),
         Some(TableTop { size: [x, y], middle }) => table.extend([
@@ -157,6 +157,7 @@ fn written(
             ("pos", numbers(&[middle.x, middle.y, -0.5 * TABLE_DEPTH])),
         ]),
     }
+    table.push(("friction", friction));
     xml.leaf("geom", &table);
     for obstacle in &scene.obstacles {
         let name = format!("obstacle/{}", obstacle.name);

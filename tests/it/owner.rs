@@ -363,7 +363,7 @@ fn what_stands_in_the_way_of_a_plan_is_named() {
     let Cause::Length { allowed: 0.05, needed: 0.1..=0.4 } = one else { panic!("{one:?}") };
     let narrow = with("directions: [0]").replace("[0.81, 0]", "[0.35, 0.3]");
     assert_eq!(cause(&narrow), Cause::Directions);
-    let paddle = FAR.replace("tools: all", "tools: [paddle]").replace("max: 0.95", "max: 0.5");
+    let paddle = FAR.replace("tools: all", "tools: [paddle]").replace("max: 0.95", "max: 0.4");
     let Cause::Tool { needed } = cause(&paddle) else { panic!("the task names one tool") };
     assert_ne!(needed, "paddle");
     let away = FAR.replace("0.35, 0]", "1.6, 0]").replace("0.81", "1.8");
