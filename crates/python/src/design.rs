@@ -79,9 +79,8 @@ impl PyDesign {
 /// have; `candidates` is the number of tools that are looked at; `effort`, `seed` and `threads` are
 /// those of `solve`.
 #[pyfunction]
-#[pyo3(signature = (task, tools = None, *, parts = DesignSettings::PARTS,
-                    candidates = DesignSettings::CANDIDATES, effort = "standard", seed = 0,
-                    threads = 0))]
+#[pyo3(signature = (task, tools = None, *, parts = 3, candidates = 1000, effort = "standard",
+                    seed = 0, threads = 0))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn design(
     py: Python<'_>,

@@ -45,6 +45,6 @@ def test_the_tool_is_that_of_the_command(command: Any, tmp_path: Any) -> None:
 
 
 def test_numbers_out_of_range_are_said(task: pushplan.Task) -> None:
-    for numbers in [{"parts": 0}, {"parts": 99}, {"candidates": 0}]:
+    for parts, candidates in [(0, 1000), (99, 1000), (3, 0)]:
         with pytest.raises(ValueError, match="candidates"):
-            pushplan.design(task, **numbers)
+            pushplan.design(task, parts=parts, candidates=candidates)
