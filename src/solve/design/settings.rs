@@ -21,7 +21,7 @@ impl DesignSettings {
     /// Three parts make a J, or a hook of two thirds of a metre.
     pub const PARTS: usize = 3;
 
-    /// As many take ten to thirty seconds of two cores.
+    /// As many take three to eleven seconds of two busy cores.
     pub const CANDIDATES: usize = 1000;
 
     /// Of a thousand.
