@@ -17,7 +17,7 @@ use super::trace::{Step, Trace, Why};
 /// A plan that misses in all samples is worth a push if it comes nearer by this share on average.
 const NEARER: f64 = 0.05;
 
-/// Plans of so many pushes are made at once; where more are left, only the first of them.
+/// The most pushes that are planned at once; of a longer way only the first are.
 const AT_ONCE: usize = 3;
 
 /// Plans of more pushes are not looked for, however many the task allows.

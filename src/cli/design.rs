@@ -1,24 +1,23 @@
 //! `pushplan design`: a tool for a task that no tool solves.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::asset::write_atomic;
-use crate::report::{Origin, PageView, design_document};
+use crate::report::{Origin, design_document};
+use crate::scene::Tool;
 use crate::solve::{DesignSettings, Effort, Planner};
 
 use super::{
-    action::LibraryArgs,
     error::CliError,
     exit_code,
     follow::Following,
     form::Form,
-    output,
+    output::{self, ResultArgs},
     session::Session,
     solve::{Results, ending, share, solve_error},
     task_argument::TaskArgs,
-    words::{EFFORTS, VIEWS, words},
+    words::{EFFORTS, words},
 };
 
 /// The folder of proposed tools, below that of the results.
@@ -60,14 +59,8 @@ pub struct DesignArgs {
     /// says, 0.75 if nothing]
     #[arg(long, value_name = "SHARE", value_parser = share)]
     robustness: Option<f64>,
-    /// Folder for the results
-    #[arg(long, value_name = "DIR", default_value = output::FOLDER)]
-    out: PathBuf,
-    /// What the page shows
-    #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d")]
-    page: PageView,
     #[command(flatten)]
-    library: LibraryArgs,
+    results: ResultArgs,
     /// Also draw a moving picture of the 3-D replay
     #[arg(long)]
     animate: bool,
@@ -76,7 +69,7 @@ pub struct DesignArgs {
 }
 
 pub fn run(args: &DesignArgs, session: &Session) -> Result<u8, CliError> {
-    let library = args.library.load()?;
+    let library = args.results.library.load()?;
     let mut task = args.task.load(&library)?;
     task.robustness = args.robustness.unwrap_or(task.robustness);
     if task.in_space() {
@@ -84,7 +77,7 @@ pub fn run(args: &DesignArgs, session: &Session) -> Result<u8, CliError> {
         return Err(CliError::usage("this is a task of levering, not one of pushes", advice));
     }
     let planner = Planner::for_effort(args.effort)?.seed(args.seed).build();
-    output::prepare(&args.out)?;
+    output::prepare(&args.results.out)?;
     let settings = DesignSettings::looking_at(args.candidates as usize);
     let settings = DesignSettings { parts: args.parts.into(), ..settings };
     let settings = if args.random { settings.at_random() } else { settings };
@@ -97,32 +90,38 @@ pub fn run(args: &DesignArgs, session: &Session) -> Result<u8, CliError> {
     }
     let (code, suffix) = ending(design.status());
     let mut document = design_document(&task, &design);
-    let mut written = Vec::new();
-    if let Some(proposal) = &design.proposal
-        && let Some(best) = proposal.solution.best()
-    {
-        let tools = args.out.join(TOOLS);
-        if code != exit_code::NO_PLAN && code != exit_code::FAILED_VERIFICATION {
-            output::prepare(&tools)?;
-            let path = tools.join(format!("{}.yaml", proposal.tool.name));
-            let text = proposal.tool.to_yaml()?;
-            write_atomic(&path, text.as_bytes()).map_err(CliError::Output)?;
-            written.push(path);
+    let written = match design.proposal.as_ref().and_then(|one| Some((one, one.solution.best()?))) {
+        Some((proposal, best)) => {
+            let tools = args.results.out.join(TOOLS);
+            let origin = |model| Origin {
+                more_tools: Some(tools.display().to_string()),
+                ..args.results.library.origin(args.task.source(), model)
+            };
+            let results = Results {
+                out: &args.results.out,
+                name: format!("{}{suffix}", proposal.tool.name),
+                page: args.results.page,
+                animate: args.animate,
+                origin: &origin,
+            };
+            let works = code != exit_code::NO_PLAN && code != exit_code::FAILED_VERIFICATION;
+            let tool = if works { write_tool(&tools, &proposal.tool).map(Some) } else { Ok(None) };
+            tool.and_then(|tool| {
+                let plan = (&proposal.solution, best);
+                let plan = results.write(session, &task, &planner, plan)?;
+                Ok(tool.into_iter().chain(plan).collect())
+            })
         }
-        let origin = |model| Origin {
-            more_tools: Some(tools.display().to_string()),
-            ..args.library.origin(args.task.source(), model)
-        };
-        let results = Results {
-            out: &args.out,
-            name: format!("{}{suffix}", proposal.tool.name),
-            page: args.page,
-            animate: args.animate,
-            origin: &origin,
-        };
-        written.extend(results.write(session, &task, &planner, (&proposal.solution, best))?);
-    }
-    document.wrote(&written);
+        None => Ok(Vec::new()),
+    };
+    // As a plan, a tool is shown also where the disk has no place for it.
+    document.wrote(written.as_deref().unwrap_or_default());
     args.form.show(session, &document)?;
-    Ok(code)
+    written.map(|_: Vec<PathBuf>| code)
+}
+
+/// Writes the file of a tool into the folder, and gives its path.
+fn write_tool(folder: &Path, tool: &Tool) -> Result<PathBuf, CliError> {
+    output::prepare(folder)?;
+    output::write(folder, &format!("{}.yaml", tool.name), tool.to_yaml()?.as_bytes())
 }

@@ -2,13 +2,30 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::asset::{Fault, write_atomic};
-use crate::report::Figure;
+use clap::Args;
 
+use crate::asset::{Fault, write_atomic};
+use crate::report::{Figure, PageView};
+
+use super::action::LibraryArgs;
 use super::error::CliError;
+use super::words::{VIEWS, words};
 
 /// Where results go unless `--out` says otherwise.
 pub const FOLDER: &str = "plans";
+
+/// Where results go, what their page shows, and which tools there are.
+#[derive(Args, Debug)]
+pub struct ResultArgs {
+    /// Folder for the results
+    #[arg(long, value_name = "DIR", default_value = FOLDER)]
+    pub out: PathBuf,
+    /// What the page shows
+    #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d")]
+    pub page: PageView,
+    #[command(flatten)]
+    pub library: LibraryArgs,
+}
 
 /// Makes the folder and sees that it can be written to, before anything long is computed.
 ///

@@ -9,25 +9,24 @@ use crate::act::{
 };
 use crate::asset::{ToolLibrary, load_world};
 use crate::effect::{EffectModels, Outside};
-use crate::report::{PageView, Recipe, Setting, run_document, run_page, table_fit_section};
+use crate::report::{Recipe, Setting, run_document, run_page, table_fit_section};
 use crate::scene::{Models, Task, Truth};
 use crate::solve::{Effort, Planner};
 use crate::store::FolderLock;
 
 use super::{
-    action::LibraryArgs,
     error::CliError,
     exit_code,
     follow::Following,
     form::Form,
     interrupt,
     model::{self, OutsideArgs, TableArgs},
-    output,
+    output::{self, ResultArgs},
     regulator::RegulatorArgs,
     session::Session,
     solve::{share, solve_error},
     task_argument::TaskArgs,
-    words::{EFFORTS, PROBES, VIEWS, words},
+    words::{EFFORTS, PROBES, words},
 };
 
 /// Carry out a task in a world that is only partly known: push, look, learn, plan again
@@ -93,20 +92,14 @@ pub struct RunArgs {
     /// Go on with the run that is kept in the folder, if there is one
     #[arg(long)]
     resume: bool,
-    /// Folder for the results
-    #[arg(long, value_name = "DIR", default_value = output::FOLDER)]
-    out: PathBuf,
-    /// What the page shows
-    #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d")]
-    page: PageView,
     #[command(flatten)]
-    library: LibraryArgs,
+    results: ResultArgs,
     #[command(flatten)]
     form: Form,
 }
 
 pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
-    let library = args.library.load()?;
+    let library = args.results.library.load()?;
     let mut task = args.task.load(&library)?;
     if task.in_space() {
         return Err(CliError::usage(
@@ -131,8 +124,8 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
         .seed(args.seed)
         .outside(args.outside.outside())
         .build();
-    output::prepare(&args.out)?;
-    let path = args.out.join(format!("{}.run.json", task.name));
+    output::prepare(&args.results.out)?;
+    let path = args.results.out.join(format!("{}.run.json", task.name));
     let settings = RunSettings {
         pushes: args.pushes.into(),
         samples: args.samples.into(),
@@ -163,7 +156,7 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
     interrupt::watch();
     let following = Following::bar(session, "pushes");
     // Until the results are written: what another run writes here would be lost.
-    let _alone = FolderLock::take(&args.out, &following)?;
+    let _alone = FolderLock::take(&args.results.out, &following)?;
     let begun = Trace::new(task, settings, planned_by, Some(truth.clone()));
     let mut trace = begin(&path, begun, args.resume)?;
     let mut world = SimulatedWorld::new(truth).pushed_with(trace.task.robot.max_force);
@@ -181,11 +174,11 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
         learnt.write(file).map_err(CliError::Output)?;
         written.push(file.clone());
     }
-    written.extend(output::write_figures(&args.out, document.figures())?);
+    written.extend(output::write_figures(&args.results.out, document.figures())?);
     let real = session.compute(|| really(&trace));
-    let page = run_page(&trace, &real, recipe(args), args.page);
+    let page = run_page(&trace, &real, recipe(args), args.results.page);
     let name = format!("{}.run.html", trace.task.name);
-    written.push(output::write(&args.out, &name, page.as_bytes())?);
+    written.push(output::write(&args.results.out, &name, page.as_bytes())?);
     document.wrote(&written);
     args.form.show(session, &document)?;
     Ok(match trace.end {
@@ -221,7 +214,7 @@ fn recipe(args: &RunArgs) -> Recipe {
         value,
     });
     let settings: Vec<Setting> = settings.chain(files.into_iter().flatten()).collect();
-    args.library.origin(args.task.source(), args.model.clone()).run(&args.world, &settings)
+    args.results.library.origin(args.task.source(), args.model.clone()).run(&args.world, &settings)
 }
 
 /// The world in a file, or drawn from a number.

@@ -11,16 +11,15 @@ use crate::scene::{Models, Situation, Task};
 use crate::solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
 
 use super::{
-    action::LibraryArgs,
     error::CliError,
     exit_code,
     follow::Following,
     form::Form,
     model::{self, OutsideArgs},
-    output,
+    output::{self, ResultArgs},
     session::Session,
     task_argument::TaskArgs,
-    words::{EFFORTS, VIEWS, words},
+    words::{EFFORTS, words},
 };
 
 /// Choose a tool and pushes, or a lever-up, for a task, verify them, write plan, picture and page
@@ -62,14 +61,8 @@ pub struct SolveArgs {
     /// Stop after this time and show the best plan so far
     #[arg(long, value_name = "SECONDS", value_parser = time_limit)]
     time_limit: Option<Duration>,
-    /// Folder for the results
-    #[arg(long, value_name = "DIR", default_value = output::FOLDER)]
-    out: PathBuf,
-    /// What the page shows
-    #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d")]
-    page: PageView,
     #[command(flatten)]
-    library: LibraryArgs,
+    results: ResultArgs,
     /// Also draw a moving picture of the 3-D replay
     #[arg(long)]
     animate: bool,
@@ -78,7 +71,7 @@ pub struct SolveArgs {
 }
 
 pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
-    let library = args.library.load()?;
+    let library = args.results.library.load()?;
     let mut task = args.task.load(&library)?;
     task.robustness = args.robustness.unwrap_or(task.robustness);
     let effort = args.effort;
@@ -88,7 +81,7 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     }
     let models = args.model.clone().unwrap_or_else(|| effort.models());
     let planner = Planner::fitted(&models, fit.as_ref())?;
-    output::prepare(&args.out)?;
+    output::prepare(&args.results.out)?;
     let settings = match args.disturbed {
         Some(count) => effort.settings().replaying(count.into()),
         None => effort.settings(),
@@ -109,11 +102,11 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     let written = match solution.best() {
         Some(best) => {
             let results = Results {
-                out: &args.out,
+                out: &args.results.out,
                 name: format!("{}{suffix}", task.name),
-                page: args.page,
+                page: args.results.page,
                 animate: args.animate,
-                origin: &|model| args.library.origin(args.task.source(), model),
+                origin: &|model| args.results.library.origin(args.task.source(), model),
             };
             results.write(session, &task, &planner, (&solution, best))
         }

@@ -66,7 +66,7 @@ pub fn read(
         return Ok((model, language, notes));
     }
     let (file, text) = read_text(path)?;
-    parsed(&text, &file, &Files::of(path, reading.root.as_deref()), 0)
+    parsed(&text, &file, &Files::of(path, reading.root.as_deref()))
 }
 
 /// Reads a text of MJCF or URDF, which names no other files; `file` names it in faults.
@@ -74,22 +74,21 @@ pub fn read(
 /// # Errors
 /// All faults of the text, each with its place.
 pub fn parse(text: &str, file: &str) -> Result<(Model, Language, Vec<String>), Faults> {
-    parsed(text, file, &Files::default(), 0)
+    parsed(text, file, &Files::default())
 }
 
-/// Reads a text that is attached to so many others.
+/// Reads a text that names `files`.
 pub(super) fn parsed(
     text: &str,
     file: &str,
     files: &Files,
-    depth: usize,
 ) -> Result<(Model, Language, Vec<String>), Faults> {
     let spliced = Spliced::read(text, file, files)?;
     let document = document(&spliced.text, file)?;
     let mut source = Source::new(&spliced, Ledger::new(file, &spliced.names()));
     let root = document.root_element();
     let (model, language) = match root.tag_name().name() {
-        "mujoco" => (mjcf::model(&mut source, root, files, depth), Language::Mjcf),
+        "mujoco" => (mjcf::model(&mut source, root, files), Language::Mjcf),
         "robot" => (urdf::model(&mut source, root, files), Language::Urdf),
         other => {
             let message = format!("<{other}> is neither <mujoco> (MJCF) nor <robot> (URDF)");

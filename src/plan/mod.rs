@@ -47,6 +47,6 @@ pub use search::{Search, SearchSettings};
 pub use spread::Spread;
 pub use statistics::{RefineStatistics, SearchStatistics};
 pub use workspace::{
-    MIN_LENGTH, Margins, OBSTACLE_CLEARANCE, SET_DOWN_CLEARANCE, STAND_OFF, Workspace,
-    distance_to_origin,
+    HAND_CLEARANCE, MIN_LENGTH, Margins, OBSTACLE_CLEARANCE, SET_DOWN_CLEARANCE, STAND_OFF,
+    Workspace, distance_to_origin,
 };

@@ -8,7 +8,8 @@ use super::goal::Goal;
 use super::world::is_zero;
 use super::{Scene, State, TableTop};
 
-/// Search and refinement aim at centres so far beyond the edge, metres: simulations differ by millimetres.
+/// How far beyond the edge search and refinement aim to bring centres, metres: simulations differ by
+/// millimetres.
 const BEYOND: f64 = 0.02;
 
 /// An edge of the table, as the robot sees it.

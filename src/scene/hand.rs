@@ -30,6 +30,13 @@ pub struct Hand {
     pub from: Option<f64>,
 }
 
+impl Hand {
+    /// Height above the table at which it begins where what it holds ends at `top`, metres.
+    pub fn begins(&self, top: f64) -> f64 {
+        self.from.unwrap_or(top.max(LOWEST))
+    }
+}
+
 /// A gripper with two fingers.
 impl Default for Hand {
     fn default() -> Self {
@@ -81,7 +88,7 @@ impl Robot {
         let palm = Carried {
             footprint: Footprint::Disc { radius: hand.radius },
             pose: tool.grip,
-            span: [hand.from.unwrap_or(top.max(LOWEST)), f64::INFINITY],
+            span: [hand.begins(top), f64::INFINITY],
         };
         let handle = tool.handle().map(|(footprint, pose, height)| Carried {
             footprint,

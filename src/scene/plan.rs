@@ -43,7 +43,7 @@ pub struct PushStep {
 }
 
 impl PushStep {
-    /// Whether the tool is the same as in another push, and need not be taken anew.
+    /// Whether the tool is already in the hand after `other`.
     fn goes_on(&self, other: &Self) -> bool {
         let turned = self.form == PushForm::Chained && self.grip_yaw != other.grip_yaw;
         self.tool == other.tool && self.form == other.form && self.lift == other.lift && !turned

@@ -15,7 +15,7 @@ use super::grade::Class;
 use super::solving::{SCREENED_RADIUS, Solving};
 use super::{Planner, SolveError};
 
-/// The usual search is through with plans of so many pushes before legs are looked for.
+/// Legs are looked for once the usual search has come to plans of this many pushes.
 const FIRST: usize = 3;
 
 /// Grips with which that is done, those that need the fewest pushes first, and plans of legs for each.
@@ -25,7 +25,7 @@ const PLANS: usize = 2;
 /// Candidates for one leg that are refined.
 const CANDIDATES: usize = 4;
 
-/// A push may be so much longer than the task says: a little less than what refinement may lengthen it by.
+/// The longest push of a leg, in lengths of the task: a little less than what refinement may make it.
 const LONGEST: f64 = 1.4;
 
 /// Most legs where only the first are to be followed.
@@ -110,6 +110,7 @@ impl Solving<'_> {
             let mut made = evaluate(&self.workspace, &mut self.rollouts, &made).into_iter();
             if followed.legs > 0
                 && let Some(Ok(made)) = made.next()
+                && self.is_for_arm(&made)
             {
                 let tool = Arc::clone(&self.workspace.tools[pair.0]);
                 return Some(Approach {
@@ -124,8 +125,10 @@ impl Solving<'_> {
 
     /// Legs with the grips that need the fewest pushes, up to `count` ways of at most `most` pushes each.
     fn legs(&self, usual: &Search, most: usize, count: usize) -> Vec<((usize, f64), Vec<Leg>)> {
-        let things = Things::of(&self.workspace, self.situation);
-        let Some(things) = things.filter(|_| self.workspace.is_placed()) else { return Vec::new() };
+        if !self.workspace.is_placed() {
+            return Vec::new();
+        }
+        let Some(things) = Things::of(&self.workspace, self.situation) else { return Vec::new() };
         self.watch.stage("search, what is carried where");
         let longest = LONGEST * self.task.pushes.length;
         let (workspace, situation) = (self.workspace, self.situation);

@@ -1,9 +1,11 @@
 //! What is learnt from failed replays: ways that do not work are left for others, and plans that
 //! end near the goal are aimed again, by as much as they missed it.
 
+use std::sync::Arc;
+
 use crate::geometry::{Vector, wrap_angle};
 use crate::plan::{Candidate, CandidatePush, Found, is_behind};
-use crate::scene::{Engine, Goal, State, Task, Verdict, Warning};
+use crate::scene::{Engine, Goal, State, Task, Tool, Verdict, Warning};
 
 use super::rank::distinct;
 use super::solving::Solving;
@@ -155,11 +157,12 @@ impl Solving<'_> {
             let plan = tried.plan.first(count);
             let known = self.tried.iter().any(|tried| tried.plan == plan);
             if !known {
+                let named = |tool: &&Arc<Tool>| plan.tools().contains(&tool.name.as_str());
                 let shorter = Tried {
+                    tools: tried.tools.iter().filter(named).cloned().collect(),
                     plan,
                     candidate: Some(candidate),
                     aims: tried.aims.clone(),
-                    tools: tried.tools.clone(),
                     refinement: tried.refinement.clone(),
                     verdict: None,
                     settled: false,

@@ -64,7 +64,7 @@ pub fn broken_rules(task: &Task, scene: &Scene, tools: &[Arc<Tool>], plan: &Plan
             found.push(Warning::HandThrough { push: index, obstacle });
         }
     }
-    // A tool that is taken anew comes from wherever tools are kept.
+    // Another tool comes from wherever tools are kept.
     for (before, pair) in
         steps.windows(2).enumerate().filter(|(_, pair)| pair[0].tool == pair[1].tool)
     {

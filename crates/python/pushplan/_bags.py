@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import json
 import math
-import struct
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -16,25 +15,30 @@ __all__ = ["own", "poses_of"]
 
 _Floats = npt.NDArray[np.float64]
 
+#: Time (s), x, y (m), heading (rad).
+_Row = tuple[float, float, float, float]
+
+_TREE = "tf2_msgs/msg/TFMessage"
+
 #: Of these messages poses are read; of the last the topic is followed by `#` and the child frame.
 _POSES = {
     "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/PoseWithCovarianceStamped", "nav_msgs/msg/Odometry",
-    "geometry_msgs/msg/TransformStamped", "tf2_msgs/msg/TFMessage",
+    "geometry_msgs/msg/TransformStamped", _TREE,
 }
-_CHILD = {"nav_msgs/msg/Odometry", "geometry_msgs/msg/TransformStamped"}
 
 
 def own(path: Path) -> dict[str, Any]:
     """The recording in a file of `pushplan export --format mcap`: scene and tool are those of its plan."""
     plan: Any = None
     frames: list[dict[str, Any]] = []
-    reader = _reader(path)
-    for attachment in reader.iter_attachments():
-        if attachment.media_type == "application/json":
-            plan = json.loads(attachment.data)
-    for _, channel, message in reader.iter_messages(topics=["/state"]):
-        if channel.message_encoding == "json":
-            frames.append(json.loads(message.data))
+    with path.open("rb") as file:
+        reader = _reader(file)
+        for attachment in reader.iter_attachments():
+            if attachment.media_type == "application/json":
+                plan = json.loads(attachment.data)
+        for _, channel, message in reader.iter_messages(topics=["/state"]):
+            if channel.message_encoding == "json":
+                frames.append(json.loads(message.data))
     if plan is None or not frames:
         raise ValueError(f"{path}: no plan of pushplan and its /state; name `topics` of a bag of ROS")
     steps = [step.get("push") for step in plan["plan"]["steps"]]
@@ -63,23 +67,23 @@ def own(path: Path) -> dict[str, Any]:
 
 def poses_of(path: Path, topics: Mapping[str, str]) -> dict[str, tuple[_Floats, _Floats]]:
     """Of every name the times (s) and poses (x, y in metres, heading in radians) that its topic has."""
-    found: dict[str, list[tuple[float, float, float, float]]] = {name: [] for name in topics}
+    found: dict[str, list[_Row]] = {name: [] for name in topics}
     wanted: dict[str, list[tuple[str, str]]] = {}
     for name, topic in topics.items():
         title, _, child = topic.partition("#")
         wanted.setdefault(title, []).append((name, child))
-    known: dict[str, str] = {}
-    for schema, channel, message in _reader(path).iter_messages():
-        kind = "" if schema is None else schema.name
-        known[channel.topic] = kind
-        if channel.topic not in wanted:
-            continue
-        if kind not in _POSES or channel.message_encoding != "cdr":
-            raise ValueError(f"{path}: {channel.topic} is {kind or 'unknown'}, not one of {', '.join(sorted(_POSES))}")
-        for child, row in _messages(kind, message.data):
-            for name, asked in wanted[channel.topic]:
-                if not asked or asked == child:
-                    found[name].append(row)
+    with path.open("rb") as file:
+        reader = _reader(file)
+        known = _topics(reader)
+        for title in wanted:
+            if title in known and known[title] not in _POSES:
+                kind = known[title] or "unknown"
+                raise ValueError(f"{path}: {title} is {kind}, not one of {', '.join(sorted(_POSES))}")
+        for schema, channel, _, message in reader.iter_decoded_messages(topics=list(wanted)):
+            for child, row in _poses(message.transforms if schema.name == _TREE else [message]):
+                for name, asked in wanted[channel.topic]:
+                    if not asked or asked == child:
+                        found[name].append(row)
     for name, rows in found.items():
         if len(rows) < 2:
             there = ", ".join(f"{topic} ({kind})" for topic, kind in sorted(known.items()))
@@ -97,43 +101,35 @@ def _degrees(pose: Any) -> list[float]:
     return [pose["x"], pose["y"], math.degrees(pose["heading"])]
 
 
-def _messages(kind: str, data: bytes) -> Iterator[tuple[str, tuple[float, float, float, float]]]:
-    """The child frame, if there is one, the time and the pose of a message."""
-    cdr = _Cdr(data)
-    for _ in range(cdr.take("I") if kind == "tf2_msgs/msg/TFMessage" else 1):
-        time = cdr.take("i") + 1e-9 * cdr.take("I")
-        cdr.text()
-        child = cdr.text() if kind in _CHILD or kind == "tf2_msgs/msg/TFMessage" else ""
-        x, y, _, qx, qy, qz, qw = (cdr.take("d") for _ in range(7))
-        heading = math.atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz))
-        yield child, (time, x, y, heading)
+def _poses(messages: Iterable[Any]) -> Iterator[tuple[str, _Row]]:
+    """The child frame, if there is one, the time and the pose of each."""
+    for message in messages:
+        stamp, child = message.header.stamp, getattr(message, "child_frame_id", "")
+        if hasattr(message, "transform"):
+            place, turn = message.transform.translation, message.transform.rotation
+        else:
+            # With a covariance, or of an odometry, it lies deeper.
+            pose = getattr(message.pose, "pose", message.pose)
+            place, turn = pose.position, pose.orientation
+        heading = math.atan2(
+            2 * (turn.w * turn.z + turn.x * turn.y), 1 - 2 * (turn.y * turn.y + turn.z * turn.z)
+        )
+        yield child, (stamp.sec + 1e-9 * stamp.nanosec, place.x, place.y, heading)
 
 
-class _Cdr:
-    """Numbers and texts in the order of a message, aligned to their size."""
-
-    def __init__(self, data: bytes) -> None:
-        self.order = "<" if data[1] & 1 else ">"
-        self.data, self.at = data[4:], 0
-
-    def take(self, kind: str) -> Any:
-        size = struct.calcsize(kind)
-        self.at += -self.at % size
-        [value] = struct.unpack_from(self.order + kind, self.data, self.at)
-        self.at += size
-        return value
-
-    def text(self) -> str:
-        length = self.take("I")
-        text = self.data[self.at : self.at + length]
-        self.at += length
-        return text.rstrip(b"\0").decode("utf-8", "replace")
+def _topics(reader: Any) -> dict[str, str]:
+    """The topics of a file, and of what each is; nothing where the file has no index."""
+    summary = reader.get_summary()
+    if summary is None:
+        return {}
+    kinds = {number: schema.name for number, schema in summary.schemas.items()}
+    return {channel.topic: kinds.get(channel.schema_id, "") for channel in summary.channels.values()}
 
 
-def _reader(path: Path) -> Any:
+def _reader(file: IO[bytes]) -> Any:
     try:
         from mcap.reader import make_reader
+        from mcap_ros2.decoder import DecoderFactory
     except ImportError as error:
-        raise ImportError("MCAP needs the package mcap: pip install 'pushplan[mcap]'") from error
-    # Open as long as it is read.
-    return make_reader(path.open("rb"))
+        raise ImportError("MCAP needs the packages of pip install 'pushplan[mcap]'") from error
+    return make_reader(file, decoder_factories=[DecoderFactory()])

@@ -3,9 +3,15 @@
 use std::fs::File;
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The longest file that is read, bytes: meshes have some megabytes.
 const LONGEST: u64 = 64 << 20;
+
+/// The most files that name files in turn, and how many lead to one.
+const MOST: usize = 200;
+const DEEPEST: usize = 16;
 
 /// What keeps a file from being read, and what to do.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +29,10 @@ pub struct Files {
     folder: Option<PathBuf>,
     /// The folder that they must be in or below.
     root: Option<PathBuf>,
+    /// The file, and those that led to it.
+    trail: Vec<PathBuf>,
+    /// How many files were found that name files of their own.
+    entered: Arc<AtomicUsize>,
 }
 
 impl Files {
@@ -31,13 +41,19 @@ impl Files {
         let folder = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
         let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
         let root = root.map_or_else(|| folder.clone(), Path::to_path_buf);
-        Self { folder: Some(folder), root: Some(root) }
+        let trail = path.canonicalize().into_iter().collect();
+        Self { folder: Some(folder), root: Some(root), trail, entered: Arc::default() }
     }
 
-    /// Those of another file that it found.
-    pub fn within(&self, path: &Path) -> Self {
-        let folder = path.parent().map(Path::to_path_buf);
-        Self { folder, root: self.root.clone() }
+    /// Those of another file that it found; none where that leads in a circle, or to far too many.
+    pub fn within(&self, path: &Path) -> Option<Self> {
+        let entered = self.entered.fetch_add(1, Ordering::Relaxed);
+        if entered >= MOST || self.trail.len() >= DEEPEST || self.trail.iter().any(|on| on == path)
+        {
+            return None;
+        }
+        let trail = self.trail.iter().cloned().chain([path.to_path_buf()]).collect();
+        Some(Self { folder: path.parent().map(Path::to_path_buf), trail, ..self.clone() })
     }
 
     /// The file of that name, which `base`, a folder of the file's own, may stand before.

@@ -136,10 +136,17 @@ fn shifted(kind: JointKind, shift: Vector) -> JointKind {
     }
 }
 
+/// What is written there as the tolerance of a goal that asks for no place, metres.
+const ANYWHERE: f64 = 1e6;
+
 /// The goal as `pushplan export` writes it: x, y, tolerance; heading, its tolerance, headings alike.
 fn goal(scene: &Scene, object: usize, numbers: &[f64], shift: Vector) -> Option<Goal> {
     let [x, y, tolerance, heading @ ..] = numbers else { return None };
-    let goal = Goal::new(object, [x + shift.x, y + shift.y], *tolerance);
+    let goal = match *tolerance < ANYWHERE {
+        true => Goal::new(object, [x + shift.x, y + shift.y], *tolerance),
+        false if heading.is_empty() => return None,
+        false => Goal::of(object),
+    };
     let goal = match heading {
         [heading, within, alike, ..] => {
             Goal { alike: (*alike as usize).max(1), ..goal.facing(*heading, *within) }

@@ -11,8 +11,8 @@ use crate::import::model::{Model, Motion, Place};
 use crate::import::read::parsed;
 use crate::import::xml::Source;
 
-/// Models that attach models, in each other.
-const DEEPEST: usize = 16;
+/// The most bodies that a model has with those that it attaches.
+const MOST: usize = 5000;
 
 /// The models that a file names, or what is wrong with them.
 #[derive(Default)]
@@ -20,32 +20,26 @@ pub(super) struct Models(HashMap<String, Result<Model, Vec<Fault>>>);
 
 impl Models {
     /// Reads the file that an element `model` names; what is wrong with it matters where it is attached.
-    pub fn add<'a>(
-        &mut self,
-        source: &mut Source<'a>,
-        node: Node<'a, 'a>,
-        files: &Files,
-        depth: usize,
-    ) {
+    pub fn add<'a>(&mut self, source: &mut Source<'a>, node: Node<'a, 'a>, files: &Files) {
         let Some(file) = node.attribute("file") else {
             source.fault(node, "this model names no file", "name its `file`");
             return;
         };
-        if depth >= DEEPEST {
-            source.fault(node, "these models attach each other", "break the circle");
-            return;
-        }
         let read = files.find("", file).and_then(|path| Ok((Files::bytes(&path)?, path)));
         let (bytes, path) = match read {
             Ok(found) => found,
             Err(refused) => return source.fault(node, refused.message, refused.advice),
+        };
+        let Some(inner) = files.within(&path) else {
+            let message = "these models attach each other, or far too many";
+            return source.fault(node, message, "break the circle");
         };
         let Ok(text) = String::from_utf8(bytes) else {
             let message = format!("{file} is not UTF-8 text");
             return source.fault(node, message, "is this the right file?");
         };
         let shown = path.display().to_string();
-        let found = parsed(&text, &shown, &files.within(&path), depth + 1);
+        let found = parsed(&text, &shown, &inner);
         let found = found.map(|(mut model, _, notes)| {
             // Of those of the file itself, which no body has.
             model.bodies[0].notes.extend(notes);
@@ -92,6 +86,11 @@ impl Models {
                 }
             },
         };
+        let below = other.below(top);
+        if model.bodies.len() + below.len() > MOST {
+            let message = format!("with these bodies there are more than {MOST}");
+            return source.fault(node, message, "attach fewer");
+        }
         let prefix = node.attribute("prefix").unwrap_or_default();
         // It hangs here as it hangs there.
         let there = other.bodies[top]
@@ -101,7 +100,7 @@ impl Models {
         source.ledger.note_all(&other.bodies[0].notes);
         let mut bodies = HashMap::new();
         let mut solids = Vec::new();
-        for index in other.below(top) {
+        for index in below {
             let mut body = other.bodies[index].clone();
             for solid in &mut body.solids {
                 solid.pose = moved * solid.pose;

@@ -12,7 +12,7 @@ use super::lattice::Solid;
 use super::unit::{Hold, Unit, holds, units};
 use super::way::{Stretch, Taken, Ways};
 
-/// Things keep so far from each other, metres, and from a tool that carries another.
+/// What things keep clear of each other, and of a tool that carries another, metres.
 const BESIDE: f64 = 0.004;
 
 /// How densely ways are sampled for what stands beside them, in places.

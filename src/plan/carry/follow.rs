@@ -24,7 +24,7 @@ const LOST: f64 = 1.5;
 /// What is moved besides the leg's object counts like a miss by as many units, metres.
 const BESIDE: f64 = 0.02;
 
-/// A push may be so much longer than its leg, metres: the tool begins farther away.
+/// How much longer than its leg a push may be, metres: the tool begins farther away.
 const LONGER: f64 = 0.05;
 
 /// How much to look for.

@@ -4,8 +4,8 @@
 //! [`Carrying`] finds legs, each of one push, on a grid of places: every goal's object on its way around
 //! what stands still, and things that stand in each other's way aside first, or where they wait until
 //! another has passed (as in navigation among movable obstacles, Stilman and Kuffner 2005, "Navigation
-//! among movable obstacles: real-time reasoning in complex environments"). Nothing is rolled out for that; [`follow`] then makes real pushes of them, one
-//! after another.
+//! among movable obstacles: real-time reasoning in complex environments"). Nothing is rolled out for that;
+//! [`follow`] then makes real pushes of them, one after another.
 
 mod carrying;
 mod follow;

@@ -8,8 +8,8 @@ use super::carrying::{Carrying, Leg};
 use super::lattice::Solid;
 use super::way::{Stretch, Ways};
 
-/// What is moved aside leaves so much room for what it makes way for, metres: objects come to lie off by
-/// as much.
+/// Room that what is moved aside leaves for what it makes way for, metres: objects come to lie off by as
+/// much.
 const ASIDE: f64 = 0.012;
 
 /// Places aside that are tried for one thing, and how far they are apart, metres.

@@ -7,7 +7,7 @@ use super::lattice::{Extent, Lattice, Solid};
 use crate::plan::workspace::{HAND_CLEARANCE, OBSTACLE_CLEARANCE};
 use crate::plan::{CandidatePush, SET_DOWN_CLEARANCE, Start, Workspace};
 
-/// A thing keeps so clear of what stands still, metres: as far as one is off that was pushed twice.
+/// What a thing keeps clear of whatever stands still, metres: as far as one is off that was pushed twice.
 const APART: f64 = 0.003;
 
 /// Where it has as much room on all sides it has enough, metres.
@@ -28,7 +28,7 @@ const HOLDS: usize = 3;
 /// Holds nearer together are one, metres.
 const SAME_HOLD: f64 = 0.015;
 
-/// The tool is set down so far from a thing more than it must, metres.
+/// Room that the tool keeps from a thing where it is set down, beyond what it must, metres.
 const ROOM: f64 = 0.005;
 
 /// A push that leads past a thing's centre by more than this share of its mean radius beyond the face
@@ -78,7 +78,7 @@ pub(super) fn units(workspace: &Workspace, situation: &Situation) -> Option<Vec<
             (Some((_, tolerance)), Some(error)) => error > tolerance,
             _ => false,
         };
-        if turned || !goal.has_place() || goal.gap.is_some() || !loose.contains(&goal.object) {
+        if turned || !goal.has_place() || goal.is_relation() || !loose.contains(&goal.object) {
             return None;
         }
     }

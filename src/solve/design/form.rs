@@ -30,7 +30,7 @@ impl Form {
     /// The most links of a handle.
     pub const LINKS: usize = 3;
 
-    /// Those of at most so many parts, simplest first.
+    /// Those of at most `parts` parts, simplest first.
     pub fn up_to(parts: usize) -> Vec<Self> {
         let heads = [Head::Plain, Head::Bar, Head::Catch, Head::Bars, Head::Fork, Head::Ring];
         let all = (1..=Self::LINKS).flat_map(|links| heads.map(|head| Self { links, head }));

@@ -15,10 +15,10 @@ use super::proposed::Spent;
 use super::search::{Seen, kept, search};
 use super::{Design, DesignSettings, Proposal};
 
-/// Of those solved with in full, at most so many of a form: what fails for one fails for its kin.
+/// The most tools of one form that are solved with in full: what fails for one fails for its kin.
 const OF_A_FORM: usize = 3;
 
-/// So much of the task's name is in that of the tool, letters: names of files have an end.
+/// The most characters of the task's name that go into the tool's: file names have a limit.
 const LONGEST_NAME: usize = 48;
 
 impl Planner {

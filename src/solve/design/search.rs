@@ -83,7 +83,7 @@ pub(super) fn search(looking: &Looking, settings: &DesignSettings, seed: u64) ->
     seen
 }
 
-/// The best of those seen, sorted, that are not alike: at most so many in all and of each form.
+/// The best of those seen, sorted, that are not alike: up to `most`, and up to `of_a_form` of each form.
 pub(super) fn kept(seen: &[Seen], most: usize, of_a_form: usize) -> Vec<&Seen> {
     let mut kept: Vec<&Seen> = Vec::new();
     for one in seen {

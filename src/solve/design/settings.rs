@@ -31,7 +31,7 @@ impl DesignSettings {
     /// The most parts that a form has.
     pub const MOST_PARTS: usize = 7;
 
-    /// So many tools.
+    /// Looks at this many tools.
     pub fn looking_at(candidates: usize) -> Self {
         let [traced, drawn] = [Self::TRACED, Self::DRAWN].map(|share| candidates * share / 1000);
         Self { parts: Self::PARTS, candidates, traced, drawn, solved: 8 }

@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use rayon::prelude::*;
 
 use crate::geometry::{Footprint, Pose, Vector, clearance, perpendicular, swept_clearance};
-use crate::plan::{Field, MIN_LENGTH, OBSTACLE_CLEARANCE, STAND_OFF};
+use crate::plan::{Field, HAND_CLEARANCE, MIN_LENGTH, OBSTACLE_CLEARANCE, STAND_OFF};
 use crate::scene::{Mover, Task};
 
 use super::assembly::{Assembly, Bar, HEIGHT, Route};
@@ -25,15 +25,15 @@ const LONGEST: f64 = 0.48;
 const ROOM: f64 = 0.0015;
 
 /// Room that a hand keeps, metres.
-const HAND_ROOM: f64 = 0.012;
+const HAND_ROOM: f64 = HAND_CLEARANCE + 2e-3;
 
 /// Distance of the places where a hand may be, and handles may bend, metres.
 const SPACING: f64 = 0.08;
 
-/// At most so many coordinates along an axis at which handles may bend.
+/// The most coordinates along an axis at which handles may bend.
 const MOST: usize = 20;
 
-/// From so many points that are reached already a further one is looked for, near ones first.
+/// The most points already reached from which the way to a further one is tried, near ones first.
 const TRIED: usize = 40;
 
 /// A last link pushes with its side rather than its end where the cosine of its turn is less.
@@ -58,7 +58,7 @@ struct Wanted {
     aside: f64,
 }
 
-/// Handles of at most so many parts for the first push of a task, those of few parts first.
+/// Handles of at most `parts` parts for the first push of a task, those of few parts first.
 pub(super) fn traced(task: &Task, field: &Field, parts: usize) -> Vec<Assembly> {
     let start = task.scene.start();
     let mut wanted = Vec::new();
@@ -169,7 +169,7 @@ impl<'a> Tracing<'a> {
         SHARES.map(|share| 2.0 * share * self.half_width).into_iter().find(free)
     }
 
-    /// Ways from hand to face, of as few links as do and at most so many, short ones first.
+    /// Ways from hand to face, of as few links as do and at most `links`, short ones first.
     fn ways(&self, links: usize) -> Vec<Vec<Vector>> {
         if !self.is_free(self.foot, self.foot) {
             return Vec::new();
@@ -297,7 +297,7 @@ impl<'a> Tracing<'a> {
         }
         let Some(hand) = robot.hand else { return true };
         let shape = Footprint::Disc { radius: hand.radius };
-        let low = hand.from.unwrap_or(0.12);
+        let low = hand.begins(self.task.pushes.lift + HEIGHT);
         let (from, to) = (Pose::new(at.x, at.y, 0.0), at + self.shift);
         let to = Pose::new(to.x, to.y, 0.0);
         let clear = |other: (&Footprint, &Pose)| {

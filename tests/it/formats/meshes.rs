@@ -171,6 +171,33 @@ fn bodies_of_other_models_are_attached_where_the_file_says() {
 }
 
 #[test]
+fn models_that_attach_each_other_or_far_too_much_are_faults_at_once() {
+    let attaching = |file: &str, times: usize| {
+        let body = |k| format!("<attach model='m' body='b' prefix='{k}-'/>");
+        let bodies: String = (0..times).map(body).collect();
+        format!(
+            "<mujoco><asset><model name='m' file='{file}'/><model name='n' file='{file}'/></asset><worldbody>\
+             <body name='b'><freejoint/><geom size='.05'/>{bodies}</body></worldbody></mujoco>"
+        )
+    };
+    let fault = |files: &[(String, String)]| {
+        let files: Vec<(&str, &[u8])> =
+            files.iter().map(|(name, text)| (name.as_str(), text.as_bytes())).collect();
+        taken_of(&files, &Reading::default(), &all()).expect_err("a fault")
+    };
+    let own = fault(&[("a.xml".into(), attaching("a.xml", 1))]);
+    assert!(own.contains("attach each other"), "{own}");
+    let two = [("a.xml".into(), attaching("b.xml", 1)), ("b.xml".into(), attaching("a.xml", 1))];
+    assert!(fault(&two).contains("attach each other"));
+    // In no circle, but each names the next twice: 2^14 files, and 4^14 bodies.
+    let file = |k: usize| (format!("{k}.xml"), attaching(&format!("{}.xml", k + 1), 4));
+    let mut chain: Vec<(String, String)> = (0..14).map(file).collect();
+    chain.push(("14.xml".into(), attaching("", 0).replace("file=''", "file='14.xml'")));
+    let many = fault(&chain);
+    assert!(many.contains("far too many") || many.contains("more than 5000"), "{many}");
+}
+
+#[test]
 fn damaged_meshes_and_folders_are_faults() {
     assert!(read(Path::new("/nowhere/thing.stl"), &Reading::default()).is_err());
     let flat = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";

@@ -157,6 +157,52 @@ fn every_shipped_task_comes_back_with_its_sizes_masses_frictions_and_places() {
 }
 
 #[test]
+fn goals_come_back_as_places_and_headings_or_are_said_to_be_left_out() {
+    let library = ToolLibrary::embedded().unwrap();
+    let stick = library.get("stick").unwrap();
+    let back = |goal: &str| {
+        let text = format!(
+            "scene:
+  table: {{size: [0.8, 0.8], position: [0.6, 0.0]}}
+  objects:
+    - {{name: a, shape: {{cuboid: {{size: [0.08, 0.05, 0.06]}}}}, mass: 0.4, friction: 0.4, position: [0.5, 0.0]}}
+    - {{name: b, shape: {{cuboid: {{size: [0.06, 0.06, 0.06]}}}}, mass: 0.4, friction: 0.4, position: [0.5, 0.2]}}
+robot: {{reach: {{min: 0.2, max: 0.9}}}}
+tools: all
+goal: {{object: a, {goal}}}
+"
+        );
+        let task = Task::parse(&text, "task.yaml").unwrap();
+        let text = mjcf(&plan(task.clone(), stick)).unwrap();
+        let (model, _, notes) = parse(&text, "scene.xml").unwrap();
+        let made = objects(&model, "scene.xml", &Wanted::default()).unwrap().value;
+        (task.goal, made.has_goal.then_some(made.task.goal), notes)
+    };
+    for goal in
+        ["position: [0.6, 0.1], tolerance: 0.02", "heading_deg: 90, heading_tolerance_deg: 5"]
+    {
+        let (written, found, notes) = back(goal);
+        assert_eq!((found, notes.len()), (Some(written), 0), "{goal}");
+    }
+    for (goal, what) in [
+        ("gap: {to: b, max: 0.01}", "gap"),
+        ("gap: {to: b, max: 0.01}, heading_deg: 90, heading_tolerance_deg: 5", "gap"),
+        ("region: {area: {circle: {radius: 0.05}}, position: [0.6, 0.1]}", "region"),
+        ("coverage: {share: 0.9, position: [0.6, 0.1], heading_deg: 90}", "coverage"),
+        ("off_table: far", "fall"),
+        ("position: [0.1, 0.0], tolerance: 0.02, relative_to: b", "frame"),
+    ] {
+        let (_, found, notes) = back(goal);
+        assert_eq!(found, None, "{goal}");
+        let [note] = &notes[..] else { panic!("{goal}: {notes:?}") };
+        assert!(
+            note.contains("the goal of `object/a` is left out") && note.contains(what),
+            "{note}"
+        );
+    }
+}
+
+#[test]
 fn limits_of_joints_come_back_whichever_of_the_two_hangs_on_the_other() {
     let task = "
 scene:
