@@ -83,7 +83,7 @@ fn task_table(tasks: &[Finished<SolvedTask>]) -> Table {
         table.row([
             record.task.clone(),
             status(record.status).to_owned(),
-            plan.map_or(String::new(), |plan| plan.tool().to_owned()),
+            plan.map_or(String::new(), |plan| plan.tools().join(", ")),
             plan.map_or(String::new(), |plan| plan.pushes().len().to_string()),
             error(record.predicted),
             error(record.planar),
@@ -109,7 +109,7 @@ pub fn solved_cells(index: usize, record: &SolvedTask, times: &Seconds) -> Vec<S
         index.to_string(),
         record.task.clone(),
         status(record.status).to_owned(),
-        plan.map_or(String::new(), |plan| plan.tool().to_owned()),
+        plan.map_or(String::new(), |plan| plan.tools().join(", ")),
         plan.map_or(String::new(), |plan| plan.pushes().len().to_string()),
         number(record.tolerance),
     ];

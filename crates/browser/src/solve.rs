@@ -47,7 +47,7 @@ impl Solved {
         json!({
             "status": self.solution.status,
             "headline": self.document().title,
-            "tool": best.map(|best| best.plan.tool()),
+            "tool": best.map(|best| best.plan.tools().join(", ")),
             "pushes": best.map(|best| best.plan.pushes()),
             "ends": best.map(|best| &best.outcome.state),
             "error": best.map(|best| best.outcome.error),
