@@ -21,6 +21,11 @@ pub trait Watch: Sync {
         let _ = (done, total);
     }
 
+    /// The best answer so far, one line, whenever there is a better one.
+    fn so_far(&self, answer: &str) {
+        let _ = answer;
+    }
+
     /// A first result, one line, long before the last one.
     fn line(&self, text: &str) {
         let _ = text;
@@ -111,6 +116,10 @@ impl Watch for Until<'_> {
 
     fn progress(&self, done: u64, total: u64) {
         self.watch.progress(done, total);
+    }
+
+    fn so_far(&self, answer: &str) {
+        self.watch.so_far(answer);
     }
 
     fn line(&self, text: &str) {

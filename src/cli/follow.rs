@@ -18,6 +18,8 @@ pub struct Following<'a> {
     bar: ProgressBar,
     /// Whether the units that it counts are those of a stage.
     staged: bool,
+    /// The stage and the best answer so far.
+    said: Mutex<[String; 2]>,
     /// What went wrong while showing; the job is asked to stop then.
     trouble: Mutex<Option<CliError>>,
 }
@@ -25,12 +27,25 @@ pub struct Following<'a> {
 impl<'a> Following<'a> {
     /// A bar, for many equal units of `what`.
     pub fn bar(session: &'a Session, what: &str) -> Self {
-        Self { session, bar: session.bar(what), staged: false, trouble: Mutex::default() }
+        Self::with(session, session.bar(what), false)
     }
 
     /// A spinner with the stage and how far it is.
     pub fn spinner(session: &'a Session, what: &str) -> Self {
-        Self { session, bar: session.staged(what), staged: true, trouble: Mutex::default() }
+        Self::with(session, session.staged(what), true)
+    }
+
+    fn with(session: &'a Session, bar: ProgressBar, staged: bool) -> Self {
+        Self { session, bar, staged, said: Mutex::default(), trouble: Mutex::default() }
+    }
+
+    /// Shows what was said last, changed.
+    fn say(&self, change: impl FnOnce(&mut [String; 2])) {
+        let mut said = self.said.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        change(&mut said);
+        let [stage, so_far] = &*said;
+        let message = if so_far.is_empty() { stage.clone() } else { format!("{stage} ({so_far})") };
+        self.bar.set_message(message);
     }
 
     /// Ends the bar.
@@ -57,7 +72,11 @@ impl Watch for Following<'_> {
         if self.staged {
             count(&self.bar, false);
         }
-        self.bar.set_message(what.to_owned());
+        self.say(|[stage, _]| *stage = what.to_owned());
+    }
+
+    fn so_far(&self, answer: &str) {
+        self.say(|[_, so_far]| *so_far = format!("so far {answer}"));
     }
 
     fn progress(&self, done: u64, total: u64) {

@@ -28,8 +28,8 @@ pub struct GlobalArgs {
 const STAGE: &str = "{spinner} {prefix}, {elapsed} {msg}";
 const COUNTED: &str = "{spinner} {prefix}, {elapsed} {msg}, {pos}/{len}";
 
-/// Work that ends sooner shows no progress.
-const SHOW_AFTER: Duration = Duration::from_millis(500);
+/// Work that ends sooner shows no progress: a first plan is there by then.
+const SHOW_AFTER: Duration = Duration::from_millis(100);
 
 /// One run of the command.
 #[derive(Debug)]

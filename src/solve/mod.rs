@@ -27,6 +27,7 @@ mod settings;
 mod settle;
 mod solution;
 mod solving;
+mod told;
 mod tried;
 mod typical;
 mod widen;

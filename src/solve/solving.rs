@@ -15,6 +15,7 @@ use crate::watch::{Instant, Watch};
 use super::grade::{Class, Grade};
 use super::rank::is_worth_verifying;
 use super::reconsider::Way;
+use super::told::Known;
 use super::tried::{Tried, after};
 use super::typical::{error_p95, typical};
 use super::{PlanStatus, Planner, Solution, Statistics};
@@ -73,6 +74,8 @@ pub(super) struct Solving<'a> {
     pub refuted: Vec<Way>,
     /// The best plan that was replayed with disturbances.
     pub best: Option<(Grade, usize)>,
+    /// What was told of the best plan so far.
+    pub known: Option<Known>,
     /// Where nothing is to be verified: whether any plan would be worth it. The search ends with the first.
     pub promising: Option<bool>,
 }
@@ -104,6 +107,7 @@ impl<'a> Solving<'a> {
             unable: None,
             refuted: Vec::new(),
             best: None,
+            known: None,
             promising: None,
         }
     }
@@ -187,6 +191,7 @@ impl<'a> Solving<'a> {
             found.retain(|one| bare(one.score) <= REFINABLE);
         }
         self.statistics.timing.search += began.elapsed().as_secs_f64();
+        self.tell_found(&found);
         self.try_out(&found, pushes);
     }
 
@@ -203,6 +208,7 @@ impl<'a> Solving<'a> {
         let goals = self.goals();
         let mut queue = self.refined(&candidates, &goals, pushes);
         self.statistics.timing.refinement += began.elapsed().as_secs_f64();
+        self.tell_refined(&queue);
 
         let mut failed = Vec::new();
         for batch in 0..most.div_ceil(at_once) {
@@ -221,6 +227,7 @@ impl<'a> Solving<'a> {
             self.watch.progress((batch * at_once) as u64, most as u64);
             self.verify(&indices);
             self.statistics.timing.verification += began.elapsed().as_secs_f64();
+            self.tell_replayed();
             let safe = self.best.is_some_and(|(grade, _)| grade.class == Class::Safe);
             let enough = self.disturbed - before >= most_disturbed;
             // Where even the most promising plan leads through a wall, a few tries are enough.
@@ -234,12 +241,6 @@ impl<'a> Solving<'a> {
     /// Plans verified together.
     pub(super) fn at_once(&self) -> usize {
         self.planner.settings().at_once(self.situation.scene.objects.len())
-    }
-
-    /// Says what is done to plans of a number of pushes.
-    pub(super) fn tell(&self, stage: &str, pushes: usize) {
-        let s = if pushes == 1 { "" } else { "es" };
-        self.watch.stage(&format!("{stage}, plans of {pushes} push{s}"));
     }
 
     /// Refines candidates that the search found towards `aims`, the task's goals or some next to them,

@@ -6,6 +6,7 @@ export { library };
 
 // Called by the library, here and in workers.
 globalThis.pushplanTold = () => {};
+globalThis.pushplanSoFar = () => {};
 globalThis.pushplanFailed = (message) => console.error(message);
 
 /**

@@ -64,8 +64,9 @@ async function main() {
     if (whole) planner.cancel(whole);
     const own = wish({ effort: byId('effort').value, whole: true });
     whole = own;
-    own.told = ({ stage, done, total }) => {
-      byId('stage-of-work').textContent = total > 0 ? `${stage}, ${done} of ${total}` : stage;
+    own.told = ({ stage, done, total, soFar }) => {
+      const count = total > 0 ? `, ${done} of ${total}` : '';
+      byId('stage-of-work').textContent = stage + count + (soFar ? ` (so far ${soFar})` : '');
       const bar = byId('progress');
       if (total > 0) bar.value = done / total;
       else bar.removeAttribute('value');

@@ -11,7 +11,7 @@ export class Planner {
   }
 
   /**
-   * Plans; `wish` says what, and hears of it: `told({stage, done, total})` and once `done({answer})` or
+   * Plans; `wish` says what, and hears of it: `told({stage, done, total, soFar})` and once `done({answer})` or
    * `done({broken})`.
    */
   plan(wish) {

@@ -4,14 +4,16 @@ import init, { solve } from './library.js';
 
 let told = 0;
 let stage = '';
+let soFar = '';
 globalThis.pushplanTold = (what, done, total) => {
   stage = what || stage;
   // A page shows no more than that.
   const now = performance.now();
   if (!what && now - told < 50) return;
   told = now;
-  postMessage({ stage, done, total });
+  postMessage({ stage, done, total, soFar });
 };
+globalThis.pushplanSoFar = (plan) => { soFar = plan; };
 let defect = '';
 globalThis.pushplanFailed = (message) => { defect = message; };
 
@@ -21,6 +23,7 @@ addEventListener('message', async ({ data }) => {
     postMessage({ ready: true });
     return;
   }
+  soFar = '';
   try {
     const solved = solve(data.text, data.file, data.example, data.effort);
     const answer = { summary: JSON.parse(solved.summary()) };

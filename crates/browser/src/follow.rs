@@ -10,6 +10,10 @@ extern "C" {
     #[wasm_bindgen(js_name = pushplanTold)]
     fn told(stage: &str, done: f64, total: f64);
 
+    /// The best plan so far.
+    #[wasm_bindgen(js_name = pushplanSoFar)]
+    fn so_far(answer: &str);
+
     /// A defect of the planner.
     #[wasm_bindgen(js_name = pushplanFailed)]
     pub fn failed(message: &str);
@@ -25,5 +29,9 @@ impl Watch for Following {
 
     fn progress(&self, done: u64, total: u64) {
         told("", done as f64, total as f64);
+    }
+
+    fn so_far(&self, answer: &str) {
+        so_far(answer);
     }
 }

@@ -1,0 +1,91 @@
+//! What is told while a task is solved: what is being done, and the best plan so far.
+
+use crate::plan::Found;
+use crate::scene::Plan;
+
+use super::grade::Class;
+use super::solving::Solving;
+
+/// What is known of a plan, least first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Known {
+    /// The model that screens says that it reaches the goal.
+    Found,
+    /// So does the one that decides, after refinement.
+    Refined,
+    /// It works as written in both engines, in some of the disturbed replays.
+    Works,
+    /// It passes.
+    Passes,
+}
+
+impl Known {
+    fn words(self) -> &'static str {
+        match self {
+            Known::Found => "a first look says that it reaches the goal",
+            Known::Refined => "predicted to reach the goal",
+            Known::Works => "works as written in both engines",
+            Known::Passes => "passes",
+        }
+    }
+}
+
+impl Solving<'_> {
+    /// Says what is done to plans of a number of pushes.
+    pub(super) fn tell(&self, stage: &str, pushes: usize) {
+        let s = if pushes == 1 { "" } else { "es" };
+        self.watch.stage(&format!("{stage}, plans of {pushes} push{s}"));
+    }
+
+    /// Tells of the best of what the search found.
+    pub(super) fn tell_found(&mut self, found: &[Found]) {
+        let Some(first) = found.first().filter(|first| first.score <= 1.0) else { return };
+        let pushes = &first.candidate.pushes;
+        let mut tools: Vec<&str> = Vec::new();
+        for push in pushes {
+            let name = &self.workspace.tools[push.tool].name;
+            if !tools.contains(&name.as_str()) {
+                tools.push(name);
+            }
+        }
+        let plan = named(&tools, pushes.len());
+        self.tell_known(Known::Found, plan);
+    }
+
+    /// Tells of the first of these plans, the best one, that it is predicted to reach the goal.
+    pub(super) fn tell_refined(&mut self, indices: &[usize]) {
+        let best = indices.first().map(|&k| &self.tried[k]).filter(|tried| tried.score <= 1.0);
+        if let Some(tried) = best {
+            self.tell_known(Known::Refined, of(&tried.plan));
+        }
+    }
+
+    /// Tells of the best of those that were replayed.
+    pub(super) fn tell_replayed(&mut self) {
+        let Some((grade, k)) = self.best else { return };
+        let known = match grade.class {
+            Class::Fails => return,
+            Class::Fragile => Known::Works,
+            Class::Edge | Class::Passes | Class::Safe => Known::Passes,
+        };
+        let plan = of(&self.tried[k].plan);
+        self.tell_known(known, plan);
+    }
+
+    /// Tells it unless as much is known of a plan that was told before.
+    fn tell_known(&mut self, known: Known, plan: String) {
+        if self.known.is_none_or(|before| known > before) {
+            self.known = Some(known);
+            self.watch.so_far(&format!("{plan}: {}", known.words()));
+        }
+    }
+}
+
+fn of(plan: &Plan) -> String {
+    named(&plan.tools(), plan.steps.len())
+}
+
+fn named(tools: &[&str], pushes: usize) -> String {
+    let s = if pushes == 1 { "" } else { "es" };
+    format!("{}, {pushes} push{s}", tools.join(" and "))
+}
