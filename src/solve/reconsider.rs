@@ -9,7 +9,7 @@ use crate::scene::{Engine, Goal, State, Task, Tool, Verdict, Warning};
 
 use super::rank::distinct;
 use super::solving::Solving;
-use super::tried::Tried;
+use super::tried::{Disturbed, Tried};
 
 /// A plan is refuted if its replay misses the goal by more than this many tolerances: one that
 /// misses by less may work with another tool.
@@ -165,7 +165,7 @@ impl Solving<'_> {
                     aims: tried.aims.clone(),
                     refinement: tried.refinement.clone(),
                     verdict: None,
-                    settled: false,
+                    disturbed: Disturbed::No,
                     ..*tried
                 };
                 next.push(self.tried.len());

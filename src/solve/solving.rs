@@ -375,21 +375,11 @@ impl<'a> Solving<'a> {
         let cost = |k: usize| self.tried[k].cost;
         working.sort_by(|a, b| a.0.before(&b.0, cost(a.1).cmp(&cost(b.1))));
         for (_, k) in working.into_iter().take(DISTURBED_AT_ONCE) {
-            let tried = &mut self.tried[k];
-            if let Some(verdict) = tried.verdict.take() {
-                self.disturbed += 1;
-                let (tools, plan) = (&tried.tools, &tried.plan);
-                let verdict =
-                    self.verifier.disturb(self.task, self.situation, tools, plan, verdict);
-                let grade = Grade::of(self.task, &verdict);
-                tried.verdict = Some(verdict);
-                if self.best.is_none_or(|(best, _)| grade.compare(&best).is_gt()) {
-                    self.best = Some((grade, k));
-                }
-                if grade.class == Class::Safe || self.watch.cancelled() {
-                    break;
-                }
+            self.disturbed += 1;
+            if self.disturb(k) == Class::Safe || self.watch.cancelled() {
+                break;
             }
         }
+        self.best = self.best_of_all();
     }
 }

@@ -22,8 +22,18 @@ pub(super) struct Tried {
     /// What is compared where it is as near as another.
     pub cost: Cost,
     pub verdict: Option<Verdict>,
-    /// Whether it was replayed until it was clear how often it works.
-    pub settled: bool,
+    pub disturbed: Disturbed,
+}
+
+/// How a plan was replayed with disturbances.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Disturbed {
+    No,
+    /// In the planar engine alone.
+    InPlane,
+    InBoth,
+    /// Until it was clear how often it works.
+    Settled,
 }
 
 impl Solving<'_> {
@@ -47,7 +57,7 @@ impl Solving<'_> {
             },
             cost: Cost::of(&best, &self.workspace, self.situation),
             verdict: None,
-            settled: false,
+            disturbed: Disturbed::No,
             plan: best.plan(&self.workspace),
             tools: best.tools(&self.workspace),
             candidate: Some(best.candidate),
@@ -72,7 +82,7 @@ impl Solving<'_> {
             score: self.task.score(start),
             cost: Cost::default(),
             verdict: None,
-            settled: false,
+            disturbed: Disturbed::No,
         }
     }
 }

@@ -13,7 +13,7 @@
 //! the share is within 0.1 of what is asked for. Simulated for 0.75 in one engine: a plan passes in
 //! 0.3 % at a share of 0.5, 8 % at 0.65, 26 % at 0.7, 88 % at 0.8 and 99 % at 0.85.
 
-use crate::scene::{Engine, Evidence, Physics};
+use crate::scene::{Evidence, Physics};
 
 /// How often an answer that is clear may be wrong.
 const ERROR: f64 = 0.01;
@@ -31,26 +31,21 @@ pub(super) const LOOK: usize = Physics::PLAUSIBLE_SUPPORTS.len() + 1;
 /// Most replays in each engine: a share that is still not clear then is taken as it is.
 pub(super) const MOST: usize = 64;
 
-/// Whether it is clear from disturbed replays that at least the share `wanted` reaches the goal in both
-/// engines, or that it does not in one of them.
-pub(super) fn is_clear(evidence: &[Evidence], wanted: f64) -> bool {
-    let below: Vec<f64> = Engine::ALL
-        .into_iter()
-        .map(|engine| {
-            let of_engine = evidence.iter().filter(|one| one.engine == engine);
-            let reached: Vec<bool> = of_engine.map(|one| one.outcome.reached).collect();
-            let count = reached.iter().filter(|reached| **reached).count();
-            let never = |first: usize| {
-                let mut draws = reached.iter().skip(first).step_by(LOOK).peekable();
-                draws.peek().is_some() && draws.all(|reached| !reached)
-            };
-            // What has never worked so far on one of the supports is no clear yes.
-            let doubtful = (0..LOOK).any(never);
-            let below = below(wanted, count, reached.len());
-            if doubtful { below.max(2.0 * ERROR) } else { below }
-        })
-        .collect();
-    below.iter().all(|below| *below <= ERROR) || below.iter().any(|below| *below >= 1.0 - ERROR)
+/// Whether at least the share `wanted` of the disturbed replays reaches the goal, where those that an
+/// engine has made so far make it clear.
+pub(super) fn answer(replays: &[Evidence], wanted: f64) -> Option<bool> {
+    let reached: Vec<bool> = replays.iter().map(|one| one.outcome.reached).collect();
+    let count = reached.iter().filter(|reached| **reached).count();
+    // What has never worked so far on one of the supports is no clear yes.
+    let doubtful = (0..LOOK).any(|first| {
+        let mut draws = reached.iter().skip(first).step_by(LOOK).peekable();
+        draws.peek().is_some() && draws.all(|reached| !reached)
+    });
+    match below(wanted, count, reached.len()) {
+        below if below >= 1.0 - ERROR => Some(false),
+        below if below <= ERROR && !doubtful => Some(true),
+        _ => None,
+    }
 }
 
 /// The probability that a share is below `wanted` after `reached` of `replays`.

@@ -52,6 +52,8 @@ pub struct Verifier<'a> {
     watch: &'a dyn Watch,
     /// Whether replays are added until the answer is clear.
     until_clear: bool,
+    /// Whether disturbed replays are those of the planar engine alone.
+    in_plane: bool,
     /// How an arm carries the plan out, if that was made with it.
     joints: Option<&'a JointTrajectory>,
 }
@@ -61,7 +63,8 @@ impl<'a> Verifier<'a> {
     pub fn new(settings: VerifySettings) -> Self {
         let [planar, spatial] =
             [Simulator::planar(), Simulator::spatial()].map(Simulator::retreating);
-        Self { settings, planar, spatial, watch: &Unwatched, until_clear: false, joints: None }
+        let watch = &Unwatched;
+        Self { settings, planar, spatial, watch, until_clear: false, in_plane: false, joints: None }
     }
 
     /// The same, which `watch` can stop. Replays that are not over then say so, and the plan does
@@ -75,6 +78,12 @@ impl<'a> Verifier<'a> {
     /// on average, see `clear`.
     pub fn until_clear(self) -> Self {
         Self { until_clear: true, ..self }
+    }
+
+    /// The same, whose disturbed replays are those of the planar engine alone: a plan works no more often
+    /// than it works there.
+    pub fn in_plane(self) -> Self {
+        Self { in_plane: true, ..self }
     }
 
     /// The same of plans that came with this motion of an arm's joints: it is judged rather than another
@@ -170,39 +179,56 @@ impl<'a> Verifier<'a> {
                 motion.lift += HAIR;
             }
         }
-        let (mut evidence, mut replays): (Vec<Evidence>, Vec<Evidence>) =
+        let (mut evidence, replays): (Vec<Evidence>, Vec<Evidence>) =
             evidence.into_iter().partition(|one| one.disturbance == Disturbance::Nominal);
-        let mut done = replays.len() / Engine::ALL.len();
-        let mut next = self.settings.disturbed.max(done);
-        loop {
-            replays.extend(self.disturbed(task, situation, (&scene, &motions), done..next));
-            (done, next) = (next, (next + clear::LOOK).min(clear::MOST));
-            let over = !self.until_clear || done == 0 || done >= next || self.watch.cancelled();
-            if over || clear::is_clear(&replays, task.robustness) {
-                break;
+        let mut refused = false;
+        // The planar engine first: where it says no, the dearer one need not be asked.
+        for engine in [&self.planar, &self.spatial] {
+            let own = |one: &&Evidence| one.engine == engine.engine();
+            let mut own: Vec<Evidence> = replays.iter().filter(own).cloned().collect();
+            if !refused && (engine.engine() == Engine::Planar || !self.in_plane) {
+                self.add_disturbed(engine, (task, situation, &scene, &motions), &mut own);
             }
+            refused |= clear::answer(&own, task.robustness) == Some(false);
+            evidence.extend(own);
         }
-        // By engine, planar first; stable, so draws keep their order.
-        replays.sort_by_key(|evidence| evidence.engine != self.planar.engine());
-        evidence.extend(replays);
         Verdict::judge(forbidden, evidence, task.robustness)
     }
 
-    /// These disturbed replays in both engines.
+    /// Adds disturbed replays to those that an engine has made, until they are enough.
+    fn add_disturbed(
+        &self,
+        engine: &Simulator,
+        made: (&Task, &Situation, &Scene, &[ToolMotion]),
+        own: &mut Vec<Evidence>,
+    ) {
+        let least = self.settings.disturbed;
+        loop {
+            let done = own.len();
+            let is_clear = || clear::answer(own, made.0.robustness).is_some();
+            let goes_on = self.until_clear && least > 0 && !self.watch.cancelled();
+            let wanted = match done < least {
+                true => least,
+                false if goes_on && !is_clear() => (done + clear::LOOK).min(clear::MOST),
+                false => done,
+            };
+            if done >= wanted {
+                return;
+            }
+            own.extend(self.disturbed(engine, made, done..wanted));
+        }
+    }
+
+    /// These disturbed replays in an engine.
     fn disturbed(
         &self,
-        task: &Task,
-        situation: &Situation,
-        (scene, motions): (&Scene, &[ToolMotion]),
+        engine: &Simulator,
+        (task, situation, scene, motions): (&Task, &Situation, &Scene, &[ToolMotion]),
         draws: Range<usize>,
     ) -> Vec<Evidence> {
-        let draws: Vec<(&Simulator, usize)> = [&self.planar, &self.spatial]
-            .into_iter()
-            .flat_map(|engine| draws.clone().map(move |draw| (engine, draw)))
-            .collect();
         draws
             .into_par_iter()
-            .map(|(engine, draw)| {
+            .map(|draw| {
                 let disturbance = Disturbance::Disturbed { draw: draw + 1 };
                 if self.watch.cancelled() {
                     return stopped(engine, task, situation, disturbance);

@@ -100,7 +100,7 @@ def rollout(rounds, count):
             f"pushplan, {model}": lambda model=model: ours(plan, pushes, model)
             for model in ["prior", "network", "planar", "3d"]
         }
-        ways[USUAL] = lambda: theirs(plan, pushes, 2e-3, usual=True)
+        ways[USUAL] = lambda: theirs(plan, pushes, 2e-3, usual=True)[:, :2]
         times, ends = {way: [] for way in ways}, {}
         for _ in range(rounds):
             for way, roll in ways.items():
@@ -111,7 +111,7 @@ def rollout(rounds, count):
         # So dear that a tenth must do.
         few = max(1, count // 10)
         began = time.process_time()
-        exact = theirs(plan, pushes[:few], 2.5e-4)
+        exact = theirs(plan, pushes[:few], 2.5e-4)[:, :2]
         each[EXACT] = (time.process_time() - began) / few
         for way, seconds in each.items():
             away = ""
@@ -137,7 +137,7 @@ def ours(plan, pushes, model):
 
 
 def theirs(plan, pushes, step, usual=False):
-    """The same by `mujoco.rollout`, in the scene that `pushplan export` writes: with its contacts, or
+    """The same and the heading by `mujoco.rollout`, in the scene that `pushplan export` writes: with its contacts, or
     with MuJoCo's usual ones, which are softer, let things creep, and allow larger steps.
 
     The tool is a heavy body on two sliding joints that nothing stops: with the speed of the push as
@@ -167,7 +167,7 @@ def theirs(plan, pushes, step, usual=False):
     shift = model.numeric("push 1").data[:2] - np.array(plan.pushes[0].start)
     joint = model.body(f"object/{plan.task.goal_object}").jntadr[0]
     goal = 1 + model.jnt_qposadr[joint]
-    ends = np.empty((len(pushes), 2))
+    ends = np.empty((len(pushes), 3))
     coast = round(2.0 * pushes[:, 4].max() / (0.4 * 9.81) / step) + 1
     # Of like lengths together, so that few steps are made for nothing; as many as memory holds.
     for some in np.array_split(np.argsort(pushes[:, 3]), max(1, len(pushes) // 25)):
@@ -180,7 +180,9 @@ def theirs(plan, pushes, step, usual=False):
         states = moved[np.arange(len(some)), steps - 1]
         states[:, speeds] = 0.0
         rested, _ = rollout.rollout(model, data, states, nstep=coast)
-        ends[some] = rested[:, -1, goal : goal + 2]
+        ends[some, :2] = rested[:, -1, goal : goal + 2]
+        w, z = rested[:, -1, goal + 3], rested[:, -1, goal + 6]
+        ends[some, 2] = 2.0 * np.arctan2(z, w)
     return ends
 
 
