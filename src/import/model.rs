@@ -230,6 +230,9 @@ impl Body {
 }
 
 impl Model {
+    /// The body that `pushplan export` makes the tool.
+    pub const TOOL: &str = "tool";
+
     /// A body's name; the world's is `world`.
     pub fn name_of(&self, body: usize) -> &str {
         self.bodies.get(body).map_or("", |body| &body.name)

@@ -7,10 +7,10 @@ use std::process::{Command, Output};
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
-use pushplan::Task;
 use pushplan::asset::PlanFile;
 use pushplan::scene::{ArmFault, Reason, Situation, Warning};
 use pushplan::verify::{Verifier, VerifySettings};
+use pushplan::{Shape, Task, Tool, Vector};
 
 use crate::ROOT;
 use crate::mujoco_python::python;
@@ -122,6 +122,38 @@ fn a_plan_of_an_arm_carries_its_joints_and_verifies_without_the_urdf() {
     assert!(matches!(fast, ArmFault::TooFast { .. }), "{fast:?}");
     let other = fault(&|path| path.joints[0] = "other".into());
     assert_eq!(other, ArmFault::OfAnother);
+}
+
+#[test]
+fn the_tool_of_an_arm_comes_back_from_its_scene() {
+    let folder = folder(ROBOT);
+    let folder = folder.path();
+    write(folder, "push.yaml", &TASK.replace("ROBOT", ROBOT).replace("[stick, paddle]", "[stick]"));
+    assert_eq!(solve(folder).status.code(), Some(0));
+    let (plan, out) = (at(folder, "out/push.plan.json"), at(folder, "mjcf"));
+    assert_eq!(run(&["export", &plan, "--out", &out]).status.code(), Some(0));
+    let scene = at(folder, "mjcf/push.xml");
+    let file = PlanFile::load(&plan).expect("a plan");
+    // By default, by its name, and where MuJoCo has written the scene: with what is ours at the end.
+    let text = fs::read_to_string(&scene).expect("a scene");
+    let (begin, end) = (text.find("<custom>"), text.find("</custom>"));
+    let ours = &text[begin.expect("begin")..end.expect("end") + "</custom>".len()];
+    let saved = text.replace(ours, "").replace("</mujoco>", &format!("{ours}</mujoco>"));
+    write(folder, "mjcf/saved.xml", &saved);
+    let saved = at(folder, "mjcf/saved.xml");
+    for arguments in [&[scene.as_str()][..], &[&scene, "--body", "tool"], &[&saved]] {
+        let tool = at(folder, "tool.yaml");
+        let all = [&["import", "--as", "tool", "--quiet", "--out", &tool], arguments].concat();
+        let output = run(&all);
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", stderr(&output));
+        let tool = Tool::load(&tool).expect("a tool");
+        // Flush parts are one solid.
+        let [part] = tool.parts() else { panic!("{tool:?}") };
+        let Shape::Cuboid { size } = part.shape else { panic!("{part:?}") };
+        let off = size.iter().zip([0.56, 0.08, 0.05]).map(|(size, own)| (size - own).abs());
+        let off = off.sum::<f64>() + (part.pose.position - Vector::new(0.33, 0.0)).norm();
+        assert!(off < 1e-9 && tool.friction == file.tools[0].friction, "{tool:?}");
+    }
 }
 
 #[test]

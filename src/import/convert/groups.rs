@@ -7,9 +7,6 @@ use super::joints::may_mount;
 use super::names::{bare, same};
 use super::wanted::Wanted;
 
-/// The body that `pushplan export` makes the tool.
-const TOOL: &str = "tool";
-
 /// The model in which the bodies that are wanted so stand freely.
 pub(super) fn freed(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Model {
     let mut model = model.clone();
@@ -70,7 +67,7 @@ pub(super) fn free(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Vec<u
                 ledger.note(body.place, note);
                 found.push(index);
             }
-            _ if model.ours && body.name == TOOL && wanted.bodies.is_empty() => {
+            _ if model.ours && body.name == Model::TOOL && wanted.bodies.is_empty() => {
                 ledger.note(body.place, "the tool is left out: `--as tool` imports it");
             }
             motion if may_mount(motion) => found.push(index),

@@ -8,7 +8,7 @@ use crate::import::fault::Ledger;
 use crate::import::model::{Model, Motion};
 use crate::scene::{Part, Tool, ToolError};
 
-use super::groups::held_by;
+use super::groups::{held_by, solid_bodies};
 use super::names::{Names, bare, same};
 use super::upright::{Base, Upright, flat};
 use super::wanted::{Imported, Wanted};
@@ -24,13 +24,14 @@ const LEVEL: f64 = 1e-3;
 pub fn tool(model: &Model, file: &str, wanted: &Wanted) -> Result<Imported<Tool>, Faults> {
     let mut ledger = Ledger::new(file, &model.files);
     let body = chosen(model, wanted, &mut ledger);
-    // Only what was chosen may refuse.
+    // Only what was chosen may refuse, and the world if nothing was named.
     let kept: Vec<usize> = body.map_or_else(Vec::new, |body| model.below(body));
     for (index, other) in model.bodies.iter().enumerate() {
         if kept.contains(&index) {
             ledger.note_all(&other.notes);
         }
-        match wanted.bodies.is_empty() || kept.contains(&index) {
+        let of_world = index == 0 && wanted.bodies.is_empty();
+        match body.is_none() || of_world || kept.contains(&index) {
             true => ledger.take(&other.faults),
             false => ledger.pass_over(&other.faults, &format!("`{}`", other.name)),
         }
@@ -57,35 +58,44 @@ fn chosen(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Option<usize> 
         model.rigid(*body).iter().any(|body| model.bodies[*body].solids.iter().any(|s| s.touches))
     };
     let candidates: Vec<usize> = match &wanted.bodies[..] {
-        // One that says so, or the only one.
+        // One that says so, which an arm may hold, or the only one.
         [] => {
-            let all: Vec<usize> = model.children(0).filter(solid).collect();
-            let said = all.iter().copied().find(|body| model.name_of(*body) == "tool");
-            said.map_or(all, |tool| vec![tool])
+            let said = |body: &usize| model.name_of(*body) == Model::TOOL && solid(body);
+            match (1..model.bodies.len()).find(said) {
+                Some(tool) => vec![tool],
+                None => model.children(0).filter(solid).collect(),
+            }
         }
         asked => (1..model.bodies.len())
             .filter(|body| asked.iter().any(|name| same(name, model.name_of(*body))))
             .collect(),
     };
     match candidates[..] {
-        [body] => Some(body),
+        [body] if solid(&body) => return Some(body),
+        [body] => {
+            let message = format!("nothing of `{}` touches anything", model.name_of(body));
+            ledger.fault(model.bodies[body].place, message, names_them(model));
+        }
         [] => {
             let message = match wanted.bodies.first() {
                 Some(asked) => format!("no body is called `{asked}`"),
                 None => "no body of the file touches anything".to_owned(),
             };
-            let names: Vec<&str> =
-                model.children(0).map(|body| bare(model.name_of(body))).collect();
-            ledger.fault_of_file(message, format!("bodies are {}", names.join(", ")));
-            None
+            ledger.fault_of_file(message, names_them(model));
         }
         _ => {
-            let names: Vec<&str> =
-                candidates.iter().map(|body| bare(model.name_of(*body))).collect();
             let message = format!("there are {} bodies, and a tool is one", candidates.len());
-            ledger.fault_of_file(message, format!("choose with --body: {}", names.join(", ")));
-            None
+            ledger.fault_of_file(message, names_them(model));
         }
+    }
+    None
+}
+
+/// Which bodies could be the tool, or a piece of it.
+fn names_them(model: &Model) -> String {
+    match &solid_bodies(model)[..] {
+        [] => "pushplan's tools are solids that touch: <geom>, <collision>, or a mesh".to_owned(),
+        names => format!("choose with --body: {}", names.join(", ")),
     }
 }
 
@@ -104,7 +114,9 @@ fn assemble(
         if moves {
             let how = held_by(&other.motion);
             let message = format!("`{}` moves against the tool, by {how}", other.name);
-            ledger.fault(other.place, message, "a tool is one rigid piece: fix it, or take it out");
+            let advice =
+                "a tool is one rigid piece: fix it, take it out, or name a piece with --body";
+            ledger.fault(other.place, message, advice);
         }
     }
     let frame = flat(&model.bodies[body].pose).inverse();

@@ -108,9 +108,13 @@ fn body<'a>(
     within: Within<'a>,
     model: &mut Model,
 ) {
-    // The arm of an exported plan, with its tool.
+    // The arm of an exported plan.
     if model.ours && node.attribute("name").is_some_and(|name| name.starts_with("arm/")) {
         source.ledger.note(source.place(node), "the arm, which holds the tool, is left out");
+        let is_tool = |node: &Node<'_, '_>| node.attribute("name") == Some(Model::TOOL);
+        if let Some(tool) = node.descendants().find(is_tool) {
+            held(source, context, tool, within, model);
+        }
         return;
     }
     let before = source.ledger.count();
@@ -151,6 +155,26 @@ fn body<'a>(
         }
         _ => {}
     }
+}
+
+/// The tool that the arm of an exported plan holds, wherever: upright in its own frame.
+fn held<'a>(
+    source: &mut Source<'a>,
+    context: &Context<'a>,
+    node: Node<'a, 'a>,
+    within: Within<'a>,
+    model: &mut Model,
+) {
+    let index = model.bodies.len();
+    model.bodies.push(Body {
+        name: Model::TOOL.to_owned(),
+        place: source.place(node),
+        parent: Some(0),
+        motion: Motion::Other("an arm".to_owned()),
+        ..Body::world()
+    });
+    let within = Within { body: index, pose: Isometry3::identity(), ..within };
+    inside(source, context, node, within, model);
 }
 
 fn inertial<'a>(

@@ -58,16 +58,17 @@ pub(in crate::import) fn model<'a>(
                 let names = ends.flat_map(|pair| ["geom1", "geom2"].map(|end| pair.attribute(end)));
                 context.paired.extend(names.flatten());
             }
+            // Whether there is an arm of ours; MuJoCo writes it last.
+            "custom" => custom(source, section, &mut model),
             _ => {}
         }
     }
     for section in elements(root) {
         match section.tag_name().name() {
-            "compiler" | "default" | "asset" => {}
+            "compiler" | "default" | "asset" | "custom" => {}
             "worldbody" => world(source, &context, section, &mut model),
             "contact" => pairs(source, &context, section, &mut model),
             "option" => option(source, section),
-            "custom" => custom(source, section, &mut model),
             "keyframe" => {
                 if elements(section).any(|key| key.has_attribute("qpos")) {
                     let note = "keyframes are left out: everything is where bodies and joints say";

@@ -164,6 +164,41 @@ fn each_thing_that_cannot_be_said_is_refused() {
 }
 
 #[test]
+fn a_hand_of_an_arm_becomes_a_tool() {
+    let box_ = "<geom type='box' size='.05 .05 .05'/>";
+    let arm = |hand: &str| {
+        let link = format!("<joint axis='0 1 0' stiffness='9'/>{box_}{hand}");
+        mjcf(&format!(
+            "<body name='base'>{box_}<body name='link' pos='0 0 .4'>{link}</body></body>"
+        ))
+    };
+    let hand = |name: &str| {
+        let palm = "<geom type='box' size='.02 .06 .03'/>";
+        format!("<body name='{name}' pos='.1 0 -.2'>{palm}<body name='eef'/></body>")
+    };
+    let taken = |text: &str, bodies: &[&str]| {
+        let bodies = bodies.iter().map(|name| (*name).to_owned()).collect();
+        let (model, ..) = parse(text, "f.xml").expect("a model");
+        tool(&model, "f.xml", &Wanted { bodies, ..Wanted::default() })
+    };
+    // What is called a tool is one, wherever it hangs; anything else is named.
+    for (name, bodies) in [("tool", &[][..]), ("palm", &["palm"])] {
+        let made = taken(&arm(&hand(name)), bodies).unwrap_or_else(|faults| panic!("{faults}"));
+        let [part] = &made.value.parts()[..] else { panic!("{:?}", made.value) };
+        assert_eq!(part.shape, Shape::Cuboid { size: [0.04, 0.12, 0.06] });
+        assert_eq!(part.pose.position, Vector::zeros());
+    }
+    for (bodies, expected) in [
+        (&[][..], "`link` moves against the tool, by a hinge"),
+        (&["eef"], "nothing of `eef` touches anything"),
+        (&["hand"], "choose with --body: base, link, palm"),
+    ] {
+        let found = taken(&arm(&hand("palm")), bodies).expect_err("faults").to_string();
+        assert!(found.contains(expected), "{found}");
+    }
+}
+
+#[test]
 fn tools_that_are_no_tools_are_refused() {
     let box_ = "<geom type='box' size='.05 .05 .05'/>";
     for (text, expected) in [
