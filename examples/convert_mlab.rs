@@ -20,7 +20,7 @@ use std::sync::Arc;
 
 use pushplan::geometry::{ConvexPolygon, Pose, Shape, Vector};
 use pushplan::recording::{RecordedFrame, Recording};
-use pushplan::scene::{Object, Part, Scene, Support, Surface, Tool};
+use pushplan::scene::{Object, Part, Scene, Support, Surface, Tool, Velocity};
 use serde::Deserialize;
 
 /// Radius of the cylinder that stands for the fingertip, metres.
@@ -165,6 +165,7 @@ fn recording(name: &str, given: &Pushes, push: &Push) -> Result<Recording, Box<d
         tool: Arc::new(Tool::new("tip", [tip])?),
         lift: 0.0,
         headings: vec![true],
+        velocities: vec![Velocity::default()],
         frames: vec![first, last],
     })
 }
@@ -206,6 +207,7 @@ fn by_blade(
         tool: Arc::new(tool),
         lift: 0.0,
         headings: vec![true],
+        velocities: vec![Velocity::default()],
         frames,
     })
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::scene::{Physics, Scene, Span, Tool, Unknowns};
+use crate::scene::{Physics, Scene, Span, Tool, Unknowns, Velocity};
 
 use super::{
     filter::Belief,
@@ -29,6 +29,15 @@ impl Belief {
         }
         belief.particles = Particles::new(scene.objects.len(), unknown, seed);
         belief
+    }
+
+    /// The belief about objects that move like this where nothing has been seen yet, in their order;
+    /// otherwise they rest.
+    pub fn moving(mut self, velocities: &[Velocity]) -> Self {
+        for (own, stated) in self.track.state.velocities.iter_mut().zip(velocities) {
+            *own = *stated;
+        }
+        self
     }
 
     /// The belief where every mass is in one of these ranges, kg, as likely in each before anything has

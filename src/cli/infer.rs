@@ -85,6 +85,7 @@ pub fn run(args: &InferArgs, session: &Session) -> Result<u8, CliError> {
     let noise = args.noise.noise();
     let (tool, lift) = (recording.tool.clone(), recording.lift);
     let mut belief = Belief::new(&recording.scene, tool, lift, BeliefSettings::new(noise))
+        .moving(&recording.velocities)
         .with_mass_ranges(&args.mass_ranges);
     if let Some((regulator, _)) = args.regulator.load()? {
         belief = belief.regulated(regulator);

@@ -7,7 +7,7 @@ use crate::judge::{
 };
 use crate::recording::Recording;
 use crate::report::{PoseRow, RECORDED, recorded_document, recordings_document};
-use crate::scene::{Job, TableFit, Warning};
+use crate::scene::{TableFit, Warning};
 
 use super::{
     error::CliError,
@@ -113,7 +113,7 @@ fn models(
 fn warn(model: &dyn EffectModel, recordings: &[&Recording], session: &Session) {
     let mut kinds: Vec<(Warning, Vec<&str>)> = Vec::new();
     for recording in recordings {
-        let job = Job::stated(&recording.scene, recording.replay().motion);
+        let job = Trial::of_recording(recording).job();
         for warning in model.trust(&recording.scene, &job).warnings() {
             match kinds.iter_mut().find(|(known, _)| known.is_like(&warning)) {
                 Some((_, names)) if names.last() != Some(&&*recording.name) => {

@@ -3,7 +3,7 @@
 use crate::recording::Recording;
 use crate::{
     geometry::Pose,
-    scene::{Frame, Job, Scene, State, ToolMotion, Trajectory},
+    scene::{Frame, Job, Scene, State, ToolMotion, Trajectory, Velocity},
 };
 
 /// A scene, a tool motion, and what really happened.
@@ -11,6 +11,8 @@ use crate::{
 pub struct Trial {
     /// What stands on the table at the start.
     pub scene: Scene,
+    /// How each of its objects moves there.
+    pub velocities: Vec<Velocity>,
     /// What the tool does.
     pub motion: ToolMotion,
     /// In order of time, the start left out.
@@ -44,7 +46,9 @@ impl Trial {
     pub fn to_rest(scene: Scene, motion: ToolMotion, poses: Vec<Pose>) -> Self {
         let stroke = motion.strokes.len().saturating_sub(1);
         let headings = vec![true; scene.objects.len()];
-        Self { scene, motion, truth: vec![Moment { stroke, when: When::Rest, poses }], headings }
+        let velocities = scene.start().velocities;
+        let truth = vec![Moment { stroke, when: When::Rest, poses }];
+        Self { scene, velocities, motion, truth, headings }
     }
 
     /// A motion that was followed frame by frame, the start first.
@@ -58,7 +62,9 @@ impl Trial {
             truth.push(Moment { stroke, when: When::Frame(count), poses });
         }
         let headings = vec![true; scene.objects.len()];
-        Self { scene, motion, truth, headings }
+        let first = frames.first().map(|first| first.state.velocities.clone());
+        let velocities = first.unwrap_or_else(|| scene.start().velocities);
+        Self { scene, velocities, motion, truth, headings }
     }
 
     /// What was recorded, at the ends of strokes.
@@ -77,13 +83,19 @@ impl Trial {
                 }
             })
             .collect();
-        let headings = recording.headings.clone();
-        Self { scene: recording.scene.clone(), motion: replay.motion, truth, headings }
+        Self {
+            scene: recording.scene.clone(),
+            velocities: recording.velocities.clone(),
+            motion: replay.motion,
+            truth,
+            headings: recording.headings.clone(),
+        }
     }
 
     /// What a model is asked.
     pub fn job(&self) -> Job {
-        Job::stated(&self.scene, self.motion.clone())
+        let start = State { velocities: self.velocities.clone(), ..self.scene.start() };
+        Job { start, ..Job::stated(&self.scene, self.motion.clone()) }
     }
 
     /// Distances of the last true positions from the start, metres.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::geometry::{Pose, wrap_angle};
-use crate::scene::{COAST_FRAME, Frame, Scene, State, Tool, ToolMotion};
+use crate::scene::{COAST_FRAME, Frame, Scene, State, Tool, ToolMotion, Velocity};
 
 /// What happened on a table.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +20,8 @@ pub struct Recording {
     pub lift: f64,
     /// Whether the heading of each object was recorded.
     pub headings: Vec<bool>,
+    /// How each object moves in the first frame. The pusher's motion is that of its frames.
+    pub velocities: Vec<Velocity>,
     /// At least two, in order of time, the first at 0 s.
     pub frames: Vec<RecordedFrame>,
 }
@@ -72,6 +74,7 @@ impl Recording {
                 poses: frame.state.poses.clone(),
             });
         }
+        let first = frames.first().map(|first| first.state.velocities.clone());
         Self {
             name: name.into(),
             description: String::new(),
@@ -79,13 +82,14 @@ impl Recording {
             tool: Arc::clone(&motion.tool),
             lift: motion.lift,
             headings: vec![true; scene.objects.len()],
+            velocities: first.unwrap_or_else(|| scene.start().velocities),
             frames: recorded,
         }
     }
 
-    /// Everything at its start, at rest.
+    /// Where everything is in the first frame, and how it moves there.
     pub fn start(&self) -> State {
-        self.scene.start()
+        State { velocities: self.velocities.clone(), ..self.scene.start() }
     }
 }
 

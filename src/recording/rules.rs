@@ -2,7 +2,7 @@
 //! are missing, or a size is wrong.
 
 use crate::geometry::{Footprint, Pose, clearance};
-use crate::scene::{DisjointSets, near_pairs};
+use crate::scene::{DisjointSets, Velocity, near_pairs};
 
 use super::observed::{RecordedFrame, Recording};
 
@@ -105,7 +105,8 @@ pub fn gaps(frames: &[RecordedFrame]) -> Vec<Gap> {
         .collect()
 }
 
-/// An object that moves at the start although nothing touches it.
+/// An object that moves at the start although nothing touches it, and farther than its stated velocity
+/// takes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moving {
     /// Index of the object.
@@ -119,8 +120,8 @@ pub struct Moving {
 }
 
 impl Recording {
-    /// Objects that are in motion in the first frame: they move although neither the pusher nor
-    /// anything that it may push comes near them.
+    /// Objects that are in motion in the first frame without its being stated: they move farther than
+    /// their velocity takes them although neither the pusher nor anything that it may push comes near them.
     pub fn moving_at_the_start(&self) -> Vec<Moving> {
         let Some(first) = self.frames.first() else { return Vec::new() };
         // A frame with faults of its own may lack objects.
@@ -140,7 +141,9 @@ impl Recording {
                 let turned = (to.heading - from.heading).abs();
                 let turn = if self.headings[object] { turned } else { 0.0 };
                 let new = found.iter().all(|moving| moving.object != object);
-                if new && !pushed && (travel > MOVED || turn > TURNED) {
+                let Velocity { linear, angular } = self.velocities[object];
+                let far = travel - linear.norm() * frame.time > MOVED;
+                if new && !pushed && (far || turn - angular.abs() * frame.time > TURNED) {
                     found.push(Moving { object, frame: index, travel, turn });
                 }
             }
@@ -149,7 +152,7 @@ impl Recording {
     }
 
     /// For every object whether, up to frame `index`, the pusher is seen near it or near anything
-    /// that moves it along.
+    /// that moves it along, or something that does so moves from the start on.
     fn pushed_until(&self, index: usize) -> Vec<bool> {
         let seen = &self.frames[..=index];
         let footprint = |object: usize| self.scene.objects[object].shape.footprint();
@@ -179,8 +182,12 @@ impl Recording {
                 })
             })
         };
-        let pushed: Vec<usize> =
-            objects.clone().filter(|object| met(*object)).map(|object| groups[object]).collect();
+        let alone =
+            |object: usize| groups.iter().filter(|own| **own == groups[object]).count() == 1;
+        let moves =
+            |object: usize| self.velocities[object] != Velocity::default() && !alone(object);
+        let pushed = objects.clone().filter(|object| met(*object) || moves(*object));
+        let pushed: Vec<usize> = pushed.map(|object| groups[object]).collect();
         objects.map(|object| pushed.contains(&groups[object])).collect()
     }
 

@@ -25,6 +25,7 @@ mod fixtures;
 mod foreseen;
 mod formats;
 mod gaps;
+mod in_motion;
 #[cfg(unix)]
 #[allow(dead_code)]
 mod interrupted;

@@ -50,6 +50,8 @@ _FAR = 5.0
 _STILL = 2e-3
 #: Time steps that are longer than usual by this factor are gaps.
 _GAP = 2.5
+#: Velocities where a log is cut are those of a straight line through the poses so near, seconds.
+_NEAR = 0.05
 #: A pose that is the same to the bit for so long, while it moves before and after, is stale, seconds.
 _STALE = 0.25
 
@@ -73,8 +75,8 @@ def read_csv(
 
     ``scene`` and ``pusher`` are those of a recording file. ``poses`` names for the pusher and for every
     object the columns of x, y and, if it is known, heading. ``length``, ``angle`` and ``clock`` are the
-    units of the columns. ``start`` and ``end`` cut out a part, seconds since the first line; everything
-    rests where it begins. Raises `ValueError` for what a log cannot be and `FileError` for what a
+    units of the columns. ``start`` and ``end`` cut out a part, seconds since the first line; what moves
+    by more than 2 mm within 50 ms of ``start`` begins with that velocity, all else at rest. Raises `ValueError` for what a log cannot be and `FileError` for what a
     recording cannot be.
     """
     return Recording.of(
@@ -184,6 +186,7 @@ def _recorded(
     kept = (times >= begin) & (times <= stop)
     if kept.sum() < 2:
         raise ValueError(f"{path}: fewer than two lines from {begin} to {stop} s")
+    velocities = {name: _velocity(times, place, int(np.argmax(kept))) for name, place in bodies.items()}
     bodies = {name: place[kept] for name, place in bodies.items()}
     for name, place in bodies.items():
         _check_length(path, name, place[:, :2], length)
@@ -206,11 +209,23 @@ def _recorded(
         "schema_version": 1,
         "kind": "recording",
         "name": Path(path).stem,
-        "scene": dict(scene),
+        "scene": {**scene, "objects": [{**velocities[str(one["name"])], **one} for one in scene["objects"]]},
         "pusher": dict(pusher),
         "times": (times - times[0]).tolist(),
         "frames": frames,
     }
+
+
+def _velocity(times: _Floats, place: _Floats, first: int) -> dict[str, Any]:
+    """How a body moves at line ``first``, as a scene states it; nothing where it hardly does."""
+    if first == 0:
+        return {}
+    near = np.abs(times - times[first]) <= _NEAR
+    near[first - 1 : first + 2] = True
+    if np.ptp(place[near, :2], axis=0).max() < _STILL:
+        return {}
+    x, y, *spin = np.polyfit(times[near] - times[first], place[near], 1)[0].tolist()
+    return {"velocity": [x, y], **({"spin_deg": spin[0]} if spin else {})}
 
 
 def _columns(path: Path, wanted: Sequence[str]) -> tuple[npt.NDArray[np.int64], dict[str, _Floats]]:

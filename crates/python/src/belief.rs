@@ -6,7 +6,7 @@ use numpy::{PyArray1, PyArray2, PyArray3};
 use pushplan::belief::{Belief, BeliefRegulator, BeliefSettings};
 use pushplan::recording::Recording;
 use pushplan::report::belief_document;
-use pushplan::scene::{Noise, Span};
+use pushplan::scene::{Noise, Span, Velocity};
 use pushplan::watch::Watch;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -67,6 +67,14 @@ impl PyRecording {
         let poses = self.0.frames.iter().flat_map(|frame| &frame.poses);
         let shape = [self.0.frames.len(), self.0.scene.objects.len(), 3];
         arrays::array(py, poses.flat_map(arrays::numbers).collect(), shape)
+    }
+
+    /// Velocities of the objects in the first frame, `[objects, 3]`: x and y in m/s, turn in rad/s.
+    #[getter]
+    fn velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let numbers = |own: &Velocity| [own.linear.x, own.linear.y, own.angular];
+        let velocities = &self.0.velocities;
+        arrays::array(py, velocities.iter().flat_map(numbers).collect(), [velocities.len(), 3])
     }
 
     fn __len__(&self) -> usize {
@@ -191,6 +199,7 @@ pub fn infer(
     let belief = work::run(py, words::threads(threads)?, |cancel| {
         let (tool, lift) = (recording.tool.clone(), recording.lift);
         let mut belief = Belief::new(&recording.scene, tool, lift, settings)
+            .moving(&recording.velocities)
             .with_mass_ranges(&ranges)
             .regulated(regulator);
         for observation in recording.observations() {

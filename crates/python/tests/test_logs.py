@@ -55,6 +55,14 @@ def test_a_log_in_millimetres_and_radians_is_a_recording(tmp_path: Path) -> None
     assert again.poses == pytest.approx(recording.poses, abs=1e-12)
     part = logs.read_csv(path, **STATED, end=1.0)
     assert len(part) == 51
+    assert np.all(part.velocities == 0.0)
+    # From the middle on, it begins as it moves there.
+    late = logs.read_csv(path, **STATED, start=1.5)
+    assert late.velocities[0] == pytest.approx([0.05, 0.0, 0.3], abs=1e-6)
+    again = pickle.loads(pickle.dumps(late))
+    assert again.velocities == pytest.approx(late.velocities, abs=1e-12)
+    stated = {**STATED, "scene": {"objects": [{**BOX, "velocity": [0.04, 0]}]}}
+    assert logs.read_csv(path, **stated, start=1.5).velocities[0, 0] == 0.04
     logs.write_json(tmp_path / "log.recording.json", path, **STATED)
     assert len(pushplan.Recording.load(tmp_path / "log.recording.json")) == 101
 

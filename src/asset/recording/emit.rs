@@ -9,6 +9,7 @@ use crate::asset::saved::{SCHEMA_VERSION, emit};
 use crate::asset::write_atomic;
 use crate::geometry::Pose;
 use crate::recording::Recording;
+use crate::scene::Velocity;
 
 impl Recording {
     /// Writes the recording as JSON; a partial file is never left behind.
@@ -51,12 +52,21 @@ impl Recording {
                 json
             })
             .collect();
+        let mut scene = emit::scene(&self.scene);
+        for (k, Velocity { linear, angular }) in self.velocities.iter().enumerate() {
+            if linear.norm() > 0.0 {
+                scene["objects"][k]["velocity"] = json!([linear.x, linear.y]);
+            }
+            if *angular != 0.0 {
+                scene["objects"][k]["spin_deg"] = json!(angular.to_degrees());
+            }
+        }
         json!({
             "schema_version": SCHEMA_VERSION,
             "kind": "recording",
             "name": self.name,
             "description": self.description,
-            "scene": emit::scene(&self.scene),
+            "scene": scene,
             "pusher": {"tool": emit::tool(&self.tool), "lift": self.lift},
             "times": self.frames.iter().map(|frame| frame.time).collect::<Vec<_>>(),
             "frames": frames,

@@ -239,7 +239,8 @@ pub(super) fn starts(root: &Node, recording: &Recording, ledger: &mut Ledger) {
             turn.to_degrees(),
             recording.frames[frame].time
         );
-        let advice = "begin with a frame in which everything rests: velocities are not recorded";
+        let advice = "begin with a frame in which everything rests, or state `velocity` and `spin_deg` of \
+                      the objects in it";
         let place = poses.and_then(|list| list.items().get(object)).unwrap_or(&nodes[frame]);
         ledger.fault(place, message, advice);
     }

@@ -6,12 +6,12 @@ use std::sync::Arc;
 use crate::asset::fault::Faults;
 use crate::asset::node::{Content, Node};
 use crate::asset::strict::{Ledger, check};
-use crate::asset::take::{name_of, number_or, shape};
+use crate::asset::take::{name_of, number_or, shape, vector};
 use crate::asset::text::{Source, named_after};
 use crate::asset::{read_text, task, tool};
-use crate::geometry::Pose;
+use crate::geometry::{Pose, Vector};
 use crate::recording::Recording;
-use crate::scene::{Object, Part, PushRules, Scene, Tool};
+use crate::scene::{Object, Part, PushRules, Scene, Tool, Velocity};
 
 use super::spec::{PUSHER_KEYS, RECORDING, default};
 use super::{frames, units};
@@ -51,6 +51,7 @@ fn read(root: &Node, file: &str, ledger: &mut Ledger) -> Option<Recording> {
     let read = frames::frames(root, objects, times.as_deref(), ledger);
     let scene = scene(root, ledger);
     let (frames, headings) = read?;
+    let velocities = objects.iter().map(velocity).collect::<Option<_>>()?;
     let recording = Recording {
         name: name_of(root).map_or_else(|| stem(file), str::to_owned),
         description: root.get("description").and_then(Node::text).unwrap_or_default().into(),
@@ -58,6 +59,7 @@ fn read(root: &Node, file: &str, ledger: &mut Ledger) -> Option<Recording> {
         tool: tool?,
         lift: lift?,
         headings,
+        velocities,
         frames,
     };
     frames::set_down(root, &recording, ledger);
@@ -117,6 +119,12 @@ fn complete(object: &mut Node, pose: &Node, ledger: &mut Ledger) {
     put("yaw_deg", yaw.cloned(), true);
     put("mass", Some(Node { id, content: Content::Number(default::MASS) }), false);
     put("friction", Some(Node { id, content: Content::Number(Object::FRICTION) }), false);
+}
+
+/// How an object moves in the first frame.
+fn velocity(object: &Node) -> Option<Velocity> {
+    let linear = object.get("velocity").map_or(Some(Vector::zeros()), vector)?;
+    Some(Velocity { linear, angular: number_or(object, "spin_deg", 0.0)?.to_radians() })
 }
 
 /// The pusher as a tool, and its lift.

@@ -1,7 +1,9 @@
 //! What a recording may hold.
 
 use crate::asset::saved::VERSION;
-use crate::asset::spec::{ANGLE, CUBOID, CYLINDER, FRICTION, Key, MASS, POSITION, Range, Value};
+use crate::asset::spec::{
+    ANGLE, CUBOID, CYLINDER, FRICTION, Key, MASS, POSITION, Range, Value, numbers,
+};
 use crate::asset::task::{
     self, FRICTIONS, JOINTS, OBJECT_NAME, OBJECT_SHAPE, OBJECT_SUPPORT, OBSTACLES, PUSH_HEIGHT,
     TABLE,
@@ -38,7 +40,7 @@ pub(in crate::asset) const RECORDING_KEYS: &[Key] = &[
     Key::required(
         "frames",
         Value::List { of: &FRAME, items: "frames", min: 2, max: MOST_FRAMES },
-        "Where everything was, instant by instant; all rests in the first frame.",
+        "Where everything was, instant by instant; in the first frame all rests that states no `velocity`.",
     ),
 ];
 
@@ -78,7 +80,34 @@ const OBJECT: Value = Value::Map(&[
         ANGLE,
         "Heading at the start where the frames hold positions alone, degrees; default 0.",
     ),
+    Key::optional(
+        "velocity",
+        VELOCITY,
+        "Velocity of the centre in the first frame, [x, y] in m/s; default [0, 0].",
+    ),
+    Key::optional(
+        "spin_deg",
+        SPIN,
+        "Turn in the first frame, degrees a second, counter-clockwise; default 0.",
+    ),
 ]);
+
+const VELOCITY: Value = numbers(
+    &Value::Number(Range {
+        what: "a speed in m/s",
+        low: -10.0,
+        high: 10.0,
+        advice: "speeds are in metres a second: 50 mm/s is 0.05",
+    }),
+    2,
+);
+
+const SPIN: Value = Value::Number(Range {
+    what: "a turn in degrees a second",
+    low: -7200.0,
+    high: 7200.0,
+    advice: "a turn a second is 360",
+});
 
 /// The keys of a pusher.
 pub(super) const PUSHER_KEYS: &[Key] = &[

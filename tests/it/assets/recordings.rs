@@ -325,3 +325,26 @@ frames:
     let missing = parse(&text.replace(", objects: [[0.11, 0.05]]", "")).expect_err("a fault");
     assert!(missing.to_string().contains("the last frame does not say"), "{missing}");
 }
+
+#[test]
+fn what_moves_faster_than_it_says_is_refused() {
+    let refused = |velocity: &str| {
+        let text = SOUND.replace("yaw_deg: 10}", &format!("yaw_deg: 10{velocity}}}"));
+        let sliding = text.replace(
+            "[0.5, 0.1, 10]]}\n  - {pusher: [0.10",
+            "[0.54, 0.1, 10]]}\n  - {pusher: [0.10",
+        );
+        assert_ne!(text, sliding);
+        Recording::parse(&sliding, "r.yaml").err().map(|faults| faults.to_string())
+    };
+    assert!(refused("").expect("a fault").contains("the recording starts in motion: `box`"));
+    assert!(refused(", velocity: [0.05, 0]").expect("a fault").contains("`velocity`"));
+    assert_eq!(refused(", velocity: [0.4, 0]"), None);
+    let fault = refused(", velocity: [400, 0]").expect("a fault");
+    assert!(
+        fault.contains("expected a speed in m/s") && fault.contains("50 mm/s is 0.05"),
+        "{fault}"
+    );
+    let fault = refused(", velocity: [0.4, 0], spin: 3").expect("a fault");
+    assert!(fault.contains("unknown key `spin`"), "{fault}");
+}
