@@ -70,11 +70,10 @@ pub(super) fn draft(
     let centre = centre.map(|centre| (seen(centre), centre.z));
     let off = centre.map_or(Vector::zeros(), |(centre, _)| centre - middle);
     let at = if off.norm() > OFF_CENTRE { middle + off } else { middle };
-    let shape = shape(name, standing, (middle, at), height, ledger)?;
-    let footprint = shape.footprint();
-    let across = 2.0 * footprint.bounding_radius();
-    if across.max(height) > LONGEST && matches!(solid.outline, Outline::Mesh(_)) {
-        let longest = across.max(height);
+    let outline = upright.outline();
+    let reach = outline.iter().map(|corner| (corner - outline[0]).norm()).fold(0.0, f64::max);
+    let longest = reach.max(height);
+    if longest > LONGEST && matches!(solid.outline, Outline::Mesh(_)) {
         let message = format!("`{name}` is {longest:.1} m long, which is no thing on a table");
         let advice = if longest > 100.0 * LONGEST {
             "its mesh is in millimetres: give it `scale` 0.001 0.001 0.001"
@@ -84,6 +83,8 @@ pub(super) fn draft(
         ledger.fault(solid.place, message, advice);
         return None;
     }
+    let shape = shape(name, standing, (middle, at), height, ledger)?;
+    let footprint = shape.footprint();
     if let Some((_, z)) = centre {
         let above = z - (low + height / 2.0);
         if above.abs() > WORTH_A_NOTE * height {
@@ -201,7 +202,7 @@ fn shape(
 }
 
 /// Says how far a mesh is from what stands for it.
-fn roughly(
+pub(super) fn roughly(
     name: &str,
     Standing { upright, solid, alone, .. }: &Standing<'_>,
     rough: &Rough,

@@ -1,5 +1,7 @@
 //! What bodies and solids weigh, and where their centres of mass are.
 
+use std::f64::consts::PI;
+
 use nalgebra::{Point3, Vector3};
 
 use crate::geometry::Vector;
@@ -34,6 +36,9 @@ pub(super) fn of_body(body: &Body, density: Option<f64>, ledger: &mut Ledger) ->
         return Some((density * volume, Some(centre), None));
     }
     let mut parts = Vec::new();
+    // Nor does anybody know it who says so of each solid.
+    let nothing = |solid: &Solid| solid.material.weight == Weight::Mass(0.0);
+    let unknown = density.is_some() && body.solids.iter().all(nothing);
     for solid in &body.solids {
         if solid.material.weight == Weight::OfBody && density.is_none() {
             let message = format!("`{}` states no mass", body.name);
@@ -42,7 +47,11 @@ pub(super) fn of_body(body: &Body, density: Option<f64>, ledger: &mut Ledger) ->
             ledger.fault(body.place, message, advice);
             return None;
         }
-        parts.push((of_solid(solid, density, ledger)?, solid));
+        let mass = match unknown && solid.touches {
+            true => density.zip(volume(solid)).map_or(0.0, |(density, volume)| density * volume),
+            false => of_solid(solid, density, ledger)?,
+        };
+        parts.push((mass, solid));
     }
     let mass: f64 = parts.iter().map(|(mass, _)| mass).sum();
     let heavy: Vec<_> = parts.iter().filter(|(mass, _)| *mass > 0.0).collect();
@@ -89,30 +98,41 @@ pub(super) fn together(
 
 /// What one solid weighs, kg.
 pub(super) fn of_solid(solid: &Solid, density: Option<f64>, ledger: &mut Ledger) -> Option<f64> {
-    let density = match (solid.material.weight, density) {
+    let (density, size, what) = match (solid.material.weight, density) {
         (Weight::Mass(mass), _) => return Some(mass),
         (Weight::OfBody, None) => return Some(0.0),
-        (Weight::Density(density), _) | (Weight::OfBody, Some(density)) => density,
-        (Weight::Surface(density), _) => match &solid.outline {
-            Outline::Mesh(mesh) => return Some(density * mesh.surface),
-            _ => return Some(0.0),
-        },
+        (Weight::Density(density), _) | (Weight::OfBody, Some(density)) => {
+            (density, volume(solid), "volume")
+        }
+        (Weight::Surface(density), _) => (density, surface(solid), "surface"),
     };
     if density == 0.0 {
         return Some(0.0);
     }
-    let volume = volume(solid);
-    if volume.is_none() {
+    if size.is_none() {
         let why = match &solid.outline {
             Outline::Other(what) => format!(": it is {what}"),
             _ => String::new(),
         };
         let message = format!(
-            "what this solid weighs follows from a density, and its volume is not known{why}"
+            "what this solid weighs follows from a density, and its {what} is not known{why}"
         );
         ledger.fault(solid.place, message, "state `mass`, or add <inertial> to its body");
     }
-    volume.map(|volume| density * volume)
+    size.map(|size| density * size)
+}
+
+/// Area around a solid, m^2; none if it has none that could be told.
+fn surface(solid: &Solid) -> Option<f64> {
+    match &solid.outline {
+        Outline::Box([x, y, z]) => Some(8.0 * (x * y + y * z + z * x)),
+        Outline::Cylinder { radius, half } => Some(2.0 * PI * radius * (2.0 * half + radius)),
+        Outline::Sphere(radius) => Some(4.0 * PI * radius * radius),
+        Outline::Capsule { radius, half } => Some(4.0 * PI * radius * (half + radius)),
+        Outline::Mesh(mesh) => Some(mesh.surface),
+        Outline::Plane(_) => Some(0.0),
+        Outline::Ellipsoid(_) | Outline::Other(_) => None,
+    }
 }
 
 /// Masses (kg) near to these of solids at these places (metres), so that their common centre is at

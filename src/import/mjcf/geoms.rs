@@ -155,9 +155,10 @@ impl<'a> Context<'a> {
             None => 0.0,
         };
         let [first, last] = self.compiler.groups;
-        if let Some(shell) = find("shellinertia").filter(|shell| shell.value() == "true") {
-            source.fault_of(shell, "this geom is hollow", "state mass and inertia of its body");
-            return None;
+        let hollow = find("shellinertia").filter(|shell| shell.value() == "true");
+        if let Some(shell) = hollow {
+            let place = source.place_of(shell);
+            source.ledger.note(place, "this geom is hollow: here its mass is spread evenly");
         }
         let weight = match (find("mass"), find("density")) {
             _ if group < first || group > last => Weight::Mass(0.0),
@@ -165,8 +166,9 @@ impl<'a> Context<'a> {
             (None, Some(density)) => Weight::Density(source.number(density)?),
             (None, None) => Weight::Density(DENSITY),
         };
-        // A mesh that is a shell weighs as its surface does.
-        let is_shell = matches!(outline, Outline::Mesh(mesh) if mesh.volume == 0.0);
+        // What is hollow weighs as its surface does.
+        let is_shell =
+            hollow.is_some() || matches!(outline, Outline::Mesh(mesh) if mesh.volume == 0.0);
         let weight = match weight {
             Weight::Density(density) if is_shell => Weight::Surface(density),
             weight => weight,

@@ -255,6 +255,23 @@ fn what_weighs_nothing_weighs_what_it_is_made_of() {
 }
 
 #[test]
+fn what_is_hollow_weighs_as_its_surface_does() {
+    let hollow = |geom: &str| {
+        let text = mjcf(&format!(
+            "<body name='b' pos='.5 0 .05'><freejoint/><geom {geom} shellinertia='true'/></body>"
+        ));
+        let (task, notes) = taken(&text, &all()).expect("a task");
+        assert!(notes.contains("this geom is hollow"), "{notes}");
+        task.scene.objects[0].mass
+    };
+    // What MuJoCo makes of 5 kg/m^2.
+    assert!((hollow("type='box' size='.05 .04 .05' density='5'") - 0.26).abs() < 1e-9);
+    let can = 5.0 * std::f64::consts::TAU * 0.04 * 0.14;
+    assert!((hollow("type='cylinder' size='.04 .05' density='5'") - can).abs() < 1e-9);
+    assert_eq!(hollow("type='box' size='.05 .04 .05' mass='.3'"), 0.3);
+}
+
+#[test]
 fn masses_follow_from_the_groups_that_count() {
     let text = mjcf(
         "<body name='b' pos='.5 0 .05'><freejoint/><geom type='box' size='.05 .05 .05' group='4'/>\

@@ -1,0 +1,235 @@
+//! What is refused comes with advice, and who follows that is served: every row is a file with a fault, words of
+//! the advice, and the file or the options as the advice says.
+
+mod bodies;
+mod links;
+mod numbers;
+
+use std::process::Command;
+
+use pushplan::import::{Wanted, objects, parse, tool};
+
+use crate::mujoco_python::python;
+
+/// As which a file is imported.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum As {
+    Objects,
+    Tool,
+}
+
+use As::{Objects as O, Tool as T};
+
+/// What is left when a file is imported: its notes, or all faults.
+fn import(text: &str, what: As, wanted: &Wanted) -> Result<String, String> {
+    let (model, _, mut notes) = parse(text, "f").map_err(|faults| faults.to_string())?;
+    let more = match what {
+        O => objects(&model, "f", wanted).map(|made| made.notes),
+        T => tool(&model, "f", wanted).map(|made| made.notes),
+    };
+    notes.extend(more.map_err(|faults| faults.to_string())?);
+    Ok(notes.join("\n"))
+}
+
+/// A file, words of the advice with which it is refused, and what is written for what once that is followed.
+type Row<'a> = (String, &'a str, &'a [(&'a str, &'a str)]);
+
+/// Every file is refused with its advice, and taken once all its edits are made.
+fn edited(what: As, rows: &[Row<'_>]) {
+    let wrong = rows.iter().filter_map(|(text, advice, edits)| {
+        let followed = edits.iter().fold(text.clone(), |text, (from, to)| text.replace(from, to));
+        let all = Wanted::default();
+        helped((text, what, &all), advice, (&followed, &all)).err()
+    });
+    let wrong: Vec<String> = wrong.collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}
+
+/// Whether a file with these options is refused with this advice, and taken as it says.
+fn helped(
+    (text, what, first): (&str, As, &Wanted),
+    advice: &str,
+    (followed, then): (&str, &Wanted),
+) -> Result<(), String> {
+    let Err(fault) = import(text, what, first) else { return Err(format!("is taken: {text}")) };
+    let mut helps = fault.lines().filter(|line| line.trim_start().starts_with("help:"));
+    if !helps.any(|help| help.contains(advice)) {
+        return Err(format!("`{advice}` is not in\n{fault}{text}"));
+    }
+    let taken = import(followed, what, then);
+    taken.map(|_| ()).map_err(|faults| format!("as `{advice}` says:\n{faults}{followed}"))
+}
+
+const BOX: &str = "<geom type='box' size='.05 .04 .05'/>";
+
+/// A file of MuJoCo with a plane and these bodies.
+fn mjcf(bodies: &str) -> String {
+    format!("<mujoco><worldbody><geom type='plane' size='1 1 1'/>{bodies}</worldbody></mujoco>")
+}
+
+/// The same with one free body that has this in it.
+fn free(inside: &str) -> String {
+    mjcf(&format!("<body name='b' pos='.5 0 .05'><freejoint/>{inside}</body>"))
+}
+
+/// The same with sections before its bodies.
+fn with(sections: &str, inside: &str) -> String {
+    free(inside).replace("<mujoco>", &format!("<mujoco>{sections}"))
+}
+
+/// A link of ROS with its mass, and this shape.
+fn link(name: &str, shape: &str) -> String {
+    format!(
+        "<link name='{name}'><inertial><mass value='.5'/></inertial>\
+         <collision><geometry>{shape}</geometry></collision></link>"
+    )
+}
+
+fn urdf(inside: &str) -> String {
+    format!("<robot name='r'>{inside}</robot>")
+}
+
+/// Two links, and a joint of this type between them with this in it.
+fn jointed(kind: &str, inside: &str) -> String {
+    let cube = "<box size='.1 .1 .1'/>";
+    urdf(&format!(
+        "{}{}<joint name='j' type='{kind}'><parent link='a'/><child link='b'/>\
+         <origin xyz='.2 0 0'/>{inside}</joint>",
+        link("a", cube),
+        link("b", cube)
+    ))
+}
+
+/// The corners of a cube of this side, metres.
+fn cube(side: f64) -> String {
+    let corner =
+        |k: u32| [k & 1, k >> 1 & 1, k >> 2].map(|bit| (side * f64::from(bit)).to_string());
+    (0..8).map(|k| corner(k).join(" ")).collect::<Vec<_>>().join(" ")
+}
+
+fn mesh(attributes: &str, side: f64) -> String {
+    format!("<asset><mesh name='m' {attributes} vertex='{}'/></asset>", cube(side))
+}
+
+#[test]
+fn options_do_what_the_advice_says() {
+    let named = |names: &[&str]| Wanted {
+        bodies: names.iter().map(|name| (*name).to_owned()).collect(),
+        ..Wanted::default()
+    };
+    let freed = |name: &str| Wanted { free: vec![name.to_owned()], ..Wanted::default() };
+    let wood = Wanted { density: Some(700.0), ..Wanted::default() };
+    let held = |joint: &str| mjcf(&format!("<body name='b' pos='.5 0 .05'>{joint}{BOX}</body>"));
+    let high = free(BOX).replace(
+        "</worldbody>",
+        &format!("<body name='c' pos='.9 0 1.05'><freejoint/>{BOX}</body></worldbody>"),
+    );
+    let leaning = "<geom type='box' size='.3 .02 .02' pos='.5 0 .3' euler='0 45 0'/></worldbody>";
+    let post = "<geom type='box' size='.15 .15 .1' pos='.5 0 .1'/></worldbody>";
+    let inside = high.replace("1.05", ".05").replace("</worldbody>", post);
+    let fixed = mjcf(&format!("<body name='a'>{BOX}</body><body name='b'>{BOX}</body>"));
+    let jaw = mjcf(&format!("<body name='a'>{BOX}<body name='jaw'><joint/>{BOX}</body></body>"));
+    let weld = "<equality><weld body1='b'/></equality></mujoco>";
+    for (text, what, advice, wanted) in [
+        (held("<joint axis='0 1 0'/>"), O, "objects stand freely (--free NAME", freed("b")),
+        (held(""), O, "--free b lets it stand freely", freed("b")),
+        (high.clone(), O, "or name others with --body", named(&["b"])),
+        (inside, O, "move one of them, or name others with --body", named(&["c"])),
+        (
+            free(BOX).replace("</worldbody>", leaning),
+            O,
+            "with --body it is left out",
+            named(&["b"]),
+        ),
+        (
+            free(BOX).replace("</mujoco>", weld),
+            O,
+            "name the bodies that are meant with --body",
+            named(&["b"]),
+        ),
+        (
+            high.replace("1.05", ".05")
+                .replace("</mujoco>", "<contact><exclude body1='b' body2='c'/></contact></mujoco>"),
+            O,
+            "name one of them with --body",
+            named(&["b"]),
+        ),
+        (free(&BOX.replace("/>", " mass='0'/>")), O, "or what it is made of: --density 700", wood),
+        (fixed.clone(), T, "choose with --body: a, b", named(&["b"])),
+        (jaw.clone(), T, "or name a piece with --body", named(&["jaw"])),
+    ] {
+        helped((&text, what, &Wanted::default()), advice, (&text, &wanted)).unwrap();
+    }
+    import(&held(""), T, &Wanted::default()).expect("`--as tool` imports a tool");
+    // Names that are none are told which there are.
+    for (text, what, wrong, advice, right) in [
+        (held(""), O, freed("x"), "bodies with solids are b", freed("b")),
+        (held(""), O, named(&["b"]), "it does not move: --free b lets it stand freely", freed("b")),
+        (free(BOX), O, named(&["x"]), "others are b", named(&["b"])),
+        (fixed, T, named(&["x"]), "choose with --body: a, b", named(&["a"])),
+    ] {
+        helped((&text, what, &wrong), advice, (&text, &right)).unwrap();
+    }
+}
+
+#[test]
+fn tools_become_one_piece_as_the_advice_says() {
+    let tool = |inside: &str| mjcf(&format!("<body name='a'>{inside}</body>"));
+    let many: String = (0..33)
+        .map(|k| format!("<geom type='box' size='.01 .01 .02' pos='{} 0 0'/>", 0.02 * f64::from(k)))
+        .collect();
+    let jaw = "<body name='jaw' pos='.1 0 0'><joint/><geom type='box' size='.05 .04 .05'/></body>";
+    let above = format!("{BOX}<geom type='box' size='.05 .04 .03' pos='.1 0 .02'/>");
+    let rough = format!("{BOX}<geom type='box' size='.05 .04 .05' pos='.1 0 0' friction='.4'/>");
+    let unseen = "contype='0' conaffinity='0'";
+    let hidden = format!("pos='0 0 0' {unseen}");
+    let above_unseen = format!("pos='.1 0 .02' {unseen}");
+    let rows: &[Row<'_>] = &[
+        (tool(&format!("{BOX}{jaw}")), "fix it", &[("<joint/>", "")]),
+        (tool(&format!("{BOX}{jaw}")), "take it out", &[(jaw, "")]),
+        (tool(&many), "leave out those that meet no object", &[("pos='0 0 0'", &hidden)]),
+        (
+            tool(&above),
+            "let it reach down",
+            &[("size='.05 .04 .03' pos='.1 0 .02'", "size='.05 .04 .05' pos='.1 0 0'")],
+        ),
+        (tool(&above), "let it touch nothing", &[("pos='.1 0 .02'", &above_unseen)]),
+        (tool(&rough), "one friction value: make them alike", &[("friction='.4'", "")]),
+        (
+            tool(&BOX.replace("/>", " euler='0 20 0'/>")),
+            "turn it by multiples of 90 degrees",
+            &[("'0 20 0'", "'90 0 0'")],
+        ),
+        (
+            tool("<geom type='sphere' size='.05'/>"),
+            "put a box, an upright cylinder",
+            &[("type='sphere' size='.05'", "type='box' size='.05 .05 .05'")],
+        ),
+        (
+            tool(""),
+            "solids that touch: <geom>",
+            &[("<body name='a'>", "<body name='a'><geom type='box' size='.05 .04 .05'/>")],
+        ),
+    ];
+    edited(T, rows);
+}
+
+#[test]
+fn mujoco_writes_out_what_is_not_read() {
+    let Some(python) = python() else { return };
+    let text = mjcf(
+        "<replicate count='2' offset='0 .3 0'><body name='b' pos='.5 0 .05'><freejoint/>\
+         <geom type='box' size='.05 .04 .05'/></body></replicate>",
+    );
+    let fault = import(&text, O, &Wanted::default()).expect_err("a fault");
+    let command = fault.split('`').nth(1).expect("a command").replace("python3", "PYTHON");
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("FILE"), text).expect("a file");
+    let command = command.replace("PYTHON", &python);
+    let done = Command::new("sh").args(["-c", &command]).current_dir(&folder).status();
+    assert!(done.expect("a shell").success(), "{command}");
+    let flat = std::fs::read_to_string(folder.path().join("flat.xml")).expect("what it writes");
+    let (model, ..) = parse(&flat, "flat.xml").expect("a model");
+    let made = objects(&model, "flat.xml", &Wanted::default()).expect("as the advice says");
+    assert_eq!(made.value.task.scene.objects.len(), 2);
+}
