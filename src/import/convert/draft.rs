@@ -202,7 +202,7 @@ fn shape(
 }
 
 /// Says how far a mesh is from what stands for it.
-pub(super) fn roughly(
+fn roughly(
     name: &str,
     Standing { upright, solid, alone, .. }: &Standing<'_>,
     rough: &Rough,

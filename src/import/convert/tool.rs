@@ -30,8 +30,8 @@ pub fn tool(model: &Model, file: &str, wanted: &Wanted) -> Result<Imported<Tool>
         if kept.contains(&index) {
             ledger.note_all(&other.notes);
         }
-        let of_world = index == 0 && wanted.bodies.is_empty();
-        match body.is_none() || of_world || kept.contains(&index) {
+        let unnamed = wanted.bodies.is_empty() && (body.is_none() || index == 0);
+        match unnamed || kept.contains(&index) {
             true => ledger.take(&other.faults),
             false => ledger.pass_over(&other.faults, &format!("`{}`", other.name)),
         }

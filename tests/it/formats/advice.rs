@@ -2,6 +2,7 @@
 //! the advice, and the file or the options as the advice says.
 
 mod bodies;
+mod files;
 mod links;
 mod numbers;
 

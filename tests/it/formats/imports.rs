@@ -184,7 +184,7 @@ fn a_hand_of_an_arm_becomes_a_tool() {
     // What is called a tool is one, wherever it hangs; anything else is named.
     for (name, bodies) in [("tool", &[][..]), ("palm", &["palm"])] {
         let made = taken(&arm(&hand(name)), bodies).unwrap_or_else(|faults| panic!("{faults}"));
-        let [part] = &made.value.parts()[..] else { panic!("{:?}", made.value) };
+        let [part] = made.value.parts() else { panic!("{:?}", made.value) };
         assert_eq!(part.shape, Shape::Cuboid { size: [0.04, 0.12, 0.06] });
         assert_eq!(part.pose.position, Vector::zeros());
     }

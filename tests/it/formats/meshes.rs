@@ -10,7 +10,7 @@ use pushplan::scene::Support;
 use super::kinds::{Taken, all};
 
 /// The same of a file in a folder of these files.
-fn taken_of(files: &[(&str, &[u8])], reading: &Reading, wanted: &Wanted) -> Taken {
+pub(super) fn taken_of(files: &[(&str, &[u8])], reading: &Reading, wanted: &Wanted) -> Taken {
     let folder = tempfile::tempdir().expect("a folder");
     for (name, bytes) in files {
         let path = folder.path().join(name);
@@ -27,7 +27,7 @@ fn taken_of(files: &[(&str, &[u8])], reading: &Reading, wanted: &Wanted) -> Take
 }
 
 /// A cube with this side as OBJ.
-fn cube(side: f64) -> Vec<u8> {
+pub(super) fn cube(side: f64) -> Vec<u8> {
     let mut text = String::new();
     for k in 0..8 {
         let [x, y, z] = [k & 1, k >> 1 & 1, k >> 2].map(|bit| side * f64::from(bit));

@@ -1,0 +1,83 @@
+//! Files that a file names.
+
+use pushplan::import::Reading;
+
+use super::super::kinds::all;
+use super::super::meshes::{cube, taken_of};
+
+/// Files by their names, the first of which is imported with this root.
+type Folder<'a> = (&'a [(&'a str, &'a str)], Option<&'a str>);
+
+/// Whether the first of some files is refused with this advice, and taken once that is followed.
+fn helped(refused: Folder<'_>, advice: &str, followed: Folder<'_>) {
+    let solid = cube(60.0);
+    let taken = |(files, root): Folder<'_>| {
+        let texts = files.iter().map(|(name, text)| (*name, text.as_bytes()));
+        let files: Vec<(&str, &[u8])> = texts.chain([("parts/cube.obj", &solid[..])]).collect();
+        taken_of(&files, &Reading { root: root.map(Into::into), ..Reading::default() }, &all())
+    };
+    let fault = taken(refused).expect_err(advice);
+    assert!(fault.contains(advice), "{advice}\nnot in\n{fault}");
+    taken(followed).unwrap_or_else(|faults| panic!("as `{advice}` says:\n{faults}"));
+}
+
+#[test]
+fn files_are_found_and_read_as_the_advice_says() {
+    let body = "<worldbody><geom type='plane' size='1 1 1'/><body name='c' pos='.5 0 0'><freejoint/>\
+                <geom type='mesh' mesh='cube'/></body></worldbody>";
+    let mesh = |file: &str| {
+        format!("<asset><mesh name='cube' file='{file}' scale='.001 .001 .001'/></asset>")
+    };
+    let whole = |section: &str| format!("<mujoco>{section}{body}</mujoco>");
+    let sound = whole(&mesh("parts/cube.obj"));
+    let assets = format!("<mujocoinclude>{}</mujocoinclude>", mesh("parts/cube.obj"));
+    let including = |file: &str| whole(&format!("<include{file}/>"));
+    let included = including(" file='assets.xml'");
+    let attached = |file: &str| {
+        format!(
+            "<mujoco><asset><model name='m'{file}/></asset><worldbody><geom type='plane' size='1 1 1'/>\
+             <attach model='m' body='c'/></worldbody></mujoco>"
+        )
+    };
+    let (other, scene) = (("other.xml", sound.as_str()), "scene.xml");
+    for (refused, advice, followed) in [
+        (including(""), "name its `file`", included.clone()),
+        (
+            including(" file='asset.xml'"),
+            "names are relative to the folder of the file",
+            included.clone(),
+        ),
+        (
+            format!("<mujoco><include file='scene.xml'/>{}</mujoco>", &sound[8..sound.len() - 9]),
+            "break the circle",
+            sound.clone(),
+        ),
+        (attached(""), "name its `file`", attached(" file='other.xml'")),
+        (
+            attached(" file='others.xml'"),
+            "names are relative to the folder of the file",
+            attached(" file='other.xml'"),
+        ),
+        (whole(&mesh("cube.obj")), "names are relative to the folder of the file", sound.clone()),
+        (whole(&mesh("cube.dae")), "convert it to STL or OBJ", sound.clone()),
+        (whole(&mesh("cube.stl")), "write it out again (MeshLab, trimesh)", sound.clone()),
+        (assets.clone(), "name the file that includes this one", included.clone()),
+    ] {
+        let beside = [
+            other,
+            ("assets.xml", &assets),
+            ("cube.dae", "<COLLADA/>"),
+            ("cube.stl", "solid x\nfacet"),
+        ];
+        let folder = |text| [&[(scene, text)], &beside[..]].concat();
+        helped((&folder(&refused), None), advice, (&folder(&followed), None));
+    }
+    let link = "<robot name='r'><link name='a'><inertial><origin xyz='.03 .03 .03'/><mass value='.5'/></inertial><collision><geometry>\
+                <mesh filename='package://parts/cube.obj' scale='.001 .001 .001'/></geometry></collision></link></robot>";
+    let robot = [("robots/r.urdf", link)];
+    helped((&robot, None), "the one around it, with --root", (&robot, Some("")));
+    helped((&robot, Some("none")), "name a folder with --root that exists", (&robot, Some("")));
+    let above = whole(&mesh("../parts/cube.obj"));
+    let scenes = [("scenes/scene.xml", above.as_str())];
+    helped((&scenes, None), "may be read with --root", (&scenes, Some("")));
+}
