@@ -53,12 +53,13 @@ impl Recording {
             })
             .collect();
         let mut scene = emit::scene(&self.scene);
-        for (k, Velocity { linear, angular }) in self.velocities.iter().enumerate() {
+        let objects = scene["objects"].as_array_mut().into_iter().flatten();
+        for (object, Velocity { linear, angular }) in objects.zip(&self.velocities) {
             if linear.norm() > 0.0 {
-                scene["objects"][k]["velocity"] = json!([linear.x, linear.y]);
+                object["velocity"] = json!([linear.x, linear.y]);
             }
             if *angular != 0.0 {
-                scene["objects"][k]["spin_deg"] = json!(angular.to_degrees());
+                object["spin_deg"] = json!(angular.to_degrees());
             }
         }
         json!({
