@@ -26,6 +26,7 @@ use crate::report::random_document;
   pushplan-lab random --count 200 --model planar --out runs/planar
   pushplan-lab report runs/network runs/planar --out runs/both
   pushplan-lab random --kind pull --count 5 --save-tasks my-tasks
+  pushplan-lab random --kind everyday --count 600 --out runs/everyday
 
 {}", keep::HELP))]
 pub struct RandomArgs {

@@ -13,7 +13,7 @@ use pushplan::internals::scene::Engine;
 use pushplan::internals::solve::Effort;
 use serde_json::json;
 
-use crate::bench::{ClosedRecord, HiddenWorld};
+use crate::bench::{ClosedRecord, HiddenWorld, TaskKind};
 use crate::cli::kept::same_tasks;
 use crate::cli::random::random_error;
 use crate::cli::tasks::TasksArgs;
@@ -73,6 +73,10 @@ impl Suite for RunArgs {
         let TasksArgs { common, .. } = &self.tasks;
         let library = common.library.load()?;
         let suite = self.tasks.suite(&library);
+        if let Some(kind) = suite.kinds().iter().find(|kind| TaskKind::EVERYDAY.contains(kind)) {
+            let message = format!("tasks of the kind `{kind}` are not run in a closed loop here");
+            return Err(CliError::usage(message, "use `pushplan-lab random`, which plans them"));
+        }
         let planner = common.planner(self.effort)?.build();
         let settings = RunSettings {
             pushes: self.pushes.into(),

@@ -29,13 +29,13 @@ pub struct TasksArgs {
     seed: u64,
     /// Only tasks of this kind; may be given several times [default: all, in turn]
     #[arg(long = "kind", value_parser = words(&KINDS), value_name = "KIND")]
-    kinds: Vec<TaskKind>,
+    kinds: Vec<&'static [TaskKind]>,
 }
 
 impl TasksArgs {
     /// The tasks, in which the kinds take turns in one order however they are given.
     pub fn suite(&self, library: &ToolLibrary) -> RandomSuite {
-        let mut kinds = self.kinds.clone();
+        let mut kinds = self.kinds.concat();
         kinds.sort_unstable();
         kinds.dedup();
         RandomSuite::new(library, self.seed, &kinds)

@@ -38,24 +38,37 @@ pub static CONTROLLED: [(&str, Controlled, &str); 2] = [
     ("wedges", Controlled::Wedges, "Three times one before the gap between two"),
 ];
 
-/// Kinds of random tasks.
-pub static KINDS: [(&str, TaskKind, &str); 8] = [
-    ("reach", TaskKind::Reach, "Farther out than the end effector can go"),
-    ("pull", TaskKind::Pull, "Towards the robot"),
-    ("sweep", TaskKind::Sweep, "Sideways"),
-    ("obstacle", TaskKind::Obstacle, "Around an obstacle"),
-    ("heading", TaskKind::Heading, "A cuboid, to a place and a heading"),
-    ("pair", TaskKind::Pair, "One of two joined objects"),
+/// Kinds of random tasks, and a word for those that are everyday.
+pub static KINDS: [(&str, &[TaskKind], &str); 21] = [
+    ("reach", &[TaskKind::Reach], "Farther out than the end effector can go"),
+    ("pull", &[TaskKind::Pull], "Towards the robot"),
+    ("sweep", &[TaskKind::Sweep], "Sideways"),
+    ("obstacle", &[TaskKind::Obstacle], "Around an obstacle"),
+    ("heading", &[TaskKind::Heading], "A cuboid, to a place and a heading"),
+    ("pair", &[TaskKind::Pair], "One of two joined objects"),
     (
         "gap",
-        TaskKind::Gap,
+        &[TaskKind::Gap],
         "Behind a gap that is too narrow: no plan can be right (only on request)",
     ),
     (
         "cluster",
-        TaskKind::Cluster,
+        &[TaskKind::Cluster],
         "One of four close together, some of them joined (only on request)",
     ),
+    ("everyday", &TaskKind::EVERYDAY, "All that follow (only on request, as each of them)"),
+    ("door", &[TaskKind::Door], "A door on its hinge"),
+    ("drawer", &[TaskKind::Drawer], "A drawer, in walls or in a free cabinet"),
+    ("compound", &[TaskKind::Compound], "A thing of several solids, to a place and a heading"),
+    ("turn", &[TaskKind::Turn], "To a heading alone"),
+    ("region", &[TaskKind::Region], "Into a region"),
+    ("relative", &[TaskKind::Relative], "Beside another object"),
+    ("two-goals", &[TaskKind::TwoGoals], "Two objects, each to its place"),
+    ("three-goals", &[TaskKind::ThreeGoals], "Three objects, each to its place"),
+    ("two-tools", &[TaskKind::TwoTools], "Two objects that need different tools"),
+    ("one-aside", &[TaskKind::OneAside], "Something stands in the way"),
+    ("two-aside", &[TaskKind::TwoAside], "Two things stand in the way"),
+    ("three-aside", &[TaskKind::ThreeAside], "Three things stand in the way"),
 ];
 
 /// What a network of lever-ups is told of the shape.

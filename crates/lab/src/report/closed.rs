@@ -125,9 +125,9 @@ fn summary(tasks: &[Finished<ClosedRecord>]) -> Table {
         ("given up", Align::Right),
         ("time, median", Align::Right),
     ]);
-    let kinds = TaskKind::ALL.into_iter().chain([TaskKind::Cluster, TaskKind::Gap]);
-    let kinds: Vec<TaskKind> =
-        kinds.filter(|kind| tasks.iter().any(|task| task.record.kind == *kind)).collect();
+    let kinds: Vec<TaskKind> = TaskKind::each()
+        .filter(|kind| tasks.iter().any(|task| task.record.kind == *kind))
+        .collect();
     let all = (kinds.len() > 1).then_some(None);
     for group in kinds.into_iter().map(Some).chain(all) {
         let of: Vec<&Finished<ClosedRecord>> =

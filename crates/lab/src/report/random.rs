@@ -44,9 +44,7 @@ pub fn random_document(runs: &[RandomRun]) -> Document {
             tasks: tasks.iter().map(nothing).collect(),
         });
     }
-    let kinds: Vec<TaskKind> = TaskKind::ALL
-        .into_iter()
-        .chain([TaskKind::Cluster, TaskKind::Gap])
+    let kinds: Vec<TaskKind> = TaskKind::each()
         .filter(|kind| methods.iter().any(|m| m.tasks.iter().any(|row| row.kind == *kind)))
         .collect();
     let count = runs.iter().map(|(_, tasks)| tasks.len()).max().unwrap_or(0);
@@ -58,8 +56,8 @@ pub fn random_document(runs: &[RandomRun]) -> Document {
     let mut notes = vec![format!(
         "Solved means that the verdict is passed: in both engines the plan ends within the \
          tolerance at rest, nothing jams or topples on the way, and so do enough of the disturbed \
-         replays; fragile means all but the last. {solvable}: its goal is where a random plan that \
-         it allows really ends, in both engines. Errors are final distances from the goal, of the \
+         replays; fragile means all but the last. {solvable}: its goals are where a random plan \
+         that it allows really ends, in both engines. Errors are final distances from the goal, of the \
          nearest plan where none was solved; times are of the planner alone."
     )];
     notes.extend(runs.iter().filter_map(|(run, tasks)| progress_note(run, tasks.len())));

@@ -29,6 +29,30 @@ pub enum TaskKind {
     Gap,
     /// One of four objects that stand close, some of them joined. Asked for by name alone.
     Cluster,
+    /// A door that stands ajar, to be opened farther or nearly shut.
+    Door,
+    /// A drawer with a bar to pull it by, in walls or in a heavy cabinet that is free to move.
+    Drawer,
+    /// A thing of several solids, with a heading to reach.
+    Compound,
+    /// A heading alone.
+    Turn,
+    /// A part of the table.
+    Region,
+    /// A place beside another object, wherever that comes to.
+    Relative,
+    /// Two objects, each to its place.
+    TwoGoals,
+    /// Three objects, each to its place.
+    ThreeGoals,
+    /// Two objects, one of them out of reach of the tool that the other one needs.
+    TwoTools,
+    /// Something stands where the object is to go, before a wall.
+    OneAside,
+    /// Two things stand in the way.
+    TwoAside,
+    /// Three things stand in the way.
+    ThreeAside,
 }
 
 /// Room that a kind gives, and how hard its tasks are.
@@ -48,14 +72,14 @@ pub(super) struct Rules {
     pub least_way: f64,
 }
 
-/// Smallest turn of [`TaskKind::Heading`], radians.
+/// Smallest turn where a heading is asked for, radians.
 const LEAST_TURN: f64 = PI / 12.0;
 
 /// How far the way may lean against straight inwards or sideways, radians.
 const LEANING: f64 = PI / 6.0;
 
 impl TaskKind {
-    /// All that can be solved, but for clusters.
+    /// What is drawn where no kind is named.
     pub const ALL: [TaskKind; 6] = [
         TaskKind::Reach,
         TaskKind::Pull,
@@ -64,6 +88,28 @@ impl TaskKind {
         TaskKind::Heading,
         TaskKind::Pair,
     ];
+
+    /// What people have and ask for. Asked for by name alone.
+    pub const EVERYDAY: [TaskKind; 12] = [
+        TaskKind::Door,
+        TaskKind::Drawer,
+        TaskKind::Compound,
+        TaskKind::Turn,
+        TaskKind::Region,
+        TaskKind::Relative,
+        TaskKind::TwoGoals,
+        TaskKind::ThreeGoals,
+        TaskKind::TwoTools,
+        TaskKind::OneAside,
+        TaskKind::TwoAside,
+        TaskKind::ThreeAside,
+    ];
+
+    /// Every kind, in the order in which they are shown.
+    pub fn each() -> impl Iterator<Item = TaskKind> {
+        let asked_for = [TaskKind::Cluster, TaskKind::Gap];
+        TaskKind::ALL.into_iter().chain(asked_for).chain(TaskKind::EVERYDAY)
+    }
 
     /// One word, as in the names of tasks and on the command line.
     pub fn name(self) -> &'static str {
@@ -76,6 +122,18 @@ impl TaskKind {
             TaskKind::Pair => "pair",
             TaskKind::Gap => "gap",
             TaskKind::Cluster => "cluster",
+            TaskKind::Door => "door",
+            TaskKind::Drawer => "drawer",
+            TaskKind::Compound => "compound",
+            TaskKind::Turn => "turn",
+            TaskKind::Region => "region",
+            TaskKind::Relative => "relative",
+            TaskKind::TwoGoals => "two-goals",
+            TaskKind::ThreeGoals => "three-goals",
+            TaskKind::TwoTools => "two-tools",
+            TaskKind::OneAside => "one-aside",
+            TaskKind::TwoAside => "two-aside",
+            TaskKind::ThreeAside => "three-aside",
         }
     }
 
@@ -90,6 +148,18 @@ impl TaskKind {
             TaskKind::Pair => "One of two objects that are joined.",
             TaskKind::Gap => "A goal behind a gap that is too narrow.",
             TaskKind::Cluster => "One of several objects that stand close, some of them joined.",
+            TaskKind::Door => "A door to open farther or to shut.",
+            TaskKind::Drawer => "A drawer to pull out or to push in.",
+            TaskKind::Compound => "A thing of several solids to bring to a place and a heading.",
+            TaskKind::Turn => "A thing to turn, wherever it comes to.",
+            TaskKind::Region => "An object to bring anywhere in a region.",
+            TaskKind::Relative => "An object to bring beside another one.",
+            TaskKind::TwoGoals => "Two objects to bring to their places.",
+            TaskKind::ThreeGoals => "Three objects to bring to their places.",
+            TaskKind::TwoTools => "One object to pull near, one to push on between rails.",
+            TaskKind::OneAside => "A place before a wall where something else stands.",
+            TaskKind::TwoAside => "A place before a wall with two things in the way.",
+            TaskKind::ThreeAside => "A place before a wall with three things in the way.",
         }
     }
 
@@ -118,6 +188,30 @@ impl TaskKind {
             },
             TaskKind::Heading => Rules { least_way: 0.05, ..usual },
             TaskKind::Pair | TaskKind::Gap | TaskKind::Cluster => usual,
+            TaskKind::Door | TaskKind::Turn => Rules { least_way: 0.0, max_count: 3, ..usual },
+            TaskKind::Drawer => Rules { least_way: 0.04, max_count: 3, ..usual },
+            TaskKind::Compound | TaskKind::Region | TaskKind::Relative => {
+                Rules { max_count: 3, ..usual }
+            }
+            TaskKind::TwoGoals | TaskKind::ThreeGoals => {
+                Rules { made_with: [1, 1], least_way: 0.06, max_count: 4, ..usual }
+            }
+            TaskKind::TwoTools => {
+                Rules { reach: 0.62, made_with: [1, 1], least_way: 0.06, ..usual }
+            }
+            TaskKind::OneAside | TaskKind::TwoAside | TaskKind::ThreeAside => {
+                Rules { least_way: 0.12, max_count: self.aside() + 3, ..usual }
+            }
+        }
+    }
+
+    /// How many things stand in the way.
+    pub(super) fn aside(self) -> usize {
+        match self {
+            TaskKind::OneAside => 1,
+            TaskKind::TwoAside => 2,
+            TaskKind::ThreeAside => 3,
+            _ => 0,
         }
     }
 
@@ -139,16 +233,15 @@ impl TaskKind {
             TaskKind::Sweep => (outwards + side, 0.7),
             // Around a corner.
             TaskKind::Obstacle if index > 0 => (before + side, 0.4),
-            TaskKind::Obstacle
-            | TaskKind::Heading
-            | TaskKind::Pair
-            | TaskKind::Gap
-            | TaskKind::Cluster => (0.0, PI),
+            // Pulled near, then pushed on between the rails.
+            TaskKind::TwoTools if index == 0 => (PI, 0.4),
+            TaskKind::TwoTools => (0.0, 0.2),
+            _ => (0.0, PI),
         }
     }
 
-    /// Whether moving the goal object so makes a task of this kind, as far as start and end
-    /// tell; that the straight way of [`TaskKind::Obstacle`] is blocked is seen to elsewhere.
+    /// Whether moving the object of a goal so makes a task of this kind, as far as start and end
+    /// tell; that the straight way is blocked, where it is to be, is seen to elsewhere.
     pub(super) fn accepts(self, start: &Pose, end: &Pose) -> bool {
         let way = end.position - start.position;
         if !end.is_finite() || way.norm() < self.rules().least_way {
@@ -160,8 +253,10 @@ impl TaskKind {
             TaskKind::Reach => end.position.norm() >= start.position.norm(),
             TaskKind::Pull => off >= PI - LEANING,
             TaskKind::Sweep => (off - FRAC_PI_2).abs() <= LEANING,
-            TaskKind::Heading => wrap_angle(end.heading - start.heading).abs() >= LEAST_TURN,
-            TaskKind::Obstacle | TaskKind::Pair | TaskKind::Gap | TaskKind::Cluster => true,
+            TaskKind::Heading | TaskKind::Turn | TaskKind::Door => {
+                wrap_angle(end.heading - start.heading).abs() >= LEAST_TURN
+            }
+            _ => true,
         }
     }
 }

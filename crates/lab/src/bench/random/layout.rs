@@ -4,12 +4,15 @@
 use std::f64::consts::TAU;
 
 use pushplan::internals::geometry::{Footprint, Pose, Shape, Vector, clearance, swept_clearance};
-use pushplan::internals::scene::{Goal, Joint, JointKind, Obstacle, Ranges, Robot, Scene, Task};
+use pushplan::internals::scene::{
+    Area, Goal, Joint, JointKind, Obstacle, Ranges, Robot, Scene, State, Task,
+};
 use pushplan_learn::dataset::{Crowd, Solids, random_scene};
 use rand::Rng;
 use rand_pcg::Pcg64;
 
 use super::cluster::cluster;
+use super::everyday::everyday_task;
 use super::kind::TaskKind;
 use super::one_push::{moderate, pushes};
 
@@ -27,10 +30,13 @@ const JOINED_MASSES: f64 = 6.0;
 
 /// An obstacle keeps this distance from every object at its start and from the goal object at its
 /// goal, metres.
-const ROOM: f64 = 0.01;
+pub(super) const ROOM: f64 = 0.01;
 
-/// A task of a kind, its goal still at the start of the goal object.
-pub(super) fn open_task(rng: &mut Pcg64, kind: TaskKind, ordinal: usize) -> Task {
+/// A task of a kind, its goals still where their objects start; `None` if this draw does not fit.
+pub(super) fn open_task(rng: &mut Pcg64, kind: TaskKind, ordinal: usize) -> Option<Task> {
+    if TaskKind::EVERYDAY.contains(&kind) {
+        return everyday_task(rng, kind, ordinal);
+    }
     let rules = kind.rules();
     let scene = match kind {
         TaskKind::Pair => pair(rng, ordinal),
@@ -53,16 +59,31 @@ pub(super) fn open_task(rng: &mut Pcg64, kind: TaskKind, ordinal: usize) -> Task
     }
     let name = format!("{kind}-{ordinal:04}");
     let task = Task::new(name, scene, Robot::reaching(0.1, rules.reach), goal);
-    Task { description: kind.title().to_owned(), ..task.pushing(pushes(rules.max_count)) }
+    Some(task.pushing(pushes(rules.max_count)).described(kind.title()))
 }
 
-/// The goal where the goal object ends.
-pub(super) fn set_goal(task: &mut Task, end: &Pose) {
-    let end = round_pose(end);
-    task.goal.position = end.position;
-    if let Some((_, tolerance)) = task.goal.heading {
-        task.goal.heading = Some((end.heading, tolerance));
+/// Every goal where its object ends.
+pub(super) fn set_goals(task: &mut Task, ends: &State) {
+    let start = task.scene.start();
+    for goal in std::iter::once(&mut task.goal).chain(&mut task.further) {
+        let end = round_pose(&seen(goal, ends));
+        if let Some(Area { shape, pose }) = goal.area {
+            let way = end.position - seen(goal, &start).position;
+            let position = (pose.position + way).map(|x| round(x, 1e4));
+            *goal = Goal::within(goal.object, shape, Pose { position, ..pose });
+        } else if goal.has_place() {
+            goal.position = end.position;
+        }
+        if let Some((_, tolerance)) = goal.heading {
+            goal.heading = Some((end.heading, tolerance));
+        }
     }
+}
+
+/// Where a goal's object is, in the frame of what the goal is relative to.
+pub(super) fn seen(goal: &Goal, state: &State) -> Pose {
+    let own = state.poses[goal.object];
+    goal.relative.map_or(own, |other| state.poses[other].inverse() * own)
 }
 
 /// A wall across the straight way of the goal object, on the other side of it than `corner`, where
@@ -106,7 +127,7 @@ pub(super) fn wall(
 }
 
 /// The largest disc in the goal object: where it does not pass, no turn of the object does.
-fn inscribed(shape: &Shape) -> Footprint {
+pub(super) fn inscribed(shape: &Shape) -> Footprint {
     Footprint::Disc { radius: shape.footprint().inner_radius() }
 }
 
@@ -173,7 +194,7 @@ fn moved(mut scene: Scene, place: Vector, index: usize) -> Scene {
 }
 
 /// Tenths of a millimetre and of a degree.
-fn round_pose(pose: &Pose) -> Pose {
+pub(super) fn round_pose(pose: &Pose) -> Pose {
     let turn = pose.heading.rem_euclid(TAU).to_degrees();
     // Task files and pictures count from -180 to 180 degrees.
     let turn = if turn > 180.0 { turn - 360.0 } else { turn };

@@ -3,11 +3,13 @@
 use std::f64::consts::FRAC_PI_8;
 use std::sync::Arc;
 
+use pushplan::internals::geometry::Vector;
 use pushplan::internals::plan::{
     Candidate, CandidatePush, Evaluation, Rollouts, Start, Workspace, evaluate,
 };
 use pushplan::internals::scene::{Plan, Push, PushStep, Span, Step, Task, Tool};
 use rand::Rng;
+use rand::seq::SliceRandom;
 use rand_pcg::Pcg64;
 
 use super::kind::{Rules, TaskKind};
@@ -21,26 +23,76 @@ const LATER_ROOM: f64 = 0.01;
 /// First pushes that are drawn before a table is given up: most tools do not fit most ways.
 const DRAWS: usize = 60;
 
+/// How far what others stand in the way of is pushed off its straight way, radians, and how much
+/// farther than that is long, metres.
+const STRAIGHT: f64 = 0.1;
+const STRAY: f64 = 0.015;
+
 /// What a task allows with these tools, for plans that make goals.
 pub(super) fn workspace<'a>(task: &'a Task, tools: &'a [Arc<Tool>]) -> Workspace<'a> {
     Workspace { task, tools }
 }
 
-/// A random candidate of a kind whose first push can be made; `None` if none was found.
+/// A random candidate of a kind in which the first push of every object can be made from the start;
+/// `None` if none was found.
 pub(super) fn random_candidate(
     rng: &mut Pcg64,
     workspace: &Workspace,
     kind: TaskKind,
 ) -> Option<Candidate> {
+    let mut made = Candidate::default();
+    for object in meant_for(rng, workspace.task, kind) {
+        let further = pushes_of(rng, workspace, kind, (object, made.pushes.len()))?;
+        made.pushes.extend(further.pushes);
+    }
+    (kind != TaskKind::TwoTools || made.tool_changes() > 0).then_some(made)
+}
+
+/// What the pushes of a plan that makes a task are meant for, in order.
+fn meant_for(rng: &mut Pcg64, task: &Task, kind: TaskKind) -> Vec<usize> {
+    let mut objects: Vec<usize> = (1..=kind.aside()).collect();
+    objects.shuffle(rng);
+    objects.extend(task.goals().map(|goal| goal.object));
+    objects
+}
+
+/// Pushes of an object with one tool, after so many `before` of others; `None` if none was found the
+/// first of which can be made from the start.
+fn pushes_of(
+    rng: &mut Pcg64,
+    workspace: &Workspace,
+    kind: TaskKind,
+    (object, before): (usize, usize),
+) -> Option<Candidate> {
     let Rules { made_with: [least, most], travel, .. } = kind.rules();
+    let task = workspace.task;
+    let at = task.scene.objects[object].pose.position;
+    let angle = |way: Vector| way.y.atan2(way.x);
+    // What stands in the way goes anywhere, what is to go there as straight as it can.
+    let is_aside = kind.aside() > 0 && object != task.goal.object;
+    let straight = kind.aside() > 0 && !is_aside;
     (0..DRAWS).find_map(|_| {
-        let pushes = rng.random_range(least..=most);
-        let candidate = draw(rng, workspace, (pushes, travel), |rng, index, before| {
-            let at = workspace.task.scene.objects[workspace.task.goal.object].pose.position;
-            let (middle, half) =
-                kind.directions(at.y.atan2(at.x), index, before, rng.random::<bool>());
-            let wanted = middle + rng.random_range(-half..=half);
-            near_a_way(rng, wanted)
+        let pushes = if is_aside { 1 } else { rng.random_range(least..=most) };
+        let way = task.goal.position - at;
+        let travel = match straight {
+            true => {
+                let each = way.norm() / pushes as f64 + LATER_ROOM;
+                Span::new(each, (each + STRAY).min(travel.high))
+            }
+            false => travel,
+        };
+        if travel.low >= travel.high {
+            return None;
+        }
+        let pushed = ((object, before), pushes, travel);
+        let candidate = draw(rng, workspace, pushed, |rng, index, last| match straight {
+            true => angle(way) + rng.random_range(-STRAIGHT..=STRAIGHT),
+            false => {
+                let left = rng.random::<bool>();
+                let (middle, half) = kind.directions(angle(at), before + index, last, left);
+                let wanted = middle + rng.random_range(-half..=half);
+                near_a_way(rng, wanted)
+            }
         });
         first_push(workspace, &candidate).map(|_| candidate)
     })
@@ -52,7 +104,7 @@ pub(super) fn random_plan(rng: &mut Pcg64, task: &Task, tools: &[Arc<Tool>]) -> 
     const TRIES: usize = 2000;
     let workspace = workspace(task, tools);
     (0..TRIES).find_map(|_| {
-        let candidate = draw(rng, &workspace, (1, TRAVEL), |rng, _, _| {
+        let candidate = draw(rng, &workspace, ((task.goal.object, 0), 1, TRAVEL), |rng, _, _| {
             std::f64::consts::TAU / WAYS as f64 * f64::from(rng.random_range(0..WAYS as u32))
         });
         let push = first_push(&workspace, &candidate)?;
@@ -91,32 +143,32 @@ pub(super) fn plan(workspace: &Workspace, candidate: &Candidate, pushes: Vec<Pus
     Plan { steps: pushes.into_iter().zip(&candidate.pushes).map(step).collect() }
 }
 
-/// Any tool and grip, and pushes of any face, offset and length in the directions of `direct`,
-/// which is told the number of pushes before and the direction of the last.
+/// Any tool and grip, and pushes of an object of any face, offset and length in the directions of
+/// `direct`, which is told the number of its pushes before and the direction of the last.
 fn draw(
     rng: &mut Pcg64,
     workspace: &Workspace,
-    (pushes, travel): (usize, Span),
+    ((object, before), pushes, travel): ((usize, usize), usize, Span),
     direct: impl Fn(&mut Pcg64, usize, f64) -> f64,
 ) -> Candidate {
     let Workspace { task, tools, .. } = *workspace;
     let tool = rng.random_range(0..tools.len());
     let yaws = &task.pushes.grip_yaws;
     let grip_yaw = yaws[rng.random_range(0..yaws.len())];
-    let (start, object) = (task.scene.start(), task.goal.object);
+    let start = task.scene.start();
     let mut candidate = Candidate::default();
-    let mut before = 0.0;
+    let mut last = 0.0;
     for index in 0..pushes {
-        let direction = direct(rng, index, before);
+        let direction = direct(rng, index, last);
         let part = rng.random_range(0..tools[tool].parts().len());
         let span = workspace.offset_span((tool, grip_yaw), (&start, object), part, direction);
         let offset = rng.random_range(-span..=span);
         let length = rng.random_range(travel.low..travel.high);
         let start = Start::Placed { part, offset };
-        let room = if index > 0 { LATER_ROOM } else { 0.0 };
+        let room = if before + index > 0 { LATER_ROOM } else { 0.0 };
         let push = CandidatePush { tool, grip_yaw, object, start, direction, length, room };
         candidate.pushes.push(push);
-        before = direction;
+        last = direction;
     }
     candidate
 }

@@ -90,8 +90,9 @@ impl RandomSuite {
 
     fn random_choice(&self, made: &SuiteTask, index: usize) -> Option<Choice> {
         let mut rng = generator(self.seed() ^ 0xC401CE, index as u64);
-        let plan = random_plan(&mut rng, &made.task, self.tools())?;
-        let tool = self.tools().iter().find(|tool| tool.name == plan.tool())?;
+        let tools = self.tools_for(&made.task);
+        let plan = random_plan(&mut rng, &made.task, &tools)?;
+        let tool = tools.iter().find(|tool| tool.name == plan.tool())?;
         let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
         let verdict = verifier.nominal(
             &made.task,

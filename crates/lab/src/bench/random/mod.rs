@@ -1,11 +1,13 @@
 //! Random tasks that are known to be solvable.
 //!
-//! The goal of each is where a plan that the task allows really ends: by the planar engine in
+//! The goals of each are where a plan that the task allows really ends: by the planar engine in
 //! [`random_task`] (one object, one push; what refinement is measured on), and by both engines in
-//! [`RandomSuite`] (several kinds, up to three pushes), so that the plan that made a task passes
+//! [`RandomSuite`] (several kinds, up to five pushes), so that the plan that made a task passes
 //! its verification.
 
 mod cluster;
+mod everyday;
+mod furniture;
 mod gap;
 mod hidden;
 mod kind;

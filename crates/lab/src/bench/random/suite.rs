@@ -6,16 +6,17 @@ use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::effect::Simulated;
 use pushplan::internals::geometry::{Pose, Vector, cross};
 use pushplan::internals::plan::{Candidate, Rollouts};
-use pushplan::internals::scene::{Plan, Scene, Situation, Task, Tool};
+use pushplan::internals::scene::{Plan, Scene, Situation, Task, Tool, ToolChoice};
 use pushplan::internals::seeded::generator;
 use pushplan::internals::sim::Simulator;
 use pushplan::internals::verify::{Verifier, VerifySettings};
 use rand_pcg::Pcg64;
 use thiserror::Error;
 
+use super::everyday::{all_in_the_way, as_filed};
 use super::gap::gap_task;
 use super::kind::TaskKind;
-use super::layout::{open_task, set_goal, wall};
+use super::layout::{open_task, seen, set_goals, wall};
 use super::making::{carried_out, keeps_clear, plan, random_candidate, workspace};
 
 /// Tables that are drawn for one task before it is given up. With the shipped tools about ten are
@@ -27,8 +28,8 @@ const WALLS: usize = 12;
 
 /// Random tasks of several kinds, in turn.
 ///
-/// Every task was made by a plan that it allows: its goal is where that plan ends in the planar
-/// engine, and the plan's replay in the 3-D engine reaches that goal within the tolerance. So
+/// Every task was made by a plan that it allows: its goals are where that plan ends in the planar
+/// engine, and the plan's replay in the 3-D engine reaches them within their tolerances. So
 /// every task is solvable by construction, under the very rule by which plans are judged. Pushes
 /// on whose end the engines disagree by more than the tolerance make no tasks.
 #[derive(Clone, Debug)]
@@ -45,8 +46,8 @@ pub struct SuiteTask {
     pub kind: TaskKind,
     /// The task.
     pub task: Task,
-    /// A plan that reaches its goal, and its tool; nothing where there is no such plan.
-    pub made: Option<(Plan, Arc<Tool>)>,
+    /// A plan that reaches its goals, and its tools; nothing where there is no such plan.
+    pub made: Option<(Plan, Vec<Arc<Tool>>)>,
 }
 
 /// With these tools no task of a kind could be drawn.
@@ -103,39 +104,57 @@ impl RandomSuite {
 
     /// A task, if this draw makes one.
     fn draw(&self, rng: &mut Pcg64, kind: TaskKind, round: usize) -> Option<SuiteTask> {
-        let mut task = open_task(rng, kind, round);
-        let candidate = random_candidate(rng, &workspace(&task, &self.tools), kind)?;
+        let mut task = open_task(rng, kind, round)?;
+        let tools = self.tools_for(&task);
+        if tools.is_empty() {
+            return None;
+        }
+        let candidate = random_candidate(rng, &workspace(&task, &tools), kind)?;
         let mut plan = self.made(&mut task, kind, &candidate)?;
         if kind == TaskKind::Obstacle {
             plan = self.walled(rng, &mut task, &candidate, &plan)?;
         }
-        let tool = Arc::clone(&self.tools[candidate.grip()?.0]);
+        if TaskKind::EVERYDAY.contains(&kind) {
+            task = as_filed(&task)?;
+            let start = task.scene.start();
+            if task.goals().any(|goal| goal.reached(&start)) {
+                return None;
+            }
+        }
+        let named = |name| tools.iter().find(|tool| tool.name == name).cloned();
+        let tools: Vec<Arc<Tool>> = plan.tools().into_iter().filter_map(named).collect();
         let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
-        let verdict = verifier.nominal(
-            &task,
-            &Situation::stated(&task.scene),
-            std::slice::from_ref(&tool),
-            &plan,
-        );
+        let verdict = verifier.nominal(&task, &Situation::stated(&task.scene), &tools, &plan);
         let both = verdict.evidence.iter().all(|evidence| evidence.outcome.reached);
-        (verdict.passed && both).then_some(SuiteTask { kind, task, made: Some((plan, tool)) })
+        (verdict.passed && both).then_some(SuiteTask { kind, task, made: Some((plan, tools)) })
     }
 
-    /// Sets the goal where the candidate ends in the planar engine, if that makes a task of the
+    /// The tools that a task allows.
+    pub(super) fn tools_for(&self, task: &Task) -> Vec<Arc<Tool>> {
+        let allowed = |tool: &&Arc<Tool>| match &task.tools {
+            ToolChoice::All => true,
+            ToolChoice::Named(names) => names.contains(&tool.name),
+        };
+        self.tools.iter().filter(allowed).cloned().collect()
+    }
+
+    /// Sets the goals where the candidate ends in the planar engine, if that makes a task of the
     /// kind.
     fn made(&self, task: &mut Task, kind: TaskKind, candidate: &Candidate) -> Option<Plan> {
         let planar = Simulated::new(Simulator::planar());
         let scene: Scene = task.scene.clone();
         let mut rollouts = Rollouts::new(&planar, Situation::stated(&scene));
-        let workspace = workspace(task, &self.tools);
+        let tools = self.tools_for(task);
+        let workspace = workspace(task, &tools);
         let made = carried_out(&workspace, &mut rollouts, candidate)?;
         let plan = plan(&workspace, candidate, made.pushes);
-        let object = task.goal.object;
-        let end = made.outcome.poses[object];
-        if !kind.accepts(&scene.objects[object].pose, &end) {
+        let (start, ends) = (scene.start(), made.outcome);
+        let accepted = |goal| kind.accepts(&seen(goal, &start), &seen(goal, &ends));
+        let brought = task.goals().all(accepted);
+        if !brought || !all_in_the_way(task, kind, &ends.poses[task.goal.object]) {
             return None;
         }
-        set_goal(task, &end);
+        set_goals(task, &ends);
         Some(plan)
     }
 
