@@ -25,6 +25,10 @@ const WORTH_A_NOTE: f64 = 0.1;
 /// A mesh that fills more of the prism around it is as good as that.
 const FULL: f64 = 0.9;
 
+/// What lies on less than this share of what it covers may be round there: a can on its side lies on an
+/// eighth.
+const STRIP: f64 = 0.25;
+
 /// What stands on less than this share of what it covers does not stand on all of it.
 const NARROW: f64 = 0.9;
 
@@ -252,6 +256,12 @@ fn standing_on(
         );
         ledger.note(solid.place, note);
         return Support::Even;
+    }
+    if area(&corners) < STRIP * upright.area() {
+        let share = 100.0 * area(&corners) / upright.area();
+        let note =
+            format!("`{name}` lies on {share:.0} % of what it covers, and is taken not to roll");
+        ledger.note(solid.place, note);
     }
     // Seen from the centre of mass; a little inside, so that all points are under it.
     Support::Points(corners.into_iter().map(|corner| 0.995 * (corner - at)).collect())

@@ -75,6 +75,10 @@ impl Upright {
             },
             Outline::Cylinder { radius, half } => {
                 let axis = solid.pose.rotation * Vector3::z();
+                if axis.z.abs() <= LEAN {
+                    ledger.fault(solid.place, format!("{what} lies on its side"), ROLLS);
+                    return None;
+                }
                 if axis.xy().norm() > LEAN {
                     return leans(solid, what, ledger);
                 }
@@ -257,6 +261,10 @@ fn cloud(outline: &Outline) -> Vec<Point3<f64>> {
         Outline::Plane(_) | Outline::Other(_) => Vec::new(),
     }
 }
+
+/// What to do with what lies on its round side.
+const ROLLS: &str = "nobody knows how far it would roll: stand it upright, or put a box in its place if it cannot \
+    roll or does not move";
 
 /// What to do with a shape that cannot be expressed.
 pub(super) const PRIMITIVES: &str = "put a box, an upright cylinder or a mesh (STL, OBJ) in its place, or let \

@@ -120,7 +120,7 @@ fn each_thing_that_cannot_be_said_is_refused() {
         (free("<geom type='capsule' size='.05 .05'/>"), "is a capsule"),
         (free("<geom type='sphere' size='.05'/>"), "`b` is a sphere, and rolls"),
         (free("<site/>"), "`b` has nothing that touches"),
-        (free("<geom type='cylinder' size='.05 .05' euler='90 0 0'/>"), "`b` leans"),
+        (free("<geom type='cylinder' size='.05 .05' euler='90 0 0'/>"), "`b` lies on its side"),
         (free("<geom type='box' size='.05 .05 .05' euler='10 0 0'/>"), "`b` leans"),
         (free("<geom type='box' size='.05 .05 .05' class='x'/>"), "there is no class `x`"),
         (free("<geom type='box' size='.05 .05'/>"), "has 2 sizes"),
