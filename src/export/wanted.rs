@@ -65,6 +65,10 @@ pub(super) fn wanted(xml: &mut Xml, file: &PlanFile) {
             });
             let numbers: Vec<f64> = [centre.x, centre.y].into_iter().chain(edges).collect();
             numeric(xml, &format!("fall of object/{name}"), &numbers);
+            if let Some(span) = fall.between {
+                xml.comment("Between which places along that edge, x or y.");
+                numeric(xml, &format!("part of the edge of object/{name}"), &[span.low, span.high]);
+            }
         }
         if let Some(other) = goal.relative {
             xml.comment("The body in whose frame all of this is.");

@@ -1,7 +1,7 @@
 //! A plan and where it ends, in words and tables for the terminal.
 
 use crate::geometry::{Footprint, Vector, wrap_angle};
-use crate::scene::{Engine, Goal, LeverUp, Lying, Outcome, Plan, Step, Task, Warning};
+use crate::scene::{Engine, Goal, LeverUp, Lying, Outcome, Plan, Span, Step, Task, Warning};
 
 use super::{
     document::Section,
@@ -248,7 +248,9 @@ fn one_goal(task: &Task, goal: &Goal) -> String {
     }
     if let Some(fall) = &goal.fall {
         let over = fall.over.map(|edge| format!(", over its {} edge", edge.name()));
-        demands.push(format!("off the table{}", over.unwrap_or_default()));
+        let part = |span: Span| format!(" from {:.3} to {:.3} m", span.low, span.high);
+        let part = fall.between.map(part).unwrap_or_default();
+        demands.push(format!("off the table{}{part}", over.unwrap_or_default()));
     }
     if let Some(coverage) = &goal.coverage {
         let turn = goal.heading.map(|(heading, _)| format!(", heading {}", degrees(heading)));

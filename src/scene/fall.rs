@@ -6,10 +6,10 @@ use crate::geometry::{Pose, Vector};
 
 use super::goal::Goal;
 use super::world::is_zero;
-use super::{Scene, State, TableTop};
+use super::{Scene, Span, State, TableTop};
 
-/// How far beyond the edge search and refinement aim to bring centres, metres: simulations differ by
-/// millimetres.
+/// How far beyond the edge search and refinement aim to bring centres, and from the ends of the part of it
+/// that is asked for, metres: simulations differ by millimetres.
 const BEYOND: f64 = 0.02;
 
 /// An edge of the table, as the robot sees it.
@@ -49,6 +49,12 @@ impl Edge {
             Self::Right => -Vector::y(),
         }
     }
+
+    /// The way along it, of length one: +x or +y.
+    pub fn along(self) -> Vector {
+        let out = self.outwards();
+        Vector::new(out.y.abs(), out.x.abs())
+    }
 }
 
 /// What an object is to fall off, and where: its centre of mass is to come beyond an edge.
@@ -59,6 +65,9 @@ pub struct Fall {
     /// The edge; any where none is named.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub over: Option<Edge>,
+    /// Between which places along that edge, metres of the world's x or y; anywhere where none are named.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub between: Option<Span>,
     /// How far beyond the edge its centre has to come, metres.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub by: f64,
@@ -71,7 +80,12 @@ impl Fall {
     pub fn of(scene: &Scene, object: usize, over: Option<Edge>) -> Option<Box<Self>> {
         let (top, pose) = (scene.table_top?, scene.objects.get(object)?.pose);
         let centre = pose.local_point(scene.centre(object, &scene.start()));
-        Some(Box::new(Self { top, over, by: 0.0, centre }))
+        Some(Box::new(Self { top, over, between: None, by: 0.0, centre }))
+    }
+
+    /// The same between these places along the edge alone, metres, as where a box stands below it.
+    pub fn between(self, span: Span) -> Self {
+        Self { between: Some(span), ..self }
     }
 
     /// The edges over which it may fall.
@@ -85,12 +99,16 @@ impl Fall {
         edge.outwards().dot(&self.top.middle) + edge.outwards().abs().dot(&half)
     }
 
-    /// The ends of this edge, metres.
+    /// The ends of this edge, or of the part of it that is asked for, metres.
     pub fn ends(&self, edge: Edge) -> [Vector; 2] {
         let half = 0.5 * Vector::from(self.top.size);
-        let out = edge.outwards();
-        let along = Vector::new(out.y.abs(), out.x.abs());
-        [1.0, -1.0].map(|side| self.top.middle + (out + side * along).component_mul(&half))
+        let (out, along) = (edge.outwards(), edge.along());
+        [1.0, -1.0].map(|side| {
+            let end = self.top.middle + (out + side * along).component_mul(&half);
+            let at = along.dot(&end);
+            let kept = self.between.map_or(at, |span| at.max(span.low).min(span.high));
+            end + (kept - at) * along
+        })
     }
 
     /// The centre of mass of an object at `own`, metres.
@@ -108,23 +126,40 @@ impl Fall {
 
     /// Whether an object with its centre there falls where it is to.
     pub(super) fn holds(&self, centre: Vector) -> bool {
-        self.beyond(centre).0 > self.by
+        self.beyond(centre).0 > self.by && self.aside(centre, 0.0) == Vector::zeros()
     }
 
     /// From the nearest place that is aimed at to a centre, metres.
     pub(super) fn off(&self, centre: Vector) -> Vector {
         let (beyond, out) = self.beyond(centre);
-        (beyond - self.by - self.depth()).min(0.0) * out
+        let depth = self.depth();
+        (beyond - self.by - depth).min(0.0) * out + self.aside(centre, depth)
     }
 
-    /// How far beyond what is asked for everything is that is aimed at, metres.
+    /// From what is this far inside of the part of the edge that is asked for to a centre, metres along the
+    /// edge.
+    fn aside(&self, centre: Vector, inside: f64) -> Vector {
+        let (Some(edge), Some(Span { low, high })) = (self.over, self.between) else {
+            return Vector::zeros();
+        };
+        let at = edge.along().dot(&centre);
+        (at - at.max(low + inside).min(high - inside)) * edge.along()
+    }
+
+    /// How far beyond what is asked for everything is that is aimed at, metres: of a short part of an edge
+    /// half-way to its middle.
     pub fn depth(&self) -> f64 {
-        BEYOND
+        self.between.map_or(BEYOND, |span| BEYOND.min(0.25 * span.width()))
     }
 
-    /// The same, by `margin` metres farther out.
+    /// The same, by `margin` metres farther out and from the ends of the part of the edge; at least half of
+    /// that is left.
     pub(super) fn farther(&self, margin: f64) -> Self {
-        Self { by: self.by + margin, ..self.clone() }
+        let between = self.between.map(|span| {
+            let less = margin.min(0.25 * span.width());
+            Span::new(span.low + less, span.high - less)
+        });
+        Self { by: self.by + margin, between, ..self.clone() }
     }
 }
 
@@ -195,6 +230,28 @@ mod tests {
         assert!((any.off(&at(0.3, 0.0)) - Vector::new(0.12, 0.0)).norm() < 1e-12, "the near edge");
         let strict = any.stricter(0.005, 0.0);
         assert!(!strict.reached(&at(1.004, 0.0)) && any.reached(&at(1.004, 0.0)));
+    }
+
+    #[test]
+    fn only_over_the_part_of_the_edge_that_is_asked_for() {
+        let scene = scene();
+        let centre = scene.centre(0, &scene.start()).y;
+        let at = |x: f64| State::at_rest(vec![Pose::new(x, 0.33 - centre, 0.0); 2]);
+        let fall = Fall::of(&scene, 0, Some(Edge::Left)).expect("it ends");
+        let goal =
+            |low, high| Goal::falling(0, Box::new(fall.clone().between(Span::new(low, high))));
+        for (low, high) in [(0.4, 0.6), (0.47, 0.53)] {
+            let goal = goal(low, high);
+            for (x, falls) in [(low - 0.002, false), (low + 0.002, true), (high + 0.002, false)] {
+                assert_eq!(goal.reached(&at(x)), falls, "{x}");
+                assert_eq!(goal.score(&at(x)) < 1.0, falls, "{x}");
+            }
+            assert_eq!(goal.off(&at(0.5)), Vector::zeros());
+            assert!(!goal.stricter(0.005, 0.0).reached(&at(low + 0.004)));
+        }
+        let [high, low] = fall.clone().between(Span::new(0.1, 0.6)).ends(Edge::Left);
+        assert!((high - Vector::new(0.6, 0.3)).norm() < 1e-12, "{high}");
+        assert!((low - Vector::new(0.2, 0.3)).norm() < 1e-12, "the table ends there: {low}");
     }
 
     #[test]

@@ -45,6 +45,11 @@ impl Span {
         Self { low, high }
     }
 
+    /// How much there is between its ends.
+    pub fn width(&self) -> f64 {
+        self.high - self.low
+    }
+
     /// The smallest interval that contains both.
     pub fn hull(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }

@@ -1,7 +1,7 @@
 //! Goals off the table: what is pushed over an edge, and falls.
 
 use pushplan::asset::ToolLibrary;
-use pushplan::scene::{Edge, Engine, Rate, Record, Situation, State, Task, Warning};
+use pushplan::scene::{Edge, Engine, Rate, Record, Situation, Span, State, Task, Warning};
 use pushplan::solve::PlanStatus;
 use pushplan::{EffectModel, Job, Obstacle, Pose, Push, Simulated, Simulator, ToolMotion, Vector};
 
@@ -30,6 +30,7 @@ fn things_are_pushed_over_the_edge_that_is_asked_for() {
     for (goal, off) in [
         ("{object: box, off_table: left}", vec![0]),
         ("{object: can, off_table: far}", vec![1]),
+        ("{object: box, off_table: {edge: left, between: [0.70, 0.86]}}", vec![0]),
         ("[{object: box, off_table: any}, {object: can, off_table: any}]", vec![0, 1]),
     ] {
         let task = task(goal);
@@ -42,6 +43,9 @@ fn things_are_pushed_over_the_edge_that_is_asked_for() {
             let nominal = verdict.nominal(engine).expect("replayed");
             let gone = |k: &usize| !top.holds(nominal.outcome.state.poses[*k].position);
             assert_eq!([0, 1].into_iter().filter(gone).collect::<Vec<_>>(), off, "{goal}");
+            if let Some(span) = task.goal.fall.as_ref().and_then(|fall| fall.between) {
+                assert!(span.contains(nominal.outcome.state.poses[0].position.x), "{goal}");
+            }
             // What is wanted is no news.
             assert!(!nominal.warnings.iter().any(|one| matches!(one, Warning::Fell { .. })));
         }
@@ -136,4 +140,18 @@ fn it_is_read_as_it_is_written_and_a_plan_file_keeps_it() {
         let json = serde_json::to_string(&task).expect("as JSON");
         assert_eq!(serde_json::from_str::<Task>(&json).expect("the same"), task);
     }
+    let task = task("{object: box, off_table: {edge: far, between: [-0.1, 0.25]}}");
+    let fall = task.goal.fall.as_ref().expect("a fall");
+    assert_eq!((fall.over, fall.between), (Some(Edge::Far), Some(Span::new(-0.1, 0.25))));
+    let again = Task::parse(&task.to_yaml().expect("as text"), "fall.yaml").expect("sound");
+    assert_eq!(again, task);
+}
+
+#[test]
+fn a_part_of_an_edge_lies_on_the_table() {
+    let text = task("{object: box, off_table: left}").to_yaml().expect("as text");
+    let part = "off_table: {edge: left, between: [1.0, 1.2]}";
+    let faults =
+        Task::parse(&text.replace("off_table: left", part), "fall.yaml").expect_err("off it");
+    assert!(faults.to_string().contains("the left edge goes from 0.150 to 0.950"), "{faults}");
 }

@@ -280,12 +280,17 @@ def beyond(point, corners):
     return float(np.max(np.sum((np.asarray(point) - ends) * outwards, axis=1)))
 
 
-def over(pose, fall):
-    """How far the centre of mass of an object at `pose` is beyond an edge over which it is to fall, metres."""
+def over(pose, fall, part):
+    """How far the centre of mass of an object at `pose` is beyond an edge over which it is to fall, and from the ends of
+    the part of that edge, if only one will do, metres."""
     centre, edges = np.array(fall[:2]), np.reshape(fall[2:], (-1, 3))
     cos, sin = math.cos(pose[2]), math.sin(pose[2])
     there = np.array([[cos, -sin], [sin, cos]]) @ centre + pose[:2]
-    return float(np.max(edges[:, :2] @ there - edges[:, 2]))
+    beyond = float(np.max(edges[:, :2] @ there - edges[:, 2]))
+    if part is None:
+        return beyond
+    along = float(np.abs(edges[0, 1::-1]) @ there)
+    return min(beyond, along - part[0], part[1] - along)
 
 
 def outlines(title, name, pose, numbers):
@@ -390,7 +395,7 @@ def replay(path):
         region = scene.numbers.get(f"region of {name}")
         fall = scene.numbers.get(f"fall of {name}")
         if fall is not None:
-            far = over(poses[name], fall)
+            far = over(poses[name], fall, scene.numbers.get(f"part of the edge of {name}"))
             misses[name] = max(0.0, -far), None, far > 0.0 and scene.has_fallen(scene.objects[name])
         elif goal is not None:
             middle = scene.numbers.get(f"middle of {name}")

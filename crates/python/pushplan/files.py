@@ -18,7 +18,7 @@ else:
     from typing_extensions import NotRequired
 
 __all__ = [
-    "AreaKeys", "BladeKeys", "CircleKeys", "CostedToolKeys", "CuboidKeys", "CylinderKeys",
+    "AreaKeys", "BladeKeys", "CircleKeys", "CostedToolKeys", "CuboidKeys", "CylinderKeys", "EdgeKeys",
     "FrictionKeys", "GoalKeys", "GoalRegionKeys", "GripKeys", "HandKeys", "JointKeys",
     "KeepKeys", "LeverGoalKeys", "LeversKeys", "Numbers", "ObjectKeys", "ObjectPartKeys",
     "ObjectPrismKeys", "ObjectShapeKeys", "ObstacleKeys", "PartKeys", "PolygonKeys",
@@ -264,6 +264,13 @@ class CoverageKeys(TypedDict):
     heading_deg: NotRequired[float]
 
 
+class EdgeKeys(TypedDict):
+    """A part of an edge of the table over which an object is to fall, metres along it."""
+
+    edge: Literal["far", "near", "left", "right"]
+    between: Numbers
+
+
 class GoalKeys(TypedDict):
     """Where an object must come to rest, and how; position [x, y] and lengths in metres."""
 
@@ -273,7 +280,7 @@ class GoalKeys(TypedDict):
     region: NotRequired[GoalRegionKeys]
     gap: NotRequired[GapKeys]
     coverage: NotRequired[CoverageKeys]
-    off_table: NotRequired[Literal["any", "far", "near", "left", "right"]]
+    off_table: NotRequired[Union[Literal["any", "far", "near", "left", "right"], EdgeKeys]]
     heading_deg: NotRequired[float]
     heading_tolerance_deg: NotRequired[float]
     symmetric: NotRequired[bool]

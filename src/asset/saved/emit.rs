@@ -307,7 +307,7 @@ fn goal(goal: &Goal, scene: &Scene) -> Json {
     if let Some(gap) = &goal.gap {
         json["gap"] = emitted_gap(gap, scene);
     } else if let Some(fall) = &goal.fall {
-        json["off_table"] = json!(emitted_fall(fall));
+        json["off_table"] = emitted_fall(fall);
     } else if let Some(coverage) = &goal.coverage {
         let heading = goal.heading.map_or(0.0, |(heading, _)| degrees(heading));
         json["coverage"] = emitted_coverage(coverage, vector(goal.position), heading);

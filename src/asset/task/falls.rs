@@ -1,39 +1,79 @@
 //! Goals off the table: what is to fall over one of its edges.
 
+use serde_json::{Value as Json, json};
+
 use crate::asset::node::Node;
-use crate::asset::spec::{Key, Value};
+use crate::asset::spec::{Key, SHIFT_LIMIT, Value, numbers};
 use crate::asset::strict::Ledger;
-use crate::scene::{Edge, Fall, Scene};
+use crate::asset::take::vector;
+use crate::scene::{Edge, Fall, Scene, Span};
 
 use super::mounts::moving;
 
 /// Over any edge.
 const ANY: &str = "any";
 
+/// The shortest part of an edge that may be asked for, metres.
+const SHORTEST: f64 = 0.02;
+
 /// Over which edge an object is to fall.
 pub(super) const OFF_TABLE: Key = Key::optional(
     "off_table",
-    Value::Word(&[ANY, "far", "near", "left", "right"]),
+    Value::Either(&[
+        Value::Word(&[ANY, "far", "near", "left", "right"]),
+        Value::Map(&[
+            Key::required(
+                "edge",
+                Value::Word(&["far", "near", "left", "right"]),
+                "The edge, as the robot sees it.",
+            ),
+            Key::required(
+                "between",
+                numbers(&SHIFT_LIMIT, 2),
+                "Between which places along it its centre of mass has to be, [low, high] in metres: x of the \
+                 left and the right edge, y of the others.",
+            ),
+        ]),
+    ]),
     "Over which edge of the table it is to fall instead of coming to rest, as the robot sees it: `any`, \
-     `far` (+x), `near` (-x), `left` (+y) or `right` (-y). It falls once its centre of mass is beyond the \
-     edge; everything else stays, unless it may fall. By default it is to stay.",
+     `far` (+x), `near` (-x), `left` (+y) or `right` (-y), or an `edge` and `between` which places along it. \
+     It falls once its centre of mass is beyond the edge; everything else stays, unless it may fall. By \
+     default it is to stay.",
 );
 
 /// The fall of a goal of `object`.
 pub(super) fn fall(node: &Node, object: usize, scene: &Scene) -> Option<Box<Fall>> {
-    let name = node.text()?;
+    let name = node.get("edge").unwrap_or(node).text()?;
     let over = Edge::ALL.into_iter().find(|edge| edge.name() == name);
-    Fall::of(scene, object, over)
+    let fall = Fall::of(scene, object, over)?;
+    match node.get("between") {
+        Some(node) => Some(Box::new(fall.between(span(node)?))),
+        None => Some(fall),
+    }
+}
+
+fn span(node: &Node) -> Option<Span> {
+    match node.items() {
+        [low, high] => Some(Span::new(low.number()?, high.number()?)),
+        _ => None,
+    }
 }
 
 /// As in a file.
-pub(in crate::asset) fn emitted_fall(fall: &Fall) -> &'static str {
-    fall.over.map_or(ANY, Edge::name)
+pub(in crate::asset) fn emitted_fall(fall: &Fall) -> Json {
+    let name = fall.over.map_or(ANY, Edge::name);
+    match fall.between {
+        Some(Span { low, high }) => json!({"edge": name, "between": [low, high]}),
+        None => json!(name),
+    }
 }
 
 /// Notes what is wrong with the fall of a goal's object, which `name` names.
 pub(super) fn check_fall(goal: &Node, name: &Node, scene: &Node, ledger: &mut Ledger) {
     let Some(node) = goal.get("off_table") else { return };
+    if let Some(between) = node.get("between") {
+        check_part(between, node.get("edge").and_then(Node::text), scene, ledger);
+    }
     if scene.get("table").and_then(|table| table.get("size")).is_none() {
         let advice = "add `table: {size: [x, y]}` to the scene";
         ledger.fault(node, "the table ends nowhere, so nothing falls off it", advice);
@@ -50,5 +90,26 @@ pub(super) fn check_fall(goal: &Node, name: &Node, scene: &Node, ledger: &mut Le
     if held.is_some() {
         let message = format!("`{}` is joined to the world", name.text().unwrap_or("?"));
         ledger.fault(node, message, "what a joint holds does not fall");
+    }
+}
+
+/// A part of an edge lies on the table, the smaller place first.
+fn check_part(between: &Node, edge: Option<&str>, scene: &Node, ledger: &mut Ledger) {
+    let Some(Span { low, high }) = span(between) else { return };
+    if high - low < SHORTEST {
+        let message = format!("no part of an edge goes from {low} to {high}");
+        let advice = format!("the smaller place first, and at least {SHORTEST} m between them");
+        ledger.fault(between, message, advice);
+        return;
+    }
+    let Some(edge) = Edge::ALL.into_iter().find(|one| Some(one.name()) == edge) else { return };
+    let Some(table) = scene.get("table") else { return };
+    let Some(size) = table.get("size").and_then(vector) else { return };
+    let middle = table.get("position").and_then(vector).unwrap_or_default();
+    let [half, middle] = [0.5 * size, middle].map(|place| edge.along().dot(&place));
+    if low > middle + half || high < middle - half {
+        let (name, from, to) = (edge.name(), middle - half, middle + half);
+        let message = format!("the {name} edge goes from {from:.3} to {to:.3}");
+        ledger.fault(between, message, "ask for a part of it");
     }
 }
