@@ -140,14 +140,16 @@ def theirs(plan, pushes, step, usual=False):
     """The same and the heading by `mujoco.rollout`, in the scene that `pushplan export` writes: with its contacts, or
     with MuJoCo's usual ones, which are softer, let things creep, and allow larger steps.
 
-    The tool is a heavy body on two sliding joints that nothing stops: with the speed of the push as
-    its starting velocity it makes the push. Then it stands still until the object rests, which at
+    The tool is a heavy body on sliding joints that nothing stops, and made weightless: with the speed of
+    the push as its starting velocity it makes the push. Then it stands still until the object rests, which at
     most takes v / (mu g) and is given twice that time.
     """
     import mujoco
     from mujoco import rollout
 
-    model = mujoco.MjModel.from_xml_string(plan.to_mjcf())
+    scene = mujoco.MjSpec.from_string(plan.to_mjcf())
+    scene.body("tool").gravcomp = 1.0
+    model = scene.compile()
     model.opt.timestep = step
     if usual:
         model.opt.impratio = 1.0
