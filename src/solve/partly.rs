@@ -6,6 +6,7 @@ use crate::verify::{Verifier, VerifySettings};
 use crate::watch::Watch;
 
 use super::planner::stated;
+use super::widen::Quiet;
 use super::{Partial, PlanStatus, Planner, Solution, SolveError};
 
 /// Of more goals than this only all but one, and each alone, are tried: their sets double with each.
@@ -28,9 +29,12 @@ impl Planner {
             return Ok(());
         }
         let situation = stated(task);
+        watch.stage("plans for some of the goals");
+        // What is good for some of them is no answer so far.
+        let quiet = Quiet(watch);
         for met in sets(task) {
             let Some(part) = task.only(&met).filter(|_| !watch.cancelled()) else { break };
-            let found = self.solve_from(&situation, &part, library, watch)?;
+            let found = self.solve_from(&situation, &part, library, &quiet)?;
             if found.status != PlanStatus::Solved {
                 continue;
             }
