@@ -28,8 +28,9 @@ pub struct GlobalArgs {
 const STAGE: &str = "{spinner} {prefix}, {elapsed} {msg}";
 const COUNTED: &str = "{spinner} {prefix}, {elapsed} {msg}, {pos}/{len}";
 
-/// Work that ends sooner shows no progress: a first plan is there by then.
-const SHOW_AFTER: Duration = Duration::from_millis(100);
+/// Work that ends sooner shows no progress. A first plan is often found by then, and people see it within a
+/// tenth of a second.
+const SHOW_AFTER: Duration = Duration::from_millis(50);
 
 /// One run of the command.
 #[derive(Debug)]

@@ -51,7 +51,8 @@ pub struct SolveArgs {
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub seed: u64,
     /// Disturbed replays of the winning plan in each simulation, at least; up to 64 are made as long as
-    /// it is not clear whether enough of them reach the goal [default: 4, 8 or 16 by effort]
+    /// it is not clear whether enough of them reach the goal, and none in 3-D if too few clearly do in
+    /// the plane [default: 4, 8 or 16 by effort]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=10_000))]
     pub disturbed: Option<u16>,
     /// Share of the disturbed replays that must reach the goal, 0 to 1 [default: what the task

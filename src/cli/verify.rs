@@ -39,7 +39,7 @@ pub struct VerifyArgs {
     /// The plan file; it holds the task and the tool as well
     plan: PathBuf,
     /// Disturbed replays in each simulation, at least; up to 64 are made as long as it is not clear
-    /// whether enough of them reach the goal
+    /// whether enough of them reach the goal, and none in 3-D if too few clearly do in the plane
     #[arg(long, value_name = "N", default_value_t = 8,
           value_parser = clap::value_parser!(u32).range(0..=100_000))]
     disturbed: u32,

@@ -37,19 +37,13 @@ impl Solving<'_> {
         self.watch.stage(&format!("{stage}, plans of {pushes} push{s}"));
     }
 
-    /// Tells of the best of what the search found.
+    /// Tells of the best of what the search found, all of it with one tool.
     pub(super) fn tell_found(&mut self, found: &[Found]) {
-        let Some(first) = found.first().filter(|first| first.score <= 1.0) else { return };
-        let pushes = &first.candidate.pushes;
-        let mut tools: Vec<&str> = Vec::new();
-        for push in pushes {
-            let name = &self.workspace.tools[push.tool].name;
-            if !tools.contains(&name.as_str()) {
-                tools.push(name);
-            }
+        let best = found.first().filter(|best| best.score <= 1.0).map(|best| &best.candidate);
+        if let Some((candidate, (tool, _))) = best.and_then(|one| Some((one, one.grip()?))) {
+            let name = &self.workspace.tools[tool].name;
+            self.tell_known(Known::Found, named(&[name], candidate.pushes.len()));
         }
-        let plan = named(&tools, pushes.len());
-        self.tell_known(Known::Found, plan);
     }
 
     /// Tells of the first of these plans, the best one, that it is predicted to reach the goal.

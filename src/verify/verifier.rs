@@ -37,7 +37,8 @@ const HAIR: f64 = 1e-3;
 /// How thoroughly to verify.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct VerifySettings {
-    /// Disturbed replays in each engine, or as few as are made before the answer can be clear.
+    /// Disturbed replays in each engine, the fewest after which the answer may be clear; none in 3-D of
+    /// plans that clearly fail in the planar engine.
     pub disturbed: usize,
     /// Seed of the disturbances.
     pub seed: u64,
@@ -143,7 +144,8 @@ impl<'a> Verifier<'a> {
         Verdict::judge(forbidden, evidence, task.robustness)
     }
 
-    /// The verdict of [`Verifier::nominal`] together with the disturbed replays.
+    /// The verdict of [`Verifier::nominal`] together with the disturbed replays; those that it holds
+    /// already are not made again.
     pub fn disturb(
         &self,
         task: &Task,
@@ -179,19 +181,18 @@ impl<'a> Verifier<'a> {
                 motion.lift += HAIR;
             }
         }
-        let (mut evidence, replays): (Vec<Evidence>, Vec<Evidence>) =
+        let (nominal, replays): (Vec<Evidence>, Vec<Evidence>) =
             evidence.into_iter().partition(|one| one.disturbance == Disturbance::Nominal);
-        let mut refused = false;
-        // The planar engine first: where it says no, the dearer one need not be asked.
-        for engine in [&self.planar, &self.spatial] {
-            let own = |one: &&Evidence| one.engine == engine.engine();
-            let mut own: Vec<Evidence> = replays.iter().filter(own).cloned().collect();
-            if !refused && (engine.engine() == Engine::Planar || !self.in_plane) {
-                self.add_disturbed(engine, (task, situation, &scene, &motions), &mut own);
-            }
-            refused |= clear::answer(&own, task.robustness) == Some(false);
-            evidence.extend(own);
+        let (mut planar, mut spatial): (Vec<Evidence>, Vec<Evidence>) =
+            replays.into_iter().partition(|one| one.engine == Engine::Planar);
+        let asked = (task, situation, &scene, &motions[..]);
+        // The planar engine comes first. If it says no, there is no need for the slower one.
+        self.add_disturbed(&self.planar, asked, &mut planar);
+        let refused = clear::answer(&planar, task.robustness) == Some(false);
+        if !(refused || self.in_plane) {
+            self.add_disturbed(&self.spatial, asked, &mut spatial);
         }
+        let evidence = nominal.into_iter().chain(planar).chain(spatial).collect();
         Verdict::judge(forbidden, evidence, task.robustness)
     }
 
@@ -199,13 +200,13 @@ impl<'a> Verifier<'a> {
     fn add_disturbed(
         &self,
         engine: &Simulator,
-        made: (&Task, &Situation, &Scene, &[ToolMotion]),
+        asked: (&Task, &Situation, &Scene, &[ToolMotion]),
         own: &mut Vec<Evidence>,
     ) {
         let least = self.settings.disturbed;
         loop {
             let done = own.len();
-            let is_clear = || clear::answer(own, made.0.robustness).is_some();
+            let is_clear = || clear::answer(own, asked.0.robustness).is_some();
             let goes_on = self.until_clear && least > 0 && !self.watch.cancelled();
             let wanted = match done < least {
                 true => least,
@@ -215,7 +216,7 @@ impl<'a> Verifier<'a> {
             if done >= wanted {
                 return;
             }
-            own.extend(self.disturbed(engine, made, done..wanted));
+            own.extend(self.disturbed(engine, asked, done..wanted));
         }
     }
 

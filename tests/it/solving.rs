@@ -239,17 +239,29 @@ fn tasks_made_in_code_are_refused_when_they_make_no_sense() {
     for stage in ["search", "refine", "verify"] {
         assert!(stages.contains(&format!("{stage}, plans of 1 push")), "{stages:?}");
     }
+    // The best plan so far: what is known of it grows, and nothing is said twice.
+    let answers = told.answers.into_inner().unwrap();
+    let known: Vec<&str> = answers.iter().map(|one| one.split_once(": ").unwrap().1).collect();
+    let all =
+        ["a first look says that it reaches the goal", "predicted to reach the goal", "passes"];
+    assert_eq!(known, all, "{answers:?}");
+    assert!(answers.iter().all(|one| one.contains(", 1 push: ")), "{answers:?}");
 }
 
 /// What a planner says that it does.
 #[derive(Default)]
 struct Told {
     stages: Mutex<Vec<String>>,
+    answers: Mutex<Vec<String>>,
 }
 
 impl Watch for Told {
     fn stage(&self, what: &str) {
         self.stages.lock().unwrap().push(what.to_owned());
+    }
+
+    fn so_far(&self, answer: &str) {
+        self.answers.lock().unwrap().push(answer.to_owned());
     }
 
     fn progress(&self, done: u64, total: u64) {

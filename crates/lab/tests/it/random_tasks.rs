@@ -19,7 +19,7 @@ fn the_plan_that_made_an_everyday_task_solves_it_and_the_task_is_of_its_kind() {
     are_solved_by_their_plans(&TaskKind::EVERYDAY, 2, is_everyday);
 }
 
-/// So many tasks `each` of these kinds.
+/// Draws `each` tasks of every kind and carries out the plans that made them.
 fn are_solved_by_their_plans(kinds: &[TaskKind], each: usize, is_of_its_kind: fn(&SuiteTask)) {
     let library = ToolLibrary::embedded().expect("the shipped tools");
     let suite = RandomSuite::new(&library, 7, kinds);

@@ -147,7 +147,7 @@ fn pushed_by_hand(rng: &mut Pcg64, object: Object) -> Object {
     object.mass(drawn(rng, [0.15, 1.0])).friction(drawn(rng, [0.3, 0.6]))
 }
 
-/// So many cans and boxes, well apart.
+/// This many cans and boxes, well apart.
 fn solids(rng: &mut Pcg64, count: usize) -> Option<Scene> {
     let mut objects: Vec<Object> = Vec::new();
     for k in 0..count {

@@ -56,8 +56,8 @@ fn meant_for(rng: &mut Pcg64, task: &Task, kind: TaskKind) -> Vec<usize> {
     objects
 }
 
-/// Pushes of an object with one tool, after so many `before` of others; `None` if none was found the
-/// first of which can be made from the start.
+/// Pushes of an object with one tool, which follow `before` pushes of others; `None` if no first push
+/// was found that can be made from the start.
 fn pushes_of(
     rng: &mut Pcg64,
     workspace: &Workspace,

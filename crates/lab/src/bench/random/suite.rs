@@ -46,7 +46,7 @@ pub struct SuiteTask {
     pub kind: TaskKind,
     /// The task.
     pub task: Task,
-    /// A plan that reaches its goals, and its tools; nothing where there is no such plan.
+    /// A plan that reaches its goals, with its tools; `None` if there is no such plan.
     pub made: Option<(Plan, Vec<Arc<Tool>>)>,
 }
 
