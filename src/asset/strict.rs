@@ -118,6 +118,22 @@ pub(super) fn check(node: &mut Node, value: &Value, ledger: &mut Ledger) {
     }
 }
 
+/// Keys by which other programs tilt things.
+const TILTS: [&str; 12] = [
+    "axis",
+    "euler",
+    "lying",
+    "orientation",
+    "pitch",
+    "pitch_deg",
+    "quat",
+    "quaternion",
+    "roll",
+    "roll_deg",
+    "rotation",
+    "rpy",
+];
+
 /// Checks the keys of a map and the values of the known ones; returns the advice given for
 /// the unknown ones.
 fn check_keys(node: &mut Node, keys: &[Key], ledger: &mut Ledger) -> Vec<String> {
@@ -137,7 +153,8 @@ fn check_keys(node: &mut Node, keys: &[Key], ledger: &mut Ledger) -> Vec<String>
         match keys.iter().find(|known| known.name == name) {
             Some(known) => check(value, &known.value, ledger),
             None => {
-                let advice = did_you_mean(&name, keys.iter().map(|key| key.name));
+                let advice = tilted(&name, keys)
+                    .unwrap_or_else(|| did_you_mean(&name, keys.iter().map(|key| key.name)));
                 ledger.fault(key, format!("unknown key `{name}`"), advice.clone());
                 unknown.push(advice);
             }
@@ -145,6 +162,16 @@ fn check_keys(node: &mut Node, keys: &[Key], ledger: &mut Ledger) -> Vec<String>
         seen.push(name);
     }
     unknown
+}
+
+/// What to say of a key by which something is tilted, where things stand.
+fn tilted(name: &str, keys: &[Key]) -> Option<String> {
+    let stands = keys.iter().any(|key| ["yaw_deg", "radius"].contains(&key.name));
+    (stands && TILTS.contains(&name)).then(|| {
+        "everything stands upright and turns by `yaw_deg` alone: a box that lies has other sizes; a can that lies \
+         would roll, which nothing here models"
+            .to_owned()
+    })
 }
 
 fn check_name(node: &mut Node, ledger: &mut Ledger) {

@@ -33,6 +33,8 @@ pub(super) struct Ends {
     pub middles: Vec<Vector3<f64>>,
     /// Score of the end farthest from the goal.
     pub worst: f64,
+    /// How far the farthest of all lies from their middle, in units of the tolerances.
+    pub radius: f64,
 }
 
 /// What objects may rest on besides what is believed.
@@ -48,6 +50,11 @@ impl Supports {
         };
         let others = Physics::PLAUSIBLE_SUPPORTS.iter().map(with);
         Self(others.filter(|other| other.feet != believed.feet).map(Arc::new).collect())
+    }
+
+    /// How many they are, with the believed one.
+    pub fn count(&self) -> usize {
+        self.0.len() + 1
     }
 
     /// Rolls out evaluated candidates, their pushes as they are, on all supports but the believed.
@@ -79,19 +86,24 @@ impl Supports {
             let all: Vec<Vec<Vector3<f64>>> = finite()
                 .map(|other| apart(task, &misses(task, other.outcome()), &predicted))
                 .collect();
-            let middles = (0..predicted.len()).map(|goal| {
+            let balls = (0..predicted.len()).map(|goal| {
                 let apart: Vec<_> = all.iter().map(|apart| apart[goal]).collect();
-                middle(&apart).cap_magnitude(MOST)
+                ball(&apart)
             });
+            let (middles, radii): (Vec<_>, Vec<f64>) = balls.unzip();
             let worst = others.iter().map(|other| final_score(task, other));
-            Ends { middles: middles.collect(), worst: worst.fold(evaluation.score, f64::max) }
+            Ends {
+                middles: middles.iter().map(|middle| middle.cap_magnitude(MOST)).collect(),
+                worst: worst.fold(evaluation.score, f64::max),
+                radius: radii.into_iter().fold(0.0, f64::max),
+            }
         };
         evaluations.iter().enumerate().map(|(k, evaluation)| of(k, evaluation)).collect()
     }
 }
 
-/// The centre of the smallest ball around the origin and `points`.
-fn middle(points: &[Vector3<f64>]) -> Vector3<f64> {
+/// The centre and the radius of the smallest ball around the origin and `points`.
+fn ball(points: &[Vector3<f64>]) -> (Vector3<f64>, f64) {
     let mut centre = Vector3::zeros();
     for round in 1..=ROUNDS {
         let far = |point: &Vector3<f64>| (point - centre).norm();
@@ -103,7 +115,8 @@ fn middle(points: &[Vector3<f64>]) -> Vector3<f64> {
         }
         centre += (farthest - centre) / (round + 1) as f64;
     }
-    centre
+    let radius = points.iter().map(|point| (point - centre).norm()).fold(centre.norm(), f64::max);
+    (centre, radius)
 }
 
 #[cfg(test)]
@@ -112,11 +125,12 @@ mod tests {
 
     #[test]
     fn the_middle_is_as_near_to_all_as_can_be() {
-        assert_eq!(middle(&[]), Vector3::zeros());
+        assert_eq!(ball(&[]), (Vector3::zeros(), 0.0));
         let (a, b) = (Vector3::new(2.0, 0.0, 0.0), Vector3::new(1.0, 0.2, 0.0));
         // Among these and the origin, the two farthest decide.
-        assert!((middle(&[a, b]) - 0.5 * a).norm() < 0.02);
+        let (middle, radius) = ball(&[a, b]);
+        assert!((middle - 0.5 * a).norm() < 0.02 && (radius - 1.0).abs() < 0.02);
         let corners = [Vector3::new(1.0, 0.0, 0.0), Vector3::new(0.0, 1.0, 0.0)];
-        assert!((middle(&corners) - Vector3::new(0.5, 0.5, 0.0)).norm() < 0.02);
+        assert!((ball(&corners).0 - Vector3::new(0.5, 0.5, 0.0)).norm() < 0.02);
     }
 }

@@ -116,7 +116,7 @@ pub use tool::{JOIN_GAP, Part, Tool, ToolError};
 pub use trajectory::{Body, Contact, Force, Frame, Lift, Record, Spread, TOUCHING, Trajectory};
 pub use truth::Truth;
 pub use unknowns::Unknowns;
-pub use verdict::{Disturbance, Evidence, Reason, Verdict};
+pub use verdict::{Disturbance, Evidence, Reason, Verdict, never_on};
 pub use warning::Warning;
 pub use way::Way;
 pub use whole::Whole;

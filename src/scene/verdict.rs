@@ -141,11 +141,11 @@ impl Verdict {
     }
 
     /// The disturbed replays in an engine, in the order of their draws.
-    pub fn disturbed(&self, engine: Engine) -> impl Iterator<Item = &Evidence> {
+    pub fn disturbed(&self, engine: Engine) -> impl Iterator<Item = &Evidence> + Clone {
         self.of(engine).filter(|evidence| evidence.disturbance != Disturbance::Nominal)
     }
 
-    fn of(&self, engine: Engine) -> impl Iterator<Item = &Evidence> {
+    fn of(&self, engine: Engine) -> impl Iterator<Item = &Evidence> + Clone {
         self.evidence.iter().filter(move |evidence| evidence.engine == engine)
     }
 
@@ -185,21 +185,29 @@ impl Verdict {
         self.never_on().filter(|_| wanted > 0.0).or(fragile)
     }
 
-    /// A support on which no replay reaches the goal, where there are enough of them to rule out chance.
-    /// Lever-ups have none: the planar engine does not replay them, and their supports are not disturbed.
+    /// A support on which no replay reaches the goal. Lever-ups have none: the planar engine does not replay
+    /// them, and their supports are not disturbed.
     fn never_on(&self) -> Option<Reason> {
         self.nominal(Engine::Planar)?;
         [Engine::Spatial, Engine::Planar].into_iter().find_map(|engine| {
-            Physics::PLAUSIBLE_SUPPORTS.iter().find_map(|support| {
-                let on = |evidence: &&Evidence| match evidence.disturbance {
-                    Disturbance::Disturbed { draw } => Physics::doubted(draw - 1) == Some(support),
-                    Disturbance::Nominal => false,
-                };
-                let replays = self.disturbed(engine).filter(on).count();
-                let reached = self.disturbed(engine).filter(on).any(|one| one.outcome.reached);
-                let (support, never) = (support.clone(), replays >= NEVER && !reached);
-                never.then_some(Reason::NeverOn { engine, support, replays })
-            })
+            let (support, replays) = never_on(self.disturbed(engine))?;
+            Some(Reason::NeverOn { engine, support: support.clone(), replays })
         })
     }
+}
+
+/// A support on which none of these disturbed replays in one engine reaches the goal, and how many they
+/// are, where there are enough of them to rule out chance.
+pub fn never_on<'a>(
+    replays: impl Iterator<Item = &'a Evidence> + Clone,
+) -> Option<(&'static Support, usize)> {
+    let on = |support| {
+        replays.clone().filter(move |evidence| match evidence.disturbance {
+            Disturbance::Disturbed { draw } => Physics::doubted(draw - 1) == Some(support),
+            Disturbance::Nominal => false,
+        })
+    };
+    let supports = Physics::PLAUSIBLE_SUPPORTS.iter();
+    let mut counted = supports.map(|support| (support, on(support).count()));
+    counted.find(|(support, count)| *count >= NEVER && !on(support).any(|one| one.outcome.reached))
 }

@@ -5,7 +5,6 @@ use crate::plan::{
 };
 use crate::scene::{Job, Record, Situation, Task};
 
-use super::grade::Class;
 use super::solving::Solving;
 
 /// Kinds of plans of one length that are looked at for what stands in their way.
@@ -114,7 +113,6 @@ impl<'a> Solving<'a> {
                 && search.depth() < pushes + MORE
             {
                 self.attempt(&mut search);
-                self.settle(Class::Edge);
             }
         }
     }

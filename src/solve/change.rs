@@ -2,7 +2,6 @@
 
 use crate::plan::Search;
 
-use super::grade::Class;
 use super::solving::Solving;
 
 impl<'a> Solving<'a> {
@@ -15,7 +14,6 @@ impl<'a> Solving<'a> {
         let Some(mut search) = usual.changing() else { return };
         while self.goes_on(search.depth()) && search.can_deepen() {
             self.attempt(&mut search);
-            self.settle(Class::Edge);
         }
     }
 }

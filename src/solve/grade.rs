@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use crate::plan::NEAR;
-use crate::scene::{Engine, Task, Verdict};
+use crate::scene::{Engine, Evidence, Task, Verdict, Warning};
 
 use super::PlanStatus;
 
@@ -12,6 +12,11 @@ use super::PlanStatus;
 /// replays and in the plane, work in 97.5 %; among those that end in the outer half 55 % do.
 pub(super) const WELL_INSIDE: f64 = 0.5;
 
+/// A plan that reaches the goal in this share of the disturbed replays does so nearly always. Played in
+/// MuJoCo, of 47 plans of random and everyday tasks that do so less often, and pass, 13 fail; of 934 that do so
+/// more often, 26.
+const STEADY: f64 = 0.9;
+
 /// What a verdict is worth, worst first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Class {
@@ -19,7 +24,8 @@ pub(super) enum Class {
     Fails,
     /// Works as written, too seldom under disturbances.
     Fragile,
-    /// Passes, near the edge of the tolerance: one push more may bring it inside.
+    /// Passes, near the edge of the tolerance, or pressing harder than an ordinary arm does: one push more may
+    /// do better.
     Edge,
     /// Passes inside of it.
     Passes,
@@ -55,7 +61,12 @@ impl Grade {
         let spatial = verdict.nominal(Engine::Spatial);
         let score = spatial.map_or(f64::INFINITY, |e| e.outcome.score(task));
         let robustness = verdict.robustness.unwrap_or(1.0);
+        let presses = |evidence: &Evidence| {
+            evidence.warnings.iter().any(|warning| matches!(warning, Warning::HardPush { .. }))
+        };
+        let presses = Engine::ALL.into_iter().filter_map(|one| verdict.nominal(one)).any(presses);
         let class = match (verdict.passed, verdict.works()) {
+            (true, _) if presses => Class::Edge,
             (true, _) if robustness == 1.0 && score <= WELL_INSIDE => Class::Safe,
             (true, _) if score <= WELL_INSIDE => Class::Passes,
             (true, _) => Class::Edge,
@@ -71,6 +82,11 @@ impl Grade {
         let safe = self.class == Class::Safe && other.class == Class::Safe;
         let costs = if safe { costs } else { Ordering::Equal };
         costs.then(other.compare(self))
+    }
+
+    /// Whether it works nearly always, if it works at all.
+    pub fn is_steady(&self) -> bool {
+        self.robustness >= STEADY
     }
 
     /// Whether none has more margin that matters.

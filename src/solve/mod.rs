@@ -17,6 +17,7 @@ mod design;
 mod efforts;
 mod error;
 mod grade;
+mod harden;
 mod levering;
 mod partly;
 mod planner;

@@ -27,7 +27,7 @@ const MOST_ROOM_FOR_MODEL: f64 = 0.02;
 /// Rollouts that a refinement gets, times the objects on the table. A push into a crowd costs up to
 /// a hundred times one of a single object, and its outcome is not smooth enough for late rounds to
 /// gain much; with up to four objects the rounds end first.
-const REFINE_WORK: usize = 20_000;
+pub(super) const REFINE_WORK: usize = 20_000;
 
 /// Sets the samples of the model that decides apart from those of the one that screens.
 const DECIDING: u64 = 1 << 15;
@@ -154,7 +154,6 @@ impl<'a> Solving<'a> {
         let mut clearings = None;
         while self.goes_on(search.depth()) && search.can_deepen() && search.depth() < LONGEST {
             self.attempt(&mut search);
-            self.settle(Class::Edge);
             if let Some(without) = &without {
                 self.clear_the_way(&mut clearings, without, &search);
             }
@@ -180,7 +179,8 @@ impl<'a> Solving<'a> {
         wanted && self.promising != Some(true) && !self.watch.cancelled()
     }
 
-    /// Searches, refines and verifies plans of one push more, until one is safe.
+    /// Searches, refines and verifies plans of one push more, until one is safe; where the best works, but
+    /// not nearly always, hardens them.
     pub(super) fn attempt(&mut self, search: &mut Search) {
         let pushes = search.depth() + 1;
         let began = Instant::now();
@@ -193,6 +193,8 @@ impl<'a> Solving<'a> {
         self.statistics.timing.search += began.elapsed().as_secs_f64();
         self.tell_found(&found);
         self.try_out(&found, pushes);
+        self.settle(Class::Edge);
+        self.harden(&found, pushes);
     }
 
     /// Refines and verifies what was found of this many pushes, until a plan is safe.

@@ -72,6 +72,14 @@ fn misspelled_and_unknown_keys() {
 }
 
 #[test]
+fn what_is_tilted_elsewhere_stands_here() {
+    assert_snapshot!(task(&[("mass: 0.4", "mass: 0.4, pitch_deg: 90")]), @r#"
+    t.yaml:4:79: error: unknown key `pitch_deg`
+      help: everything stands upright and turns by `yaw_deg` alone: a box that lies has other sizes; a can that lies would roll, which nothing here models
+    "#);
+}
+
+#[test]
 fn missing_and_doubled_keys() {
     assert_snapshot!(task(&[("mass: 0.5\n      friction: 0.3", "mass: 0.5\n      mass: 0.6"), (", tolerance: 0.05", "")]), @r#"
     t.yaml:5:7: error: missing key `friction`

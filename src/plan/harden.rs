@@ -1,0 +1,142 @@
+//! Plans that depend little on what objects rest on.
+//!
+//! A search ranks plans by where they end on the believed support, and refinement brings the middle of
+//! their ends to the goal; how far these lie apart neither of them changes on purpose. Where no plan works nearly
+//! always, what was found is looked at again: from what ends least far apart a random search
+//! moves offsets, directions and lengths, keeping what ends nearer to the goal on the support where
+//! it ends farthest from it. Half of the candidates are given up after every few rounds (successive
+//! halving, Jamieson and Talwalkar 2016).
+
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64;
+
+use crate::watch::Watch;
+
+use super::parameters::Parameters;
+use super::supports::{Ends, Supports};
+use super::{Candidate, Evaluation, Found, Rollouts, Workspace, evaluate, kinds};
+
+/// What ends farther from the goal than this many tolerances is not brought there.
+const NEAR: f64 = 5.0;
+
+/// The share of the rollouts that goes to looking at what was found.
+const LOOKING: f64 = 0.25;
+
+/// Changes of each in a round.
+const CHILDREN: usize = 12;
+
+/// Rounds before half of them are given up.
+const ROUNDS: usize = 4;
+
+/// As many are left when the search ends.
+const LEFT: usize = 6;
+
+/// Sizes of changes, in steps of the parameters; their logarithm is drawn evenly.
+const CHANGES: (f64, f64) = (0.2, 8.0);
+
+/// How much to look for what depends little on supports.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HardenSettings {
+    /// Candidates that are moved, each of another kind.
+    pub kinds: usize,
+    /// Stop after the round in which this many rollouts are reached.
+    pub rollouts: usize,
+    /// Seed of the changes.
+    pub seed: u64,
+}
+
+/// A candidate that is moved, with its score on the worst support.
+struct Work {
+    best: Candidate,
+    parameters: Parameters,
+    worst: f64,
+    random: Pcg64,
+}
+
+/// Of what a search found, what was made to end nearest to the goal on whatever its objects rest on, best
+/// first; scores are those on the worst support.
+pub fn harden(
+    workspace: &Workspace,
+    rollouts: &mut Rollouts,
+    found: &[Found],
+    settings: HardenSettings,
+    watch: &dyn Watch,
+) -> Vec<Found> {
+    let (before, start) = (rollouts.used(), rollouts.situation().start.clone());
+    let supports = Supports::around(rollouts.situation());
+    let steady = steadiest(workspace, rollouts, &supports, found, settings.rollouts);
+    let mut work: Vec<Work> = kinds(&steady, settings.kinds)
+        .into_iter()
+        .map(|k| {
+            let random = Pcg64::seed_from_u64(settings.seed.wrapping_add(k as u64));
+            let parameters = Parameters::new(workspace, &start, &steady[k].candidate);
+            // What was found itself has been looked at: any change of it is better.
+            Work { best: steady[k].candidate.clone(), parameters, worst: f64::INFINITY, random }
+        })
+        .collect();
+    while work.len() > LEFT {
+        for _ in 0..ROUNDS {
+            if watch.cancelled() || rollouts.used() - before >= settings.rollouts {
+                break;
+            }
+            round(workspace, rollouts, &supports, &mut work);
+        }
+        work.sort_by(|a, b| a.worst.total_cmp(&b.worst));
+        work.truncate((work.len() / 2).max(LEFT));
+    }
+    work.into_iter().map(|one| Found { candidate: one.best, score: one.worst }).collect()
+}
+
+/// What was found near the goal, in the order of how far apart it ends on all supports, which is its score.
+fn steadiest(
+    workspace: &Workspace,
+    rollouts: &mut Rollouts,
+    supports: &Supports,
+    found: &[Found],
+    most: usize,
+) -> Vec<Found> {
+    let each = found.first().map_or(1, |one| one.candidate.pushes.len()) * supports.count();
+    let most = (LOOKING * most as f64) as usize / each.max(1);
+    let near = found.iter().filter(|one| one.score <= NEAR).take(most);
+    let candidates: Vec<Candidate> = near.map(|one| one.candidate.clone()).collect();
+    let evaluated = evaluate(workspace, rollouts, &candidates);
+    let feasible: Vec<Evaluation> =
+        evaluated.into_iter().flatten().filter(Evaluation::is_feasible).collect();
+    let ends = supports.ends(workspace, rollouts, &feasible.iter().collect::<Vec<_>>());
+    let with =
+        |(one, ends): (Evaluation, Ends)| Found { candidate: one.candidate, score: ends.radius };
+    let mut steady: Vec<Found> = feasible.into_iter().zip(ends).map(with).collect();
+    steady.sort_by(|a, b| a.score.total_cmp(&b.score));
+    steady
+}
+
+/// Changes every candidate in several ways, and keeps what ends nearer on its worst support.
+fn round(workspace: &Workspace, rollouts: &mut Rollouts, supports: &Supports, work: &mut [Work]) {
+    let mut owners = Vec::new();
+    let mut candidates = Vec::new();
+    for (k, one) in work.iter_mut().enumerate() {
+        for _ in 0..CHILDREN {
+            let (low, high) = (CHANGES.0.ln(), CHANGES.1.ln());
+            let size = one.random.random_range(low..high).exp();
+            let count = one.parameters.count();
+            let step = |_| size * one.random.random_range(-1.0..=1.0);
+            let steps: Vec<f64> = (0..count).map(step).collect();
+            owners.push(k);
+            candidates.push(one.parameters.moved(&one.best, &steps).0);
+        }
+    }
+    let results = evaluate(workspace, rollouts, &candidates);
+    let better: Vec<(usize, Evaluation)> = owners
+        .into_iter()
+        .zip(results)
+        .filter_map(|(k, result)| Some((k, result.ok()?)))
+        .filter(|(k, one)| one.is_feasible() && one.score < work[*k].worst)
+        .collect();
+    let ends =
+        supports.ends(workspace, rollouts, &better.iter().map(|(_, one)| one).collect::<Vec<_>>());
+    for ((k, one), ends) in better.into_iter().zip(ends) {
+        if ends.worst < work[k].worst {
+            (work[k].best, work[k].worst) = (one.candidate, ends.worst);
+        }
+    }
+}
