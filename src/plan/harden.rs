@@ -5,7 +5,7 @@
 //! always, what was found is looked at again: from what ends least far apart a random search
 //! moves offsets, directions and lengths, keeping what ends nearer to the goal on the support where
 //! it ends farthest from it. Half of the candidates are given up after every few rounds (successive
-//! halving, Jamieson and Talwalkar 2016).
+//! halving, Jamieson and Talwalkar 2016, arXiv:1502.07943).
 
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
@@ -14,10 +14,7 @@ use crate::watch::Watch;
 
 use super::parameters::Parameters;
 use super::supports::{Ends, Supports};
-use super::{Candidate, Evaluation, Found, Rollouts, Workspace, evaluate, kinds};
-
-/// What ends farther from the goal than this many tolerances is not brought there.
-const NEAR: f64 = 5.0;
+use super::{Candidate, Evaluation, Found, REFINABLE, Rollouts, Workspace, evaluate, kinds};
 
 /// The share of the rollouts that goes to looking at what was found.
 const LOOKING: f64 = 0.25;
@@ -97,7 +94,7 @@ fn steadiest(
 ) -> Vec<Found> {
     let each = found.first().map_or(1, |one| one.candidate.pushes.len()) * supports.count();
     let most = (LOOKING * most as f64) as usize / each.max(1);
-    let near = found.iter().filter(|one| one.score <= NEAR).take(most);
+    let near = found.iter().filter(|one| one.score <= REFINABLE).take(most);
     let candidates: Vec<Candidate> = near.map(|one| one.candidate.clone()).collect();
     let evaluated = evaluate(workspace, rollouts, &candidates);
     let feasible: Vec<Evaluation> =

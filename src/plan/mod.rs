@@ -41,7 +41,7 @@ pub use harden::{HardenSettings, harden};
 pub use infeasible::Infeasible;
 pub use preference::{Cost, NEAR, in_order, preferred};
 pub use qp::{QpProblem, QpSolution, QpSolver, QpStatus};
-pub use refine::{FOUND_RADIUS, RefineSettings, Refined, refine};
+pub use refine::{FOUND_RADIUS, REFINABLE, RefineSettings, Refined, refine};
 pub use rollouts::Rollouts;
 pub use score::{bare, behind, is_behind};
 pub use scored::ScoredPush;

@@ -34,6 +34,9 @@ use super::{
 /// offset by up to half the coarse spacing.
 pub const FOUND_RADIUS: f64 = 2.0;
 
+/// Refinement, which moves ends by centimetres, brings no plan to the goal that misses it by more tolerances.
+pub const REFINABLE: f64 = 5.0;
+
 /// Radii between which the trust region stays, in steps. Below the smallest, changes drown in
 /// the noise of contact.
 const RADII: (f64, f64) = (0.05, 8.0);

@@ -33,7 +33,7 @@ impl Solving<'_> {
 
     /// Replays the best plan, if it is of this class or a better one, with further disturbances until it
     /// is clear how often it works, as `verify` does. Where it works less often than it seemed, another
-    /// may be the best.
+    /// may be the best. As long as fragile plans are not wanted, one that fails on a support is left early.
     pub(super) fn settle(&mut self, least: Class) {
         let began = Instant::now();
         let asked = self.planner.settings().disturbed > 0;
@@ -43,7 +43,12 @@ impl Solving<'_> {
             && self.tried[k].disturbed != Disturbed::Settled
             && !self.watch.cancelled()
         {
-            self.replay(k, &self.verifier.clone().until_clear(), Disturbed::Settled);
+            let verifier = self.verifier.clone().until_clear();
+            let seeking = least > Class::Fragile;
+            let verifier = if seeking { verifier.giving_up() } else { verifier };
+            if self.replay(k, &verifier, Disturbed::Settled) < least {
+                self.tried[k].disturbed = Disturbed::InBoth;
+            }
             self.best = self.best_of_all();
         }
         self.statistics.timing.verification += began.elapsed().as_secs_f64();

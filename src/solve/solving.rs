@@ -5,8 +5,8 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::plan::{
-    Candidate, FOUND_RADIUS, Found, RefineSettings, Refined, Rollouts, ScoredPush, Search,
-    Workspace, alone, bare, in_order, is_behind, refine,
+    Candidate, FOUND_RADIUS, Found, REFINABLE, RefineSettings, Refined, Rollouts, ScoredPush,
+    Search, Workspace, alone, bare, in_order, is_behind, refine,
 };
 use crate::scene::{ArmFault, Goal, Job, Situation, Task, Tool, Verdict};
 use crate::verify::{Verifier, VerifySettings};
@@ -44,9 +44,6 @@ const DISTURBED_AT_ONCE: usize = 3;
 /// most: where so many work and none is safe, the task is a fragile one, and these replays are most
 /// of its cost.
 const DISTURBED_SHARE: f64 = 0.375;
-
-/// Where there are several goals, refinement brings no plan to them that misses one by more tolerances.
-const REFINABLE: f64 = 5.0;
 
 /// Plans of more pushes are not searched for, only made after legs: they cost more with every push.
 const LONGEST: usize = 8;

@@ -7,15 +7,15 @@ use rayon::prelude::*;
 
 use crate::geometry::Pose;
 use crate::scene::{
-    Disturbance, Engine, Evidence, Job, JointTrajectory, LeverScene, Object, Outcome, Plan, Record,
-    Scene, Situation, Task, Tool, ToolMotion, Trajectory, Verdict, Warning,
+    Disturbance, Engine, Evidence, Job, JointTrajectory, LeverScene, Outcome, Plan, Record, Scene,
+    Situation, Task, Tool, ToolMotion, Trajectory, Verdict, Warning, never_on,
 };
 use crate::sim::{LeverSimulator, Simulator};
 use crate::watch::{Unwatched, Watch};
 
 use super::arm::arm_faults;
 use super::clear;
-use super::disturbance::disturbed;
+use super::disturbance::{disturbed, lifted, wary};
 use super::rules::broken_rules;
 use super::space;
 
@@ -26,13 +26,6 @@ const SPATIAL_STEP: f64 = 6e-6;
 
 /// What an ordinary arm keeps up, newtons: those that stand beside people have 50 to 150.
 const ORDINARY_ARM: f64 = 150.0;
-
-/// How well it is known where the table ends, metres: of objects pushed to 1 and 3 mm from there all
-/// fell in MuJoCo, to 5 mm none.
-const EDGE: f64 = 0.004;
-
-/// How well it is known how high a tool is held, metres.
-const HAIR: f64 = 1e-3;
 
 /// How thoroughly to verify.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,6 +46,8 @@ pub struct Verifier<'a> {
     watch: &'a dyn Watch,
     /// Whether replays are added until the answer is clear.
     until_clear: bool,
+    /// Whether none are added to those of a plan that has not worked on one of the supports.
+    giving_up: bool,
     /// Whether disturbed replays are those of the planar engine alone.
     in_plane: bool,
     /// How an arm carries the plan out, if that was made with it.
@@ -65,7 +60,16 @@ impl<'a> Verifier<'a> {
         let [planar, spatial] =
             [Simulator::planar(), Simulator::spatial()].map(Simulator::retreating);
         let watch = &Unwatched;
-        Self { settings, planar, spatial, watch, until_clear: false, in_plane: false, joints: None }
+        Self {
+            settings,
+            planar,
+            spatial,
+            watch,
+            until_clear: false,
+            giving_up: false,
+            in_plane: false,
+            joints: None,
+        }
     }
 
     /// The same, which `watch` can stop. Replays that are not over then say so, and the plan does
@@ -79,6 +83,12 @@ impl<'a> Verifier<'a> {
     /// on average, see `clear`.
     pub fn until_clear(self) -> Self {
         Self { until_clear: true, ..self }
+    }
+
+    /// The same, which makes no more replays where those of an engine on one support, four at least, all
+    /// fail: reason enough to look for another plan, not for a verdict, as one in 64 may still work.
+    pub fn giving_up(self) -> Self {
+        Self { giving_up: true, ..self }
     }
 
     /// The same, whose disturbed replays are those of the planar engine alone: a plan works no more often
@@ -172,15 +182,12 @@ impl<'a> Verifier<'a> {
             evidence.extend(replays);
             return Verdict::judge(forbidden, evidence, task.robustness);
         }
-        let Some(mut motions) = plan.slides(tools) else {
+        let Some(motions) = plan.slides(tools) else {
             return Verdict::judge(forbidden, evidence, task.robustness);
         };
         let scene = wary(task, &situation.scene);
-        for motion in &mut motions {
-            if misses_by_a_hair(&scene, motion) {
-                motion.lift += HAIR;
-            }
-        }
+        let motions: Vec<ToolMotion> =
+            motions.into_iter().map(|motion| lifted(&scene, motion)).collect();
         let (nominal, replays): (Vec<Evidence>, Vec<Evidence>) =
             evidence.into_iter().partition(|one| one.disturbance == Disturbance::Nominal);
         let (mut planar, mut spatial): (Vec<Evidence>, Vec<Evidence>) =
@@ -188,7 +195,8 @@ impl<'a> Verifier<'a> {
         let asked = (task, situation, &scene, &motions[..]);
         // The planar engine comes first. If it says no, there is no need for the slower one.
         self.add_disturbed(&self.planar, asked, &mut planar);
-        let refused = clear::answer(&planar, task.robustness) == Some(false);
+        let refused =
+            never(&planar, task) || clear::answer(&planar, task.robustness) == Some(false);
         if !(refused || self.in_plane) {
             self.add_disturbed(&self.spatial, asked, &mut spatial);
         }
@@ -206,7 +214,10 @@ impl<'a> Verifier<'a> {
         let least = self.settings.disturbed;
         loop {
             let done = own.len();
-            let is_clear = || clear::answer(own, asked.0.robustness).is_some();
+            let is_clear = || {
+                let failed = self.giving_up && never(own, asked.0);
+                failed || clear::answer(own, asked.0.robustness).is_some()
+            };
             let goes_on = self.until_clear && least > 0 && !self.watch.cancelled();
             let wanted = match done < least {
                 true => least,
@@ -299,28 +310,9 @@ impl<'a> Verifier<'a> {
     }
 }
 
-/// The scene as disturbed replays have it: what comes as near to where the table ends as that is known
-/// falls, unless something is to.
-fn wary(task: &Task, scene: &Scene) -> Scene {
-    let mut scene = scene.clone();
-    let falls = task.goals().any(|goal| goal.fall.is_some());
-    if let Some(top) = scene.table_top.as_mut().filter(|_| !falls) {
-        top.size = top.size.map(|extent| (extent - 2.0 * EDGE).max(0.0));
-    }
-    scene
-}
-
-/// Whether a tool that is held a little higher passes over an object that it meets as planned, or meets
-/// one that it passes below.
-fn misses_by_a_hair(scene: &Scene, motion: &ToolMotion) -> bool {
-    let heights = || motion.tool.parts().iter().map(|part| part.shape.height());
-    let meets = |object: &Object, height: f64, more: f64| {
-        let lift = motion.lift + more;
-        object.meets([lift, lift + height])
-    };
-    scene.objects.iter().any(|object| {
-        heights().any(|height| meets(object, height, 0.0) != meets(object, height, HAIR))
-    })
+/// Whether a plan is fragile by a support on which it works in none of these replays.
+fn never(replays: &[Evidence], task: &Task) -> bool {
+    task.robustness > 0.0 && never_on(replays.iter()).is_some()
 }
 
 /// Whether a plan is replayed in space.

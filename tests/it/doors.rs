@@ -224,6 +224,33 @@ fn doors_are_opened_the_way_that_their_limits_leave() {
     assert!(pushes.iter().any(|count| *count > 1), "{pushes:?}");
 }
 
+/// Pushed on, this door would be pressed against its limit.
+#[test]
+fn a_door_is_not_slammed_where_a_lighter_push_does() {
+    let text = "
+scene:
+  objects:
+    - {name: door, shape: {cuboid: {size: [0.284, 0.02, 0.15]}}, mass: 2.275, friction: 0.381,
+       position: [0.589027, 0.096331], yaw_deg: 130.9}
+  joints:
+    - {between: [door, world], kind: revolute, at: [0.682, -0.011], limits_deg: [-39.9, 64.1]}
+  obstacles: [{name: cabinet, size: [0.2, 0.344, 0.15], position: [0.812, 0.131]}]
+robot: {reach: {min: 0.1, max: 0.9}, home: [0.1, 0.0], hand: {radius: 0.05}}
+tools: all
+pushes: {max_count: 3, grip_yaws_deg: [0, 90, -90]}
+goal: {object: door, heading_deg: 195, heading_tolerance_deg: 5}
+";
+    let task = task(text);
+    let solution = solved(&task);
+    assert_eq!(solution.status, PlanStatus::Solved);
+    let verdict = solution.plans[0].verdict.as_ref().expect("replayed");
+    for engine in Engine::ALL {
+        let force = verdict.nominal(engine).and_then(|evidence| evidence.force).expect("a force");
+        assert!(force.lasting < 150.0, "{engine:?}: {force:?}");
+    }
+    works_in_mujoco(&file(&task, &solution));
+}
+
 #[test]
 fn limits_of_turns_leave_something_out() {
     let text = WIDE.replace("[-10, 225]", "[-120, 225]");

@@ -151,7 +151,7 @@ scene:
 robot: {reach: {min: 0.05, max: 0.95}}
 tools: [stick]
 pushes: {length: 0.08, max_count: 2, directions: 8}
-goal: {object: can, position: [0.7675, -0.03], tolerance: 0.015}
+goal: {object: can, position: [0.7675, -0.03], tolerance: 0.01}
 ";
 
 #[test]

@@ -17,8 +17,11 @@ const NEAR = 1e-4;
  * engine foretells. Of `standard` the plans of the last two are the same, and lie down otherwise by prediction.
  */
 const KNOWN = {
-  draft: ['diagonal', 'drawer-or-box', 'everything-hidden', 'narrow-gap', 'taken-place', 'two-places', 'turn-and-push'],
-  standard: ['everything-hidden', 'unknown-slide', 'drive-board', 'flip-plate'],
+  draft: [
+    'around-corner', 'cluster-neighbour', 'diagonal', 'everything-hidden', 'hidden-hinge', 'hinged-train',
+    'taken-place', 'unknown-slide',
+  ],
+  standard: ['drawer-or-box', 'everything-hidden', 'taken-place', 'drive-board', 'flip-plate'],
 };
 
 /** What the command says of a shipped task: its answer, and the plan that it writes. */

@@ -67,9 +67,6 @@ pub fn task(task: Task) {
         ..Settings::FIRST_LOOK
     };
     let planner = Planner::builder(Prior::default()).settings(budgets).build();
-    // Longer plans go on from there by the same code, which takes most of the time.
-    let mut task = task;
-    task.pushes.max_count = task.pushes.max_count.min(1);
     match planner.solve(&task, &library) {
         Ok(solution) => {
             for plan in &solution.plans {

@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use crate::effect::EffectModel;
 use crate::plan::{
-    FOUND_RADIUS, Field, RefineSettings, RefineStatistics, Refined, Rollouts, Search, Spread,
-    Workspace, refine,
+    FOUND_RADIUS, Field, REFINABLE, RefineSettings, RefineStatistics, Refined, Rollouts, Search,
+    Spread, Workspace, refine,
 };
 use crate::scene::{Situation, Task, Tool};
 use crate::watch::Watch;
@@ -32,9 +32,6 @@ const SETTINGS: Settings = Settings {
     disturbed: 0,
     levers: LeverSettings::DRAFT,
 };
-
-/// Plans that miss by more tolerances are not refined: refinement moves ends by centimetres.
-const REFINABLE: f64 = 5.0;
 
 /// What a first look sees of a tool; compared in this order, less being better.
 #[derive(Clone, Copy, Debug, PartialEq)]
