@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use pushplan::effect::Prior;
-use pushplan::scene::Frame;
+use pushplan::outcome::Frame;
 use pushplan::{
     EffectModel, Effort, Job, ModelSpec, Physics, PlanStatus, Planner, Record, Scene, Task,
     ToolLibrary, Trajectory, Trust,

@@ -107,6 +107,8 @@ pub mod judge;
 #[doc(hidden)]
 pub mod network;
 #[doc(hidden)]
+pub mod outcome;
+#[doc(hidden)]
 pub mod plan;
 #[doc(hidden)]
 pub mod recording;
@@ -125,6 +127,8 @@ pub mod solve;
 #[doc(hidden)]
 pub mod store;
 #[doc(hidden)]
+pub mod task;
+#[doc(hidden)]
 pub mod verify;
 #[doc(hidden)]
 pub mod watch;
@@ -137,14 +141,17 @@ pub use effect::{EffectModel, Simulated, Trust};
 pub use error::Error;
 pub use geometry::{ConvexPolygon, PolygonError, Pose, Shape, Vector};
 pub use graph::Graph;
+pub use outcome::{Outcome, Record, Trajectory, Verdict, Warning};
 pub use scene::{
-    Blade, Body, Coverage, Edge, Fall, Gap, Goal, Job, Joint, JointKind, LeverRules, LeverStep,
-    LeverUp, ModelSpec, Models, Motion, Noise, Object, Obstacle, Outcome, Part, Physics, Pivot,
-    Place, Plan, Push, PushForm, PushRules, PushStep, Record, Robot, Scene, Sight, Situation,
-    State, Step, TableFit, Task, Tool, ToolMotion, Trajectory, Truth, Unknowns, Verdict, Warning,
+    Blade, Body, Joint, JointKind, ModelSpec, Models, Object, Obstacle, Part, Physics, Robot,
+    Scene, Sight, Situation, State, TableFit, Tool, Unknowns,
 };
 pub use sim::Simulator;
 pub use solve::{
     Design, DesignSettings, Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError,
+};
+pub use task::{
+    Coverage, Edge, Fall, Gap, Goal, Job, LeverRules, LeverStep, LeverUp, Motion, Noise, Pivot,
+    Place, Plan, Push, PushForm, PushRules, PushStep, Step, Task, ToolMotion, Truth,
 };
 pub use verify::Verifier;

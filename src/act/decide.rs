@@ -4,9 +4,12 @@ use std::sync::Arc;
 
 use crate::belief::Belief;
 use crate::geometry::Vector;
-use crate::scene::{Plan, Push, PushForm, Situation, Task, Tool};
 use crate::solve::{Approach, AskedPush, AskedStart, SolveError, asked_plan};
 use crate::watch::Watch;
+use crate::{
+    scene::{Situation, Tool},
+    task::{Plan, Push, PushForm, Task},
+};
 
 use super::error::ActError;
 use super::judge::{Chance, Reach, Samples, Tooled};

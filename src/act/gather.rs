@@ -3,7 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Vector;
-use crate::scene::{FRAME_TRAVEL, Observation, Scene, Sight, State, Stroke, ToolMotion};
+use crate::{
+    scene::{FRAME_TRAVEL, Scene, Sight, State},
+    task::{Observation, Stroke, ToolMotion},
+};
 
 use super::error::ActError;
 use super::world::{Look, Stop};

@@ -5,8 +5,10 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::effect::EffectModel;
-use crate::scene::{
-    Job, Outcome, Physics, Plan, Record, Situation, Task, Tool, ToolMotion, Trajectory, in_turn,
+use crate::{
+    outcome::{Outcome, Record, Trajectory, in_turn},
+    scene::{Physics, Situation, Tool},
+    task::{Job, Plan, Task, ToolMotion},
 };
 
 /// A miss by more tolerances than this is no worse: one sample in which everything goes wrong must

@@ -6,12 +6,13 @@ use crate::asset::{Faults, ToolLibrary};
 use crate::belief::{Belief, BeliefRegulator, BeliefSettings, generator};
 use crate::effect::{ModelError, Prior};
 use crate::geometry::Pose;
-use crate::scene::{
-    Goal, Job, Observation, Plan, Push, PushForm, Record, Scene, Sight, Situation, State, TableFit,
-    Tool, Trajectory,
-};
 use crate::solve::{Planner, SolveError};
 use crate::watch::Watch;
+use crate::{
+    outcome::{Record, Trajectory},
+    scene::{Scene, Sight, Situation, State, TableFit, Tool},
+    task::{Goal, Job, Observation, Plan, Push, PushForm},
+};
 
 use super::decide::Decision;
 use super::error::ActError;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene::{Noise, Truth};
+use crate::task::{Noise, Truth};
 
 use super::probe::ProbeRule;
 

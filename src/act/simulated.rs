@@ -5,11 +5,12 @@ use std::sync::Arc;
 use crate::asset::{Faults, ToolLibrary};
 use crate::belief::{Belief, BeliefSettings, generator, normal};
 use crate::geometry::Vector;
-use crate::scene::{
-    COAST_FRAME, Job, Physics, Rate, Record, Sight, State, Stroke, Task, ToolMotion, Trajectory,
-    Truth, Warning,
-};
 use crate::sim::{Arm, Simulator};
+use crate::{
+    outcome::{Record, Trajectory, Warning},
+    scene::{Physics, Rate, Sight, State},
+    task::{COAST_FRAME, Job, Stroke, Task, ToolMotion, Truth},
+};
 
 use super::trace::{Step, Trace};
 use super::world::{Look, Stop, World, WorldError, WorldState};

@@ -8,7 +8,11 @@ use serde::{Deserialize, Serialize};
 use crate::asset::{Faults, write_atomic};
 use crate::belief::Numbers;
 use crate::geometry::Pose;
-use crate::scene::{Frame, Plan, State, TableFit, Task, Tool, ToolMotion, Truth};
+use crate::{
+    outcome::Frame,
+    scene::{State, TableFit, Tool},
+    task::{Plan, Task, ToolMotion, Truth},
+};
 
 use super::error::ActError;
 use super::gather::Note;

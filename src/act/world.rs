@@ -3,7 +3,10 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::scene::{Scene, Sight, State, Tool, ToolMotion};
+use crate::{
+    scene::{Scene, Sight, State, Tool},
+    task::ToolMotion,
+};
 
 /// A table on which objects can be pushed and looked at; a robot can implement it.
 pub trait World {

@@ -9,9 +9,9 @@
 use std::sync::Arc;
 
 use crate::geometry::{PlacedHull, Pose3};
-use crate::scene::{
-    Arm, ArmFault, JointTrajectory, Object, Plan, PushForm, PushStep, Scene, State, Stroke, Task,
-    Tool,
+use crate::{
+    scene::{Arm, ArmFault, JointTrajectory, Object, Scene, State, Tool},
+    task::{Plan, PushForm, PushStep, Stroke, Task},
 };
 
 use super::inverse::postures;

@@ -3,7 +3,10 @@
 use std::sync::Arc;
 
 use crate::geometry::{Pose3, Vector3};
-use crate::scene::{Arm, ArmFault, JointTrajectory, Plan, PushForm, PushStep, Scene, State, Tool};
+use crate::{
+    scene::{Arm, ArmFault, JointTrajectory, Scene, State, Tool},
+    task::{Plan, PushForm, PushStep},
+};
 
 use super::kinematics::{dexterity, flange, frames};
 use super::path::DEXTERITY;

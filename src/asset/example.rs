@@ -1,6 +1,6 @@
 //! The tasks shipped with the program, which need no files.
 
-use crate::scene::Task;
+use crate::task::Task;
 
 use super::fault::{Fault, Faults, did_you_mean};
 use super::library::ToolLibrary;

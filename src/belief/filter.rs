@@ -7,9 +7,9 @@ use serde::Serialize;
 use crate::{
     effect::EffectModel,
     scene::{
-        JOINABLE, Job, Joint, NearPair, Noise, Observation, Physics, Scene, Situation, State, Tool,
-        Unknowns, pairs_within,
+        JOINABLE, Joint, NearPair, Physics, Scene, Situation, State, Tool, Unknowns, pairs_within,
     },
+    task::{Job, Noise, Observation},
 };
 
 use super::{

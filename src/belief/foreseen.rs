@@ -9,7 +9,9 @@ use std::sync::Arc;
 use crate::{
     effect::EffectModel,
     geometry::{Pose, Vector},
-    scene::{Job, Physics, Record, State, ToolMotion},
+    outcome::Record,
+    scene::{Physics, State},
+    task::{Job, ToolMotion},
 };
 
 use super::{

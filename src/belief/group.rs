@@ -13,7 +13,8 @@
 
 use crate::{
     effect::EffectModel,
-    scene::{DisjointSets, Observation, Physics},
+    scene::{DisjointSets, Physics},
+    task::Observation,
 };
 
 use super::{

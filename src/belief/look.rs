@@ -7,7 +7,9 @@ use nalgebra::Vector3;
 use crate::{
     effect::EffectModel,
     geometry::wrap_angle,
-    scene::{Job, Observation, Physics, Record, Stroke, ToolMotion},
+    outcome::Record,
+    scene::Physics,
+    task::{Job, Observation, Stroke, ToolMotion},
 };
 
 use super::{

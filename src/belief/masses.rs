@@ -9,7 +9,10 @@
 use rand::Rng;
 use serde::{Deserialize, Serialize};
 
-use crate::scene::{Body, Physics, Span, Trajectory};
+use crate::{
+    outcome::Trajectory,
+    scene::{Body, Physics, Span},
+};
 
 use super::{
     chance::{generator, weighted},

@@ -8,7 +8,8 @@ use thiserror::Error;
 use crate::{
     effect::{EffectModels, ModelError, Network},
     network::{Memory, Regulator, RegulatorWeights, WeightsError},
-    scene::{Job, Scene},
+    scene::Scene,
+    task::Job,
 };
 
 use super::testimony::{Draft, EVIDENCE, Testimony};

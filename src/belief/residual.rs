@@ -9,7 +9,8 @@ use nalgebra::{DMatrix, DVector, Matrix2, Vector3};
 
 use crate::{
     geometry::{Pose, Vector, wrap_angle},
-    scene::{Noise, Observation, Scene, Sight},
+    scene::{Scene, Sight},
+    task::{Noise, Observation},
 };
 
 use super::{fit::turn, pair::JointType, relative::relative};

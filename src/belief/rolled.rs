@@ -1,6 +1,6 @@
 //! A rollout of a window, at its observations.
 
-use crate::scene::{Observation, State, Trajectory};
+use crate::{outcome::Trajectory, scene::State, task::Observation};
 
 /// Where everything is at the observations of a window.
 pub(super) struct Rolled {

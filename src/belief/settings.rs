@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene::Noise;
+use crate::task::Noise;
 
 /// What a belief assumes of what it sees, and how much it trusts the effect model.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

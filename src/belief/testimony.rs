@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene::Noise;
+use crate::task::Noise;
 
 use super::pair::{JointType, PairBelief};
 

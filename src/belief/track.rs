@@ -4,7 +4,8 @@ use nalgebra::{Matrix2, Vector2};
 
 use crate::{
     geometry::{Pose, Vector, contact_points, wrap_angle},
-    scene::{Noise, Observation, Scene, Sight, State},
+    scene::{Scene, Sight, State},
+    task::{Noise, Observation},
 };
 
 use super::{

@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use crate::{
     effect::EffectModel,
-    scene::{Job, Observation, Physics, Record, State, Stroke, ToolMotion, Trajectory},
+    outcome::{Record, Trajectory},
+    scene::{Physics, State},
+    task::{Job, Observation, Stroke, ToolMotion},
 };
 
 use super::{

@@ -3,7 +3,11 @@
 use std::time::Instant;
 
 use crate::effect::EffectModel;
-use crate::scene::{Job, Record, Scene, Trajectory, Warning};
+use crate::{
+    outcome::{Record, Trajectory, Warning},
+    scene::Scene,
+    task::Job,
+};
 
 /// What a model says of an action.
 #[derive(Clone, Debug)]

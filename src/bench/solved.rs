@@ -2,9 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene::{Engine, Outcome, Plan, Situation, Task, Warning};
 use crate::solve::{PlanStatus, Solution};
 use crate::store::Seconds;
+use crate::{
+    outcome::{Outcome, Warning},
+    scene::{Engine, Situation},
+    task::{Plan, Task},
+};
 
 /// The result of solving one task, everything but the times.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

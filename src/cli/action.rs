@@ -7,8 +7,11 @@ use clap::Args;
 
 use crate::asset::ToolLibrary;
 use crate::report::{Origin, TaskSource};
-use crate::scene::{Models, Plan, Situation, Task, Tool};
 use crate::solve::{ActionError, AskedLever, AskedPush, asked_lever, asked_plan};
+use crate::{
+    scene::{Models, Situation, Tool},
+    task::{Plan, Task},
+};
 
 use super::{
     error::CliError, lever_argument::lever_argument, push_argument::push_argument, session::Session,

@@ -9,7 +9,7 @@ use crate::asset::{self, Fault, Faults, Kind, PlanFile, SCHEMA_VERSION, Trajecto
 use crate::export::{
     ExportError, LEVER_SCRIPT, REPLAY_SCRIPT, joint_table, joint_trajectory, mjcf,
 };
-use crate::scene::{ModelSpec, Trajectory};
+use crate::{outcome::Trajectory, scene::ModelSpec};
 
 use super::{error::CliError, exit_code, model, output, session::Session};
 
@@ -166,7 +166,10 @@ fn carried_out(
     session: &Session,
 ) -> Result<Trajectory, CliError> {
     use crate::effect::EffectModel;
-    use crate::scene::{Job, Motion, Record};
+    use crate::{
+        outcome::Record,
+        task::{Job, Motion},
+    };
     let scene = &plan.task.scene;
     let motions = plan.plan.motions(&plan.tools).unwrap_or_default();
     let trajectory =

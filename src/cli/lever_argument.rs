@@ -1,7 +1,7 @@
 //! The argument of `--lever`: one lever-up.
 
-use crate::scene::Pivot;
 use crate::solve::{AskedLever, AskedPlace};
+use crate::task::Pivot;
 
 /// Help shown wherever a lever-up can be given.
 pub const LEVER_FORM: &str = "\

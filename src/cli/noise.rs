@@ -3,7 +3,7 @@
 use clap::Args;
 
 use crate::report::Setting;
-use crate::scene::Noise;
+use crate::task::Noise;
 
 /// Usual errors, metres and radians.
 const USUAL: (f64, f64) = (1e-3, 0.01);

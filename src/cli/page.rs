@@ -5,7 +5,11 @@ use std::path::{Path, PathBuf};
 use crate::asset::PlanFile;
 use crate::effect::EffectModel;
 use crate::report::{PageView, Recipe, verdict_page};
-use crate::scene::{Job, ModelSpec, Record, Trajectory, Verdict};
+use crate::{
+    outcome::{Record, Trajectory, Verdict},
+    scene::ModelSpec,
+    task::Job,
+};
 
 use super::{error::CliError, model, output, session::Session};
 

@@ -12,11 +12,12 @@ use crate::geometry::Pose;
 use crate::report::{
     PageView, PoseRow, TaskSource, prediction_document, prediction_page, trajectory_figures,
 };
-use crate::scene::{
-    Engine, Frame, Job, ModelKind, ModelSpec, Object, Plan, Record, TableFit, Task, Tool,
-    Trajectory, Warning,
-};
 use crate::sim::LeverSimulator;
+use crate::{
+    outcome::{Frame, Record, Trajectory, Warning},
+    scene::{Engine, ModelKind, ModelSpec, Object, TableFit, Tool},
+    task::{Job, Plan, Task},
+};
 
 use super::{
     action::{ActionArgs, LibraryArgs},

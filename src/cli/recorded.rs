@@ -7,7 +7,7 @@ use crate::judge::{
 };
 use crate::recording::Recording;
 use crate::report::{PoseRow, RECORDED, recorded_document, recordings_document};
-use crate::scene::{TableFit, Warning};
+use crate::{outcome::Warning, scene::TableFit};
 
 use super::{
     error::CliError,

@@ -10,9 +10,12 @@ use crate::act::{
 use crate::asset::{ToolLibrary, load_world};
 use crate::effect::{EffectModels, Outside};
 use crate::report::{Recipe, Setting, run_document, run_page, table_fit_section};
-use crate::scene::{Models, Task, Truth};
 use crate::solve::{Effort, Planner};
 use crate::store::FolderLock;
+use crate::{
+    scene::Models,
+    task::{Task, Truth},
+};
 
 use super::{
     error::CliError,

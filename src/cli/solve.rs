@@ -7,8 +7,11 @@ use clap::Args;
 
 use crate::asset::PlanFile;
 use crate::report::{Origin, PageView, plan_figures, solution_document, solution_page};
-use crate::scene::{Models, Situation, Task};
 use crate::solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
+use crate::{
+    scene::{Models, Situation},
+    task::Task,
+};
 
 use super::{
     error::CliError,

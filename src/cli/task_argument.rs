@@ -7,7 +7,7 @@ use clap::builder::PossibleValuesParser;
 
 use crate::asset::{ToolLibrary, load_example, load_task};
 use crate::report::TaskSource;
-use crate::scene::Task;
+use crate::task::Task;
 
 use super::error::CliError;
 

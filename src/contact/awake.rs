@@ -2,7 +2,8 @@
 
 use crate::{
     geometry::Turn,
-    scene::{DisjointSets, FrameStep, State},
+    scene::{DisjointSets, State},
+    task::FrameStep,
 };
 
 use super::{

@@ -2,7 +2,8 @@
 
 use crate::{
     geometry::{Pose, Turn, Vector},
-    scene::{FrameStep, State},
+    scene::State,
+    task::FrameStep,
 };
 
 use super::{

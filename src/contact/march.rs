@@ -5,7 +5,8 @@
 
 use crate::{
     geometry::{Turn, Vector},
-    scene::{FrameStep, State},
+    scene::State,
+    task::FrameStep,
 };
 
 use super::{

@@ -4,7 +4,8 @@ use crate::{
     geometry::{
         ContactPoint, Follows, Placed, Pose, Turn, Vector, contact_points_of, far_apart, wrap_angle,
     },
-    scene::{FrameStep, State},
+    scene::State,
+    task::FrameStep,
 };
 
 use super::{

@@ -7,7 +7,9 @@ use rand_pcg::Pcg64;
 
 use crate::{
     geometry::Vector,
-    scene::{Assumptions, Job, JointBelief, ModelSpec, Physics, Record, Scene, State, Trajectory},
+    outcome::{Record, Trajectory},
+    scene::{Assumptions, JointBelief, ModelSpec, Physics, Scene, State},
+    task::Job,
 };
 
 use super::{EffectModel, Trust};

@@ -18,7 +18,7 @@ mod trivial;
 mod trust;
 mod up_to;
 
-pub use crate::scene::Job;
+pub use crate::task::Job;
 pub use assuming::{Assuming, shifted_start};
 pub use build::{EffectModels, ModelError};
 pub use lever::{

@@ -2,7 +2,11 @@
 
 use std::sync::Arc;
 
-use crate::scene::{Job, ModelSpec, Record, Scene, Trajectory, in_turn};
+use crate::{
+    outcome::{Record, Trajectory, in_turn},
+    scene::{ModelSpec, Scene},
+    task::Job,
+};
 
 use super::Trust;
 

@@ -7,11 +7,10 @@ use rayon::prelude::*;
 use crate::{
     graph::{Batch, Correction},
     network::{Buffers, Forward, Head, PredictorWeights},
+    outcome::{Record, Trajectory, Warning},
     rollout::{PairMeans, RollSettings, Roller, reachable},
-    scene::{
-        CORRECTED, Job, ModelKind, ModelSpec, OTHER_OBJECTS, Record, Scene, Stride, TableFit,
-        Trajectory, Warning,
-    },
+    scene::{CORRECTED, ModelKind, ModelSpec, OTHER_OBJECTS, Scene, Stride, TableFit},
+    task::Job,
 };
 
 use super::{EffectModel, ModelError, Quantiles, Trust, measured::measured, trust::outside};

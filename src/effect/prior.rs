@@ -3,8 +3,10 @@
 use rayon::prelude::*;
 
 use crate::{
+    outcome::{Record, Trajectory},
     rollout::{RollSettings, Roller, reachable},
-    scene::{Job, ModelKind, ModelSpec, Record, Scene, Stride, Trajectory},
+    scene::{ModelKind, ModelSpec, Scene, Stride},
+    task::Job,
 };
 
 use super::{EffectModel, PRIOR_RANGES, Trust, measured::measured, trust::outside};

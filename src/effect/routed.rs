@@ -6,9 +6,13 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene::{Job, ModelSpec, Record, Scene, State, Trajectory, Warning};
 use crate::sim::Simulator;
 use crate::watch::Unwatched;
+use crate::{
+    outcome::{Record, Trajectory, Warning},
+    scene::{ModelSpec, Scene, State},
+    task::Job,
+};
 
 use super::{EffectModel, Quantiles, Simulated, Trust};
 

@@ -12,8 +12,10 @@
 use crate::{
     graph::{Batch, Correction, Node, UNIT},
     network::{Buffers, HEAD_OUTPUTS, Head},
+    outcome::{Frame, Record, Trajectory},
     rollout::{RollSettings, Roller},
-    scene::{COAST_FRAME, Frame, Job, Record, Scene, State, Stroke, Trajectory, Velocity},
+    scene::{Scene, State, Velocity},
+    task::{COAST_FRAME, Job, Stroke},
 };
 
 use super::{EffectModel, Network, network::without_guesses};

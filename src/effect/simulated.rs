@@ -3,8 +3,12 @@
 use rayon::prelude::*;
 
 use crate::rollout::reachable;
-use crate::scene::{Job, ModelSpec, Record, Scene, Trajectory};
 use crate::sim::Simulator;
+use crate::{
+    outcome::{Record, Trajectory},
+    scene::{ModelSpec, Scene},
+    task::Job,
+};
 
 use super::{EffectModel, Trust, measured::measured};
 
@@ -49,7 +53,10 @@ mod tests {
     use std::sync::Arc;
 
     use crate::geometry::{Pose, Vector};
-    use crate::scene::{Object, Part, Push, Tool, ToolMotion};
+    use crate::{
+        scene::{Object, Part, Tool},
+        task::{Push, ToolMotion},
+    };
 
     use super::*;
 

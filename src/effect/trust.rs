@@ -1,7 +1,11 @@
 //! How far a model is to be trusted with a job.
 
 use crate::rollout::reachable;
-use crate::scene::{Job, Ranges, Scene, Warning};
+use crate::{
+    outcome::Warning,
+    scene::{Ranges, Scene},
+    task::Job,
+};
 
 use super::Quantiles;
 

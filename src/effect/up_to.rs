@@ -1,7 +1,11 @@
 //! A model that takes no job in which many objects come into play.
 
 use crate::rollout::reachable;
-use crate::scene::{Job, ModelSpec, Record, Scene, Trajectory};
+use crate::{
+    outcome::{Record, Trajectory},
+    scene::{ModelSpec, Scene},
+    task::Job,
+};
 
 use super::{EffectModel, Trust};
 

@@ -9,7 +9,11 @@ use serde_json::{Value as Json, json};
 
 use crate::asset::PlanFile;
 use crate::geometry::{ConvexPolygon, Pose, Shape, centroid};
-use crate::scene::{Blade, Frame, Outcome, Slab, Step, Trajectory};
+use crate::{
+    outcome::{Frame, Outcome, Trajectory},
+    scene::{Blade, Slab},
+    task::Step,
+};
 
 use super::ExportError;
 use super::foxglove::{

@@ -17,8 +17,9 @@
 
 use crate::asset::PlanFile;
 use crate::geometry::{Pose, Shape};
-use crate::scene::{
-    Arm, Feet, GRAVITY, JointTrajectory, Object, Robot, Scene, TableTop, Tool, ToolMotion,
+use crate::{
+    scene::{Arm, Feet, GRAVITY, JointTrajectory, Object, Robot, Scene, TableTop, Tool},
+    task::ToolMotion,
 };
 
 use super::ExportError;

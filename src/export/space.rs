@@ -9,9 +9,10 @@ use std::sync::Arc;
 
 use crate::asset::PlanFile;
 use crate::geometry::{Footprint, Pose, Pose3, Shape, Vector, Vector3};
-use crate::scene::{
-    Blade, GRAVITY, Goal, LEVER_FRAMES, LeverJob, LeverMotion, LeverScene, Motion, Part, Plate,
-    Slab, Tool,
+use crate::{
+    outcome::LEVER_FRAMES,
+    scene::{Blade, GRAVITY, LeverScene, Part, Plate, Slab, Tool},
+    task::{Goal, LeverJob, LeverMotion, Motion},
 };
 
 use super::error::ExportError;

@@ -1,6 +1,9 @@
 //! What a tool does, as numbers that a script reads.
 
-use crate::scene::{COAST_FRAME, MAX_COAST_FRAMES, Object, REST_SPEED, Scene, ToolMotion};
+use crate::{
+    scene::{Object, REST_SPEED, Scene},
+    task::{COAST_FRAME, MAX_COAST_FRAMES, ToolMotion},
+};
 
 use super::xml::{Xml, numbers};
 

@@ -1,7 +1,10 @@
 //! The tools of a scene: bodies that are where they are told to be.
 
 use crate::geometry::{Footprint, Pose, Shape};
-use crate::scene::{Carried, SHOWN_HAND, Tool, ToolMotion};
+use crate::{
+    scene::{Carried, SHOWN_HAND, Tool},
+    task::ToolMotion,
+};
 
 use super::mjcf::solid;
 use super::seamless::seamless;

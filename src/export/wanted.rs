@@ -2,7 +2,10 @@
 
 use crate::asset::PlanFile;
 use crate::geometry::Pose;
-use crate::scene::{Body, Engine, Gap, Scene};
+use crate::{
+    scene::{Body, Engine, Scene},
+    task::Gap,
+};
 
 use super::mjcf::object_name;
 use super::strokes::numeric;

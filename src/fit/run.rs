@@ -7,8 +7,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::effect::EffectModel;
 use crate::judge::{Comparison, Trial, mean, percentile};
-use crate::scene::{Job, ModelSpec, Record, Span, Support, Surface};
 use crate::watch::{Count, Watch};
+use crate::{
+    outcome::Record,
+    scene::{ModelSpec, Span, Support, Surface},
+    task::Job,
+};
 
 use super::grid::{Axis, Grid};
 use super::likelihood::{NoiseLaw, Residual, Widths};
@@ -239,7 +243,7 @@ pub(super) fn moving(model: &dyn EffectModel, trial: &Trial) -> Vec<bool> {
     let motions = trial.motions().into_iter().enumerate();
     motions
         .map(|(k, motion)| {
-            let moved = |end: &crate::scene::Frame| {
+            let moved = |end: &crate::outcome::Frame| {
                 (end.state.poses[k].position - start.poses[k].position).norm()
             };
             motion > STILL || ends.is_some_and(|end| moved(end) > STILL)

@@ -9,7 +9,7 @@
 use crate::{
     contact::FrameSolution,
     geometry::{Footprint, Pose, Vector, perpendicular},
-    scene::FrameStep,
+    task::FrameStep,
 };
 
 /// A tool or an obstacle in a frame.

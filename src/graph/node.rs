@@ -3,7 +3,8 @@
 use crate::{
     contact::{ListIndex, Motion},
     geometry::Vector,
-    scene::{FRAME_TRAVEL, Spread},
+    outcome::Spread,
+    scene::FRAME_TRAVEL,
 };
 
 /// Unit of displacements and gaps, metres: one frame of tool travel.

@@ -9,7 +9,11 @@ use serde::Serialize;
 
 use crate::contact::{Bodies, FrameProblem, FrameSolver, Partner};
 use crate::geometry::{Footprint, Pose, Vector, clearance};
-use crate::scene::{COAST_FRAME, Frame, FrameStep, Job, JointKind, Scene, ToolMotion, Trajectory};
+use crate::{
+    outcome::{Frame, Trajectory},
+    scene::{JointKind, Scene},
+    task::{COAST_FRAME, FrameStep, Job, ToolMotion},
+};
 
 /// A graph at one moment of a motion.
 #[derive(Clone, Debug, PartialEq, Serialize)]

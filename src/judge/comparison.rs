@@ -3,7 +3,8 @@
 use crate::{
     effect::EffectModel,
     geometry::Pose,
-    scene::{Record, State, Trajectory, Warning},
+    outcome::{Record, Trajectory, Warning},
+    scene::State,
 };
 
 use super::{

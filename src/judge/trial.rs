@@ -3,7 +3,9 @@
 use crate::recording::Recording;
 use crate::{
     geometry::Pose,
-    scene::{Frame, Job, Scene, State, ToolMotion, Trajectory, Velocity},
+    outcome::{Frame, Trajectory},
+    scene::{Scene, State, Velocity},
+    task::{Job, ToolMotion},
 };
 
 /// A scene, a tool motion, and what really happened.

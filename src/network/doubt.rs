@@ -8,7 +8,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene::Spread;
+use crate::outcome::Spread;
 
 use super::weights::WeightsError;
 

@@ -7,7 +7,11 @@
 use std::sync::Arc;
 
 use crate::geometry::{Footprint, Pose, contact_points};
-use crate::scene::{Goal, Object, Situation, State, Task, ToolMotion, Trajectory};
+use crate::{
+    outcome::Trajectory,
+    scene::{Object, Situation, State},
+    task::{Goal, Task, ToolMotion},
+};
 
 use super::Workspace;
 

@@ -5,7 +5,10 @@ use std::collections::HashSet;
 
 use rayon::prelude::*;
 
-use crate::scene::{Offsets, Push, Surface, Task, pair_friction};
+use crate::{
+    scene::{Surface, pair_friction},
+    task::{Offsets, Push, Task},
+};
 
 use super::field::Field;
 use super::scored::Scores;

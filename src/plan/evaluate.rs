@@ -4,8 +4,10 @@
 use std::sync::Arc;
 
 use crate::effect::Job;
-use crate::scene::{
-    Plan, Push, PushRules, PushStep, Record, Spread, State, Step, Tool, ToolMotion,
+use crate::{
+    outcome::{Record, Spread},
+    scene::{State, Tool},
+    task::{Plan, Push, PushRules, PushStep, Step, ToolMotion},
 };
 
 use super::rollouts::single_push;

@@ -9,7 +9,10 @@ use std::collections::BinaryHeap;
 use std::sync::Arc;
 
 use crate::geometry::{Footprint, Pose, Vector, clearance, swept_clearance};
-use crate::scene::{Goal, Obstacle, State, Task};
+use crate::{
+    scene::{Obstacle, State},
+    task::{Goal, Task},
+};
 
 use super::Corridor;
 

@@ -2,7 +2,10 @@
 
 use nalgebra::Vector3;
 
-use crate::scene::{Goal, State, Task};
+use crate::{
+    scene::State,
+    task::{Goal, Task},
+};
 
 /// Where every goal's object is relative to its goal: x, y and the heading; zero where none is asked
 /// for.

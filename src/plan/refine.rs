@@ -17,8 +17,8 @@
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use crate::scene::{Situation, Task};
 use crate::watch::Watch;
+use crate::{scene::Situation, task::Task};
 
 use super::linear::slopes;
 use super::misses::{apart, asked, beside, farthest, largest, misses};

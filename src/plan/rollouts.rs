@@ -3,7 +3,11 @@
 use std::sync::Arc;
 
 use crate::effect::{EffectModel, Job};
-use crate::scene::{Push, Record, Situation, State, Stroke, Tool, ToolMotion, Trajectory, in_turn};
+use crate::{
+    outcome::{Record, Trajectory, in_turn},
+    scene::{Situation, State, Tool},
+    task::{Push, Stroke, ToolMotion},
+};
 
 /// An effect model in one situation, with a count of the rollouts made.
 pub struct Rollouts<'a> {

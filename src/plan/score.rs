@@ -1,7 +1,11 @@
 //! How good a rollout is: the error in units of the tolerance, and which ones come after all
 //! others.
 
-use crate::scene::{State, Task, Trajectory, Warning};
+use crate::{
+    outcome::{Trajectory, Warning},
+    scene::State,
+    task::Task,
+};
 
 /// Added to the score of a rollout that leads through something that a rigid body cannot pass. More
 /// than any error in units of a tolerance, so such a candidate is tried only when there is no

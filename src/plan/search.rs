@@ -10,8 +10,12 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::geometry::Vector;
-use crate::scene::{Job, Push, PushForm, Record, Situation, State, ToolMotion, Trajectory};
 use crate::watch::Watch;
+use crate::{
+    outcome::{Record, Trajectory},
+    scene::{Situation, State},
+    task::{Job, Push, PushForm, ToolMotion},
+};
 
 use super::beam::{Stop, choose};
 use super::enumerate::{Extension, Grips, extensions, keep_promising};

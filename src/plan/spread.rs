@@ -11,7 +11,11 @@ use rand_pcg::Pcg64;
 
 use crate::effect::Job;
 use crate::geometry::{Pose, Vector, wrap_angle};
-use crate::scene::{Physics, Record, Scene, Situation, State, Tool, ToolMotion};
+use crate::{
+    outcome::Record,
+    scene::{Physics, Scene, Situation, State, Tool},
+    task::ToolMotion,
+};
 
 use super::score::final_score;
 use super::{Evaluation, Rollouts, Workspace};

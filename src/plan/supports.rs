@@ -10,7 +10,11 @@ use std::sync::Arc;
 use nalgebra::Vector3;
 
 use crate::effect::Job;
-use crate::scene::{Physics, Record, Situation, ToolMotion};
+use crate::{
+    outcome::Record,
+    scene::{Physics, Situation},
+    task::ToolMotion,
+};
 
 use super::misses::{apart, misses};
 use super::score::final_score;

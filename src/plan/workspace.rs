@@ -6,7 +6,10 @@ use std::sync::Arc;
 use crate::geometry::{
     Footprint, Pose, Vector, clearance, perpendicular, swept_clearance, travel_to_contact,
 };
-use crate::scene::{Fixed, Mover, Part, Push, PushForm, State, Task, Tool};
+use crate::{
+    scene::{Fixed, Mover, Part, State, Tool},
+    task::{Push, PushForm, Task},
+};
 
 use super::{CandidatePush, Infeasible, Start};
 

@@ -1,6 +1,6 @@
 //! A recording as observations, one after another.
 
-use crate::scene::{Observation, Sight};
+use crate::{scene::Sight, task::Observation};
 
 use super::{
     observed::Recording,

@@ -3,7 +3,11 @@
 use std::sync::Arc;
 
 use crate::geometry::{Pose, wrap_angle};
-use crate::scene::{COAST_FRAME, Frame, Scene, State, Tool, ToolMotion, Velocity};
+use crate::{
+    outcome::Frame,
+    scene::{Scene, State, Tool, Velocity},
+    task::{COAST_FRAME, ToolMotion},
+};
 
 /// What happened on a table.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,7 +3,10 @@
 use std::sync::Arc;
 
 use crate::geometry::Pose;
-use crate::scene::{COAST_FRAME, FRAME_TRAVEL, Stroke, ToolMotion};
+use crate::{
+    scene::FRAME_TRAVEL,
+    task::{COAST_FRAME, Stroke, ToolMotion},
+};
 
 use super::observed::Recording;
 

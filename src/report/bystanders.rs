@@ -3,7 +3,10 @@
 use serde_json::{Value as Json, json};
 
 use crate::geometry::wrap_angle;
-use crate::scene::{Outcome, Task, Verdict, Warning};
+use crate::{
+    outcome::{Outcome, Verdict, Warning},
+    task::Task,
+};
 
 use super::number::{degrees, millimetres};
 

@@ -3,8 +3,11 @@
 use serde_json::json;
 
 use crate::geometry::Vector;
-use crate::scene::{Part, Task, Tool, ToolChoice};
 use crate::solve::{Design, PlanStatus};
+use crate::{
+    scene::{Part, Tool},
+    task::{Task, ToolChoice},
+};
 
 use super::document::{Document, Section};
 use super::number::{degrees, millimetres};

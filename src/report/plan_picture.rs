@@ -2,8 +2,12 @@
 
 use std::sync::Arc;
 
-use crate::scene::{Engine, Plan, Task, Tool, ToolMotion, Trajectory, Verdict};
 use crate::solve::RankedPlan;
+use crate::{
+    outcome::{Trajectory, Verdict},
+    scene::{Engine, Tool},
+    task::{Plan, Task, ToolMotion},
+};
 
 use super::document::Figure;
 use super::number::millimetres;

@@ -1,7 +1,11 @@
 //! A plan and where it ends, in words and tables for the terminal.
 
 use crate::geometry::{Footprint, Vector, wrap_angle};
-use crate::scene::{Engine, Goal, LeverUp, Lying, Outcome, Plan, Span, Step, Task, Warning};
+use crate::{
+    outcome::{Lying, Outcome, Warning},
+    scene::{Engine, Span},
+    task::{Goal, LeverUp, Plan, Step, Task},
+};
 
 use super::{
     document::Section,
@@ -305,7 +309,7 @@ fn whole_degrees(radians: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Push, PushForm};
+    use crate::task::{Push, PushForm};
 
     #[test]
     fn a_plan_reads_as_a_table() {

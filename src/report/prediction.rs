@@ -3,7 +3,11 @@
 use serde_json::{Value as Json, json};
 
 use crate::bench::TimedEffect;
-use crate::scene::{Outcome, Plan, State, Task};
+use crate::{
+    outcome::Outcome,
+    scene::State,
+    task::{Plan, Task},
+};
 
 use super::document::{Document, Section};
 use super::number::{degrees, millimetres, seconds};

@@ -5,7 +5,11 @@ use serde_json::json;
 use crate::act::{End, Step, Trace, Why};
 use crate::belief::JointType;
 use crate::geometry::Pose;
-use crate::scene::{Frame, ModelKind, Physics, Scene, State, ToolMotion, Trajectory};
+use crate::{
+    outcome::{Frame, Trajectory},
+    scene::{ModelKind, Physics, Scene, State},
+    task::ToolMotion,
+};
 
 use super::chart::{Axis, Chart, Mark, Series};
 use super::document::{Document, Figure, Section};

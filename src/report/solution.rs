@@ -2,8 +2,11 @@
 
 use serde_json::{Value as Json, json};
 
-use crate::scene::{CORRECTED, Goal, ModelKind, ModelPart, ModelSpec, Task};
 use crate::solve::{PlanStatus, Solution};
+use crate::{
+    scene::{CORRECTED, ModelKind, ModelPart, ModelSpec},
+    task::{Goal, Task},
+};
 
 use super::bystanders::{self, bystanders};
 use super::document::{Document, Section};

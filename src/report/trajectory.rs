@@ -1,7 +1,7 @@
 //! Pictures of one trajectory of an action or a plan.
 
 use crate::asset::TrajectoryFile;
-use crate::scene::{ModelKind, Trajectory};
+use crate::{outcome::Trajectory, scene::ModelKind};
 
 use super::document::Figure;
 use super::number::millimetres;

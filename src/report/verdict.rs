@@ -3,7 +3,11 @@
 use serde_json::json;
 
 use crate::asset::PlanFile;
-use crate::scene::{Engine, Evidence, Force, Outcome, Reason, Support, Task, Verdict, Warning};
+use crate::{
+    outcome::{Evidence, Force, Outcome, Reason, Verdict, Warning},
+    scene::{Engine, Support},
+    task::Task,
+};
 
 use super::bystanders::{self, bystanders};
 use super::document::{Document, Section};
@@ -182,7 +186,7 @@ pub(super) fn nominal(verdict: &Verdict) -> impl Iterator<Item = &Evidence> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Disturbance, State};
+    use crate::{outcome::Disturbance, scene::State};
 
     #[test]
     fn a_warning_of_both_engines_is_said_once() {

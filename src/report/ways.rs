@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
-use crate::scene::{Plan, PushStep, Task, Tool, Way};
+use crate::{
+    scene::Tool,
+    task::{Plan, PushStep, Task, Way},
+};
 
 use super::plan_text::point;
 

@@ -2,7 +2,8 @@
 
 use crate::{
     contact::{Bodies, Motion, hold},
-    scene::{FrameStep, State, Velocity},
+    scene::{State, Velocity},
+    task::FrameStep,
 };
 
 /// A body whose remaining free slide is shorter than this is at rest, metres: far below what

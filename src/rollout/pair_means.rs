@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use crate::{
     contact::Pairs,
     graph::Batch,
-    scene::{Body, Job, Scene},
+    scene::{Body, Scene},
+    task::Job,
 };
 
 /// Rows of numbers of relations between objects, averaged over the frames of one rollout.

@@ -9,7 +9,8 @@
 use crate::{
     contact::{Bodies, ListIndex, MARGIN, SceneIndex, Subset},
     geometry::{Footprint, Pose, Vector, perpendicular},
-    scene::{Job, Scene, State, Stroke, Velocity},
+    scene::{Scene, State, Velocity},
+    task::{Job, Stroke},
 };
 
 /// How far an object may move before the list is made again, metres. A push of 20 cm then makes

@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use crate::{
     contact::{Bodies, Tally},
-    scene::{Job, ModelSpec, Record, Scene, Trajectory},
+    outcome::{Record, Trajectory},
+    scene::{ModelSpec, Scene},
+    task::Job,
 };
 
 use super::{

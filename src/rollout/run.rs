@@ -3,10 +3,9 @@
 use crate::{
     contact::{Bodies, FrameProblem, Motion, Movable, Touch},
     geometry::{Pose, Vector},
-    scene::{
-        Body, COAST_FRAME, Contact, Frame, FrameStep, Job, MAX_COAST_FRAMES, ModelSpec, REST_SPEED,
-        Record, Region, Scene, Spread, State, Stroke, Trajectory, Velocity, Warning,
-    },
+    outcome::{Contact, Frame, Record, Spread, Trajectory, Warning},
+    scene::{Body, ModelSpec, REST_SPEED, Region, Scene, State, Velocity},
+    task::{COAST_FRAME, FrameStep, Job, MAX_COAST_FRAMES, Stroke},
 };
 
 use super::{

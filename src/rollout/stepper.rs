@@ -3,7 +3,7 @@
 use crate::{
     contact::{Frame, FrameProblem, FrameSolver, ListIndex, Motion, Tally, Touch},
     graph::{Batch, Correction},
-    scene::Spread,
+    outcome::Spread,
 };
 
 /// Corrects the prior of every node of a batch: fills the vector with one entry per node.

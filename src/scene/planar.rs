@@ -3,7 +3,7 @@
 //! Records of data sets are not self-describing: a field more in each of millions of frames would make
 //! every data set that exists unreadable. They hold scenes in the plane alone, so nothing is lost.
 
-pub(super) mod planar_only {
+pub(crate) mod planar_only {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
     pub fn serialize<T: Serialize, S: Serializer>(

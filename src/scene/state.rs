@@ -6,6 +6,10 @@ use crate::geometry::{Pose, Pose3, Vector};
 
 use super::planar::planar_only;
 
+/// Below this speed (of the centre, m/s, or of the rim, m/s) a body counts as resting. A body
+/// this slow slides v^2/(2 mu g) < 1 um further on any table that is allowed.
+pub const REST_SPEED: f64 = 1e-3;
+
 /// A planar velocity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Velocity {

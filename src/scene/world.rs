@@ -53,7 +53,7 @@ pub struct Object {
     pub whole: Option<Whole>,
 }
 
-pub(super) fn is_zero(value: &f64) -> bool {
+pub(crate) fn is_zero(value: &f64) -> bool {
     *value == 0.0
 }
 

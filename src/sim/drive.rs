@@ -5,9 +5,10 @@
 //! says, so that rounding does not add up either.
 
 use crate::geometry::Pose;
-use crate::scene::{
-    Body, COAST_FRAME, Contact, Frame, FrameStep, Job, MAX_COAST_FRAMES, ModelSpec, Physics,
-    Record, Scene, State, ToolMotion, Trajectory, Warning,
+use crate::{
+    outcome::{Contact, Frame, Record, Trajectory, Warning},
+    scene::{Body, ModelSpec, Physics, Scene, State},
+    task::{COAST_FRAME, FrameStep, Job, MAX_COAST_FRAMES, ToolMotion},
 };
 
 use crate::watch::Watch;

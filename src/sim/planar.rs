@@ -15,7 +15,10 @@ use rapier2d::prelude::{
 };
 
 use crate::geometry::{Pose, Vector, perpendicular, wrap_angle};
-use crate::scene::{Body, FrameStep, Physics, Scene, State, ToolMotion, Velocity};
+use crate::{
+    scene::{Body, Physics, Scene, State, Velocity},
+    task::{FrameStep, ToolMotion},
+};
 
 use super::asleep::Asleep;
 use super::drive::World;

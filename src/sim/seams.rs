@@ -11,7 +11,10 @@ use rapier2d::prelude as planar;
 use rapier3d_f64::prelude as spatial;
 
 use crate::geometry::{Rim, Vector};
-use crate::scene::{Body, Physics, Scene, Surface, ToolMotion};
+use crate::{
+    scene::{Body, Physics, Scene, Surface},
+    task::ToolMotion,
+};
 
 /// Normals that rise more steeply than this (sine) are those of top or underside.
 const STEEP: f64 = 0.5;

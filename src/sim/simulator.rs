@@ -1,11 +1,12 @@
 //! An engine with its step, playing tool motions.
 
 use crate::geometry::Pose;
-use crate::scene::{
-    Engine, Job, LeverScene, ModelKind, ModelSpec, Motion, Rate, Record, Scene, Trajectory,
-    Warning, in_turn,
-};
 use crate::watch::{Unwatched, Watch};
+use crate::{
+    outcome::{Record, Trajectory, Warning, in_turn},
+    scene::{Engine, LeverScene, ModelKind, ModelSpec, Rate, Scene},
+    task::{Job, Motion},
+};
 
 use super::drive::{Arm, drive};
 use super::lever::LeverSimulator;
@@ -43,7 +44,7 @@ impl Simulator {
         Self { engine, rate, retreats: false }
     }
 
-    /// The same, in which a tool goes [back](crate::scene::ToolMotion::retreat) before it is lifted.
+    /// The same, in which a tool goes [back](crate::task::ToolMotion::retreat) before it is lifted.
     pub const fn retreating(self) -> Self {
         Self { retreats: true, ..self }
     }

@@ -13,7 +13,10 @@ use rapier3d_f64::prelude::{
 };
 
 use crate::geometry::{Pose, Vector, wrap_angle};
-use crate::scene::{Body, Feet, FrameStep, GRAVITY, Physics, Scene, State, ToolMotion, Velocity};
+use crate::{
+    scene::{Body, Feet, GRAVITY, Physics, Scene, State, Velocity},
+    task::{FrameStep, ToolMotion},
+};
 
 use super::asleep::Asleep;
 use super::drive::World;

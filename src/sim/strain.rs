@@ -12,7 +12,10 @@
 //! thinner: what is inside two obstacles that face each other is jammed, however little.
 
 use crate::geometry::Vector;
-use crate::scene::{Body, Force, Scene, Warning};
+use crate::{
+    outcome::{Force, Warning},
+    scene::{Body, Scene},
+};
 
 use super::drive::World;
 

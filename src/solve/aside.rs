@@ -3,7 +3,11 @@
 use crate::plan::{
     Corridor, Evaluation, Rollouts, Search, SearchSettings, Workspace, evaluate, is_behind, kinds,
 };
-use crate::scene::{Job, Record, Situation, Task};
+use crate::{
+    outcome::Record,
+    scene::Situation,
+    task::{Job, Task},
+};
 
 use super::solving::Solving;
 

@@ -9,8 +9,12 @@ use thiserror::Error;
 
 use crate::geometry::Vector;
 use crate::plan::{CandidatePush, Infeasible, Start, Workspace};
-use crate::scene::{Job, Plan, Push, PushForm, Record, Situation, State, Task, Tool};
 use crate::sim::Simulator;
+use crate::{
+    outcome::Record,
+    scene::{Situation, State, Tool},
+    task::{Job, Plan, Push, PushForm, Task},
+};
 
 /// How far from the end of the last push the stated start of a chained one may be, metres.
 const SAME_PLACE: f64 = 1e-6;

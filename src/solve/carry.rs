@@ -7,8 +7,11 @@ use crate::plan::{
     Carrying, FollowSettings, Followed, Found, Leg, RefineSettings, Search, Things, evaluate,
     follow,
 };
-use crate::scene::{Plan, Situation, Task, Tool};
 use crate::watch::{Instant, Until, Watch};
+use crate::{
+    scene::{Situation, Tool},
+    task::{Plan, Task},
+};
 
 use super::check::check;
 use super::grade::Class;

@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
-use crate::scene::{Body, Gap, JointKind, Offsets, Situation, Surface, Task, Tool};
+use crate::{
+    scene::{Body, JointKind, Situation, Surface, Tool},
+    task::{Gap, Offsets, Task},
+};
 
 use super::SolveError;
 

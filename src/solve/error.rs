@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use crate::asset::Faults;
 use crate::effect::ModelError;
-use crate::scene::Warning;
+use crate::outcome::Warning;
 
 /// Why a task cannot even be tried. Not finding a plan is not an error.
 #[derive(Error)]

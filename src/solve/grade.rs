@@ -3,7 +3,11 @@
 use std::cmp::Ordering;
 
 use crate::plan::NEAR;
-use crate::scene::{Engine, Evidence, Task, Verdict, Warning};
+use crate::{
+    outcome::{Evidence, Verdict, Warning},
+    scene::Engine,
+    task::Task,
+};
 
 use super::PlanStatus;
 

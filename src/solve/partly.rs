@@ -1,9 +1,9 @@
 //! Where not all of several goals can be met: the plan that meets those that weigh most.
 
 use crate::asset::ToolLibrary;
-use crate::scene::{Outcome, Task};
 use crate::verify::{Verifier, VerifySettings};
 use crate::watch::Watch;
+use crate::{outcome::Outcome, task::Task};
 
 use super::planner::stated;
 use super::widen::Quiet;

@@ -9,11 +9,12 @@ use serde::{Deserialize, Serialize};
 use crate::asset::ToolLibrary;
 use crate::effect::{EffectModel, EffectModels, Job, ModelError, Outside, Routed, consequence};
 use crate::geometry::Pose;
-use crate::scene::{
-    ModelKind, Models, Outcome, Plan, Record, Situation, State, TableFit, Task, Tool, ToolMotion,
-    Trajectory, Warning, in_turn,
-};
 use crate::watch::{Until, Unwatched, Watch};
+use crate::{
+    outcome::{Outcome, Record, Trajectory, Warning, in_turn},
+    scene::{ModelKind, Models, Situation, State, TableFit, Tool},
+    task::{Plan, Task, ToolMotion},
+};
 
 use super::check::check;
 use super::levering::{self, Steps};

@@ -1,7 +1,7 @@
 //! Which candidates are refined, and which are worth verifying.
 
 use crate::plan::{Candidate, Evaluation, Found, is_behind, kinds};
-use crate::scene::{Goal, Task};
+use crate::task::{Goal, Task};
 
 /// The best `count` found candidates of different kinds, then, if there are too few kinds, the next
 /// best ones; at most `most_behind` of them with something in the way. `found` is sorted, best

@@ -4,7 +4,7 @@ use crate::watch::Instant;
 use std::sync::Arc;
 
 use crate::plan::bare;
-use crate::scene::{Plan, Tool};
+use crate::{scene::Tool, task::Plan};
 
 use super::solving::Solving;
 use super::tried::Tried;

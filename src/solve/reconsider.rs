@@ -5,7 +5,11 @@ use std::sync::Arc;
 
 use crate::geometry::{Vector, wrap_angle};
 use crate::plan::{Candidate, CandidatePush, Found, is_behind};
-use crate::scene::{Engine, Goal, State, Task, Tool, Verdict, Warning};
+use crate::{
+    outcome::{Verdict, Warning},
+    scene::{Engine, State, Tool},
+    task::{Goal, Task},
+};
 
 use super::rank::distinct;
 use super::solving::Solving;

@@ -8,11 +8,12 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::Vector;
 use crate::plan::lever::LeverSearchStatistics;
 use crate::plan::{RefineStatistics, ScoredPush, SearchStatistics};
-use crate::scene::{
-    JointTrajectory, Models, Outcome, Physics, Plan, Situation, Task, Tool, Trajectory, Verdict,
-    Warning,
-};
 use crate::verify::{Verifier, VerifySettings};
+use crate::{
+    outcome::{Outcome, Trajectory, Verdict, Warning},
+    scene::{JointTrajectory, Models, Physics, Situation, Tool},
+    task::{Plan, Task},
+};
 
 use super::Cause;
 

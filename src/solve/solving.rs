@@ -8,9 +8,13 @@ use crate::plan::{
     Candidate, FOUND_RADIUS, Found, REFINABLE, RefineSettings, Refined, Rollouts, ScoredPush,
     Search, Workspace, alone, bare, in_order, is_behind, refine,
 };
-use crate::scene::{ArmFault, Goal, Job, Situation, Task, Tool, Verdict};
 use crate::verify::{Verifier, VerifySettings};
 use crate::watch::{Instant, Watch};
+use crate::{
+    outcome::Verdict,
+    scene::{ArmFault, Situation, Tool},
+    task::{Goal, Job, Task},
+};
 
 use super::grade::{Class, Grade};
 use super::rank::is_worth_verifying;

@@ -1,7 +1,7 @@
 //! What is told while a task is solved: what is being done, and the best plan so far.
 
 use crate::plan::Found;
-use crate::scene::Plan;
+use crate::task::Plan;
 
 use super::grade::Class;
 use super::solving::Solving;

@@ -3,7 +3,11 @@
 use std::sync::Arc;
 
 use crate::plan::{Candidate, Cost, Refined, bare, behind, is_behind};
-use crate::scene::{Goal, Plan, Tool, Verdict};
+use crate::{
+    outcome::Verdict,
+    scene::Tool,
+    task::{Goal, Plan},
+};
 
 use super::Refinement;
 use super::solving::Solving;

@@ -4,7 +4,10 @@ use std::sync::Arc;
 
 use crate::effect::EffectModel;
 use crate::geometry::Pose;
-use crate::scene::{Job, Push, Situation, State, Task, Tool, ToolMotion};
+use crate::{
+    scene::{Situation, State, Tool},
+    task::{Job, Push, Task, ToolMotion},
+};
 
 /// A push of the goal's object towards the goal by the tool's first part: what a model would be
 /// used for, as far as can be known beforehand.

@@ -8,8 +8,11 @@ use rayon::prelude::*;
 use crate::asset::ToolLibrary;
 use crate::geometry::Pose;
 use crate::plan::{Search, distance_to_origin, is_behind};
-use crate::scene::{Directions, JointKind, Obstacle, Plan, Robot, Task, Tool, ToolChoice};
 use crate::watch::Watch;
+use crate::{
+    scene::{JointKind, Obstacle, Robot, Tool},
+    task::{Directions, Plan, Task, ToolChoice},
+};
 
 use super::check::check;
 use super::planner::stated;

@@ -4,8 +4,10 @@
 use std::sync::Arc;
 
 use crate::arm::{Followed, follow, judge};
-use crate::scene::{
-    Engine, Evidence, JointTrajectory, Plan, Situation, State, Task, Tool, Warning,
+use crate::{
+    outcome::{Evidence, Warning},
+    scene::{Engine, JointTrajectory, Situation, State, Tool},
+    task::{Plan, Task},
 };
 
 /// Where objects are before the first push of a plan and after each, by a replay in 3-D.

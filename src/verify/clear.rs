@@ -13,7 +13,7 @@
 //! the share is within 0.1 of what is asked for. Simulated for 0.75 in one engine: a plan passes in
 //! 0.3 % at a share of 0.5, 8 % at 0.65, 26 % at 0.7, 88 % at 0.8 and 99 % at 0.85.
 
-use crate::scene::{Evidence, Physics};
+use crate::{outcome::Evidence, scene::Physics};
 
 /// How often an answer that is clear may be wrong.
 const ERROR: f64 = 0.01;

@@ -7,7 +7,10 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
 use crate::geometry::{Pose, Vector};
-use crate::scene::{Job, Object, Scene, Situation, Task, Tool, ToolMotion};
+use crate::{
+    scene::{Object, Scene, Situation, Tool},
+    task::{Job, Task, ToolMotion},
+};
 
 /// Largest shift of an object at the start along each axis, metres.
 const SHIFT: f64 = 1e-3;

@@ -6,9 +6,10 @@
 use std::sync::Arc;
 
 use crate::geometry::{Footprint, Pose, Vector, clearance, swept_clearance, wrap_angle};
-use crate::scene::{
-    Fixed, Mover, Plan, Push, PushFault, PushForm, PushStep, Robot, Scene, Task, Tool, ToolChoice,
-    Warning, Way,
+use crate::{
+    outcome::{PushFault, Warning},
+    scene::{Fixed, Mover, Robot, Scene, Tool},
+    task::{Plan, Push, PushForm, PushStep, Task, ToolChoice, Way},
 };
 
 /// Slack for rounding, metres and radians.

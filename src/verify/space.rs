@@ -10,9 +10,10 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
 use crate::geometry::{Pose, Solid, Vector, Vector3, wrap_angle};
-use crate::scene::{
-    LeverFault, LeverRules, LeverScene, LeverStep, LeverUp, Obstacle, Pivot, Plan, PushStep, Robot,
-    Scene, Step, Task, Tool, ToolChoice, Warning,
+use crate::{
+    outcome::{LeverFault, Warning},
+    scene::{LeverScene, Obstacle, Robot, Scene, Tool},
+    task::{LeverRules, LeverStep, LeverUp, Pivot, Plan, PushStep, Step, Task, ToolChoice},
 };
 
 use super::rules::{in_the_way, is_within_reach};

@@ -6,12 +6,13 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::geometry::Pose;
-use crate::scene::{
-    Disturbance, Engine, Evidence, Job, JointTrajectory, LeverScene, Outcome, Plan, Record, Scene,
-    Situation, Task, Tool, ToolMotion, Trajectory, Verdict, Warning, never_on,
-};
 use crate::sim::{LeverSimulator, Simulator};
 use crate::watch::{Unwatched, Watch};
+use crate::{
+    outcome::{Disturbance, Evidence, Outcome, Record, Trajectory, Verdict, Warning, never_on},
+    scene::{Engine, JointTrajectory, LeverScene, Scene, Situation, Tool},
+    task::{Job, Plan, Task, ToolMotion},
+};
 
 use super::arm::arm_faults;
 use super::clear;

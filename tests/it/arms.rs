@@ -8,9 +8,12 @@ use serde_json::Value as Json;
 use tempfile::TempDir;
 
 use pushplan::asset::PlanFile;
-use pushplan::scene::{ArmFault, Reason, Situation, Warning};
 use pushplan::verify::{Verifier, VerifySettings};
 use pushplan::{Shape, Task, Tool, Vector};
+use pushplan::{
+    outcome::{Reason, Warning},
+    scene::{ArmFault, Situation},
+};
 
 use crate::ROOT;
 use crate::mujoco_python::python;

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 use pushplan::asset::{ToolLibrary, load_task};
 use pushplan::geometry::Shape;
-use pushplan::scene::{Task, Tool};
+use pushplan::{scene::Tool, task::Task};
 
 use crate::ROOT;
 

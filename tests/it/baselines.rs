@@ -5,7 +5,8 @@ use std::sync::Arc;
 use pushplan::{
     effect::{Assuming, EffectModel, EffectModels, Job, Projection, Simulated, Still},
     geometry::{Pose, Vector, wrap_angle},
-    scene::{Assumptions, JointBelief, JointKind, Object, Record, Scene, Span, State, Trajectory},
+    outcome::{Record, Trajectory},
+    scene::{Assumptions, JointBelief, JointKind, Object, Scene, Span, State},
     sim::Simulator,
 };
 

@@ -6,11 +6,12 @@ use pushplan::belief::{Belief, BeliefSettings, JointType};
 use pushplan::effect::Prior;
 use pushplan::geometry::{Pose, Shape, Vector};
 use pushplan::recording::Recording;
-use pushplan::scene::{
-    Engine, Job, Joint, JointKind, Noise, Object, Part, Push, Rate, Record, Scene, Span, Tool,
-    ToolMotion,
-};
 use pushplan::sim::Simulator;
+use pushplan::{
+    outcome::Record,
+    scene::{Engine, Joint, JointKind, Object, Part, Rate, Scene, Span, Tool},
+    task::{Job, Noise, Push, ToolMotion},
+};
 
 use crate::believing::{EXACT, believed};
 use crate::program::{run, stderr};

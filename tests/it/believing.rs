@@ -4,7 +4,7 @@ use pushplan::belief::{Belief, BeliefSettings};
 use pushplan::effect::Prior;
 use pushplan::geometry::Vector;
 use pushplan::recording::Recording;
-use pushplan::scene::{Noise, Observation};
+use pushplan::task::{Noise, Observation};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 

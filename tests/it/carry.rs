@@ -3,9 +3,12 @@
 
 use pushplan::act::{End, RunSettings, Runner, SimulatedWorld, Trace, Why, hidden};
 use pushplan::asset::ToolLibrary;
-use pushplan::scene::{Part, Task, Tool};
 use pushplan::watch::Unwatched;
 use pushplan::{Effort, PlanStatus, Planner, Pose, Shape};
+use pushplan::{
+    scene::{Part, Tool},
+    task::Task,
+};
 
 const SLALOM: &str = "
 description: A can is pushed around the ends of three walls in a closed yard.

@@ -9,12 +9,14 @@ use pushplan::act::{
 use pushplan::asset::{Faults, ToolLibrary, load_task, load_world};
 use pushplan::belief::{Belief, BeliefSettings};
 use pushplan::geometry::Vector;
-use pushplan::scene::{
-    Engine, JointKind, Noise, Physics, Sight, Support, Task, ToolMotion, Truth, Unknowns, Warning,
-};
 use pushplan::seeded::generator;
 use pushplan::solve::{Effort, Planner};
 use pushplan::watch::{Unwatched, Watch};
+use pushplan::{
+    outcome::Warning,
+    scene::{Engine, JointKind, Physics, Sight, Support, Unknowns},
+    task::{Noise, Task, ToolMotion, Truth},
+};
 
 pub fn library() -> ToolLibrary {
     ToolLibrary::embedded().expect("the shipped tools")

@@ -1,8 +1,12 @@
 //! What a task says of more than its goal: where nothing may come, and what may fall.
 
 use pushplan::asset::ToolLibrary;
-use pushplan::scene::{Engine, Region, Task, Warning};
 use pushplan::solve::{Effort, PlanStatus, Planner, Solution};
+use pushplan::{
+    outcome::Warning,
+    scene::{Engine, Region},
+    task::Task,
+};
 
 fn task(text: &str) -> Task {
     Task::parse(text, "task.yaml").unwrap_or_else(|faults| panic!("{faults}"))

@@ -1,7 +1,7 @@
 //! Goals of coverage, Push-T's measure: how much of its outline at the goal an object covers.
 
-use pushplan::scene::{Engine, Task};
 use pushplan::solve::PlanStatus;
+use pushplan::{scene::Engine, task::Task};
 
 use crate::judged::{file, solved, works_in_mujoco};
 

@@ -3,11 +3,14 @@
 use std::f64::consts::FRAC_PI_2;
 
 use pushplan::effect::EffectModels;
-use pushplan::scene::{Engine, ModelKind, Rate, Record, Situation};
 use pushplan::solve::PlanStatus;
 use pushplan::{
     EffectModel, Job, JointKind, Pose, Push, Simulated, Simulator, State, Task, ToolLibrary,
     ToolMotion, Vector,
+};
+use pushplan::{
+    outcome::Record,
+    scene::{Engine, ModelKind, Rate, Situation},
 };
 
 use crate::judged::{file, solved, works_in_mujoco};

@@ -11,7 +11,10 @@ use insta::assert_snapshot;
 use pushplan::asset::PlanFile;
 use pushplan::export::{REPLAY_SCRIPT, mjcf};
 use pushplan::geometry::Vector;
-use pushplan::scene::{Plan, Push, PushForm, Task, Tool};
+use pushplan::{
+    scene::Tool,
+    task::{Plan, Push, PushForm, Task},
+};
 use tempfile::TempDir;
 
 /// A plan for a task and a tool given as text: pushes of these starts (metres), directions

@@ -8,9 +8,13 @@ use pushplan::fit::{Fit, FitSettings, fit};
 use pushplan::geometry::{Pose, Shape, Vector};
 use pushplan::judge::Trial;
 use pushplan::recording::Recording;
-use pushplan::scene::{Object, Part, Push, Record, Scene, Support, Surface, Tool, ToolMotion};
 use pushplan::sim::Simulator;
 use pushplan::watch::Unwatched;
+use pushplan::{
+    outcome::Record,
+    scene::{Object, Part, Scene, Support, Surface, Tool},
+    task::{Push, ToolMotion},
+};
 
 /// A finger of 4 mm radius pushes from `start` at `speed`, m/s, by `length` metres.
 fn finger_push(start: Vector, direction: f64, length: f64, speed: f64) -> ToolMotion {

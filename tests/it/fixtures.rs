@@ -4,10 +4,12 @@ use std::sync::Arc;
 
 use pushplan::effect::{EffectModel, Prior, Simulated};
 use pushplan::geometry::{Pose, Shape, Vector, wrap_angle};
-use pushplan::scene::{
-    Job, Joint, JointKind, Object, Part, Push, Record, Scene, State, Tool, ToolMotion, Trajectory,
-};
 use pushplan::sim::Simulator;
+use pushplan::{
+    outcome::{Record, Trajectory},
+    scene::{Joint, JointKind, Object, Part, Scene, State, Tool},
+    task::{Job, Push, ToolMotion},
+};
 
 /// The prior and the engines, by name.
 pub fn models() -> [(&'static str, Box<dyn EffectModel>); 4] {

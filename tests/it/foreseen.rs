@@ -3,7 +3,10 @@
 use pushplan::belief::{Belief, BeliefSettings, NO_STOP};
 use pushplan::effect::Prior;
 use pushplan::geometry::{Pose, Vector};
-use pushplan::scene::{Engine, JointKind, Noise, Push, Span, ToolMotion};
+use pushplan::{
+    scene::{Engine, JointKind, Span},
+    task::{Noise, Push, ToolMotion},
+};
 
 use crate::belief::{cylinders, pair, recorded};
 use crate::believing::{EXACT, believed};

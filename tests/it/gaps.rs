@@ -1,7 +1,10 @@
 //! Goals that are a relation between two things: touching, beside each other, clear of each other.
 
-use pushplan::scene::{Body, Engine, State, Task};
 use pushplan::solve::PlanStatus;
+use pushplan::{
+    scene::{Body, Engine, State},
+    task::Task,
+};
 
 use crate::judged::{file, solved, works_in_mujoco};
 

@@ -7,10 +7,12 @@ use pushplan::fit::{FitSettings, fit};
 use pushplan::geometry::{Pose, Vector};
 use pushplan::judge::{Comparison, Trial};
 use pushplan::recording::Recording;
-use pushplan::scene::{
-    JointKind, Object, Push, Record, Scene, Span, State, Stroke, ToolMotion, Velocity,
-};
 use pushplan::watch::Unwatched;
+use pushplan::{
+    outcome::Record,
+    scene::{JointKind, Object, Scene, Span, State, Velocity},
+    task::{Push, Stroke, ToolMotion},
+};
 
 use crate::believing::EXACT;
 use crate::fixtures::{hand, models};

@@ -4,7 +4,9 @@ use pushplan::{
     effect::{EffectModel, Network, Prior},
     geometry::{Pose, Shape, Vector, perpendicular, wrap_angle},
     network::PredictorWeights,
-    scene::{Job, Joint, JointKind, Record, Scene, Span, State, Stroke, ToolMotion},
+    outcome::Record,
+    scene::{Joint, JointKind, Scene, Span, State},
+    task::{Job, Stroke, ToolMotion},
 };
 
 use super::network::assert_same;

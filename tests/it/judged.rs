@@ -4,8 +4,8 @@ use std::process::Command;
 
 use pushplan::asset::{PlanFile, ToolLibrary};
 use pushplan::export::{REPLAY_SCRIPT, mjcf};
-use pushplan::scene::Task;
 use pushplan::solve::{Effort, Planner, Solution};
+use pushplan::task::Task;
 
 use crate::mujoco_python::python;
 

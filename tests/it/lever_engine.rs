@@ -7,11 +7,12 @@
 use std::sync::Arc;
 
 use pushplan::geometry::{Pose, Pose3, Vector, Vector3};
-use pushplan::scene::{
-    Blade, Ending, GRAVITY, LEVER_FRAMES, LeverJob, LeverScene, LeverUp, LeverWarning, Place,
-    Plate, Slab,
-};
 use pushplan::sim::LeverSimulator;
+use pushplan::{
+    outcome::{Ending, LEVER_FRAMES, LeverWarning},
+    scene::{Blade, GRAVITY, LeverScene, Plate, Slab},
+    task::{LeverJob, LeverUp, Place},
+};
 
 /// Free height below plates, metres.
 const CLEARANCE: f64 = 0.006;

@@ -6,14 +6,15 @@ use std::sync::Arc;
 use pushplan::ToolLibrary;
 use pushplan::asset::{PlanFile, load_task};
 use pushplan::geometry::{Shape, Vector};
-use pushplan::scene::{
-    Engine, GRAVITY, LeverFault, LeverScene, LeverUp, Place, Plan, Push, PushForm, PushRules,
-    Reason, Record, Situation, Step, Task, Tool, ToolChoice, Trajectory, Verdict, Warning,
-};
 use pushplan::sim::LeverSimulator;
 use pushplan::solve::{Effort, PlanStatus, Planner};
 use pushplan::verify::{Verifier, VerifySettings};
 use pushplan::watch::Unwatched;
+use pushplan::{
+    outcome::{LeverFault, Reason, Record, Trajectory, Verdict, Warning},
+    scene::{Engine, GRAVITY, LeverScene, Situation, Tool},
+    task::{LeverUp, Place, Plan, Push, PushForm, PushRules, Step, Task, ToolChoice},
+};
 
 use crate::levers::plan_file;
 

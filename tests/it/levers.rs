@@ -5,13 +5,15 @@ use std::sync::Arc;
 
 use pushplan::ToolLibrary;
 use pushplan::asset::{Kind, PlanFile, check, load_task};
-use pushplan::scene::{
-    Engine, LeverFault, LeverUp, Pivot, Place, Plan, Reason, Situation, Task, Tool, Warning,
-};
 use pushplan::solve::{
     AskedLever, AskedPlace, Effort, PlanStatus, Planner, RankedPlan, Solution, asked_lever,
 };
 use pushplan::verify::{Verifier, VerifySettings};
+use pushplan::{
+    outcome::{LeverFault, Reason, Warning},
+    scene::{Engine, Situation, Tool},
+    task::{LeverUp, Pivot, Place, Plan, Task},
+};
 
 /// A small plate that one lever-up tips over.
 const PLATE: &str = "

@@ -7,11 +7,13 @@ use std::sync::Arc;
 use pushplan::asset::{PlanFile, ToolLibrary};
 use pushplan::export::{REPLAY_SCRIPT, mjcf};
 use pushplan::geometry::{Pose, Vector};
-use pushplan::scene::{
-    Body, Job, Object, Obstacle, Part, Push, RETREAT, Record, Scene, Stroke, Task, Tool, ToolMotion,
-};
 use pushplan::sim::Simulator;
 use pushplan::solve::{Effort, PlanStatus, Planner};
+use pushplan::{
+    outcome::Record,
+    scene::{Body, Object, Obstacle, Part, Scene, Tool},
+    task::{Job, Push, RETREAT, Stroke, Task, ToolMotion},
+};
 use serde_json::Value as Json;
 use tempfile::TempDir;
 

@@ -9,7 +9,9 @@ use pushplan::{
         Buffers, Card, ErrorCard, Forward, LeverCard, PredictorCard, PredictorWeights,
         RegulatorCard, RegulatorWeights, Weights, WeightsError,
     },
-    scene::{Job, Part, Record, Scene, State, Stroke, Tool, ToolMotion, Velocity},
+    outcome::Record,
+    scene::{Part, Scene, State, Tool, Velocity},
+    task::{Job, Stroke, ToolMotion},
 };
 
 use crate::random_network::{batch, half_stroke, scene, stroke, tool, weights};

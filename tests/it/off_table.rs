@@ -1,9 +1,13 @@
 //! Goals off the table: what is pushed over an edge, and falls.
 
 use pushplan::asset::ToolLibrary;
-use pushplan::scene::{Edge, Engine, Rate, Record, Situation, Span, State, Task, Warning};
 use pushplan::solve::PlanStatus;
 use pushplan::{EffectModel, Job, Obstacle, Pose, Push, Simulated, Simulator, ToolMotion, Vector};
+use pushplan::{
+    outcome::{Record, Warning},
+    scene::{Engine, Rate, Situation, Span, State},
+    task::{Edge, Task},
+};
 
 use crate::judged::{file, solved, works_in_mujoco};
 

@@ -6,18 +6,17 @@ use std::sync::Arc;
 use pushplan::{
     asset::{ToolLibrary, load_task},
     effect::{EffectModel, EffectModels, Network, Outside, Prior, Routed, Simulated},
-    scene::{
-        Job, Joint, JointKind, ModelKind, Object, Obstacle, Push, Quantity, Record, Scene, Task,
-        Trajectory, Warning,
-    },
+    outcome::{Record, Trajectory, Warning},
+    scene::{Joint, JointKind, ModelKind, Object, Obstacle, Quantity, Scene},
     sim::Simulator,
     solve::{Effort, Planner, SolveError},
+    task::{Job, Push, Task},
 };
 
 use super::random_network::{object, stroke, tool};
 use crate::ROOT;
 use pushplan::geometry::{Pose, Shape};
-use pushplan::scene::ToolMotion;
+use pushplan::task::ToolMotion;
 
 fn network() -> Network {
     Network::new(EffectModels::weights().expect("the shipped weights"))

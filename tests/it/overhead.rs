@@ -7,12 +7,14 @@ use std::sync::Arc;
 use pushplan::asset::{PlanFile, ToolLibrary};
 use pushplan::export::{REPLAY_SCRIPT, mjcf};
 use pushplan::geometry::Vector;
-use pushplan::scene::{
-    Job, Plan, Push, PushForm, Record, Situation, Task, Tool, ToolMotion, Warning,
-};
 use pushplan::sim::Simulator;
 use pushplan::solve::{Effort, PlanStatus, Planner, Solution};
 use pushplan::verify::{Verifier, VerifySettings};
+use pushplan::{
+    outcome::{Record, Warning},
+    scene::{Situation, Tool},
+    task::{Job, Plan, Push, PushForm, Task, ToolMotion},
+};
 use serde_json::Value as Json;
 use tempfile::TempDir;
 

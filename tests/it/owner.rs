@@ -7,14 +7,15 @@ use pushplan::act::{End, Note, RunSettings, Runner, SimulatedWorld, Trace};
 use pushplan::asset::ToolLibrary;
 use pushplan::geometry::{Pose, Vector, wrap_angle};
 use pushplan::report::solution_document;
-use pushplan::scene::{
-    Job, Object, Plan, Push, PushFault, PushForm, Record, Scene, Situation, Task, Tool, ToolMotion,
-    Truth, Verdict, Warning,
-};
 use pushplan::sim::Simulator;
 use pushplan::solve::{Cause, Effort, PlanStatus, Planner, RankedPlan, Solution};
 use pushplan::verify::{Verifier, VerifySettings};
 use pushplan::watch::Unwatched;
+use pushplan::{
+    outcome::{PushFault, Record, Verdict, Warning},
+    scene::{Object, Scene, Situation, Tool},
+    task::{Job, Plan, Push, PushForm, Task, ToolMotion, Truth},
+};
 
 fn library() -> ToolLibrary {
     ToolLibrary::embedded().expect("the shipped tools")

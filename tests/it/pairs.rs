@@ -8,11 +8,10 @@ use pushplan::{
     contact::{PairId, Pairs},
     geometry::{Pose, Vector},
     graph::{Batch, Correction, GIVEN},
+    outcome::Record,
     rollout::{RollSettings, Roller},
-    scene::{
-        Body, Job, JointKind, ModelKind, Object, Obstacle, Part, Push, Record, Scene, Tool,
-        ToolMotion,
-    },
+    scene::{Body, JointKind, ModelKind, Object, Obstacle, Part, Scene, Tool},
+    task::{Job, Push, ToolMotion},
 };
 
 /// Rows of discs, each of a radius of its own, so that a node's support tells which object it is;

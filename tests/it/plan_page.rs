@@ -11,10 +11,13 @@ use std::process::Command;
 
 use pushplan::asset::{PlanFile, load_task};
 use pushplan::report::{Origin, PageView, TaskSource, solution_page};
-use pushplan::scene::{Engine, Situation, Trajectory};
 use pushplan::solve::RankedPlan;
 use pushplan::{
     Effort, Goal, Object, Planner, PushRules, Robot, Scene, Solution, Task, ToolLibrary,
+};
+use pushplan::{
+    outcome::Trajectory,
+    scene::{Engine, Situation},
 };
 use serde_json::{Value as Json, json};
 use tempfile::TempDir;

@@ -10,11 +10,12 @@ use pushplan::plan::{
     Candidate, CandidatePush, FOUND_RADIUS, Infeasible, RefineSettings, RefineStatistics, Rollouts,
     STAND_OFF, Search, SearchSettings, Start, Workspace, evaluate, refine,
 };
-use pushplan::scene::{
-    Goal, Object, Obstacle, Part, PushForm, Robot, Scene, Situation, Task, Tool,
-};
 use pushplan::sim::Simulator;
 use pushplan::watch::Unwatched;
+use pushplan::{
+    scene::{Object, Obstacle, Part, Robot, Scene, Situation, Tool},
+    task::{Goal, PushForm, Task},
+};
 
 const SETTINGS: SearchSettings =
     SearchSettings { offsets: 5, beam: 16, rollouts: 600, kept: 32, model_error: 0.0 };

@@ -6,8 +6,11 @@ use std::sync::Arc;
 use pushplan::asset::ToolLibrary;
 use pushplan::effect::Prior;
 use pushplan::geometry::{ConvexPolygon, Pose, Vector, wrap_angle};
-use pushplan::scene::{Object, Obstacle, Part, Push, Scene, Support, Task, Tool, ToolMotion};
 use pushplan::solve::{Effort, PlanStatus, Planner};
+use pushplan::{
+    scene::{Object, Obstacle, Part, Scene, Support, Tool},
+    task::{Push, Task, ToolMotion},
+};
 
 use crate::fixtures::{end, models, push};
 

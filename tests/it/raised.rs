@@ -8,11 +8,11 @@ use pushplan::asset::{PlanFile, ToolLibrary};
 use pushplan::export::{REPLAY_SCRIPT, mjcf};
 use pushplan::geometry::{Pose, Vector};
 use pushplan::import::{Wanted, objects, parse};
-use pushplan::scene::{
-    Object, Obstacle, Part, Physics, Plan, Push, PushForm, Scene, Stroke, Support, Task, Tool,
-    ToolMotion,
-};
 use pushplan::solve::{Effort, PlanStatus, Planner};
+use pushplan::{
+    scene::{Object, Obstacle, Part, Physics, Scene, Support, Tool},
+    task::{Plan, Push, PushForm, Stroke, Task, ToolMotion},
+};
 use serde_json::Value as Json;
 use tempfile::TempDir;
 

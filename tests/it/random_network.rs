@@ -9,7 +9,10 @@ use pushplan::graph::Batch;
 use pushplan::network::{
     Config, Normaliser, Parameters, PredictorCard, PredictorWeights, Source, Tables,
 };
-use pushplan::scene::{Object, Obstacle, Part, Physics, Scene, State, Stroke, Tool};
+use pushplan::{
+    scene::{Object, Obstacle, Part, Physics, Scene, State, Tool},
+    task::Stroke,
+};
 
 /// Random weights whose last layer is not zero, so that the network matters, nor large, so
 /// that a rollout stays near a push and does not amplify rounding.

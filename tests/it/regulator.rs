@@ -5,8 +5,12 @@ use pushplan::effect::Prior;
 use pushplan::geometry::{Pose, Vector};
 use pushplan::network::RegulatorWeights;
 use pushplan::recording::Recording;
-use pushplan::scene::{Job, Joint, JointKind, Noise, Object, Push, Record, Scene, ToolMotion};
 use pushplan::sim::Simulator;
+use pushplan::{
+    outcome::Record,
+    scene::{Joint, JointKind, Object, Scene},
+    task::{Job, Noise, Push, ToolMotion},
+};
 
 use crate::fixtures::hand;
 use crate::random_regulator::random_weights;

@@ -3,9 +3,12 @@
 use pushplan::act::{RunSettings, Runner, SimulatedWorld, Trace};
 use pushplan::effect::{EffectModels, Network};
 use pushplan::network::Head;
-use pushplan::scene::{HeadSpread, TableFit, Truth, Unknowns};
 use pushplan::solve::{Effort, Planner};
 use pushplan::watch::Unwatched;
+use pushplan::{
+    scene::{HeadSpread, TableFit, Unknowns},
+    task::Truth,
+};
 
 use crate::closed_loop::{drawn, interrupted, library, shipped};
 

@@ -9,8 +9,12 @@ use std::sync::Arc;
 
 use pushplan::effect::{EffectModel, EffectModels, Network, Prior, Simulated};
 use pushplan::geometry::{Pose, Vector};
-use pushplan::scene::{Job, Object, Part, Record, Scene, Situation, Stroke, Tool, ToolMotion};
 use pushplan::sim::Simulator;
+use pushplan::{
+    outcome::Record,
+    scene::{Object, Part, Scene, Situation, Tool},
+    task::{Job, Stroke, ToolMotion},
+};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 

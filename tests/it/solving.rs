@@ -7,13 +7,14 @@ use std::sync::{Arc, Mutex};
 use pushplan::asset::{ToolLibrary, load_task};
 use pushplan::effect::{EffectModel, Job, Quantiles, Simulated, Trust};
 use pushplan::geometry::Vector;
-use pushplan::scene::{
-    Engine, Frame, Joint, JointKind, ModelKind, ModelSpec, Models, Record, Scene, Situation, Task,
-    ToolChoice, Trajectory,
-};
 use pushplan::sim::Simulator;
 use pushplan::solve::{Effort, PlanStatus, Planner, Settings, Solution};
 use pushplan::watch::Watch;
+use pushplan::{
+    outcome::{Frame, Record, Trajectory},
+    scene::{Engine, Joint, JointKind, ModelKind, ModelSpec, Models, Scene, Situation},
+    task::{Task, ToolChoice},
+};
 
 fn planner() -> Planner {
     Planner::builder(Simulated::new(Simulator::planar())).build()

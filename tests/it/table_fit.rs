@@ -9,10 +9,12 @@ use pushplan::fit::{Basis, FitSettings, HeadSettings, fit, learn};
 use pushplan::geometry::{Pose, Shape, Vector};
 use pushplan::judge::{Comparison, Trial, mean};
 use pushplan::network::Head;
-use pushplan::scene::{
-    Object, Part, Push, Record, Scene, Support, Surface, TableFit, Tool, ToolMotion,
-};
 use pushplan::watch::Unwatched;
+use pushplan::{
+    outcome::Record,
+    scene::{Object, Part, Scene, Support, Surface, TableFit, Tool},
+    task::{Push, ToolMotion},
+};
 
 use crate::random_network::weights;
 

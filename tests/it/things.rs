@@ -1,7 +1,10 @@
 //! Objects of several solids: one name, one pose, one mass.
 
-use pushplan::scene::{Engine, Rate, Record, Situation};
 use pushplan::{EffectModel, Pose, Simulated, Simulator, Task};
+use pushplan::{
+    outcome::Record,
+    scene::{Engine, Rate, Situation},
+};
 
 /// A mug with a handle beside a can.
 const MUG: &str = "

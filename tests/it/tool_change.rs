@@ -2,11 +2,14 @@
 
 use std::sync::Arc;
 
-use pushplan::scene::{Engine, Record, Warning, in_turn};
 use pushplan::verify::{Verifier, VerifySettings};
 use pushplan::{
     Effort, Job, Object, Part, Plan, PlanStatus, Planner, Pose, Push, PushForm, Scene, Simulator,
     Situation, Solution, Task, Tool, ToolLibrary, ToolMotion, Vector,
+};
+use pushplan::{
+    outcome::{Record, Warning, in_turn},
+    scene::Engine,
 };
 
 const TWO: &str = include_str!("../../tasks/two-tools.yaml");

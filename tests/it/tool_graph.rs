@@ -8,8 +8,10 @@ use pushplan::effect::{EffectModel, EffectModels, Network, Prior};
 use pushplan::geometry::{Pose, Shape, Vector};
 use pushplan::graph::{Batch, GIVEN, Graph, NodeKind, RelationName};
 use pushplan::network::{Buffers, Forward};
-use pushplan::scene::{
-    Job, Object, Obstacle, Part, Record, Scene, State, Stroke, Tool, ToolMotion,
+use pushplan::{
+    outcome::Record,
+    scene::{Object, Obstacle, Part, Scene, State, Tool},
+    task::{Job, Stroke, ToolMotion},
 };
 use rand::seq::SliceRandom;
 use rand::{Rng, SeedableRng};

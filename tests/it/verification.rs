@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use pushplan::asset::PlanFile;
 use pushplan::geometry::{Pose, Vector};
-use pushplan::scene::{
-    Disturbance, Engine, Evidence, Obstacle, Part, Physics, Plan, Push, PushForm, Reason,
-    Situation, Support, TableTop, Task, Tool, ToolChoice, Verdict, Warning,
-};
 use pushplan::verify::{Verifier, VerifySettings};
+use pushplan::{
+    outcome::{Disturbance, Evidence, Reason, Verdict, Warning},
+    scene::{Engine, Obstacle, Part, Physics, Situation, Support, TableTop, Tool},
+    task::{Plan, Push, PushForm, Task, ToolChoice},
+};
 
 const TASK: &str = "
 description: Push a can ahead.

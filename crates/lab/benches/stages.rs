@@ -14,9 +14,13 @@ use pushplan::plan::{
     FOUND_RADIUS, QpProblem, QpSolver, RefineSettings, RefineStatistics, Rollouts, Search,
     SearchSettings, Workspace, refine,
 };
-use pushplan::scene::{FrameStep, Job, ModelKind, Physics, Record, Situation, State, Task};
 use pushplan::sim::Simulator;
 use pushplan::watch::Unwatched;
+use pushplan::{
+    outcome::Record,
+    scene::{ModelKind, Physics, Situation, State},
+    task::{FrameStep, Job, Task},
+};
 use pushplan_lab::bench::{Case, Suite, SuiteKind, crowd_cases, random_task};
 
 /// Candidates that a search predicts together.

@@ -7,7 +7,10 @@ use pushplan::asset::{PlanFile, ToolLibrary, TrajectoryFile};
 use pushplan::effect::{EffectModel, EffectModels, Prior};
 use pushplan::geometry::Vector;
 use pushplan::network::{Config, Parameters, PredictorWeights};
-use pushplan::scene::{Job, Outcome, Plan, Push, Record, Task};
+use pushplan::{
+    outcome::{Outcome, Record},
+    task::{Job, Plan, Push, Task},
+};
 use serde_json::Value as Json;
 
 use crate::bytes::damaged;
@@ -137,7 +140,7 @@ fn made(make: fn(&Sample) -> String) -> Vec<(String, Vec<u8>)> {
 /// A shipped task with a plan of two pushes, which need not lead anywhere.
 struct Sample {
     plan: PlanFile,
-    trajectory: pushplan::scene::Trajectory,
+    trajectory: pushplan::outcome::Trajectory,
 }
 
 fn sample(name: &str) -> Option<Sample> {

@@ -5,10 +5,13 @@ use std::sync::Arc;
 
 use pushplan::asset::{PlanFile, ToolLibrary};
 use pushplan::geometry::Vector;
-use pushplan::scene::{LeverUp, Place, Plan, Push, PushForm, Situation, Task, Tool};
 use pushplan::solve::{LeverSettings, Settings};
 use pushplan::verify::{Verifier, VerifySettings};
 use pushplan::{Planner, Simulated, Simulator};
+use pushplan::{
+    scene::{Situation, Tool},
+    task::{LeverUp, Place, Plan, Push, PushForm, Task},
+};
 
 /// Longer lever-ups and larger scenes show nothing new.
 const LONGEST: f64 = 6.0;

@@ -13,10 +13,12 @@ use pushplan::geometry::Vector;
 use pushplan::network::PredictorWeights;
 use pushplan::recording::Recording;
 use pushplan::report::{ScenePicture, Source, Track};
-use pushplan::scene::{
-    Job, ModelKind, Object, Plan, Push, Record, Scene, Task, Tool, ToolMotion, Trajectory, Warning,
-};
 use pushplan::solve::{Planner, Settings};
+use pushplan::{
+    outcome::{Record, Trajectory, Warning},
+    scene::{ModelKind, Object, Scene, Tool},
+    task::{Job, Plan, Push, Task, ToolMotion},
+};
 
 /// Frames above which a motion is not rolled out.
 const LONGEST: usize = 400;

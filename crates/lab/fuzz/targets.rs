@@ -7,7 +7,7 @@ use pushplan::asset::{Faults, PlanFile, TrajectoryFile, check};
 use pushplan::import::{Wanted, objects, parse, tool};
 use pushplan::network::{PredictorWeights, WeightsError};
 use pushplan::recording::Recording;
-use pushplan::scene::{Task, Tool};
+use pushplan::{scene::Tool, task::Task};
 
 use crate::{levers, survive};
 

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use pushplan::internals::geometry::Pose3;
-use pushplan::internals::scene::{LeverJob, LeverTrajectory};
+use pushplan::internals::{outcome::LeverTrajectory, task::LeverJob};
 
 /// Differences of two trajectories of one lever-up.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

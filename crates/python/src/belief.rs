@@ -6,8 +6,11 @@ use numpy::{PyArray1, PyArray2, PyArray3};
 use pushplan::belief::{Belief, BeliefRegulator, BeliefSettings};
 use pushplan::recording::Recording;
 use pushplan::report::belief_document;
-use pushplan::scene::{Noise, Span, Velocity};
 use pushplan::watch::Watch;
+use pushplan::{
+    scene::{Span, Velocity},
+    task::Noise,
+};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyAny;

@@ -3,7 +3,7 @@
 use pushplan::SolveError;
 use pushplan::asset::Faults;
 use pushplan::effect::ModelError;
-use pushplan::scene::Warning;
+use pushplan::outcome::Warning;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 

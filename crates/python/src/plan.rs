@@ -6,10 +6,14 @@ use std::sync::Arc;
 use pushplan::asset::PlanFile;
 use pushplan::export::mjcf;
 use pushplan::report::{Origin, PageView, TaskSource, verdict_page};
-use pushplan::scene::{Engine, PushForm, Situation, TableFit, Warning};
 use pushplan::solve::{AskedPush, asked_plan};
 use pushplan::verify::{VerifySettings, broken_rules};
 use pushplan::{Graph, Job, RankedPlan, Task, Trajectory, Verdict, Verifier};
+use pushplan::{
+    outcome::Warning,
+    scene::{Engine, Situation, TableFit},
+    task::PushForm,
+};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyAny;

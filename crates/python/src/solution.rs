@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use pushplan::report::{Origin, PageView, TaskSource, solution_document, solution_page};
-use pushplan::scene::{Situation, Warning};
 use pushplan::solve::PlanStatus;
 use pushplan::{RankedPlan, Solution, TableFit, Task};
+use pushplan::{outcome::Warning, scene::Situation};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyAny;

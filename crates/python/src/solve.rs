@@ -5,12 +5,15 @@ use std::sync::Arc;
 use pushplan::asset::PlanFile;
 use pushplan::effect::{EffectModel, Routed};
 use pushplan::report::TaskSource;
-use pushplan::scene::{ModelKind, Situation, TableFit, Warning};
 use pushplan::verify::VerifySettings;
 use pushplan::watch::{Cancel, Until};
 use pushplan::{
     Job, Planner, Pose, Record, Simulator, Solution, SolveError, Task, ToolLibrary, Trajectory,
     Verifier,
+};
+use pushplan::{
+    outcome::Warning,
+    scene::{ModelKind, Situation, TableFit},
 };
 use pyo3::prelude::*;
 use rayon::prelude::*;

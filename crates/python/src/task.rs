@@ -6,7 +6,7 @@ use std::sync::Arc;
 use numpy::PyArray2;
 use pushplan::asset::{load_example, load_task};
 use pushplan::report::TaskSource;
-use pushplan::scene::ToolChoice;
+use pushplan::task::ToolChoice;
 use pushplan::{Pose, State, Task};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

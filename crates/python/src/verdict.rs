@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use numpy::PyArray2;
 use pushplan::asset::PlanFile;
+use pushplan::outcome::{Disturbance, Evidence, Warning};
 use pushplan::report::{
     Origin, PageView, TaskSource, replay_warnings, verdict_document, verdict_page,
 };
-use pushplan::scene::{Disturbance, Evidence, Warning};
 use pushplan::{Task, Verdict};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

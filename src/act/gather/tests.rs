@@ -4,7 +4,10 @@ use std::sync::Arc;
 
 use super::*;
 use crate::geometry::Pose;
-use crate::scene::{Part, Push, Tool};
+use crate::{
+    scene::{Part, Tool},
+    task::Push,
+};
 
 fn motion() -> ToolMotion {
     let part = Part::cuboid("bar", [0.02, 0.1, 0.05], Pose::default());

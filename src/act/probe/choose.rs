@@ -18,7 +18,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::belief::{Belief, generator};
 use crate::effect::EffectModel;
-use crate::scene::{Job, Noise, Record, State, ToolMotion, Trajectory};
+use crate::{
+    outcome::{Record, Trajectory},
+    scene::State,
+    task::{Job, Noise, ToolMotion},
+};
 
 use super::super::judge::{Reach, Samples};
 

@@ -15,8 +15,11 @@ use rand::seq::SliceRandom;
 
 use crate::belief::{Belief, generator};
 use crate::effect::EffectModel;
-use crate::scene::{DisjointSets, Plan, PushForm, Task, Tool, near_pairs};
 use crate::solve::{AskedPush, AskedStart, asked_plan};
+use crate::{
+    scene::{DisjointSets, Tool, near_pairs},
+    task::{Plan, PushForm, Task},
+};
 
 use super::super::judge::{Reach, Samples};
 use super::super::settings::RunSettings;

@@ -7,7 +7,10 @@ use crate::asset::node::{Content, Node};
 use crate::asset::strict::Ledger;
 use crate::asset::take::{angle, number_or};
 use crate::geometry::{Pose, Pose3};
-use crate::scene::{Arm, Places, PushRules, Robot, ToolMount};
+use crate::{
+    scene::{Arm, Places, Robot, ToolMount},
+    task::PushRules,
+};
 
 /// From the flange to the tool's underside where a task does not say it, metres: a gripper.
 const LENGTH: f64 = 0.15;

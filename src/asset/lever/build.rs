@@ -10,8 +10,9 @@ use crate::asset::task::{
 };
 use crate::asset::text::apart_by_name;
 use crate::geometry::{Pose, Vector, centroid, cross};
-use crate::scene::{
-    Goal, LeverRules, Object, Obstacle, Pivot, Plate, PushRules, Robot, Scene, Slab, Task,
+use crate::{
+    scene::{Object, Obstacle, Plate, Robot, Scene, Slab},
+    task::{Goal, LeverRules, Pivot, PushRules, Task},
 };
 
 /// A centre of mass that is nearer to the origin of its frame is there, metres: sums of corners

@@ -4,7 +4,7 @@ use crate::asset::fault::did_you_mean;
 use crate::asset::library::ToolLibrary;
 use crate::asset::node::Node;
 use crate::asset::strict::Ledger;
-use crate::scene::Task;
+use crate::task::Task;
 
 use super::{build, rules};
 

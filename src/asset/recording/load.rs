@@ -11,7 +11,10 @@ use crate::asset::text::{Source, named_after};
 use crate::asset::{read_text, task, tool};
 use crate::geometry::{Pose, Vector};
 use crate::recording::Recording;
-use crate::scene::{Object, Part, PushRules, Scene, Tool, Velocity};
+use crate::{
+    scene::{Object, Part, Scene, Tool, Velocity},
+    task::PushRules,
+};
 
 use super::spec::{PUSHER_KEYS, RECORDING, default};
 use super::{frames, units};

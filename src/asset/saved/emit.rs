@@ -8,10 +8,12 @@ use crate::asset::task::{
     name_of_surface,
 };
 use crate::geometry::{Pose, Shape, Vector};
-use crate::scene::{
-    Blade, Directions, DisjointSets, Goal, Hand, Joint, JointKind, LeverRules, Mount, Object,
-    Obstacle, Offsets, PairFriction, Pivot, Plate, PushForm, PushRules, Robot, Scene, Slab, Span,
-    Support, TableTop, Task, Tool,
+use crate::{
+    scene::{
+        Blade, DisjointSets, Hand, Joint, JointKind, Mount, Object, Obstacle, PairFriction, Plate,
+        Robot, Scene, Slab, Span, Support, TableTop, Tool,
+    },
+    task::{Directions, Goal, LeverRules, Offsets, Pivot, PushForm, PushRules, Task},
 };
 
 /// The most pairs of parts that a tool file names.

@@ -9,7 +9,11 @@ use crate::asset::fault::Faults;
 use crate::asset::node::Node;
 use crate::asset::read_text;
 use crate::asset::table_fit::Whole;
-use crate::scene::{JointTrajectory, ModelSpec, Outcome, Plan, TableFit, Task, Tool, Verdict};
+use crate::{
+    outcome::{Outcome, Verdict},
+    scene::{JointTrajectory, ModelSpec, TableFit, Tool},
+    task::{Plan, Task},
+};
 
 use super::read::{self, Opened};
 use super::{PLAN_FILE, PLAN_VERSION, emit};

@@ -12,7 +12,11 @@ use crate::asset::spec::Value;
 use crate::asset::strict::{Ledger, check};
 use crate::asset::text::Source;
 use crate::asset::{task, tool, write_atomic};
-use crate::scene::{JointTrajectory, Outcome, Plan, Plate, State, Step, Task, Tool};
+use crate::{
+    outcome::Outcome,
+    scene::{JointTrajectory, Plate, State, Tool},
+    task::{Plan, Step, Task},
+};
 
 /// A file that has passed the strict check, open for the rules that span several keys.
 pub(super) struct Opened<'a> {

@@ -8,7 +8,11 @@ use serde::{Deserialize, Serialize};
 use crate::asset::fault::Faults;
 use crate::asset::node::Node;
 use crate::asset::read_text;
-use crate::scene::{Body, Contact, Frame, Plan, Task, Tool, Trajectory};
+use crate::{
+    outcome::{Contact, Frame, Trajectory},
+    scene::{Body, Tool},
+    task::{Plan, Task},
+};
 
 use super::read::{self, Opened};
 use super::{PLAN_VERSION, TRAJECTORY_FILE, emit};

@@ -9,9 +9,9 @@ use crate::asset::prism::origin;
 use crate::asset::take::{name_of, number_or, pose, shape, vector};
 use crate::asset::text::apart_by_name;
 use crate::geometry::Vector;
-use crate::scene::{
-    Directions, Goal, Hand, Joint, Object, Obstacle, Offsets, PushForm, PushRules, Robot, Scene,
-    Support, TableTop, Task, Unknowns,
+use crate::{
+    scene::{Hand, Joint, Object, Obstacle, Robot, Scene, Support, TableTop, Unknowns},
+    task::{Directions, Goal, Offsets, PushForm, PushRules, Task},
 };
 
 use super::spec::default;

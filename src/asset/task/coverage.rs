@@ -6,7 +6,10 @@ use crate::asset::node::Node;
 use crate::asset::spec::{ANGLE, Key, POSITION, Range, Value};
 use crate::asset::take::{angle, number_or, position};
 use crate::geometry::Pose;
-use crate::scene::{Coverage, Goal, Scene};
+use crate::{
+    scene::Scene,
+    task::{Coverage, Goal},
+};
 
 /// The share that Push-T asks for.
 const SHARE: f64 = 0.95;

@@ -2,7 +2,7 @@
 
 use crate::asset::fault::{Fault, Faults};
 use crate::asset::saved::emit;
-use crate::scene::{Scene, Task};
+use crate::{scene::Scene, task::Task};
 
 impl Scene {
     /// The scene in the keys of a task file's `scene`.

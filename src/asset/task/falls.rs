@@ -6,7 +6,10 @@ use crate::asset::node::Node;
 use crate::asset::spec::{Key, SHIFT_LIMIT, Value, numbers};
 use crate::asset::strict::Ledger;
 use crate::asset::take::vector;
-use crate::scene::{Edge, Fall, Scene, Span};
+use crate::{
+    scene::{Scene, Span},
+    task::{Edge, Fall},
+};
 
 use super::mounts::moving;
 

@@ -7,7 +7,10 @@ use crate::asset::node::Node;
 use crate::asset::spec::{Key, Range, Value};
 use crate::asset::strict::Ledger;
 use crate::asset::take::{name_of, number_or};
-use crate::scene::{Body, Gap, Scene};
+use crate::{
+    scene::{Body, Scene},
+    task::Gap,
+};
 
 /// Limits are at least so far apart, metres: simulators themselves differ by millimetres.
 const PLAY: f64 = 0.001;

@@ -6,7 +6,10 @@ use crate::asset::spec::{ANGLE, Key, POSITION, Range, SHIFT_LIMIT, Value};
 use crate::asset::strict::Ledger;
 use crate::asset::take::{angle, angle_of, name_of, number_or, position, shape, vector};
 use crate::geometry::{Footprint, Pose, clearance};
-use crate::scene::{Goal, JointKind, Scene};
+use crate::{
+    scene::{JointKind, Scene},
+    task::Goal,
+};
 
 use super::coverage::{COVERAGE, covering};
 use super::falls::{OFF_TABLE, check_fall, fall};

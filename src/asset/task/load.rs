@@ -3,7 +3,10 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::scene::{Scene, Task, Tool, ToolChoice};
+use crate::{
+    scene::{Scene, Tool},
+    task::{Task, ToolChoice},
+};
 
 use crate::asset::arm;
 use crate::asset::fault::{Fault, Faults, did_you_mean};

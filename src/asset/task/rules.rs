@@ -7,7 +7,10 @@ use crate::asset::prism;
 use crate::asset::strict::Ledger;
 use crate::asset::take::{name_of, number_or, pose, shape, triple, unique_names, vector};
 use crate::geometry::{Footprint, Pose, Shape, clearance};
-use crate::scene::{PushForm, PushRules, Support, carries};
+use crate::{
+    scene::{Support, carries},
+    task::{PushForm, PushRules},
+};
 
 use super::spec::REACH_KEY;
 use super::tools::check_tools;

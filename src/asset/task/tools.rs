@@ -7,7 +7,7 @@ use serde_json::{Value as Json, json};
 use crate::asset::node::Node;
 use crate::asset::spec::{Key, Range, Value};
 use crate::asset::strict::Ledger;
-use crate::scene::{Task, ToolChoice};
+use crate::task::{Task, ToolChoice};
 
 /// What tools a task allows.
 pub(in crate::asset) const TOOLS: Key = Key::required(

@@ -9,7 +9,10 @@ use crate::asset::strict::{Ledger, check};
 use crate::asset::take::{angle_of, name_of, number_or, position, unique_names};
 use crate::asset::task::{joint_of, support_of};
 use crate::asset::text::Source;
-use crate::scene::{DisjointSets, Engine, Noise, Scene, Support, Task, Truth, carries};
+use crate::{
+    scene::{DisjointSets, Engine, Scene, Support, carries},
+    task::{Noise, Task, Truth},
+};
 
 use super::spec::WORLD;
 

@@ -6,7 +6,8 @@ use super::*;
 use crate::{
     belief::{BeliefSettings, Step},
     geometry::{Pose, Shape},
-    scene::{Noise, Object, Part, Scene, Tool},
+    scene::{Object, Part, Scene, Tool},
+    task::Noise,
 };
 
 #[test]

@@ -1,7 +1,10 @@
 //! Tests of `masses`.
 
 use super::*;
-use crate::scene::{Contact, ModelKind, Object, Scene};
+use crate::{
+    outcome::Contact,
+    scene::{ModelKind, Object, Scene},
+};
 
 const RANGES: [Span; 3] = [Span::new(0.2, 0.5), Span::new(1.0, 2.0), Span::new(8.0, 10.0)];
 

@@ -3,7 +3,8 @@
 
 use crate::{
     effect::EffectModel,
-    scene::{Job, PushForm, Record, Task},
+    outcome::Record,
+    task::{Job, PushForm, Task},
 };
 
 use super::{execute::Action, sequences::Sequences, setup::ReferenceSetup};

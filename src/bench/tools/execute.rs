@@ -7,8 +7,10 @@ use rayon::prelude::*;
 
 use crate::{
     geometry::Vector,
-    scene::{Engine, Job, Push, PushForm, Record, Task, ToolMotion, Trajectory},
+    outcome::{Record, Trajectory},
+    scene::Engine,
     sim::Simulator,
+    task::{Job, Push, PushForm, Task, ToolMotion},
 };
 
 use super::setup::{LIFT, ReferenceSetup};

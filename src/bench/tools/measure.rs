@@ -8,9 +8,9 @@ use crate::store::{Measured, Seconds};
 use crate::{
     effect::{EffectModel, Simulated},
     geometry::Vector,
-    scene::Task,
     sim::Simulator,
     solve::{Planner, SolveError},
+    task::Task,
 };
 
 use super::{

@@ -17,7 +17,9 @@
 use crate::{
     effect::EffectModel,
     geometry::{Pose, Vector},
-    scene::{Goal, Job, Push, PushForm, Record, Situation, State, Task, Trajectory},
+    outcome::{Record, Trajectory},
+    scene::{Situation, State},
+    task::{Goal, Job, Push, PushForm, Task},
 };
 
 use super::{execute::Action, setup::ReferenceSetup};

@@ -13,8 +13,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     geometry::{Pose, Vector, clearance},
-    scene::{Goal, Object, Part, PushForm, PushRules, Robot, Scene, Task, Tool},
+    scene::{Object, Part, Robot, Scene, Tool},
     seeded::generator,
+    task::{Goal, PushForm, PushRules, Task},
 };
 
 /// Stops are offered after this many equal steps of a push: 5 mm each.

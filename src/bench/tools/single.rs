@@ -12,9 +12,10 @@ use serde::{Deserialize, Serialize};
 use crate::{
     effect::{EffectModel, Simulated},
     geometry::Vector,
-    scene::{Engine, Task},
+    scene::Engine,
     seeded::generator,
     sim::Simulator,
+    task::Task,
 };
 
 use super::{

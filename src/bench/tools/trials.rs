@@ -9,10 +9,11 @@ use crate::store::Seconds;
 use crate::{
     asset::ToolLibrary,
     effect::{EffectModel, Simulated},
-    scene::{Directions, Engine, Push, PushForm, Task},
+    scene::Engine,
     seeded::generator,
     sim::Simulator,
     solve::{Planner, Solution, SolveError},
+    task::{Directions, Push, PushForm, Task},
 };
 
 use super::{

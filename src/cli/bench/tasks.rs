@@ -14,9 +14,9 @@ use crate::cli::{
     words::{EFFORTS, words},
 };
 use crate::report::{Document, solved_document};
-use crate::scene::Task;
 use crate::solve::Effort;
 use crate::store::{Measured, RunManifest};
+use crate::task::Task;
 
 use super::common::Common;
 use super::keep::{self, KeepArgs, tools_digest, value_digest, weights_digest};

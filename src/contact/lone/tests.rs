@@ -17,7 +17,8 @@ use crate::{
         tally::Tally,
     },
     geometry::{Pose, Shape, Vector},
-    scene::{FrameStep, Object, Obstacle, Part, Physics, Scene, State, Tool, Velocity},
+    scene::{Object, Obstacle, Part, Physics, Scene, State, Tool, Velocity},
+    task::FrameStep,
 };
 
 /// Numbers from -1 to 1 that look random.

@@ -4,9 +4,8 @@ use super::*;
 use crate::{
     contact::{bodies::Bodies, coast::coast, points::find_contacts},
     geometry::{Pose, Shape, Turn, cross},
-    scene::{
-        FrameStep, Joint, JointKind, Object, Obstacle, Part, Physics, Scene, State, Support, Tool,
-    },
+    scene::{Joint, JointKind, Object, Obstacle, Part, Physics, Scene, State, Support, Tool},
+    task::FrameStep,
 };
 
 fn cuboid(x: f64, y: f64) -> Object {

@@ -6,7 +6,8 @@ use crate::{
         AwakeIndex, Bodies, ListIndex, Motion, PairId, Pairs, Partner, SceneIndex, coast::coast,
     },
     geometry::{Pose, Vector},
-    scene::{Body, FrameStep, GRAVITY, Object, Part, Physics, Scene, Tool},
+    scene::{Body, GRAVITY, Object, Part, Physics, Scene, Tool},
+    task::FrameStep,
 };
 
 /// A can far off, one that a bar touches and one behind that.

@@ -1,7 +1,7 @@
 //! What is told of a plate's shape, in numbers of a fixed count.
 
 use crate::geometry::Vector;
-use crate::scene::{LeverFeatures, LeverJob};
+use crate::{scene::LeverFeatures, task::LeverJob};
 
 use super::LeverView;
 

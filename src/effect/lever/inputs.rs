@@ -1,7 +1,11 @@
 //! What a network is told of a lever-up, and to what it adds.
 
 use crate::network::{LEVER_POSE, LeverSizes, LeverTold};
-use crate::scene::{Ending, LEVER_FRAMES, LeverFeatures, LeverJob, LeverTrajectory, LeverWarning};
+use crate::{
+    outcome::{Ending, LEVER_FRAMES, LeverTrajectory, LeverWarning},
+    scene::LeverFeatures,
+    task::LeverJob,
+};
 
 use super::{LeverView, lever_action, lever_features};
 

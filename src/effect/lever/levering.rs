@@ -4,9 +4,12 @@ use std::sync::Arc;
 
 use crate::effect::{EffectModel, Trust};
 use crate::geometry::Pose3;
-use crate::scene::{
-    Frame, Job, LEVER_FRAMES, LeverJob, LeverMotion, LeverScene, LeverTrajectory, LeverWarning,
-    Lift, ModelSpec, Motion, Record, Scene, State, Trajectory, Warning, lever_frame,
+use crate::{
+    outcome::{
+        Frame, LEVER_FRAMES, LeverTrajectory, LeverWarning, Lift, Record, Trajectory, Warning,
+    },
+    scene::{LeverScene, ModelSpec, Scene, State},
+    task::{Job, LeverJob, LeverMotion, Motion, lever_frame},
 };
 
 use super::{LeverModel, LeverTrust};

@@ -2,7 +2,11 @@
 
 use std::sync::Arc;
 
-use crate::scene::{LeverJob, LeverTrajectory, ModelKind, ModelSpec};
+use crate::{
+    outcome::LeverTrajectory,
+    scene::{ModelKind, ModelSpec},
+    task::LeverJob,
+};
 
 /// How far a model is to be trusted with a lever-up.
 #[derive(Clone, Copy, Debug, PartialEq)]

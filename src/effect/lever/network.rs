@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use crate::network::{LeverCell, LeverSizes, LeverWeights, WeightsError};
-use crate::scene::{LeverFeatures, LeverJob, LeverTrajectory};
+use crate::{outcome::LeverTrajectory, scene::LeverFeatures, task::LeverJob};
 
 use super::{LeverInputs, LeverModel, LeverPrior, LeverTrust, PriorSettings, lever_inputs};
 

@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use crate::scene::{LeverJob, LeverTrajectory, ModelSpec};
 use crate::sim::LeverSimulator;
+use crate::{outcome::LeverTrajectory, scene::ModelSpec, task::LeverJob};
 
 use super::{LeverModel, LeverTrust};
 

@@ -2,7 +2,7 @@
 //! left.
 
 use crate::geometry::{Pose3, Turn3, Vector, Vector3};
-use crate::scene::{LeverJob, lever_frame};
+use crate::task::{LeverJob, lever_frame};
 
 /// Poses of a plate as seen from where it is levered: what is learned of one lever-up holds for all
 /// that look alike.

@@ -2,7 +2,10 @@
 
 use crate::effect::{Prior, UpTo};
 use crate::geometry::{Pose, Vector};
-use crate::scene::{Object, Part, Push, Quantity, Tool, ToolMotion};
+use crate::{
+    scene::{Object, Part, Quantity, Tool},
+    task::{Push, ToolMotion},
+};
 
 use super::*;
 

@@ -3,7 +3,9 @@
 use crate::{
     effect::{EffectModel, Trust},
     geometry::Pose,
-    scene::{Body, Job, ModelKind, ModelSpec, Physics, Record, Scene, Trajectory},
+    outcome::{Record, Trajectory},
+    scene::{Body, ModelKind, ModelSpec, Physics, Scene},
+    task::Job,
 };
 
 use super::play::{Rule, Table, play_all};

@@ -4,10 +4,9 @@ use rayon::prelude::*;
 
 use crate::{
     geometry::{ContactPoint, Pose, contact_points},
-    scene::{
-        Body, Contact, Frame, Job, ModelSpec, Physics, Record, Scene, State, TOUCHING, Tool,
-        ToolMotion, Trajectory,
-    },
+    outcome::{Contact, Frame, Record, Trajectory},
+    scene::{Body, ModelSpec, Physics, Scene, State, TOUCHING, Tool},
+    task::{Job, ToolMotion},
 };
 
 /// Tool travel per small step, metres: overlaps stay much smaller than any body.

@@ -3,7 +3,9 @@
 use crate::{
     effect::{EffectModel, Trust},
     geometry::Pose,
-    scene::{Body, Job, ModelKind, ModelSpec, Physics, Record, Scene, Trajectory},
+    outcome::{Record, Trajectory},
+    scene::{Body, ModelKind, ModelSpec, Physics, Scene},
+    task::Job,
 };
 
 use super::{
@@ -111,7 +113,9 @@ mod tests {
     use crate::{
         effect::{EffectModel, Follow, Job, Projection, Still},
         geometry::{Pose, Vector},
-        scene::{Object, Part, Push, Record, Scene, Tool, ToolMotion, Trajectory},
+        outcome::{Record, Trajectory},
+        scene::{Object, Part, Scene, Tool},
+        task::{Push, ToolMotion},
     };
 
     /// A wide bar pushes 0.20 m along x; a can 5 mm before it, and a second one 20 mm further.

@@ -3,7 +3,9 @@
 use crate::{
     effect::{EffectModel, Trust},
     geometry::Pose,
-    scene::{Job, ModelKind, ModelSpec, Physics, Record, Scene, Trajectory},
+    outcome::{Record, Trajectory},
+    scene::{ModelKind, ModelSpec, Physics, Scene},
+    task::Job,
 };
 
 use super::play::{Rule, Table, play_all};

@@ -4,7 +4,10 @@ use crate::asset::Faults;
 use crate::geometry::Vector;
 use crate::import::fault::Ledger;
 use crate::import::model::Model;
-use crate::scene::{Goal, Joint, JointKind, Mount, Robot, Scene, Task};
+use crate::{
+    scene::{Joint, JointKind, Mount, Robot, Scene},
+    task::{Goal, Task},
+};
 
 use super::frictions::frictions;
 use super::groups::{beyond, free, freed, judged, listed, solid_bodies};

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use super::*;
 use crate::{
     geometry::Shape,
-    scene::{ModelKind, Object, Part, Stroke, Tool},
+    scene::{ModelKind, Object, Part, Tool},
+    task::Stroke,
 };
 
 /// A frame of stroke `stroke` in which the one object is at `x`.

@@ -8,8 +8,12 @@ use crate::plan::{
     Candidate, CandidatePush, Evaluation, RefineSettings, RefineStatistics, Rollouts, Search,
     SearchSettings, Workspace, kinds, refine,
 };
-use crate::scene::{Directions, Goal, PushRules, Record, Situation, State, Task};
 use crate::watch::Watch;
+use crate::{
+    outcome::Record,
+    scene::{Situation, State},
+    task::{Directions, Goal, PushRules, Task},
+};
 
 use super::Leg;
 

@@ -1,7 +1,10 @@
 //! The things that are carried, and how a tool holds on to them.
 
 use crate::geometry::{Footprint, Pose, Vector, perpendicular};
-use crate::scene::{Goal, Mover, Region, Scene, Situation, State};
+use crate::{
+    scene::{Mover, Region, Scene, Situation, State},
+    task::Goal,
+};
 
 use super::lattice::{Extent, Lattice, Solid};
 use crate::plan::workspace::{HAND_CLEARANCE, OBSTACLE_CLEARANCE};

@@ -1,6 +1,6 @@
 //! The lever-ups that a task's rules allow, on a grid.
 
-use crate::scene::{LeverRules, LeverUp, Pivot, Place, Task};
+use crate::task::{LeverRules, LeverUp, Pivot, Place, Task};
 
 /// Most lever points along the outline.
 const MOST: f64 = 256.0;

@@ -3,7 +3,11 @@
 use std::f64::consts::PI;
 
 use crate::geometry::{Pose3, Solid, Vector, Vector3, cross, perpendicular};
-use crate::scene::{LeverFault, LeverRules, LeverScene, LeverUp, Task};
+use crate::{
+    outcome::LeverFault,
+    scene::LeverScene,
+    task::{LeverRules, LeverUp, Task},
+};
 
 /// The blade may sink so deep into what is fixed, metres: it slides along floors.
 const SLACK: f64 = 1e-4;

@@ -6,9 +6,10 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::scene::{
-    Ending, Goal, Job, LeverFault, LeverMotion, LeverScene, Motion, Outcome, Situation, Task, Tool,
-    Trajectory, Warning,
+use crate::{
+    outcome::{Ending, LeverFault, Outcome, Trajectory, Warning},
+    scene::{LeverScene, Situation, Tool},
+    task::{Goal, Job, LeverMotion, Motion, Task},
 };
 
 use super::{LeverCandidate, LeverGrid, LeverRoom};

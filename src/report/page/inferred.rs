@@ -6,7 +6,7 @@ use crate::belief::Belief;
 use crate::recording::{RecordedFrame, Recording};
 use crate::report::document::{Document, Section};
 use crate::report::table::Align;
-use crate::scene::{Frame, State};
+use crate::{outcome::Frame, scene::State};
 
 use super::believed::over_time;
 use super::data::{Data, File, Found, Layer, Plan, Run, Standing, Stroke, fine, length, pose};

@@ -4,7 +4,10 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene::{Models, Plan, Push, PushForm, Span};
+use crate::{
+    scene::{Models, Span},
+    task::{Plan, Push, PushForm},
+};
 
 /// Where a task was read.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

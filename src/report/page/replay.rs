@@ -2,7 +2,11 @@
 
 use crate::geometry::Pose;
 use crate::graph::{Graph, GraphRelation};
-use crate::scene::{Engine, Evidence, Frame, Job, ModelKind, Scene, Task, Trajectory, Verdict};
+use crate::{
+    outcome::{Evidence, Frame, Trajectory, Verdict},
+    scene::{Engine, ModelKind, Scene},
+    task::{Job, Task},
+};
 
 use super::data::{End, Layer, Replay, fine, length, point};
 

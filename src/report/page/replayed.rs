@@ -9,7 +9,11 @@ use crate::report::number::millimetres;
 use crate::report::plan_picture::space_figures;
 use crate::report::plan_text::plan_line;
 use crate::report::verdict::{replay_warnings, verdict_line};
-use crate::scene::{Engine, Job, Outcome, Plan, Task, Tool, ToolMotion, Trajectory, Verdict};
+use crate::{
+    outcome::{Outcome, Trajectory, Verdict},
+    scene::{Engine, Tool},
+    task::{Job, Plan, Task, ToolMotion},
+};
 
 use super::data::{self, Data, File, Layer, Replay, Standing, Stroke, length, pose};
 use super::html::{self, PageView};
@@ -243,7 +247,7 @@ impl<'a> Making<'a> {
 /// The strokes of a motion with the tool of this index.
 pub fn strokes(motion: &ToolMotion, tool: usize) -> Vec<Stroke> {
     let mut lowered = true;
-    let stroke = |stroke: &crate::scene::Stroke| Stroke {
+    let stroke = |stroke: &crate::task::Stroke| Stroke {
         tool,
         from: pose(&stroke.from),
         to: pose(&stroke.to),

@@ -8,7 +8,11 @@ use crate::geometry::{Pose, wrap_angle};
 use crate::report::plan_text::engine_name;
 use crate::report::run::{headline, notes, steps};
 use crate::report::table::Align;
-use crate::scene::{Frame, Sight, State, Stroke, ToolMotion, Trajectory};
+use crate::{
+    outcome::{Frame, Trajectory},
+    scene::{Sight, State},
+    task::{Stroke, ToolMotion},
+};
 
 use super::believed::{joints, numbers};
 use super::data::{self, Layer, Made, Run, Standing, fine, length};

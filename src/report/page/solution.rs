@@ -6,8 +6,12 @@ use crate::report::plan_text::{engine_name, plan_line};
 use crate::report::solution::{headline, models_words};
 use crate::report::table::NONE;
 use crate::report::verdict::verdict_line;
-use crate::scene::{Engine, Outcome, Task, Verdict};
 use crate::solve::{PlanStatus, RankedPlan, Solution};
+use crate::{
+    outcome::{Outcome, Verdict},
+    scene::Engine,
+    task::Task,
+};
 
 use super::candidates::{candidates, frequent};
 use super::data::{Choice, Layer, Standing};

@@ -4,7 +4,11 @@
 use std::sync::Arc;
 
 use crate::geometry::{Pose3, Vector3};
-use crate::scene::{Frame, LeverScene, Plan, Step, Task, Tool, Trajectory};
+use crate::{
+    outcome::{Frame, Trajectory},
+    scene::{LeverScene, Tool},
+    task::{Plan, Step, Task},
+};
 
 use super::data::{Layer, Measure, Replay, Stroke, fine, length, pose};
 use super::replay::{differences, packed};

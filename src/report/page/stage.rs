@@ -4,13 +4,16 @@ use serde_json::Value as Json;
 
 use crate::geometry::{Footprint, Pose, Shape, Vector};
 use crate::report::plan_text::goal_line;
-use crate::scene::{self, Blade, Carried, Plan, SHOWN_HAND, Scene, Slab, Task};
+use crate::{
+    scene::{self, Blade, Carried, SHOWN_HAND, Scene, Slab},
+    task::{Plan, Task},
+};
 
 use super::data::{Body, Goal, Outline, Stage, Tool, fine, length, point, pose};
 
 /// Scene, reach and goal of a task.
 pub fn stage(task: &Task) -> Stage {
-    let goal = |goal: &scene::Goal| Goal {
+    let goal = |goal: &crate::task::Goal| Goal {
         object: goal.object,
         at: point(goal.position),
         // In space something else is measured than the distance.

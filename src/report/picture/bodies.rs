@@ -4,7 +4,10 @@ use std::f64::consts::TAU;
 
 use crate::geometry::{Pose, Shape, Vector, wrap_angle};
 use crate::report::svg::{Anchor, Font, Style, Svg};
-use crate::scene::{Goal, Object, Robot, Scene};
+use crate::{
+    scene::{Object, Robot, Scene},
+    task::Goal,
+};
 
 use super::{legend::Sample, palette, view::View};
 

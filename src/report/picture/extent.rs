@@ -1,7 +1,11 @@
 //! What a picture must show, as a box on the table.
 
 use crate::geometry::Vector;
-use crate::scene::{Goal, Robot, Scene, ToolMotion, Trajectory};
+use crate::{
+    outcome::Trajectory,
+    scene::{Robot, Scene},
+    task::{Goal, ToolMotion},
+};
 
 use super::view::Bounds;
 

@@ -7,7 +7,11 @@ use crate::geometry::{Pose, Vector};
 use crate::report::keyframes::{Key, short};
 use crate::report::number::millimetres;
 use crate::report::svg::{Font, Style};
-use crate::scene::{Frame, Object, Task, ToolMotion, Trajectory};
+use crate::{
+    outcome::{Frame, Trajectory},
+    scene::Object,
+    task::{Task, ToolMotion},
+};
 
 use super::{
     bodies,

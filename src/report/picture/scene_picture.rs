@@ -4,7 +4,11 @@ use std::fmt;
 
 use crate::geometry::{Pose, Vector};
 use crate::report::svg::{Font, Style, Svg};
-use crate::scene::{Engine, Goal, Robot, Scene, ToolMotion, Trajectory};
+use crate::{
+    outcome::Trajectory,
+    scene::{Engine, Robot, Scene},
+    task::{Goal, ToolMotion},
+};
 
 use super::{
     bodies,

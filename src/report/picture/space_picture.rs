@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use crate::geometry::{Footprint, Pose3, Vector, Vector3, cross};
 use crate::report::svg::{Font, Style, Svg};
-use crate::scene::{
-    Blade, Frame, Goal, LeverScene, LeverStep, Part, Plan, Plate, Scene, Slab, Step, Tool,
-    Trajectory, lever_frame,
+use crate::{
+    outcome::{Frame, Trajectory},
+    scene::{Blade, LeverScene, Part, Plate, Scene, Slab, Tool},
+    task::{Goal, LeverStep, Plan, Step, lever_frame},
 };
 
 use super::palette;

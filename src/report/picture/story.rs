@@ -4,7 +4,10 @@ use crate::geometry::Vector;
 use crate::report::keyframes::{Key, short};
 use crate::report::number::millimetres;
 use crate::report::svg::{Font, Style, Svg};
-use crate::scene::{Goal, Outcome, Task, Trajectory};
+use crate::{
+    outcome::{Outcome, Trajectory},
+    task::{Goal, Task},
+};
 
 use super::{palette, stage::Stage, strokes::Made, timeline::LIFT};
 

@@ -2,7 +2,11 @@
 
 use crate::geometry::{Footprint, Pose, Vector, contact_points};
 use crate::report::svg::{Anchor, Font, Style, Svg};
-use crate::scene::{Stroke, Tool, ToolMotion, Trajectory};
+use crate::{
+    outcome::Trajectory,
+    scene::Tool,
+    task::{Stroke, ToolMotion},
+};
 
 use super::{palette, view::View};
 

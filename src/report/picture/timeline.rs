@@ -1,6 +1,6 @@
 //! When what happens in a moving picture: recorded time stretched, with pauses for the eye.
 
-use crate::scene::{Frame, Trajectory};
+use crate::outcome::{Frame, Trajectory};
 
 use super::strokes::Made;
 
@@ -96,7 +96,10 @@ mod tests {
     use super::*;
     use crate::geometry::{Pose, Vector};
     use crate::report::picture::strokes;
-    use crate::scene::{Part, Push, State, Tool, ToolMotion};
+    use crate::{
+        scene::{Part, State, Tool},
+        task::{Push, ToolMotion},
+    };
 
     /// Two pushes of a second each, recorded at their ends alone.
     fn timeline(placed: bool, speed: f64) -> Timeline {

@@ -3,10 +3,12 @@
 use std::sync::Arc;
 
 use crate::geometry::{Pose, Vector};
-use crate::scene::{
-    GRAVITY, Job, JointKind, Object, Part, Push, Record, Scene, State, Tool, ToolMotion,
-};
 use crate::sim::Simulator;
+use crate::{
+    outcome::Record,
+    scene::{GRAVITY, JointKind, Object, Part, Scene, State, Tool},
+    task::{Job, Push, ToolMotion},
+};
 
 const ENGINES: [Simulator; 2] = [Simulator::planar(), Simulator::spatial()];
 

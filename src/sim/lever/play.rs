@@ -2,12 +2,15 @@
 //! pushes, each until everything rests.
 
 use crate::geometry::{Pose, Pose3, Vector};
-use crate::scene::{
-    Blade, Ending, Force, Frame, GRAVITY, LEVER_FRAMES, LeverFrame, LeverJob, LeverRecord,
-    LeverScene, LeverTrajectory, LeverUp, LeverWarning, Lift, Motion, REST_SPEED, State, Stroke,
-    ToolMotion, Trajectory, Warning, has_slipped, lever_frame,
-};
 use crate::watch::Watch;
+use crate::{
+    outcome::{
+        Ending, Force, Frame, LEVER_FRAMES, LeverFrame, LeverRecord, LeverTrajectory, LeverWarning,
+        Lift, Trajectory, Warning, has_slipped,
+    },
+    scene::{Blade, GRAVITY, LeverScene, REST_SPEED, State},
+    task::{LeverJob, LeverUp, Motion, Stroke, ToolMotion, lever_frame},
+};
 
 use super::world::LeverWorld;
 

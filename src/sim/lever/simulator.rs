@@ -3,11 +3,12 @@
 use std::num::NonZeroU16;
 
 use crate::geometry::Pose;
-use crate::scene::{
-    Engine, Frame, LeverJob, LeverRecord, LeverScene, LeverTrajectory, ModelKind, ModelSpec,
-    Motion, Rate, Record, State, Trajectory,
-};
 use crate::watch::Watch;
+use crate::{
+    outcome::{Frame, LeverRecord, LeverTrajectory, Record, Trajectory},
+    scene::{Engine, LeverScene, ModelKind, ModelSpec, Rate, State},
+    task::{LeverJob, Motion},
+};
 
 use super::play::{Scenery, Watcher, play, play_all};
 

@@ -8,7 +8,10 @@ use rapier3d_f64::prelude::{
 };
 
 use crate::geometry::{Pose, Pose3, Vector, Vector3};
-use crate::scene::{Blade, GRAVITY, LeverScene, Stroke, TOUCHING, ToolMotion};
+use crate::{
+    scene::{Blade, GRAVITY, LeverScene, TOUCHING},
+    task::{Stroke, ToolMotion},
+};
 
 use super::super::parameters::ALLOWED_ERROR;
 use super::super::solids::solid;

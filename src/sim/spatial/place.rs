@@ -4,7 +4,10 @@
 use rapier3d_f64::prelude::{Pose3, Rotation, Vector as RapierVector};
 
 use crate::geometry::{Pose, Vector};
-use crate::scene::{Scene, State, Stroke, ToolMotion};
+use crate::{
+    scene::{Scene, State},
+    task::{Stroke, ToolMotion},
+};
 
 use super::super::parameters::centre;
 use super::super::solids::{TABLE_DEPTH, Top};

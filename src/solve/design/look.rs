@@ -9,8 +9,11 @@ use crate::plan::{
     FOUND_RADIUS, Field, REFINABLE, RefineSettings, RefineStatistics, Refined, Rollouts, Search,
     Spread, Workspace, refine,
 };
-use crate::scene::{Situation, Task, Tool};
 use crate::watch::Watch;
+use crate::{
+    scene::{Situation, Tool},
+    task::Task,
+};
 
 use super::super::grade::WELL_INSIDE;
 use super::super::rank::distinct;

@@ -4,8 +4,11 @@ use std::sync::Arc;
 
 use crate::asset::ToolLibrary;
 use crate::plan::{Field, Spread};
-use crate::scene::{Task, Tool, ToolChoice};
 use crate::watch::Watch;
+use crate::{
+    scene::Tool,
+    task::{Task, ToolChoice},
+};
 
 use super::super::grade::{Class, Grade};
 use super::super::planner::stated;

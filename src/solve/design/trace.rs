@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use crate::geometry::{Footprint, Pose, Vector, clearance, perpendicular, swept_clearance};
 use crate::plan::{Field, HAND_CLEARANCE, MIN_LENGTH, OBSTACLE_CLEARANCE, STAND_OFF};
-use crate::scene::{Mover, Task};
+use crate::{scene::Mover, task::Task};
 
 use super::assembly::{Assembly, Bar, HEIGHT, Route};
 use super::form::Form;

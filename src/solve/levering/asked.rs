@@ -5,7 +5,11 @@ use std::sync::Arc;
 use thiserror::Error;
 
 use crate::plan::lever::LeverRoom;
-use crate::scene::{LeverFault, LeverScene, LeverUp, Pivot, Place, Plan, Task, Tool};
+use crate::{
+    outcome::LeverFault,
+    scene::{LeverScene, Tool},
+    task::{LeverUp, Pivot, Place, Plan, Task},
+};
 
 /// A lever-up as it is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,8 +2,11 @@
 
 use std::sync::Arc;
 
-use crate::scene::{Plate, Situation, Task, Tool};
 use crate::solve::SolveError;
+use crate::{
+    scene::{Plate, Situation, Tool},
+    task::Task,
+};
 
 /// Checks what planning in space relies on besides what holds for every task.
 ///

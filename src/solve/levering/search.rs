@@ -6,13 +6,14 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::plan::lever::{LeverCandidate, LeverSearch, ScoredLever, merit};
-use crate::scene::{
-    Job, LeverMotion, LeverScene, LeverStep, Motion, Outcome, Plan, Record, Scene, Situation, Step,
-    Task, Tool, Trajectory,
-};
 use crate::sim::LeverSimulator;
 use crate::solve::{RankedPlan, Refinement};
 use crate::watch::{Unwatched, Watch};
+use crate::{
+    outcome::{Outcome, Record, Trajectory},
+    scene::{LeverScene, Scene, Situation, Tool},
+    task::{Job, LeverMotion, LeverStep, Motion, Plan, Step, Task},
+};
 
 use super::doubt::doubted;
 use super::steps::{Made, Steps};

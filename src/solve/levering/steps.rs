@@ -7,16 +7,17 @@ use std::sync::Arc;
 
 use crate::asset::ToolLibrary;
 use crate::geometry::{Pose3, Solid, Vector};
-use crate::scene::{
-    Goal, LeverScene, Models, Obstacle, Outcome, Plan, Plate, Record, Scene, Situation, Task, Tool,
-    ToolChoice, Trajectory, Verdict,
-};
 use crate::sim::LeverSimulator;
 use crate::solve::grade::{Class, Grade};
 use crate::solve::solution::LeverStatistics;
 use crate::solve::{PlanStatus, Planner, RankedPlan, Solution, SolveError, Statistics, Timing};
 use crate::verify::{Verifier, VerifySettings};
 use crate::watch::{Until, Unwatched, Watch};
+use crate::{
+    outcome::{Outcome, Record, Trajectory, Verdict},
+    scene::{LeverScene, Models, Obstacle, Plate, Scene, Situation, Tool},
+    task::{Goal, Plan, Task, ToolChoice},
+};
 
 use super::LeverSettings;
 use super::search::rank;

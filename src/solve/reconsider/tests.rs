@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::geometry::Pose;
+use crate::outcome::{Disturbance, Evidence, Outcome};
 use crate::plan::Start;
-use crate::scene::{Disturbance, Evidence, Outcome};
 
 fn candidate(pushes: &[(f64, f64)]) -> Candidate {
     let push = |&(direction, length): &(f64, f64)| CandidatePush {

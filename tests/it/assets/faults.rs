@@ -3,7 +3,7 @@
 
 use insta::assert_snapshot;
 use pushplan::asset::{PlanFile, ToolLibrary};
-use pushplan::scene::{Task, Tool};
+use pushplan::{scene::Tool, task::Task};
 
 /// A sound task; the tests spoil it.
 const TASK: &str = "\

@@ -3,7 +3,10 @@
 use insta::assert_snapshot;
 use pushplan::asset::{PlanFile, TrajectoryFile};
 use pushplan::geometry::{Pose, Shape, Vector};
-use pushplan::scene::{Joint, JointKind, Part, Span, Task, Tool};
+use pushplan::{
+    scene::{Joint, JointKind, Part, Span, Tool},
+    task::Task,
+};
 
 use super::saved::{plan_file, trajectory_file};
 

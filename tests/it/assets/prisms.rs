@@ -1,7 +1,10 @@
 //! Prisms in files: what they mean, and what is said about wrong ones.
 
 use pushplan::geometry::{ConvexPolygon, Shape, Vector};
-use pushplan::scene::{Support, Task, Tool};
+use pushplan::{
+    scene::{Support, Tool},
+    task::Task,
+};
 
 /// A task with an object of this shape, with more keys of the object and of the goal.
 fn task(shape: &str, object: &str, goal: &str) -> String {

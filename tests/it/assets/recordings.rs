@@ -8,8 +8,12 @@ use pushplan::asset::{Kind, RECORDING_FORMAT, check};
 use pushplan::effect::{EffectModel, Job, Simulated};
 use pushplan::geometry::Vector;
 use pushplan::recording::Recording;
-use pushplan::scene::{JointKind, Object, Push, Record, Scene, Surface, ToolMotion, Trajectory};
 use pushplan::sim::Simulator;
+use pushplan::{
+    outcome::{Record, Trajectory},
+    scene::{JointKind, Object, Scene, Surface},
+    task::{Push, ToolMotion},
+};
 
 use crate::fixtures::hand;
 

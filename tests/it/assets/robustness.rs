@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use proptest::prelude::*;
 use pushplan::asset::{Faults, PlanFile, TrajectoryFile};
 use pushplan::recording::Recording;
-use pushplan::scene::{Task, Tool};
+use pushplan::{scene::Tool, task::Task};
 
 use super::recordings;
 use super::saved::{plan_file, trajectory_file};

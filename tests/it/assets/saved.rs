@@ -5,10 +5,13 @@ use pushplan::asset::{
     Kind, PLAN_VERSION, PlanFile, ToolLibrary, TrajectoryFile, check, write_atomic,
 };
 use pushplan::geometry::{Pose, Vector};
-use pushplan::scene::{
-    Body, Contact, Disturbance, Engine, Evidence, Force, Frame, HeadSpread, Miss, ModelKind,
-    Narrowed, Outcome, Plan, Push, Spread, Step, TableFit, Task, Tool, Trajectory, Verdict,
-    Warning,
+use pushplan::{
+    outcome::{
+        Contact, Disturbance, Evidence, Force, Frame, Miss, Outcome, Spread, Trajectory, Verdict,
+        Warning,
+    },
+    scene::{Body, Engine, HeadSpread, ModelKind, Narrowed, TableFit, Tool},
+    task::{Plan, Push, Step, Task},
 };
 
 use super::{folder, shipped_tasks};

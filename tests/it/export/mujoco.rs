@@ -8,8 +8,11 @@ use std::process::Command;
 
 use pushplan::asset::{PlanFile, ToolLibrary, load_task};
 use pushplan::export::{LEVER_SCRIPT, REPLAY_SCRIPT, mjcf};
-use pushplan::scene::{GRAVITY, PushForm, Task};
 use pushplan::solve::{Effort, Planner};
+use pushplan::{
+    scene::GRAVITY,
+    task::{PushForm, Task},
+};
 use serde_json::Value as Json;
 use tempfile::TempDir;
 

@@ -2,8 +2,11 @@
 
 use insta::assert_snapshot;
 use pushplan::import::{Wanted, objects, parse, tool};
-use pushplan::scene::{JointKind, Surface, Task};
 use pushplan::{Shape, Vector};
+use pushplan::{
+    scene::{JointKind, Surface},
+    task::Task,
+};
 
 const KITCHEN: &str = include_str!("../../cmd/import.in/kitchen.xml");
 

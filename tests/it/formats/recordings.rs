@@ -5,8 +5,11 @@ use std::sync::Arc;
 use mcap::MessageStream;
 use pushplan::asset::PlanFile;
 use pushplan::effect::Simulated;
-use pushplan::scene::{Job, Plan, Push, PushForm, Record, Task};
 use pushplan::{EffectModel, Simulator, ToolLibrary, Vector};
+use pushplan::{
+    outcome::Record,
+    task::{Job, Plan, Push, PushForm, Task},
+};
 use serde_json::Value as Json;
 
 #[test]

@@ -5,8 +5,11 @@ use std::sync::Arc;
 use pushplan::asset::PlanFile;
 use pushplan::export::mjcf;
 use pushplan::import::{Imported, ImportedScene, Wanted, objects, parse, tool};
-use pushplan::scene::{Goal, Plan, Push, PushForm, Robot, Scene, Task, Tool};
 use pushplan::{JointKind, Pose, Shape, ToolLibrary, Vector};
+use pushplan::{
+    scene::{Robot, Scene, Tool},
+    task::{Goal, Plan, Push, PushForm, Task},
+};
 
 /// A plan of one push with a shipped tool.
 fn plan(task: Task, tool: &Tool) -> PlanFile {

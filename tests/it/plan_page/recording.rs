@@ -5,8 +5,12 @@ use pushplan::effect::Prior;
 use pushplan::geometry::Vector;
 use pushplan::recording::Recording;
 use pushplan::report::{PageView, Recipe, belief_document, recording_page};
-use pushplan::scene::{Job, Joint, JointKind, Object, Record, Scene, Truth};
 use pushplan::sim::Simulator;
+use pushplan::{
+    outcome::Record,
+    scene::{Joint, JointKind, Object, Scene},
+    task::{Job, Truth},
+};
 use tempfile::TempDir;
 
 use super::browser::Browser;

@@ -7,9 +7,9 @@ use pushplan::act::{
 use pushplan::asset::ToolLibrary;
 use pushplan::geometry::Pose;
 use pushplan::report::{PageView, Recipe, run_page};
-use pushplan::scene::{Goal, State, Trajectory};
 use pushplan::watch::Unwatched;
 use pushplan::{Effort, Planner};
+use pushplan::{outcome::Trajectory, scene::State, task::Goal};
 use serde_json::json;
 use tempfile::TempDir;
 

@@ -6,9 +6,12 @@ use std::sync::Arc;
 use pushplan::asset::PlanFile;
 use pushplan::geometry::Pose;
 use pushplan::report::PageView;
-use pushplan::scene::{Engine, LeverJob, LeverScene};
 use pushplan::sim::LeverSimulator;
 use pushplan::{Solution, Task};
+use pushplan::{
+    scene::{Engine, LeverScene},
+    task::LeverJob,
+};
 use serde_json::Value as Json;
 use tempfile::TempDir;
 

@@ -3,10 +3,12 @@
 use std::sync::Arc;
 
 use pushplan::geometry::{Pose, Shape, Vector};
-use pushplan::scene::{
-    Body, Job, Object, Obstacle, Part, Physics, Record, Scene, Stroke, Tool, ToolMotion, Warning,
-};
 use pushplan::sim::Simulator;
+use pushplan::{
+    outcome::{Record, Warning},
+    scene::{Body, Object, Obstacle, Part, Physics, Scene, Tool},
+    task::{Job, Stroke, ToolMotion},
+};
 
 use crate::fixtures::{brick, can, engines, hand_push, push};
 

@@ -2,7 +2,10 @@
 
 use pushplan::effect::{EffectModel, Job, Simulated};
 use pushplan::geometry::Vector;
-use pushplan::scene::{JointKind, Record, Scene};
+use pushplan::{
+    outcome::Record,
+    scene::{JointKind, Scene},
+};
 
 use crate::fixtures::{brick, can, engines, push, row};
 

@@ -1,7 +1,11 @@
 //! Kinetic energy comes from the tool alone.
 
 use pushplan::geometry::{Pose, Vector};
-use pushplan::scene::{Job, Obstacle, Record, Scene, State, Velocity};
+use pushplan::{
+    outcome::Record,
+    scene::{Obstacle, Scene, State, Velocity},
+    task::Job,
+};
 
 use crate::fixtures::{brick, can, engines, push};
 

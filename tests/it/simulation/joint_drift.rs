@@ -17,8 +17,12 @@
 use std::num::NonZeroU16;
 
 use pushplan::geometry::{Pose, Vector};
-use pushplan::scene::{Engine, Job, JointKind, Object, Rate, Record, Scene, Trajectory};
 use pushplan::sim::Simulator;
+use pushplan::{
+    outcome::{Record, Trajectory},
+    scene::{Engine, JointKind, Object, Rate, Scene},
+    task::Job,
+};
 
 use crate::fixtures::{brick, can, drift, hand_push, row};
 

@@ -1,7 +1,11 @@
 //! Limits stop a joint where they say, on both sides, in both engines.
 
 use pushplan::geometry::{Pose, Vector};
-use pushplan::scene::{Job, JointKind, Record, Scene, Span};
+use pushplan::{
+    outcome::Record,
+    scene::{JointKind, Scene, Span},
+    task::Job,
+};
 
 use crate::fixtures::{brick, engines, opened, push, row};
 

@@ -1,7 +1,11 @@
 //! Joints hold what they should hold and leave free what they should leave free.
 
 use pushplan::geometry::{Pose, Vector, wrap_angle};
-use pushplan::scene::{Job, Joint, JointKind, Object, Record, Scene, State};
+use pushplan::{
+    outcome::Record,
+    scene::{Joint, JointKind, Object, Scene, State},
+    task::Job,
+};
 
 use crate::fixtures::{brick, can, engines, push};
 

@@ -10,7 +10,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use pushplan::geometry::{Pose, Shape, Vector};
-use pushplan::scene::{Job, Record, Scene};
+use pushplan::{outcome::Record, scene::Scene, task::Job};
 
 use crate::fixtures::{brick, engines, push};
 

@@ -3,7 +3,11 @@
 use std::f64::consts::FRAC_PI_3;
 
 use pushplan::geometry::{Pose, Vector};
-use pushplan::scene::{Job, Push, Record, Scene, State, ToolMotion, Warning};
+use pushplan::{
+    outcome::{Record, Warning},
+    scene::{Scene, State},
+    task::{Job, Push, ToolMotion},
+};
 
 use crate::fixtures::{bar, brick, can, engines};
 

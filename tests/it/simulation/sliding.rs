@@ -1,8 +1,12 @@
 //! An object that slides freely goes as far as its support law says.
 
 use pushplan::geometry::{Pose, Shape, Vector, cross};
-use pushplan::scene::{GRAVITY, Job, JointKind, Object, Record, Scene, State, Support, Velocity};
 use pushplan::sim::Simulator;
+use pushplan::{
+    outcome::Record,
+    scene::{GRAVITY, JointKind, Object, Scene, State, Support, Velocity},
+    task::Job,
+};
 
 use crate::fixtures::{brick, can, engines, push, row};
 

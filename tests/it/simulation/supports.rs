@@ -3,8 +3,12 @@
 use std::sync::Arc;
 
 use pushplan::geometry::{Pose, Vector, wrap_angle};
-use pushplan::scene::{Job, Object, Part, Push, Record, Scene, Support, Tool, ToolMotion};
 use pushplan::sim::Simulator;
+use pushplan::{
+    outcome::Record,
+    scene::{Object, Part, Scene, Support, Tool},
+    task::{Job, Push, ToolMotion},
+};
 
 use crate::fixtures::{brick, can};
 

@@ -3,10 +3,12 @@
 use std::sync::Arc;
 
 use pushplan::geometry::{Pose, Shape, Vector};
-use pushplan::scene::{
-    Engine, Job, JointKind, Object, Record, Scene, Span, Stroke, Tool, ToolMotion,
-};
 use pushplan::sim::Simulator;
+use pushplan::{
+    outcome::Record,
+    scene::{Engine, JointKind, Object, Scene, Span, Tool},
+    task::{Job, Stroke, ToolMotion},
+};
 
 use crate::fixtures::{bar, brick, can, engines, row};
 

@@ -1,7 +1,11 @@
 //! The tool travels exactly what the motion says, and pushes what it meets.
 
 use pushplan::geometry::Vector;
-use pushplan::scene::{Body, Contact, Job, Record, Scene};
+use pushplan::{
+    outcome::{Contact, Record},
+    scene::{Body, Scene},
+    task::Job,
+};
 
 use crate::fixtures::{can, engines, push};
 

@@ -7,10 +7,13 @@ use pushplan::internals::act::{
 };
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::geometry::wrap_angle;
-use pushplan::internals::scene::{Goal, Scene, Situation, State, Task, Truth};
 use pushplan::internals::solve::{Planner, SolveError};
 use pushplan::internals::store::Measured;
 use pushplan::internals::watch::Unwatched;
+use pushplan::internals::{
+    scene::{Scene, Situation, State},
+    task::{Goal, Task, Truth},
+};
 use serde::{Deserialize, Serialize};
 
 use super::random::{HiddenWorld, RandomError, RandomSuite, TaskKind};

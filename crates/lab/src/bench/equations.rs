@@ -7,8 +7,12 @@ use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::contact::Tally;
 use pushplan::internals::effect::{EffectModel, Prior, Simulated};
 use pushplan::internals::rollout::{RollSettings, Roller};
-use pushplan::internals::scene::{Engine, Job, Rate, Record};
 use pushplan::internals::sim::Simulator;
+use pushplan::internals::{
+    outcome::Record,
+    scene::{Engine, Rate},
+    task::Job,
+};
 use pushplan_learn::dataset::JointRule;
 use serde::{Deserialize, Serialize};
 

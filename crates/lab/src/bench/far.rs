@@ -2,7 +2,10 @@
 //! needs.
 
 use pushplan::internals::effect::EffectModel;
-use pushplan::internals::scene::{Object, Record, Scene};
+use pushplan::internals::{
+    outcome::Record,
+    scene::{Object, Scene},
+};
 use serde::{Deserialize, Serialize};
 
 use super::suite::Suite;

@@ -10,9 +10,13 @@
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::effect::{EffectModel, shifted_start};
 use pushplan::internals::judge::{Comparison, MOVED, ObjectError, Summary, Trial};
-use pushplan::internals::scene::{Job, Physics, Record, Scene, Warning};
 use pushplan::internals::seeded::generator;
 use pushplan::internals::sim::Simulator;
+use pushplan::internals::{
+    outcome::{Record, Warning},
+    scene::{Physics, Scene},
+    task::Job,
+};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 

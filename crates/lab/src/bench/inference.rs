@@ -7,8 +7,8 @@ use pushplan::internals::bench::processor_time;
 use pushplan::internals::contact::{Bodies, FrameProblem, FrameSolver};
 use pushplan::internals::graph::Batch;
 use pushplan::internals::network::{Buffers, Forward, PredictorWeights, matrix_product};
-use pushplan::internals::scene::{Job, Record};
 use pushplan::internals::sim::Simulator;
+use pushplan::internals::{outcome::Record, task::Job};
 use pushplan_learn::network::{Inputs, Predictor};
 use serde::{Deserialize, Serialize};
 

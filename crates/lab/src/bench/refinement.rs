@@ -4,9 +4,9 @@
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::bench::{End, SolvedTask};
 use pushplan::internals::judge::Summary;
-use pushplan::internals::scene::{Situation, Task};
 use pushplan::internals::solve::{PlanStatus, Planner, Solution, SolveError};
 use pushplan::internals::store::Measured;
+use pushplan::internals::{scene::Situation, task::Task};
 use serde::{Deserialize, Serialize};
 
 use super::random::random_task;

@@ -4,8 +4,11 @@
 use std::sync::Arc;
 
 use pushplan::internals::asset::ToolLibrary;
-use pushplan::internals::scene::{Scene, Span, ToolMotion};
 use pushplan::internals::seeded::generator;
+use pushplan::internals::{
+    scene::{Scene, Span},
+    task::ToolMotion,
+};
 use pushplan_learn::dataset::{
     Aim, Constraints, Crowd, DatasetConfig, Episode, JointRule, Preset, Solids, aimed_stroke,
     anywhere, log_uniform, random_direction, random_heading, random_scene,

@@ -6,9 +6,9 @@ use std::sync::Arc;
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::bench::processor_time;
 use pushplan::internals::effect::{EffectModel, Job, Simulated};
-use pushplan::internals::scene::{Record, Scene, Task};
 use pushplan::internals::sim::Simulator;
 use pushplan::internals::solve::{Planner, Settings, SolveError};
+use pushplan::internals::{outcome::Record, scene::Scene, task::Task};
 use serde::{Deserialize, Serialize};
 
 use super::suite::{Case, Suite};

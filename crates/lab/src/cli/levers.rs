@@ -13,8 +13,8 @@ use pushplan::cli::words::words;
 use pushplan::internals::effect::{
     LeverModel, LeverNetwork, LeverPrior, LeverTrust, PriorSettings, SimulatedLevers,
 };
-use pushplan::internals::scene::{LeverFeatures, LeverJob, LeverTrajectory};
 use pushplan::internals::sim::LeverSimulator;
+use pushplan::internals::{outcome::LeverTrajectory, scene::LeverFeatures, task::LeverJob};
 use pushplan_learn::cli::generate::data_error;
 use pushplan_learn::cli::words::LEVER_PRESETS;
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPart, LeverPreset};

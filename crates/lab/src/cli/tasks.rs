@@ -10,9 +10,9 @@ use pushplan::cli::session::Session;
 use pushplan::cli::words::words;
 use pushplan::cli::{interrupt, output};
 use pushplan::internals::asset::ToolLibrary;
-use pushplan::internals::scene::Task;
 use pushplan::internals::solve::{Effort, Planner};
 use pushplan::internals::store::RunManifest;
+use pushplan::internals::task::Task;
 use serde_json::json;
 
 use crate::bench::{RandomSuite, TaskKind};

@@ -2,7 +2,10 @@
 
 use pushplan::internals::effect::{LeverView, lever_features};
 use pushplan::internals::geometry::Vector;
-use pushplan::internals::scene::{LeverFeatures, LeverJob, Slab};
+use pushplan::internals::{
+    scene::{LeverFeatures, Slab},
+    task::LeverJob,
+};
 
 use super::ImageFeatures;
 

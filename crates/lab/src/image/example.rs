@@ -2,7 +2,7 @@
 
 use candle_core::{Device, Result, Tensor};
 use pushplan::internals::effect::{LeverInputs, LeverView, lever_inputs};
-use pushplan::internals::scene::{LeverFeatures, LeverJob, LeverTrajectory};
+use pushplan::internals::{outcome::LeverTrajectory, scene::LeverFeatures, task::LeverJob};
 use pushplan_learn::dataset::LeverEpisode;
 use pushplan_learn::train::LeverExample;
 use rayon::prelude::*;

@@ -6,7 +6,7 @@ use pushplan::internals::effect::{
 use pushplan::internals::network::{
     LeverCell, LeverSizes, LeverWeights, Parameters, Statistics, tanh,
 };
-use pushplan::internals::scene::{LeverFeatures, LeverJob, LeverTrajectory};
+use pushplan::internals::{outcome::LeverTrajectory, scene::LeverFeatures, task::LeverJob};
 use rayon::prelude::*;
 
 use super::{ImageFeatures, ImageSizes, ImageWeights, image_code, image_inputs};

@@ -3,7 +3,10 @@
 use std::sync::Arc;
 
 use pushplan::internals::geometry::{Box3, Matrix3, Pose3, Turn3, Vector3};
-use pushplan::internals::scene::{LeverJob, LeverScene, LeverUp};
+use pushplan::internals::{
+    scene::LeverScene,
+    task::{LeverJob, LeverUp},
+};
 
 /// Half the width of the table, metres, and half its thickness.
 const TABLE: [f64; 2] = [2.0, 0.25];

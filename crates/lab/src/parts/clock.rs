@@ -1,6 +1,6 @@
 //! The steps in which a lever-up is predicted.
 
-use pushplan::internals::scene::{LEVER_FRAMES, LeverUp};
+use pushplan::internals::{outcome::LEVER_FRAMES, task::LeverUp};
 
 /// Longest step, seconds. In it a blade moves 5 mm, and what falls from rest 12 mm.
 const LONGEST: f64 = 0.05;

@@ -2,7 +2,7 @@
 
 use pushplan::internals::effect::LeverPrior;
 use pushplan::internals::geometry::{Pose3, Turn3, Vector3};
-use pushplan::internals::scene::LeverJob;
+use pushplan::internals::task::LeverJob;
 
 use super::bodies::LeverBodies;
 use super::clock::LeverClock;

@@ -2,7 +2,7 @@
 
 use pushplan::internals::geometry::{Pose3, Turn3, Vector3};
 use pushplan::internals::network::Forward;
-use pushplan::internals::scene::LeverFrame;
+use pushplan::internals::outcome::LeverFrame;
 use pushplan::internals::seeded::generator;
 use pushplan_learn::dataset::LeverEpisode;
 use rand::Rng;

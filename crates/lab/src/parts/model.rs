@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use pushplan::internals::effect::{LeverModel, LeverPrior, LeverTrust, PriorSettings};
 use pushplan::internals::network::Forward;
-use pushplan::internals::scene::{LeverJob, LeverTrajectory};
+use pushplan::internals::{outcome::LeverTrajectory, task::LeverJob};
 
 use super::card::PartsWeights;
 use super::course::LeverCourse;

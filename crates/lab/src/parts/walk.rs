@@ -2,7 +2,7 @@
 
 use pushplan::internals::geometry::Pose3;
 use pushplan::internals::network::{Buffers, Forward};
-use pushplan::internals::scene::{
+use pushplan::internals::outcome::{
     Ending, LEVER_FRAMES, LeverTrajectory, LeverWarning, has_slipped,
 };
 

@@ -3,8 +3,11 @@
 use pushplan::asset::{ToolLibrary, load_task};
 use pushplan::geometry::Vector;
 use pushplan::recording::Recording;
-use pushplan::scene::{Job, Push, Record, ToolMotion};
 use pushplan::sim::Simulator;
+use pushplan::{
+    outcome::Record,
+    task::{Job, Push, ToolMotion},
+};
 
 use crate::ROOT;
 use crate::program::{run, stderr, succeed};

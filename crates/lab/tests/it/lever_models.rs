@@ -7,9 +7,12 @@ use pushplan::effect::{
 };
 use pushplan::geometry::{Pose, Pose3, Vector};
 use pushplan::network::{LeverCard, LeverWeights, Parameters, Statistics, lever_layout};
-use pushplan::scene::{LeverFeatures, LeverJob, LeverScene, Place};
 use pushplan::sim::LeverSimulator;
 use pushplan::watch::Unwatched;
+use pushplan::{
+    scene::{LeverFeatures, LeverScene},
+    task::{LeverJob, Place},
+};
 use pushplan_lab::bench::{
     LeverBaseline, Setting, convergence, drive_report, lever_report, point_report,
 };

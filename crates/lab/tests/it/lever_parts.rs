@@ -4,7 +4,7 @@ use pushplan::effect::{LeverModel, LeverTrust};
 use pushplan::network::{
     Config, LeverWeights, Normaliser, Parameters, PredictorWeights, WeightsError,
 };
-use pushplan::scene::LeverJob;
+use pushplan::task::LeverJob;
 use pushplan::watch::Unwatched;
 use pushplan_lab::bench::load_lever;
 use pushplan_lab::parts::{LeverCourse, LeverParts, PARTS, PartGraphs, PartsCard, PartsWeights};

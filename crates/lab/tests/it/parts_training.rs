@@ -5,8 +5,8 @@ use std::path::Path;
 
 use pushplan::effect::{LeverModel, LeverPrior};
 use pushplan::network::{Buffers, Config, Forward, Normaliser, Parameters};
-use pushplan::scene::LeverJob;
 use pushplan::store::FolderLock;
+use pushplan::task::LeverJob;
 use pushplan::watch::{Unwatched, Watch};
 use pushplan_lab::bench::load_lever;
 use pushplan_lab::parts::{

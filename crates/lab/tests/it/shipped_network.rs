@@ -4,8 +4,11 @@
 use pushplan::asset::ToolLibrary;
 use pushplan::effect::{EffectModel, EffectModels, Job, Prior, Routed};
 use pushplan::judge::{MOVED, mean};
-use pushplan::scene::{Engine, ModelKind, Rate, Record};
 use pushplan::sim::Simulator;
+use pushplan::{
+    outcome::Record,
+    scene::{Engine, ModelKind, Rate},
+};
 use pushplan_lab::bench::{Suite, SuiteKind};
 
 use crate::recorded_pushes::{SUPPORTS, errors, pushes};

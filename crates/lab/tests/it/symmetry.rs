@@ -7,7 +7,9 @@ use pushplan::{
     asset::ToolLibrary,
     effect::{EffectModel, Prior},
     geometry::{Pose, Shape},
-    scene::{Job, JointKind, Record, State, Tool},
+    outcome::Record,
+    scene::{JointKind, State, Tool},
+    task::Job,
 };
 use pushplan_lab::bench::{Case, Suite, SuiteKind, crowd_cases};
 

@@ -5,7 +5,8 @@ use pushplan::watch::Watch;
 use pushplan::{
     asset::ToolLibrary,
     effect::{EffectModel, EffectModels, Job, Routed},
-    scene::{ModelSpec, Models, Record},
+    outcome::Record,
+    scene::{ModelSpec, Models},
     solve::{Effort, Settings},
 };
 use pushplan_lab::bench::{

@@ -12,7 +12,7 @@ use pushplan::cli::{exit_code, interrupt};
 use pushplan::internals::asset::write_atomic;
 use pushplan::internals::export::{LEVER_SCRIPT, lever_mjcf};
 use pushplan::internals::geometry::Pose3;
-use pushplan::internals::scene::LeverTrajectory;
+use pushplan::internals::outcome::LeverTrajectory;
 use pushplan::internals::store::{Shard, StoreError};
 use serde_json::json;
 

@@ -5,7 +5,10 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use pushplan::internals::geometry::{
     Footprint, Pose, Vector, clearance, perpendicular, travel_to_contact,
 };
-use pushplan::internals::scene::{Object, Scene, State, Stroke, Tool};
+use pushplan::internals::{
+    scene::{Object, Scene, State, Tool},
+    task::Stroke,
+};
 use rand::Rng;
 use rand_pcg::Pcg64;
 

@@ -3,7 +3,11 @@
 use std::f64::consts::FRAC_PI_2;
 
 use pushplan::internals::geometry::{Pose, Vector, perpendicular, travel_to_contact};
-use pushplan::internals::scene::{Frame, Ranges, Scene, ToolMotion};
+use pushplan::internals::{
+    outcome::Frame,
+    scene::{Ranges, Scene},
+    task::ToolMotion,
+};
 use rand::Rng;
 use rand::seq::SliceRandom;
 use rand_pcg::Pcg64;

@@ -1,7 +1,7 @@
 //! One episode: a random scene, a random tool motion and what it does.
 
-use pushplan::internals::scene::{Frame, Scene, ToolMotion};
 use pushplan::internals::seeded::generator;
+use pushplan::internals::{outcome::Frame, scene::Scene, task::ToolMotion};
 
 use super::config::DatasetConfig;
 use super::curriculum::Block;

@@ -3,10 +3,12 @@
 use std::sync::Arc;
 
 use pushplan::internals::geometry::{Pose, Shape, Vector};
-use pushplan::internals::scene::{
-    Body, COAST_FRAME, Frame, Job, Part, Ranges, Record, Scene, State, Stroke, Tool, ToolMotion,
-};
 use pushplan::internals::sim::Simulator;
+use pushplan::internals::{
+    outcome::{Frame, Record},
+    scene::{Body, Part, Ranges, Scene, State, Tool},
+    task::{COAST_FRAME, Job, Stroke, ToolMotion},
+};
 use rand_pcg::Pcg64;
 
 use super::aim::{SET_DOWN, tool_clearance};

@@ -1,9 +1,13 @@
 //! Cylinders that are light, middling or heavy, pushed by the hand: what is there to tell masses from
 //! (thesis, section 8.3).
 
-use pushplan::internals::scene::{Body, Frame, Job, Ranges, Record, Scene, Span, ToolMotion};
 use pushplan::internals::seeded::generator;
 use pushplan::internals::sim::Simulator;
+use pushplan::internals::{
+    outcome::{Frame, Record},
+    scene::{Body, Ranges, Scene, Span},
+    task::{Job, ToolMotion},
+};
 use rand::Rng;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};

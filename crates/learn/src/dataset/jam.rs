@@ -2,7 +2,11 @@
 //! and which planners avoid. Strokes end before it.
 
 use pushplan::internals::geometry::{Footprint, Pose, contact_points, swept_clearance};
-use pushplan::internals::scene::{Frame, Scene, Stroke, Tool, ToolMotion};
+use pushplan::internals::{
+    outcome::Frame,
+    scene::{Scene, Tool},
+    task::{Stroke, ToolMotion},
+};
 
 /// Bodies that overlap by more than this are jammed, metres; contacts under ordinary load sink
 /// in by a tenth of it.

@@ -8,8 +8,11 @@ use pushplan::internals::belief::{
 };
 use pushplan::internals::effect::{EffectModel, Network};
 use pushplan::internals::recording::Recording;
-use pushplan::internals::scene::{Joint, Noise, Scene, Span};
 use pushplan::internals::seeded::generator;
+use pushplan::internals::{
+    scene::{Joint, Scene, Span},
+    task::Noise,
+};
 use rand::Rng;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};

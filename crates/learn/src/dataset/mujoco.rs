@@ -14,7 +14,11 @@ use std::sync::OnceLock;
 
 use pushplan::internals::export::{FRAMES_SCRIPT, REPLAY_SCRIPT, motion_mjcf};
 use pushplan::internals::geometry::{Pose, Vector};
-use pushplan::internals::scene::{Frame, Scene, State, ToolMotion, Velocity};
+use pushplan::internals::{
+    outcome::Frame,
+    scene::{Scene, State, Velocity},
+    task::ToolMotion,
+};
 use serde::Deserialize;
 use serde_json::json;
 use tempfile::TempDir;

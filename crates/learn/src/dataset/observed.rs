@@ -3,7 +3,10 @@
 use pushplan::internals::belief::normal;
 use pushplan::internals::geometry::Vector;
 use pushplan::internals::recording::Recording;
-use pushplan::internals::scene::{Noise, Observation, Scene, Sight};
+use pushplan::internals::{
+    scene::{Scene, Sight},
+    task::{Noise, Observation},
+};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 

@@ -3,7 +3,11 @@
 use pushplan::internals::geometry::{
     Footprint, Pose, Vector, clearance, perpendicular, swept_clearance,
 };
-use pushplan::internals::scene::{Frame, Obstacle, Scene, Span, ToolMotion};
+use pushplan::internals::{
+    outcome::Frame,
+    scene::{Obstacle, Scene, Span},
+    task::ToolMotion,
+};
 use rand::Rng;
 use rand_pcg::Pcg64;
 

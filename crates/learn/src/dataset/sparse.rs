@@ -3,8 +3,10 @@
 use pushplan::internals::geometry::{
     Footprint, Pose, Vector, clearance, perpendicular, travel_to_contact,
 };
-use pushplan::internals::scene::{
-    Frame, JOINABLE, Object, Ranges, Scene, Span, State, Stroke, ToolMotion,
+use pushplan::internals::{
+    outcome::Frame,
+    scene::{JOINABLE, Object, Ranges, Scene, Span, State},
+    task::{Stroke, ToolMotion},
 };
 use rand::Rng;
 use rand_pcg::Pcg64;

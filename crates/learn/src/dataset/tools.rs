@@ -4,10 +4,12 @@ use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 use pushplan::internals::geometry::{Pose, Shape, Vector};
-use pushplan::internals::scene::{
-    Frame, Job, Part, Ranges, Record, Scene, Span, State, Stroke, Tool, ToolMotion, Trajectory,
-};
 use pushplan::internals::sim::Simulator;
+use pushplan::internals::{
+    outcome::{Frame, Record, Trajectory},
+    scene::{Part, Ranges, Scene, Span, State, Tool},
+    task::{Job, Stroke, ToolMotion},
+};
 use rand::Rng;
 use rand_pcg::Pcg64;
 

@@ -5,8 +5,10 @@ use pushplan::store::{Shard, StoreError};
 use pushplan::watch::Unwatched;
 use pushplan::{
     geometry::{Footprint, Pose, Shape, clearance, contact_points},
-    scene::{JOINABLE, Job, JointKind, Record, Trajectory},
+    outcome::{Record, Trajectory},
+    scene::{JOINABLE, JointKind},
     sim::Simulator,
+    task::Job,
 };
 use pushplan_learn::dataset::{
     Constraints, Dataset, DatasetConfig, DatasetError, Episode, HAND_RADIUS, JointRule, Preset,

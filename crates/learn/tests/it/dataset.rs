@@ -15,7 +15,9 @@ use pushplan::watch::{Unwatched, Watch};
 use pushplan::{
     asset::ToolLibrary,
     geometry::{Footprint, Pose, clearance},
-    scene::{Job, Quantity, ToolMotion, Warning},
+    outcome::Warning,
+    scene::Quantity,
+    task::{Job, ToolMotion},
 };
 use pushplan_learn::dataset::{
     Dataset, DatasetConfig, DatasetError, Episode, generate, is_shipped,

@@ -12,11 +12,10 @@ use pushplan::{
     geometry::{Pose, Shape, Vector},
     graph::{Batch, Correction},
     network::{Buffers, Forward, PredictorWeights},
+    outcome::Record,
     rollout::{Corrector, RollSettings, Roller, Work},
-    scene::{
-        Job, ModelKind, Object, Obstacle, Part, Physics, Record, Scene, Stroke, Tool, ToolMotion,
-        Velocity,
-    },
+    scene::{ModelKind, Object, Obstacle, Part, Physics, Scene, Tool, Velocity},
+    task::{Job, Stroke, ToolMotion},
 };
 use pushplan_learn::dataset::{Dataset, DatasetConfig, Preset};
 

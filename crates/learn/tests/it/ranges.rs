@@ -3,7 +3,10 @@
 use pushplan::asset::{ToolLibrary, load_task};
 use pushplan::effect::PRIOR_RANGES;
 use pushplan::geometry::Pose;
-use pushplan::scene::{Job, Object, Push, Ranges, ToolMotion};
+use pushplan::{
+    scene::{Object, Ranges},
+    task::{Job, Push, ToolMotion},
+};
 use pushplan_learn::dataset::Preset;
 
 use crate::ROOT;

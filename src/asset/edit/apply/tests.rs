@@ -114,7 +114,7 @@ fn what_cannot_be_changed_in_place_is_written_anew() {
 
 #[test]
 fn shipped_tasks_keep_every_other_letter() {
-    for name in crate::scene::Task::examples() {
+    for name in crate::task::Task::examples() {
         let text = crate::asset::example_text(name).unwrap();
         let place = path("scene.objects.0.position");
         let new =

@@ -1,8 +1,9 @@
 //! The turn in frames, the wait, the way back, and until everything rests.
 
 use crate::geometry::{Pose3, Vector3};
-use crate::scene::{
-    Ending, GRAVITY, LEVER_FRAMES, LeverTrajectory, LeverWarning, REST_SPEED, has_slipped,
+use crate::{
+    outcome::{Ending, LEVER_FRAMES, LeverTrajectory, LeverWarning, has_slipped},
+    scene::{GRAVITY, REST_SPEED},
 };
 
 use super::body::Body;

@@ -4,7 +4,11 @@ use rayon::prelude::*;
 
 use crate::effect::{LeverModel, LeverTrust};
 use crate::geometry::Pose3;
-use crate::scene::{LeverJob, LeverTrajectory, ModelKind, ModelSpec};
+use crate::{
+    outcome::LeverTrajectory,
+    scene::{ModelKind, ModelSpec},
+    task::LeverJob,
+};
 
 use super::march::Marcher;
 use super::settings::PriorSettings;

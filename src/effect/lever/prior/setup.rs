@@ -2,7 +2,10 @@
 //! and the centre of mass never to the right.
 
 use crate::geometry::{Box3, Pose, Pose3, Vector, Vector3};
-use crate::scene::{LeverJob, LeverUp, Obstacle, lever_frame};
+use crate::{
+    scene::Obstacle,
+    task::{LeverJob, LeverUp, lever_frame},
+};
 
 use super::body::{Body, Spread};
 

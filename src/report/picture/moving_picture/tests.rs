@@ -3,7 +3,11 @@
 use std::sync::Arc;
 
 use super::*;
-use crate::scene::{Engine, Goal, Part, Push, Robot, Scene, State, Tool, Warning};
+use crate::{
+    outcome::Warning,
+    scene::{Engine, Part, Robot, Scene, State, Tool},
+    task::{Goal, Push},
+};
 
 /// Two boxes of which the first goes through `ways`, a place for each frame.
 fn picture_of(ways: &[[f64; 2]], placed: bool, warnings: Vec<Warning>) -> String {

@@ -2,8 +2,12 @@
 
 use std::sync::Arc;
 
-use pushplan::internals::scene::{Engine, Frame, Job, Physics, Rate, Record, Scene, Warning};
 use pushplan::internals::sim::Simulator;
+use pushplan::internals::{
+    outcome::{Frame, Record, Warning},
+    scene::{Engine, Physics, Rate, Scene},
+    task::Job,
+};
 use pushplan_learn::dataset::Episode;
 use serde::{Deserialize, Serialize};
 
@@ -65,7 +69,10 @@ impl Circumstances {
 mod tests {
     use super::*;
     use pushplan::internals::geometry::{Pose, Shape, Vector};
-    use pushplan::internals::scene::{Object, Part, Push, Tool, ToolMotion};
+    use pushplan::internals::{
+        scene::{Object, Part, Tool},
+        task::{Push, ToolMotion},
+    };
 
     #[test]
     fn a_stroke_that_begins_inside_an_object_ends_an_episode_in_another_engine() {

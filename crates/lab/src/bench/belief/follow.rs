@@ -11,9 +11,10 @@ use pushplan::internals::effect::EffectModel;
 use pushplan::internals::geometry::{Pose, Vector};
 use pushplan::internals::judge::mean;
 use pushplan::internals::recording::Recording;
-use pushplan::internals::scene::{
-    Job, Joint, JointKind, Noise, Observation, Physics, Record, Scene, Situation, Span, ToolMotion,
-    near_pairs,
+use pushplan::internals::{
+    outcome::Record,
+    scene::{Joint, JointKind, Physics, Scene, Situation, Span, near_pairs},
+    task::{Job, Noise, Observation, ToolMotion},
 };
 use pushplan_learn::dataset::true_type;
 

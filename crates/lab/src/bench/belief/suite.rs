@@ -3,9 +3,9 @@
 use pushplan::internals::belief::BeliefRegulator;
 use pushplan::internals::effect::EffectModel;
 use pushplan::internals::recording::Recording;
-use pushplan::internals::scene::Noise;
 use pushplan::internals::seeded::generator;
 use pushplan::internals::store::Measured;
+use pushplan::internals::task::Noise;
 use pushplan_learn::dataset::{Episode, JointRule, Seeing, Solids};
 use serde::{Deserialize, Serialize};
 

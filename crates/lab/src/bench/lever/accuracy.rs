@@ -3,7 +3,10 @@
 use pushplan::internals::bench::timed;
 use pushplan::internals::effect::{LeverModel, LeverTrust};
 use pushplan::internals::judge::Summary;
-use pushplan::internals::scene::{Ending, LeverJob, LeverTrajectory};
+use pushplan::internals::{
+    outcome::{Ending, LeverTrajectory},
+    task::LeverJob,
+};
 use pushplan_learn::dataset::{LeverEpisode, LeverPreset};
 use pushplan_learn::judge::{LeverError, lever_error};
 use serde::{Deserialize, Serialize};

@@ -2,8 +2,12 @@
 
 use pushplan::internals::effect::{LeverModel, LeverTrust, LeverView, lever_features};
 use pushplan::internals::geometry::Pose3;
-use pushplan::internals::scene::{Ending, LEVER_FRAMES, LeverFeatures, LeverJob, LeverTrajectory};
 use pushplan::internals::seeded::generator;
+use pushplan::internals::{
+    outcome::{Ending, LEVER_FRAMES, LeverTrajectory},
+    scene::LeverFeatures,
+    task::LeverJob,
+};
 use pushplan_learn::dataset::LeverEpisode;
 use rand::Rng;
 use rayon::prelude::*;

@@ -5,9 +5,13 @@ use std::f64::consts::TAU;
 
 use pushplan::internals::bench::timed;
 use pushplan::internals::judge::Summary;
-use pushplan::internals::scene::{Ending, LeverJob, LeverScene, LeverTrajectory, LeverWarning};
 use pushplan::internals::seeded::generator;
 use pushplan::internals::sim::LeverSimulator;
+use pushplan::internals::{
+    outcome::{Ending, LeverTrajectory, LeverWarning},
+    scene::LeverScene,
+    task::LeverJob,
+};
 use pushplan_learn::dataset::{LEVERS_PER_SHAPE, LeverConfig, LeverPreset, lever_job};
 use rand::Rng;
 use rayon::prelude::*;

@@ -2,7 +2,7 @@
 
 use pushplan::internals::effect::{LeverModel, LeverTrust};
 use pushplan::internals::judge::Summary;
-use pushplan::internals::scene::{LeverJob, LeverScene, LeverTrajectory};
+use pushplan::internals::{outcome::LeverTrajectory, scene::LeverScene, task::LeverJob};
 use pushplan_learn::dataset::{LEVERS_PER_SHAPE, LeverEpisode};
 use pushplan_learn::judge::{LeverError, lever_error};
 use serde::{Deserialize, Serialize};

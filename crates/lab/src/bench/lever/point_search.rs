@@ -7,7 +7,10 @@ use std::f64::consts::TAU;
 
 use pushplan::internals::effect::LeverModel;
 use pushplan::internals::geometry::{Pose3, Vector, Vector3};
-use pushplan::internals::scene::{LeverJob, LeverTrajectory, LeverUp, Place};
+use pushplan::internals::{
+    outcome::LeverTrajectory,
+    task::{LeverJob, LeverUp, Place},
+};
 
 /// Spacing of the first places, metres.
 const SPACING: f64 = 0.01;

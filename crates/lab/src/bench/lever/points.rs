@@ -3,7 +3,7 @@
 use pushplan::internals::effect::LeverModel;
 use pushplan::internals::geometry::Pose3;
 use pushplan::internals::judge::Summary;
-use pushplan::internals::scene::LEVER_FRAMES;
+use pushplan::internals::outcome::LEVER_FRAMES;
 use pushplan_learn::dataset::{LeverEpisode, LeverPreset};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};

@@ -6,15 +6,16 @@ use serde::{Deserialize, Serialize};
 
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::geometry::Pose;
-use pushplan::internals::scene::{
-    Goal, LeverJob, LeverMotion, LeverRules, Motion, Obstacle, Outcome, Plate, PushRules, Record,
-    Robot, Scene, Situation, Task, Tool,
-};
 use pushplan::internals::sim::LeverSimulator;
 use pushplan::internals::solve::{LeverStatistics, PlanStatus, Planner, SolveError};
 use pushplan::internals::store::{Measured, Seconds};
 use pushplan::internals::verify::{Verifier, VerifySettings};
 use pushplan::internals::watch::Unwatched;
+use pushplan::internals::{
+    outcome::{Outcome, Record},
+    scene::{Obstacle, Plate, Robot, Scene, Situation, Tool},
+    task::{Goal, LeverJob, LeverMotion, LeverRules, Motion, PushRules, Task},
+};
 use pushplan_learn::dataset::{LEVERS_PER_SHAPE, LeverConfig, LeverPreset, lever_job};
 
 /// The name of what must be left, and of the tool that does it.

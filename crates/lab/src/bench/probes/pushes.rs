@@ -4,7 +4,10 @@ use std::f64::consts::TAU;
 
 use pushplan::internals::act::Probe;
 use pushplan::internals::geometry::{Pose, Vector, perpendicular, travel_to_contact};
-use pushplan::internals::scene::{Scene, State, Stroke, ToolMotion};
+use pushplan::internals::{
+    scene::{Scene, State},
+    task::{Stroke, ToolMotion},
+};
 use rand::Rng;
 use rand_pcg::Pcg64;
 

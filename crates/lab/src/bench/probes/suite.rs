@@ -7,10 +7,14 @@ use pushplan::internals::belief::{Belief, BeliefSettings, JointType, carried};
 use pushplan::internals::effect::EffectModel;
 use pushplan::internals::judge::mean;
 use pushplan::internals::recording::Recording;
-use pushplan::internals::scene::{Frame, Job, Physics, Record, Scene, State, ToolMotion};
 use pushplan::internals::seeded::generator;
 use pushplan::internals::sim::Simulator;
 use pushplan::internals::store::Measured;
+use pushplan::internals::{
+    outcome::{Frame, Record},
+    scene::{Physics, Scene, State},
+    task::{Job, ToolMotion},
+};
 use pushplan_learn::dataset::{Episode, JointRule, Solids, true_type};
 use serde::{Deserialize, Serialize};
 

@@ -3,7 +3,10 @@
 use pushplan::internals::geometry::{
     ConvexPolygon, Pose, Shape, Vector, clearance, swept_clearance,
 };
-use pushplan::internals::scene::{Goal, Object, Obstacle, Robot, Scene, Task, ToolChoice};
+use pushplan::internals::{
+    scene::{Object, Obstacle, Robot, Scene},
+    task::{Goal, Task, ToolChoice},
+};
 use rand::Rng;
 use rand_pcg::Pcg64;
 

@@ -1,7 +1,10 @@
 //! What moves on a hinge or in a slide.
 
 use pushplan::internals::geometry::{Pose, Shape, Vector};
-use pushplan::internals::scene::{Goal, JointKind, Object, Obstacle, Scene, Span};
+use pushplan::internals::{
+    scene::{JointKind, Object, Obstacle, Scene, Span},
+    task::Goal,
+};
 use rand::Rng;
 use rand_pcg::Pcg64;
 

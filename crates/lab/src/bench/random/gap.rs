@@ -4,8 +4,9 @@
 //! What a planner says about them shows whether rigid things stay rigid in its verdict.
 
 use pushplan::internals::geometry::{Pose, Shape};
-use pushplan::internals::scene::{
-    Goal, Object, Obstacle, Robot, Scene, Span, Task, ToolChoice, Unknowns,
+use pushplan::internals::{
+    scene::{Object, Obstacle, Robot, Scene, Span, Unknowns},
+    task::{Goal, Task, ToolChoice},
 };
 use rand::Rng;
 use rand_pcg::Pcg64;

@@ -1,8 +1,11 @@
 //! Random tasks that do not know their scene.
 
 use pushplan::internals::belief::normal;
-use pushplan::internals::scene::{Engine, Scene, Support, Task, Truth, Unknowns};
 use pushplan::internals::seeded::generator;
+use pushplan::internals::{
+    scene::{Engine, Scene, Support, Unknowns},
+    task::{Task, Truth},
+};
 use rand::Rng;
 use serde::{Deserialize, Serialize};
 

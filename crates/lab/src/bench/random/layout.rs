@@ -4,8 +4,9 @@
 use std::f64::consts::TAU;
 
 use pushplan::internals::geometry::{Footprint, Pose, Shape, Vector, clearance, swept_clearance};
-use pushplan::internals::scene::{
-    Area, Goal, Joint, JointKind, Obstacle, Ranges, Robot, Scene, State, Task,
+use pushplan::internals::{
+    scene::{Joint, JointKind, Obstacle, Ranges, Robot, Scene, State},
+    task::{Area, Goal, Task},
 };
 use pushplan_learn::dataset::{Crowd, Solids, random_scene};
 use rand::Rng;

@@ -7,7 +7,10 @@ use pushplan::internals::geometry::Vector;
 use pushplan::internals::plan::{
     Candidate, CandidatePush, Evaluation, Rollouts, Start, Workspace, evaluate,
 };
-use pushplan::internals::scene::{Plan, Push, PushStep, Span, Step, Task, Tool};
+use pushplan::internals::{
+    scene::{Span, Tool},
+    task::{Plan, Push, PushStep, Step, Task},
+};
 use rand::Rng;
 use rand::seq::SliceRandom;
 use rand_pcg::Pcg64;

@@ -3,11 +3,14 @@
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::bench::{End, SolvedTask};
 use pushplan::internals::geometry::Pose;
-use pushplan::internals::scene::{Engine, ModelKind, Outcome, Situation, Trajectory};
 use pushplan::internals::seeded::generator;
 use pushplan::internals::solve::{Planner, SolveError};
 use pushplan::internals::store::Measured;
 use pushplan::internals::verify::{Verifier, VerifySettings};
+use pushplan::internals::{
+    outcome::{Outcome, Trajectory},
+    scene::{Engine, ModelKind, Situation},
+};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 

@@ -8,11 +8,12 @@ use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::effect::Simulated;
 use pushplan::internals::geometry::{Pose, Vector};
 use pushplan::internals::plan::{Candidate, CandidatePush, Rollouts, Start, Workspace, evaluate};
-use pushplan::internals::scene::{
-    Directions, Goal, PushRules, Ranges, Robot, Scene, Situation, Span, Task, Tool,
-};
 use pushplan::internals::seeded::generator;
 use pushplan::internals::sim::Simulator;
+use pushplan::internals::{
+    scene::{Ranges, Robot, Scene, Situation, Span, Tool},
+    task::{Directions, Goal, PushRules, Task},
+};
 use pushplan_learn::dataset::{Crowd, Preset, Solids, random_scene};
 use rand::Rng;
 use rand_pcg::Pcg64;

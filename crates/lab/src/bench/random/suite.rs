@@ -6,10 +6,13 @@ use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::effect::Simulated;
 use pushplan::internals::geometry::{Pose, Vector, cross};
 use pushplan::internals::plan::{Candidate, Rollouts};
-use pushplan::internals::scene::{Plan, Scene, Situation, Task, Tool, ToolChoice};
 use pushplan::internals::seeded::generator;
 use pushplan::internals::sim::Simulator;
 use pushplan::internals::verify::{Verifier, VerifySettings};
+use pushplan::internals::{
+    scene::{Scene, Situation, Tool},
+    task::{Plan, Task, ToolChoice},
+};
 use rand_pcg::Pcg64;
 use thiserror::Error;
 

@@ -4,10 +4,13 @@ use std::sync::OnceLock;
 
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::bench::{SolvedTask, timed};
-use pushplan::internals::scene::{ModelSpec, Situation, Task};
 use pushplan::internals::solve::{Planner, Solution, SolveError};
 use pushplan::internals::store::{Measured, RunManifest, Seconds};
 use pushplan::internals::verify::{Verifier, VerifySettings};
+use pushplan::internals::{
+    scene::{ModelSpec, Situation},
+    task::Task,
+};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use serde::{Deserialize, Serialize};
 use serde_json::json;

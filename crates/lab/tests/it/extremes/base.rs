@@ -7,8 +7,9 @@ use rand_pcg::Pcg64;
 use pushplan::{
     asset::ToolLibrary,
     geometry::Vector,
-    scene::{Object, Physics, Scene, Tool, ToolMotion},
+    scene::{Object, Physics, Scene, Tool},
     seeded::generator,
+    task::ToolMotion,
 };
 use pushplan_lab::bench::Case;
 use pushplan_learn::dataset::{Aim, aimed_stroke, random_direction, random_heading};

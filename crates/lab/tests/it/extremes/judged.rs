@@ -13,12 +13,11 @@ use pushplan::{
     effect::{EffectModel, shifted_start},
     geometry::Pose,
     judge::{Comparison, Summary, Trial, object_errors},
-    scene::{
-        Body, COAST_FRAME, Engine, Job, MAX_COAST_FRAMES, Physics, Rate, Record, Scene, State,
-        ToolMotion, Trajectory, Warning,
-    },
+    outcome::{Record, Trajectory, Warning},
+    scene::{Body, Engine, Physics, Rate, Scene, State},
     seeded::generator,
     sim::Simulator,
+    task::{COAST_FRAME, Job, MAX_COAST_FRAMES, ToolMotion},
 };
 use pushplan_lab::bench::{Case, DISTURBANCE};
 use rayon::prelude::*;

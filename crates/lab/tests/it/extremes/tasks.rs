@@ -6,8 +6,9 @@ use pushplan::{
     asset::ToolLibrary,
     effect::EffectModel,
     geometry::{Pose, Vector},
-    scene::{Obstacle, Task},
+    scene::Obstacle,
     solve::{Effort, PlanStatus, Planner, Solution},
+    task::Task,
 };
 use pushplan_lab::bench::random_task;
 
@@ -89,7 +90,7 @@ const TASKS: [(&str, Expected, Change); 20] = [
         task.pushes.length = 100.0;
     }),
     ("64 directions, 9 grip yaws", Expected::Solved(1), |task| {
-        task.pushes.directions = pushplan::scene::Directions::Count(64);
+        task.pushes.directions = pushplan::task::Directions::Count(64);
         task.pushes.grip_yaws = (0..9).map(f64::from).collect();
     }),
     ("friction 0", Expected::Anything, |task| {

@@ -1,7 +1,10 @@
 //! Drives built of cuboids: a floor, walls around a pocket, standoffs, and the board with its chips.
 
 use pushplan::internals::geometry::{Pose, Vector};
-use pushplan::internals::scene::{LeverScene, LeverUp, Obstacle, Place, Plate, Slab};
+use pushplan::internals::{
+    scene::{LeverScene, Obstacle, Plate, Slab},
+    task::{LeverUp, Place},
+};
 use rand::Rng;
 use rand_pcg::Pcg64;
 

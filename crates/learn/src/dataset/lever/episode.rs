@@ -2,11 +2,13 @@
 
 use std::sync::Arc;
 
-use pushplan::internals::scene::{
-    LeverJob, LeverRecord, LeverScene, LeverTrajectory, LeverUp, LeverWarning,
-};
 use pushplan::internals::seeded::generator;
 use pushplan::internals::sim::LeverSimulator;
+use pushplan::internals::{
+    outcome::{LeverRecord, LeverTrajectory, LeverWarning},
+    scene::LeverScene,
+    task::{LeverJob, LeverUp},
+};
 use serde::{Deserialize, Serialize};
 
 use super::config::LeverConfig;

@@ -1,7 +1,10 @@
 //! Boxes and lying cylinders: rectangles from above, which only their depth tells apart.
 
 use pushplan::internals::geometry::{Pose, Vector};
-use pushplan::internals::scene::{LeverScene, LeverUp, Place, Plate, Slab};
+use pushplan::internals::{
+    scene::{LeverScene, Plate, Slab},
+    task::{LeverUp, Place},
+};
 use rand::Rng;
 use rand_pcg::Pcg64;
 

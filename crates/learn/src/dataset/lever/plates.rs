@@ -3,7 +3,10 @@
 use std::f64::consts::{PI, TAU};
 
 use pushplan::internals::geometry::{Pose, Vector};
-use pushplan::internals::scene::{Blade, LeverScene, LeverUp, Place, Plate, Slab};
+use pushplan::internals::{
+    scene::{Blade, LeverScene, Plate, Slab},
+    task::{LeverUp, Place},
+};
 use rand::Rng;
 use rand_pcg::Pcg64;
 

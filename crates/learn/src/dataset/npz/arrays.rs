@@ -1,7 +1,7 @@
 //! Episodes as arrays.
 
 use pushplan::internals::geometry::{MAX_CORNERS, Pose, Shape, Vector};
-use pushplan::internals::scene::{Frame, Object, Stroke};
+use pushplan::internals::{outcome::Frame, scene::Object, task::Stroke};
 
 use crate::dataset::Episode;
 

@@ -3,7 +3,7 @@
 use candle_core::{Device, Result, Tensor};
 use pushplan::internals::effect::{LeverInputs, LeverModel, LeverNetwork, LeverView, lever_inputs};
 use pushplan::internals::network::{LEVER_POSE, LeverSizes, Statistics};
-use pushplan::internals::scene::{Ending, LEVER_FRAMES};
+use pushplan::internals::outcome::{Ending, LEVER_FRAMES};
 use rayon::prelude::*;
 
 use crate::dataset::LeverEpisode;

@@ -6,7 +6,11 @@ use pushplan::internals::geometry::Pose;
 use pushplan::internals::graph::{Batch, Correction, Node};
 use pushplan::internals::network::{Buffers, Doubt, Forward, PredictorWeights};
 use pushplan::internals::rollout::{RollSettings, Roller};
-use pushplan::internals::scene::{Job, ModelKind, ModelSpec, Record};
+use pushplan::internals::{
+    outcome::Record,
+    scene::{ModelKind, ModelSpec},
+    task::Job,
+};
 use rayon::prelude::*;
 
 use crate::dataset::{Dataset, Episode};

@@ -5,7 +5,10 @@ use pushplan::internals::geometry::{Pose, Vector};
 use pushplan::internals::graph::{Batch, Correction, Node};
 use pushplan::internals::network::{Buffers, Forward};
 use pushplan::internals::rollout::{Stepper, Walk, integrate};
-use pushplan::internals::scene::{COAST_FRAME, FrameStep, Physics, State, Support};
+use pushplan::internals::{
+    scene::{Physics, State, Support},
+    task::{COAST_FRAME, FrameStep},
+};
 use rand::Rng;
 use rand_pcg::Pcg64;
 use rayon::prelude::*;

@@ -1,0 +1,25 @@
+//! Results of motions: trajectories, outcomes judged by goals, warnings and verdicts.
+//!
+//! SI units and radians throughout. Nothing here simulates or plans.
+
+mod in_turn;
+mod keep;
+mod lever;
+mod push_fault;
+mod range_warnings;
+mod result;
+mod strays;
+mod trajectory;
+mod verdict;
+mod warning;
+
+pub use in_turn::in_turn;
+pub use lever::{
+    Ending, LEVER_FRAMES, LeverFault, LeverFrame, LeverRecord, LeverTrajectory, LeverWarning,
+    has_slipped,
+};
+pub use push_fault::PushFault;
+pub use result::{Lying, Miss, Outcome};
+pub use trajectory::{Contact, Force, Frame, Lift, Record, Spread, Trajectory};
+pub use verdict::{Disturbance, Evidence, Reason, Verdict, never_on};
+pub use warning::Warning;

@@ -1,0 +1,234 @@
+//! A task: a scene, a robot, the steps that are allowed, and goals.
+
+use super::PushRules;
+use crate::scene::Robot;
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::Vector;
+
+use super::{Goal, LeverRules};
+use crate::scene::{Arm, Plate, Scene, State, Unknowns};
+
+/// Which tools a task allows.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ToolChoice {
+    /// Every tool of the library.
+    All,
+    /// These, by name.
+    Named(Vec<String>),
+}
+
+/// Everything that a planner needs to know besides the tools themselves.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Task {
+    /// From the file's name or its `name` key.
+    pub name: String,
+    /// One line for people.
+    pub description: String,
+    /// The table.
+    pub scene: Scene,
+    /// What of it is only a guess.
+    #[serde(default)]
+    pub unknown: Unknowns,
+    /// The robot.
+    pub robot: Robot,
+    /// Its arm, if that is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arm: Option<Box<Arm>>,
+    /// Allowed tools.
+    pub tools: ToolChoice,
+    /// Cost of using a tool, by its name; 0 where it is not named. Of equally good plans with as many pushes
+    /// the cheaper is preferred.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub tool_costs: BTreeMap<String, f64>,
+    /// Allowed pushes.
+    pub pushes: PushRules,
+    /// Allowed lever-ups, if any are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub levers: Option<LeverRules>,
+    /// What to reach.
+    pub goal: Goal,
+    /// What other objects must reach as well, each another one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub further: Vec<Goal>,
+    /// Share of the disturbed replays that must reach the goal for a plan to count, 0 to 1.
+    pub robustness: f64,
+}
+
+impl Task {
+    /// The robustness of a task that does not state one.
+    pub const ROBUSTNESS: f64 = 0.75;
+
+    /// A task that allows every tool of the library and one push, see [`PushRules::default`].
+    ///
+    /// ```
+    /// use pushplan::{Goal, Object, PushRules, Robot, Scene, Task};
+    ///
+    /// let scene = Scene::new([Object::cylinder("can", 0.05, 0.10).at(0.62, 0.10, 0.0)]);
+    /// let goal = Goal::new(0, [0.45, 0.10], 0.02);
+    /// let task = Task::new("pull", scene, Robot::reaching(0.1, 0.5), goal)
+    ///     .choosing(["stick", "l-hook"])
+    ///     .pushing(PushRules { max_count: 2, ..PushRules::default() });
+    /// assert_eq!(task.pushes.speed, 0.10);
+    /// ```
+    pub fn new(name: impl Into<String>, mut scene: Scene, robot: Robot, goal: Goal) -> Self {
+        scene.obstacles.extend(robot.column());
+        scene.let_fall(&goal);
+        Self {
+            name: name.into(),
+            description: String::new(),
+            scene,
+            unknown: Unknowns::NONE,
+            robot,
+            arm: None,
+            tools: ToolChoice::All,
+            tool_costs: BTreeMap::new(),
+            pushes: PushRules::default(),
+            levers: None,
+            goal,
+            further: Vec::new(),
+            robustness: Self::ROBUSTNESS,
+        }
+    }
+
+    /// The task with a goal for one object more.
+    ///
+    /// ```
+    /// use pushplan::{Goal, Object, Robot, Scene, Task};
+    ///
+    /// let [can, cup] = ["can", "cup"].map(|name| Object::cylinder(name, 0.04, 0.10));
+    /// let scene = Scene::new([can.at(0.5, 0.1, 0.0), cup.at(0.5, -0.1, 0.0)]);
+    /// let task = Task::new("both", scene, Robot::reaching(0.1, 0.9), Goal::new(0, [0.7, 0.1], 0.02))
+    ///     .and(Goal::new(1, [0.7, -0.1], 0.02));
+    /// assert_eq!(task.goals().count(), 2);
+    /// ```
+    pub fn and(mut self, goal: Goal) -> Self {
+        self.scene.let_fall(&goal);
+        self.further.push(goal);
+        self
+    }
+
+    /// All goals.
+    pub fn goals(&self) -> impl Iterator<Item = &Goal> + Clone {
+        std::iter::once(&self.goal).chain(&self.further)
+    }
+
+    /// All goals in the world as things stand at the start, for pictures: what asks for no place of its
+    /// own is shown where its object is.
+    pub fn shown_goals(&self) -> Vec<Goal> {
+        let start = self.scene.start();
+        let shown = |goal: &Goal| {
+            let mut goal = goal.in_world(&start);
+            if goal.is_relation() {
+                goal.tolerance = f64::INFINITY;
+            }
+            let position = match start.poses.get(goal.object) {
+                Some(pose) if !goal.has_place() => pose.position,
+                _ => goal.position,
+            };
+            Goal { position, ..goal }
+        };
+        self.goals().map(shown).collect()
+    }
+
+    /// The same task with other goals in their places; those that are missing stay.
+    pub fn aiming(&self, goals: &[Goal]) -> Self {
+        let mut task = self.clone();
+        let own = std::iter::once(&mut task.goal).chain(&mut task.further);
+        own.zip(goals).for_each(|(own, goal)| *own = goal.clone());
+        task
+    }
+
+    /// The same with these of its goals alone, by their indices, in order; `None` for none.
+    pub fn only(&self, goals: &[usize]) -> Option<Self> {
+        let all: Vec<&Goal> = self.goals().collect();
+        let mut kept = goals.iter().filter_map(|k| all.get(*k).copied().cloned());
+        Some(Self { goal: kept.next()?, further: kept.collect(), ..self.clone() })
+    }
+
+    /// Whether the end effector can stand at `position` (metres), turned by `yaw` (radians), as far as that
+    /// is cheap to tell.
+    pub fn stands(&self, position: Vector, yaw: f64) -> bool {
+        let allows = |arm: &Arm| arm.places.allow(position, yaw);
+        self.robot.reaches(position) && self.arm.as_deref().is_none_or(allows)
+    }
+
+    /// Whether an object (an index into [`Scene::objects`]) has a goal.
+    pub fn wants(&self, object: usize) -> bool {
+        self.goals().any(|goal| goal.object == object)
+    }
+
+    /// Whether every goal is reached, see [`Goal::reached`].
+    pub fn reached(&self, state: &State) -> bool {
+        self.goals().all(|goal| goal.reached(state))
+    }
+
+    /// The largest [`Goal::score`]: at most 1 where every goal is reached.
+    pub fn score(&self, state: &State) -> f64 {
+        // NaN counts as one.
+        let larger = |a: f64, b: f64| if a >= b { a } else { b };
+        self.goals().map(|goal| goal.score(state)).reduce(larger).unwrap_or(0.0)
+    }
+
+    /// The task with one line about it for people.
+    pub fn described(self, description: impl Into<String>) -> Self {
+        Self { description: description.into(), ..self }
+    }
+
+    /// The task with a choice of these tools only, by name.
+    pub fn choosing<N: Into<String>>(self, tools: impl IntoIterator<Item = N>) -> Self {
+        Self { tools: ToolChoice::Named(tools.into_iter().map(Into::into).collect()), ..self }
+    }
+
+    /// The task with plans that work in this share of the disturbed replays, 0 to 1.
+    pub fn robust(self, share: f64) -> Self {
+        Self { robustness: share, ..self }
+    }
+
+    /// The task with this unknown about its scene.
+    pub fn guessing(self, unknown: Unknowns) -> Self {
+        Self { unknown, ..self }
+    }
+
+    /// The task with lever-ups. Whether pushes may follow them is for [`Task::pushes`] to say.
+    ///
+    /// ```
+    /// use pushplan::{Goal, LeverRules, Object, PushRules, Robot, Scene, Task};
+    ///
+    /// let plate = Object::cuboid("plate", [0.12, 0.08, 0.008]).on_feet(0.006).at(0.5, 0.0, 0.0);
+    /// let goal = Goal { flipped: Some(true), ..Goal::of(0) };
+    /// let task = Task::new("turn", Scene::new([plate]), Robot::reaching(0.1, 0.9), goal)
+    ///     .levering(LeverRules::default())
+    ///     .pushing(PushRules::none());
+    /// assert!(task.in_space());
+    /// ```
+    pub fn levering(mut self, levers: LeverRules) -> Self {
+        // Of the robot's body lever-ups know nothing yet.
+        self.scene.obstacles.retain(|obstacle| obstacle.name != Robot::BASE);
+        let robot = self.robot.without_body();
+        Self { levers: Some(levers), robot, ..self }
+    }
+
+    /// The goal's object with all its solids.
+    pub fn plate(&self) -> Plate {
+        Plate::of(&self.scene.objects[self.goal.object])
+    }
+
+    /// The lever-ups that are allowed, or would be.
+    pub fn lever_rules(&self) -> LeverRules {
+        self.levers.clone().unwrap_or_default()
+    }
+
+    /// Whether something of it leaves the plane, or may.
+    pub fn in_space(&self) -> bool {
+        self.levers.is_some() || self.goal.in_space() || self.scene.in_space()
+    }
+
+    /// The task with other rules for pushes.
+    pub fn pushing(self, pushes: PushRules) -> Self {
+        Self { pushes, ..self }
+    }
+}

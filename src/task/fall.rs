@@ -1,0 +1,268 @@
+//! Goals off the table: what is to fall over an edge, and over which.
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::{Pose, Vector};
+
+use super::goal::Goal;
+use crate::scene::is_zero;
+use crate::scene::{Scene, Span, State, TableTop};
+
+/// How far beyond the edge search and refinement aim to bring centres, and from the ends of the part of it
+/// that is asked for, metres: simulations differ by millimetres.
+const BEYOND: f64 = 0.02;
+
+/// An edge of the table, as the robot sees it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Edge {
+    /// Ahead, +x.
+    Far,
+    /// Behind what stands before the robot, -x.
+    Near,
+    /// +y.
+    Left,
+    /// -y.
+    Right,
+}
+
+impl Edge {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Far, Self::Near, Self::Left, Self::Right];
+
+    /// What it is called in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Far => "far",
+            Self::Near => "near",
+            Self::Left => "left",
+            Self::Right => "right",
+        }
+    }
+
+    /// The way off the table over it, of length one.
+    pub fn outwards(self) -> Vector {
+        match self {
+            Self::Far => Vector::x(),
+            Self::Near => -Vector::x(),
+            Self::Left => Vector::y(),
+            Self::Right => -Vector::y(),
+        }
+    }
+
+    /// The way along it, of length one: +x or +y.
+    pub fn along(self) -> Vector {
+        let out = self.outwards();
+        Vector::new(out.y.abs(), out.x.abs())
+    }
+}
+
+/// What an object is to fall off, and where: its centre of mass is to come beyond an edge.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Fall {
+    /// The table.
+    pub top: TableTop,
+    /// The edge; any where none is named.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub over: Option<Edge>,
+    /// Between which places along that edge, metres of the world's x or y; anywhere where none are named.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub between: Option<Span>,
+    /// How far beyond the edge its centre has to come, metres.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub by: f64,
+    /// The centre of mass in the object's frame, metres.
+    centre: Vector,
+}
+
+impl Fall {
+    /// Of object `object`; `None` where it does not exist in `scene`, or the table does not end.
+    pub fn of(scene: &Scene, object: usize, over: Option<Edge>) -> Option<Box<Self>> {
+        let (top, pose) = (scene.table_top?, scene.objects.get(object)?.pose);
+        let centre = pose.local_point(scene.centre(object, &scene.start()));
+        Some(Box::new(Self { top, over, between: None, by: 0.0, centre }))
+    }
+
+    /// The same between these places along the edge alone, metres, as where a box stands below it.
+    pub fn between(self, span: Span) -> Self {
+        Self { between: Some(span), ..self }
+    }
+
+    /// The edges over which it may fall.
+    pub fn edges(&self) -> impl Iterator<Item = Edge> + '_ {
+        Edge::ALL.into_iter().filter(|edge| self.over.is_none_or(|over| over == *edge))
+    }
+
+    /// Where this edge is: how far along its [way off](Edge::outwards), metres.
+    pub fn place(&self, edge: Edge) -> f64 {
+        let half = 0.5 * Vector::from(self.top.size);
+        edge.outwards().dot(&self.top.middle) + edge.outwards().abs().dot(&half)
+    }
+
+    /// The ends of this edge, or of the part of it that is asked for, metres.
+    pub fn ends(&self, edge: Edge) -> [Vector; 2] {
+        let half = 0.5 * Vector::from(self.top.size);
+        let (out, along) = (edge.outwards(), edge.along());
+        [1.0, -1.0].map(|side| {
+            let end = self.top.middle + (out + side * along).component_mul(&half);
+            let at = along.dot(&end);
+            let kept = self.between.map_or(at, |span| at.max(span.low).min(span.high));
+            end + (kept - at) * along
+        })
+    }
+
+    /// The centre of mass of an object at `own`, metres.
+    pub fn centre(&self, own: &Pose) -> Vector {
+        own.point(self.centre)
+    }
+
+    /// How far a centre is beyond the edge that it is beyond farthest, metres, negative on the table; and
+    /// the way out there.
+    pub(super) fn beyond(&self, centre: Vector) -> (f64, Vector) {
+        let of = |edge: Edge| (edge.outwards().dot(&centre) - self.place(edge), edge.outwards());
+        let farther = |a: (f64, Vector), b: (f64, Vector)| if b.0 > a.0 { b } else { a };
+        self.edges().map(of).reduce(farther).unwrap_or((f64::NEG_INFINITY, Vector::zeros()))
+    }
+
+    /// Whether an object with its centre there falls where it is to.
+    pub(super) fn holds(&self, centre: Vector) -> bool {
+        self.beyond(centre).0 > self.by && self.aside(centre, 0.0) == Vector::zeros()
+    }
+
+    /// From the nearest place that is aimed at to a centre, metres.
+    pub(super) fn off(&self, centre: Vector) -> Vector {
+        let (beyond, out) = self.beyond(centre);
+        let depth = self.depth();
+        (beyond - self.by - depth).min(0.0) * out + self.aside(centre, depth)
+    }
+
+    /// From what is this far inside of the part of the edge that is asked for to a centre, metres along the
+    /// edge.
+    fn aside(&self, centre: Vector, inside: f64) -> Vector {
+        let (Some(edge), Some(Span { low, high })) = (self.over, self.between) else {
+            return Vector::zeros();
+        };
+        let at = edge.along().dot(&centre);
+        (at - at.max(low + inside).min(high - inside)) * edge.along()
+    }
+
+    /// How far beyond what is asked for everything is that is aimed at, metres: of a short part of an edge
+    /// half-way to its middle.
+    pub fn depth(&self) -> f64 {
+        self.between.map_or(BEYOND, |span| BEYOND.min(0.25 * span.width()))
+    }
+
+    /// The same, by `margin` metres farther out and from the ends of the part of the edge; at least half of
+    /// that is left.
+    pub(super) fn farther(&self, margin: f64) -> Self {
+        let between = self.between.map(|span| {
+            let less = margin.min(0.25 * span.width());
+            Span::new(span.low + less, span.high - less)
+        });
+        Self { by: self.by + margin, between, ..self.clone() }
+    }
+}
+
+impl Scene {
+    /// Lets the goal's object fall, with all its parts, if it is to.
+    pub fn let_fall(&mut self, goal: &Goal) {
+        if goal.fall.is_none() {
+            return;
+        }
+        let solids: Vec<usize> = self.parts_of(goal.object).chain([goal.object]).collect();
+        for k in solids {
+            if let Some(object) = self.objects.get_mut(k) {
+                object.may_fall = true;
+            }
+        }
+    }
+
+    /// Where the table ends for what may fall off it: everything else ends a replay there.
+    pub fn brink(&self) -> Option<TableTop> {
+        self.table_top.filter(|_| self.objects.iter().any(|object| object.may_fall))
+    }
+
+    /// Whether an object, or what it is a part of, may fall and has left the table.
+    pub fn has_left(&self, object: usize, state: &State) -> bool {
+        let thing = self.thing(object);
+        self.objects[thing].may_fall
+            && self.table_top.is_some_and(|top| !top.holds(self.centre(thing, state)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Object;
+
+    /// A table from 0.2 to 1.0 m ahead and 0.3 m to either side; a box with a bar on its left.
+    fn scene() -> Scene {
+        let box_ = Object::cuboid("box", [0.06, 0.06, 0.05]).at(0.5, 0.0, 0.0);
+        let bar = Object::cuboid("box/bar", [0.02, 0.10, 0.05]).mass(0.2);
+        let mut scene = Scene::new([box_]).with_part(0, bar, Pose::new(0.0, 0.08, 0.0));
+        scene.table_top = Some(TableTop { size: [0.8, 0.6], middle: Vector::new(0.6, 0.0) });
+        scene
+    }
+
+    #[test]
+    fn it_falls_once_its_centre_of_mass_is_beyond_the_edge_and_not_over_another_one() {
+        let scene = scene();
+        let start = scene.start();
+        let centre = scene.centre(0, &start).y;
+        assert!(centre > 0.01, "the bar counts");
+        let at = |x: f64, y: f64| State::at_rest(vec![Pose::new(x, y, 0.0); 2]);
+        let goal = |over| Goal::falling(0, Fall::of(&scene, 0, over).expect("it ends"));
+        let left = goal(Some(Edge::Left));
+        for (y, falls) in [(0.31 - centre, true), (0.29 - centre, false), (-0.4, false)] {
+            assert_eq!(left.reached(&at(0.5, y)), falls, "{y}");
+            assert_eq!(left.score(&at(0.5, y)) < 1.0, falls, "{y}");
+        }
+        assert!((left.error(&at(0.5, 0.30 - centre)) - BEYOND).abs() < 1e-12);
+        assert!((left.score(&at(0.5, 0.30 - centre)) - 1.0).abs() < 1e-12);
+        let any = goal(None);
+        for (x, y) in [(0.5, -0.33 - centre), (0.17, 0.0), (1.01, 0.0), (0.6, 0.31 - centre)] {
+            assert!(
+                any.reached(&at(x, y))
+                    && !scene.table_top.unwrap().holds(Vector::new(x, y + centre))
+            );
+        }
+        assert!(!any.reached(&start));
+        assert!((any.off(&at(0.3, 0.0)) - Vector::new(0.12, 0.0)).norm() < 1e-12, "the near edge");
+        let strict = any.stricter(0.005, 0.0);
+        assert!(!strict.reached(&at(1.004, 0.0)) && any.reached(&at(1.004, 0.0)));
+    }
+
+    #[test]
+    fn only_over_the_part_of_the_edge_that_is_asked_for() {
+        let scene = scene();
+        let centre = scene.centre(0, &scene.start()).y;
+        let at = |x: f64| State::at_rest(vec![Pose::new(x, 0.33 - centre, 0.0); 2]);
+        let fall = Fall::of(&scene, 0, Some(Edge::Left)).expect("it ends");
+        let goal =
+            |low, high| Goal::falling(0, Box::new(fall.clone().between(Span::new(low, high))));
+        for (low, high) in [(0.4, 0.6), (0.47, 0.53)] {
+            let goal = goal(low, high);
+            for (x, falls) in [(low - 0.002, false), (low + 0.002, true), (high + 0.002, false)] {
+                assert_eq!(goal.reached(&at(x)), falls, "{x}");
+                assert_eq!(goal.score(&at(x)) < 1.0, falls, "{x}");
+            }
+            assert_eq!(goal.off(&at(0.5)), Vector::zeros());
+            assert!(!goal.stricter(0.005, 0.0).reached(&at(low + 0.004)));
+        }
+        let [high, low] = fall.clone().between(Span::new(0.1, 0.6)).ends(Edge::Left);
+        assert!((high - Vector::new(0.6, 0.3)).norm() < 1e-12, "{high}");
+        assert!((low - Vector::new(0.2, 0.3)).norm() < 1e-12, "the table ends there: {low}");
+    }
+
+    #[test]
+    fn only_what_is_to_fall_may() {
+        let mut scene = scene();
+        assert!(scene.brink().is_none() && Fall::of(&scene, 7, None).is_none());
+        scene.let_fall(&Goal::new(0, [0.5, 0.0], 0.02));
+        assert!(scene.brink().is_none());
+        scene.let_fall(&Goal::falling(0, Fall::of(&scene, 0, None).expect("it ends")));
+        assert!(scene.brink().is_some() && scene.objects.iter().all(|object| object.may_fall));
+        scene.table_top = None;
+        assert!(Fall::of(&scene, 0, None).is_none());
+    }
+}

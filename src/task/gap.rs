@@ -1,0 +1,205 @@
+//! How far apart two things are to be, seen from above: touching, beside each other, clear of each other.
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::{ContactPoint, Pose, Shape, contact_points};
+
+use super::Area;
+use super::goal::anywhere;
+use crate::scene::{Body, Scene, State};
+
+/// Search and refinement aim at gaps this far inside of what is allowed, metres, or at the middle of what
+/// is narrower: simulations differ by millimetres.
+const INSIDE: f64 = 0.02;
+
+/// The smallest distance between the outlines of two things, which is to be within limits.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Gap {
+    /// The other thing: an object, or an obstacle.
+    pub to: Body,
+    /// Smallest gap, metres; at 0 they may touch.
+    pub min: f64,
+    /// Largest gap, metres; infinite where any is small enough.
+    #[serde(with = "anywhere")]
+    pub max: f64,
+    /// The solids of both, each in the frame of its own thing, an obstacle's in the world.
+    solids: [Vec<(Shape, Pose)>; 2],
+}
+
+impl Gap {
+    /// Between object `object` with all its parts and what `to` is, from `min` to `max` metres; `None` where
+    /// one of them does not exist in `scene`.
+    pub fn between(
+        scene: &Scene,
+        object: usize,
+        to: Body,
+        [min, max]: [f64; 2],
+    ) -> Option<Box<Self>> {
+        let other = match to {
+            Body::Object(other) => scene.solids(other)?,
+            Body::Obstacle(other) => {
+                let obstacle = scene.obstacles.get(other)?;
+                vec![(obstacle.shape(), obstacle.pose)]
+            }
+            Body::Part(_) => return None,
+        };
+        Some(Box::new(Self { to, min, max, solids: [scene.solids(object)?, other] }))
+    }
+
+    /// What the other thing is called.
+    pub fn name<'a>(&self, scene: &'a Scene) -> &'a str {
+        let name = match self.to {
+            Body::Object(other) => scene.objects.get(other).map(|object| &object.name),
+            Body::Obstacle(other) => scene.obstacles.get(other).map(|obstacle| &obstacle.name),
+            Body::Part(_) => None,
+        };
+        name.map_or("?", String::as_str)
+    }
+
+    /// The gap where the goal's object is at `own` and all else as in `state`: metres, negative where they
+    /// overlap, with its ends and the direction from the other thing to the object.
+    pub fn nearest(&self, own: &Pose, state: &State) -> Option<ContactPoint> {
+        let other = match self.to {
+            Body::Object(other) => *state.poses.get(other)?,
+            _ => Pose::default(),
+        };
+        let mut nearest: Option<ContactPoint> = None;
+        for (first, at) in &self.solids[0] {
+            for (second, there) in &self.solids[1] {
+                let first = (&first.footprint(), &(*own * *at));
+                let second = (&second.footprint(), &(other * *there));
+                let (points, _) = contact_points(first, second, f64::INFINITY);
+                let nearer =
+                    |found: &ContactPoint| nearest.is_none_or(|known| found.gap < known.gap);
+                nearest = points[0].filter(nearer).or(nearest);
+            }
+        }
+        nearest
+    }
+
+    /// The outlines of all solids of the goal's object and of the other thing, each in the frame of its own
+    /// thing, an obstacle's in the world.
+    pub fn outlines(&self) -> [impl Iterator<Item = Area> + '_; 2] {
+        self.solids
+            .each_ref()
+            .map(|solids| solids.iter().map(|(shape, pose)| Area { shape: *shape, pose: *pose }))
+    }
+
+    /// Whether a gap of this many metres is allowed; things that touch may overlap slightly in a simulation.
+    pub fn holds(&self, gap: f64) -> bool {
+        self.beyond(gap, 0.0) == 0.0
+    }
+
+    /// How far inside of its limits everything is that is aimed at, metres.
+    pub fn depth(&self) -> f64 {
+        INSIDE.min(0.5 * (self.max - self.min))
+    }
+
+    /// How much larger a gap is than what lies so deep inside of the limits, metres; negative where it is
+    /// smaller.
+    pub(super) fn beyond(&self, gap: f64, depth: f64) -> f64 {
+        let low = if self.min > 0.0 { self.min + depth } else { f64::NEG_INFINITY };
+        gap - gap.max(low).min(self.max - depth)
+    }
+
+    /// The same with limits that are tighter by `margin` metres, or by a quarter of what is between them.
+    pub(super) fn tighter(&self, margin: f64) -> Self {
+        let margin = margin.min(0.25 * (self.max - self.min));
+        let min = if self.min > 0.0 { self.min + margin } else { 0.0 };
+        Self { min, max: self.max - margin, ..self.clone() }
+    }
+}
+
+impl Scene {
+    /// The solids of a thing, in its frame; `None` where it does not exist.
+    pub(super) fn solids(&self, object: usize) -> Option<Vec<(Shape, Pose)>> {
+        let own = (self.objects.get(object)?.shape, Pose::default());
+        let parts = self.parts_of(object).map(|k| &self.objects[k]);
+        let parts = parts.filter_map(|part| Some((part.shape, part.whole?.place)));
+        Some(std::iter::once(own).chain(parts).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        scene::{Object, Obstacle},
+        task::Goal,
+    };
+
+    /// A mug with a handle on its right, a box beside it and a wall behind it.
+    fn scene() -> Scene {
+        let mug = Object::cylinder("mug", 0.04, 0.1).at(0.5, 0.0, 0.0);
+        let block = Object::cuboid("block", [0.06, 0.04, 0.05]).at(0.7, 0.0, 0.0);
+        let handle = Object::cuboid("mug/handle", [0.04, 0.01, 0.08]);
+        Scene::new([mug, block])
+            .with_part(0, handle, Pose::new(0.06, 0.0, 0.0))
+            .with_obstacle(Obstacle::new("wall", [0.02, 0.4, 0.1], Pose::new(0.3, 0.0, 0.0)))
+    }
+
+    #[test]
+    fn the_gap_is_that_of_the_nearest_parts_in_whatever_order() {
+        let scene = scene();
+        let start = scene.start();
+        let gap = |object, to| {
+            let gap = Gap::between(&scene, object, to, [0.0, 0.1]).unwrap();
+            gap.nearest(&start.poses[object], &start).unwrap().gap
+        };
+        // The handle ends 0.08 m from the mug's middle, the block begins 0.03 m from its own.
+        for gap in [gap(0, Body::Object(1)), gap(1, Body::Object(0))] {
+            assert!((gap - (0.2 - 0.08 - 0.03)).abs() < 1e-9, "{gap}");
+        }
+        assert!((gap(0, Body::Obstacle(0)) - (0.2 - 0.04 - 0.01)).abs() < 1e-9);
+        assert!(Gap::between(&scene, 0, Body::Object(7), [0.0, 0.1]).is_none());
+        assert!(Gap::between(&scene, 0, Body::Part(0), [0.0, 0.1]).is_none());
+    }
+
+    /// Moved by what is missing, the mug comes to where it is aimed at, deep enough inside of the limits: in
+    /// a few steps, as other parts may be nearest on the way.
+    #[test]
+    fn what_is_missing_leads_to_where_the_gap_is_right() {
+        let scene = scene();
+        for limits in [[0.1, f64::INFINITY], [0.0, 0.002], [0.03, 0.05], [0.0, 0.3]] {
+            let goal = Goal::beside(0, Gap::between(&scene, 0, Body::Object(1), limits).unwrap());
+            for turn in [0.0, 0.4, 1.5, 3.1] {
+                for distance in [0.08, 0.16, 0.2, 0.5] {
+                    let mut state = scene.start();
+                    state.poses[0] = Pose::new(0.7 - distance, 0.02, turn);
+                    for _ in 0..6 {
+                        let off = goal.off(&state);
+                        state.poses[0].position -= off;
+                    }
+                    let error = goal.error(&state);
+                    assert!(error < 1e-4, "{limits:?} {turn} {distance}: {error}");
+                    assert!(goal.reached(&state), "{limits:?} {turn} {distance}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_score_is_one_at_the_limits() {
+        let scene = scene();
+        let goal =
+            |limits| Goal::beside(1, Gap::between(&scene, 1, Body::Obstacle(0), limits).unwrap());
+        let at = |gap: f64| {
+            let mut state = scene.start();
+            state.poses[1] = Pose::new(0.3 + 0.01 + gap + 0.03, 0.0, 0.0);
+            state
+        };
+        for (limits, inside, rim, outside) in [
+            ([0.1, f64::INFINITY], 0.121, 0.1, 0.09),
+            ([0.0, 0.05], 0.0, 0.05, 0.06),
+            ([0.0, 0.05], -1e-4, 0.05, 0.06),
+            ([0.04, 0.06], 0.05, 0.06, 0.03),
+        ] {
+            let goal = goal(limits);
+            assert!(goal.score(&at(inside)) < 1e-6 && goal.reached(&at(inside)), "{limits:?}");
+            assert!((goal.score(&at(rim)) - 1.0).abs() < 1e-6, "{limits:?}");
+            assert!(goal.score(&at(outside)) > 1.0 && !goal.reached(&at(outside)), "{limits:?}");
+            let strict = goal.stricter(0.005, 0.0);
+            assert!(strict.reached(&at(inside)) && !strict.reached(&at(rim)), "{limits:?}");
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! The action: a blade goes under an edge and turns about a horizontal axis.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::{Pose, Pose3, Vector, Vector3, perpendicular};
+
+use crate::scene::LeverScene;
+
+/// A place on a plate's outline.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Place {
+    /// The edge from this corner to the next.
+    pub edge: usize,
+    /// How far along it, 0 to 1.
+    pub fraction: f64,
+}
+
+/// A lever-up (Tekden 2020, chapters 5 and 6), as a robot repeats it without looking.
+///
+/// The lever frame has its origin on the edge at the underside, x along the inward normal, z up.
+/// The blade lies in it along x with its upper face touching the underside.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LeverUp {
+    /// Index of the object that is levered.
+    #[serde(rename = "object", alias = "plate")]
+    pub plate: usize,
+    /// Where the blade goes under.
+    pub place: Place,
+    /// How far its tip lies behind the edge, metres.
+    pub depth: f64,
+    /// Signed distance of the axis from the edge, inward, metres. In front of the blade (> 0) the
+    /// blade lifts the edge on an arc; behind it (< 0) it pries over the axis.
+    pub pivot: f64,
+    /// Turn of the blade about the axis, radians; the edge always goes up.
+    pub angle: f64,
+    /// Speed of the blade's tip, m/s.
+    pub speed: f64,
+    /// How long the blade then stands still, seconds.
+    pub hold: f64,
+    /// How far it is then drawn back along its shaft, metres.
+    pub retreat: f64,
+}
+
+impl LeverUp {
+    /// Usual wait at the end of the turn, seconds.
+    pub const HOLD: f64 = 0.2;
+    /// Usual way back, metres.
+    pub const RETREAT: f64 = 0.1;
+    /// Longest duration that is planned or replayed, seconds.
+    pub const LONGEST: f64 = 120.0;
+    /// Usual speed of the tip, m/s.
+    pub const SPEED: f64 = 0.1;
+
+    /// The lever frame in the world, from where the plate stands at the start.
+    pub fn frame(&self, scene: &LeverScene) -> Pose3 {
+        let plate = &scene.plates[self.plate];
+        let local = lever_frame(plate.corners(), self.place);
+        Pose3::upright(plate.pose * local, plate.z)
+    }
+
+    /// Duration of the turn, seconds.
+    pub fn turn_time(&self) -> f64 {
+        let radius = (self.pivot - self.depth).abs().max(1e-3);
+        self.angle * radius / self.speed
+    }
+
+    /// Duration of turn, wait and way back, seconds.
+    pub fn duration(&self) -> f64 {
+        self.turn_time() + self.hold + self.retreat / self.speed
+    }
+
+    /// Pose of the blade's centre in the world at `time` seconds from the start of the turn.
+    pub fn blade(&self, scene: &LeverScene, time: f64) -> Pose3 {
+        let turn = self.turn_time();
+        let angle = self.angle * (time / turn).clamp(0.0, 1.0);
+        let back = ((time - turn - self.hold) * self.speed).clamp(0.0, self.retreat);
+        let blade = &scene.blade;
+        let middle = Vector3::new(self.depth - 0.5 * blade.length, 0.0, -0.5 * blade.thickness);
+        // Turned about +y, what lies before the axis goes up; behind it, the other way round.
+        let signed = if self.pivot < 0.0 { -angle } else { angle };
+        let pivot = Vector3::new(self.pivot, 0.0, 0.0);
+        let lying = Pose3 { position: middle, ..Pose3::default() };
+        let mut turned = lying.turned_about(pivot, Vector3::y_axis(), signed);
+        turned.position -= turned.rotation * Vector3::x() * back;
+        self.frame(scene) * turned
+    }
+}
+
+/// The lever frame in the plate's: on the outline, x inward.
+pub fn lever_frame(corners: &[Vector], place: Place) -> Pose {
+    let from = corners[place.edge];
+    let along = corners[(place.edge + 1) % corners.len()] - from;
+    let inward = perpendicular(along);
+    Pose { position: from + along * place.fraction, heading: inward.y.atan2(inward.x) }
+}
+
+/// A lever in a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LeverJob {
+    /// Where.
+    pub scene: Arc<LeverScene>,
+    /// What.
+    pub lever: LeverUp,
+}

@@ -1,0 +1,39 @@
+//! A task and the plans for it: goals, rules, steps and tool motions.
+//!
+//! A [`Task`] is a scene with a robot, rules for steps and goals; a [`Plan`] is a list of steps, a
+//! [`Motion`] is the path of a tool, a [`Job`] is a motion that begins in a situation. SI units and
+//! radians throughout. Nothing here reads files or simulates.
+
+mod area;
+mod coverage;
+mod definition;
+mod fall;
+mod gap;
+mod goal;
+mod job;
+mod lever;
+mod missed;
+mod motion;
+mod observation;
+mod plan;
+mod push_rules;
+mod truth;
+mod way;
+
+pub use area::Area;
+pub use coverage::Coverage;
+pub use definition::{Task, ToolChoice};
+pub use fall::{Edge, Fall};
+pub use gap::Gap;
+pub use goal::Goal;
+pub use job::Job;
+pub use lever::{LeverJob, LeverRules, LeverUp, Pivot, Place, lever_frame};
+pub use motion::{
+    COAST_FRAME, FrameStep, LeverMotion, MAX_COAST_FRAMES, Motion, Push, RETREAT, Stroke,
+    ToolMotion,
+};
+pub use observation::{Noise, Observation};
+pub use plan::{LeverStep, Plan, PushStep, Step};
+pub use push_rules::{Directions, Offsets, PushForm, PushRules};
+pub use truth::Truth;
+pub use way::Way;
