@@ -62,10 +62,16 @@ const ROOMS: [(&str, &str); 26] = [
     ("solve", "geometry scene task outcome arm asset sim effect plan verify"),
     ("act", "geometry scene task outcome asset sim effect judge fit belief solve"),
     ("bench", "geometry scene task outcome asset store sim effect judge solve"),
-    ("report", "geometry scene task outcome recording asset store graph judge fit belief plan solve act bench"),
+    (
+        "report",
+        "geometry scene task outcome recording asset store graph judge fit belief plan solve act bench",
+    ),
     ("export", "geometry scene task outcome arm asset"),
     ("import", "geometry scene task asset"),
-    ("cli", "geometry scene task outcome recording asset store sim network effect judge fit belief verify solve act bench report export import"),
+    (
+        "cli",
+        "geometry scene task outcome recording asset store sim network effect judge fit belief verify solve act bench report export import",
+    ),
 ];
 
 /// Crates that only these rooms may name: whatever is behind such a door can be replaced without
