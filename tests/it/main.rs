@@ -18,6 +18,7 @@ mod constraints;
 mod coverages;
 mod design;
 mod doors;
+mod english;
 mod export;
 mod facade;
 mod fitting;
