@@ -72,7 +72,7 @@ pub fn check(path: impl AsRef<Path>, library: Option<&ToolLibrary>) -> Result<Ki
 fn recognise(file: &str, text: &str) -> Result<Kind, Faults> {
     let root = Node::parse(Source::of(file, text))?;
     match root.get("kind").and_then(Node::text) {
-        Some("plan" | "lever_plan") => return Ok(Kind::Plan),
+        Some("plan") => return Ok(Kind::Plan),
         Some("trajectory") => return Ok(Kind::Trajectory),
         Some("recording") => return Ok(Kind::Recording),
         Some("run") => return Ok(Kind::Run),

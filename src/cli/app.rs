@@ -12,7 +12,7 @@ use super::{
     error::CliError,
     exit_code, export, fit,
     groups::{Groups, grouped},
-    infer, interrupt, moved, new, predict,
+    infer, interrupt, new, predict,
     session::{GlobalArgs, Session, shown},
     solve, verify,
 };
@@ -77,10 +77,6 @@ pub fn start<C: Parser>(
     let cli = match parsed.and_then(|mut matches| C::from_arg_matches_mut(&mut matches)) {
         Ok(cli) => cli,
         Err(message) => {
-            if let Some(said) = moved::now(&message) {
-                let _ = writeln!(std::io::stderr(), "{said}");
-                return exit_code::USAGE;
-            }
             // Help and version come here too, for stdout and with code 0.
             let _ = message.print();
             let wrong = message.use_stderr();

@@ -21,7 +21,6 @@ pub mod infer;
 pub mod interrupt;
 pub mod lever_argument;
 pub mod model;
-pub mod moved;
 pub mod new;
 pub mod noise;
 pub mod output;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
 use crate::geometry::Pose;
 
@@ -76,7 +76,7 @@ impl Step {
 /// let plan = Plan::pushing("stick", 0.0, PushForm::Placed, 0.002, [push, push]);
 /// assert!(plan.steps.iter().all(|step| matches!(step, Step::Push(_)) && step.tool() == "stick"));
 /// ```
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Plan {
     /// In order.
     pub steps: Vec<Step>,
@@ -235,38 +235,6 @@ fn run(tool: &Arc<Tool>, steps: &[&PushStep]) -> ToolMotion {
     };
     let strokes = steps.iter().enumerate().map(stroke).collect();
     ToolMotion { tool: Arc::clone(tool), lift, strokes }
-}
-
-/// Plans used to be pushes of one tool, or one lever-up: such are read as well.
-impl<'de> Deserialize<'de> for Plan {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        #[derive(Deserialize)]
-        struct Written {
-            steps: Option<Vec<Step>>,
-            tool: Option<String>,
-            grip_yaw: Option<f64>,
-            form: Option<PushForm>,
-            lift: Option<f64>,
-            pushes: Option<Vec<Push>>,
-            lever: Option<LeverUp>,
-        }
-        let written = Written::deserialize(deserializer)?;
-        let missing = |key| <D::Error as serde::de::Error>::missing_field(key);
-        if let Some(steps) = written.steps {
-            return Ok(Self { steps });
-        }
-        let tool = written.tool.ok_or_else(|| missing("steps"))?;
-        if let Some(lever) = written.lever {
-            return Ok(Self::levering(tool, lever));
-        }
-        Ok(Self::pushing(
-            tool,
-            written.grip_yaw.ok_or_else(|| missing("grip_yaw"))?,
-            written.form.ok_or_else(|| missing("form"))?,
-            written.lift.ok_or_else(|| missing("lift"))?,
-            written.pushes.ok_or_else(|| missing("pushes"))?,
-        ))
-    }
 }
 
 #[cfg(test)]

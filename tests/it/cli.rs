@@ -190,24 +190,6 @@ fn control_characters_of_a_file_never_reach_the_terminal() {
 }
 
 #[test]
-fn words_that_went_or_moved_say_what_to_write_now() {
-    for (words, now) in [
-        ("evaluate prior", "pushplan predict RECORDINGS"),
-        ("simulate tasks/pull-back.yaml", "--alone"),
-        ("schema task", "pushplan check --schema"),
-        ("solve tasks/pull-back.yaml --effort exhaustive", "--effort thorough --disturbed 64"),
-        ("generate data", "pushplan-learn"),
-        ("train runs/any --steps 9", "pushplan-learn"),
-        ("tradeoff", "pushplan-lab"),
-        ("bench random --count 3", "pushplan-lab"),
-    ] {
-        let output = run(&words.split(' ').collect::<Vec<_>>());
-        assert_eq!(output.status.code(), Some(2), "{words}");
-        assert!(stderr(&output).contains("any more") && stderr(&output).contains(now), "{words}");
-    }
-}
-
-#[test]
 fn a_reader_that_goes_away_is_no_error() {
     let mut child = command(&["completions", "zsh"])
         .stdout(Stdio::piped())

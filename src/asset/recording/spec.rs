@@ -1,6 +1,6 @@
 //! What a recording may hold.
 
-use crate::asset::saved::VERSION;
+use crate::asset::saved::{SCHEMA_VERSION, version};
 use crate::asset::spec::{
     ANGLE, CUBOID, CYLINDER, FRICTION, Key, MASS, POSITION, Range, Value, numbers,
 };
@@ -21,7 +21,7 @@ pub(in crate::asset) static RECORDING: Value = Value::Map(RECORDING_KEYS);
 
 /// The keys of a recording.
 pub(in crate::asset) const RECORDING_KEYS: &[Key] = &[
-    Key::required("schema_version", VERSION, "Version of the format, 1."),
+    Key::required("schema_version", version(SCHEMA_VERSION), "Version of the format, 1."),
     Key::required("kind", Value::Word(&["recording"]), "What the file is."),
     Key::optional("name", Value::Name, "The recording's name; by default the file's."),
     Key::optional("description", Value::Text, "One line for people; by default empty."),

@@ -16,4 +16,4 @@ pub use plan::PlanFile;
 pub use spec::{PLAN_VERSION, SCHEMA_VERSION};
 pub use trajectory::TrajectoryFile;
 
-pub(super) use spec::{PLAN_FILE, TRAJECTORY_FILE, VERSION};
+pub(super) use spec::{PLAN_FILE, TRAJECTORY_FILE, version};

@@ -6,7 +6,6 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::asset::fault::Faults;
-use crate::asset::node::Node;
 use crate::asset::read_text;
 use crate::asset::table_fit::Whole;
 use crate::{
@@ -70,10 +69,7 @@ impl PlanFile {
     pub fn parse(text: &str, file: &str) -> Result<Self, Faults> {
         let mut opened = Opened::new(file, text, &PLAN_FILE)?;
         opened.ledger.sound()?;
-        let own = match opened.root.get("kind").and_then(Node::text) {
-            Some("lever_plan") => opened.typed::<OldLever>()?.plan(),
-            _ => opened.typed::<Own>()?,
-        };
+        let own: Own = opened.typed()?;
         opened.check_plan(&own.plan);
         if let Some(outcome) = &own.predicted {
             let node = opened.root.get("predicted").cloned();
@@ -122,28 +118,6 @@ struct Own {
     predicted: Option<Outcome>,
     verdict: Option<Verdict>,
     joints: Option<JointTrajectory>,
-}
-
-/// The same of a lever-up in a file of the first version.
-#[derive(Deserialize)]
-struct OldLever {
-    plan: Plan,
-    follow_up: Option<OldPushes>,
-    model: Option<String>,
-}
-
-#[derive(Deserialize)]
-struct OldPushes {
-    plan: Plan,
-}
-
-impl OldLever {
-    fn plan(self) -> Own {
-        let pushes = self.follow_up.map(|pushes| pushes.plan).unwrap_or_default();
-        let model = self.model.and_then(|model| model.parse().ok());
-        let plan = self.plan.then(pushes);
-        Own { plan, model, fit: None, predicted: None, verdict: None, joints: None }
-    }
 }
 
 impl Serialize for PlanFile {

@@ -38,10 +38,8 @@ impl<'a> Opened<'a> {
         let mut ledger = Ledger::new(source);
         check(&mut root, value, &mut ledger);
         let task = root.get("task").and_then(|node| task::task_of(node, file, &mut ledger));
-        let own = [root.get("tool"), root.get("follow_up").and_then(|then| then.get("tool"))];
-        let listed = root.get("tools").map(Node::items).unwrap_or_default();
         let mut tools: Vec<Arc<Tool>> = Vec::new();
-        for node in own.into_iter().flatten().chain(listed) {
+        for node in root.get("tools").map(Node::items).unwrap_or_default() {
             let Some(tool) = tool::tool_of(node, &mut ledger) else { continue };
             if !tools.iter().any(|known| known.name == tool.name) {
                 tools.push(Arc::new(tool));
@@ -82,14 +80,10 @@ impl<'a> Opened<'a> {
         let Some(node) = self.root.get("plan") else { return };
         let tools: Vec<&str> = self.tools.iter().map(|tool| tool.name.as_str()).collect();
         let mixed = "the file mixes two; make it again";
-        let stated = node.get("tool").and_then(Node::text).into_iter();
-        for tool in plan.tools().into_iter().chain(stated) {
-            if !tools.contains(&tool) {
-                let message =
-                    format!("the plan uses `{tool}`, the file holds `{}`", tools.join("`, `"));
-                self.ledger.fault(node.get("tool").unwrap_or(node), message, mixed);
-                break;
-            }
+        if let Some(tool) = plan.tools().into_iter().find(|tool| !tools.contains(tool)) {
+            let message =
+                format!("the plan uses `{tool}`, the file holds `{}`", tools.join("`, `"));
+            self.ledger.fault(node, message, mixed);
         }
         for step in &plan.steps {
             let Some(tool) = self.tools.iter().find(|tool| tool.name == step.tool()) else {

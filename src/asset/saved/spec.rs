@@ -5,42 +5,19 @@ use crate::asset::spec::{Key, Range, Value, numbers};
 use crate::asset::task::TASK_FILE;
 use crate::asset::tool::TOOL_FILE;
 
-use super::steps::{LIFT, OLD_LEVER_KEYS, POSE_IN_SPACE, PUSHES, STEPS};
+use super::steps::{LIFT, POSE_IN_SPACE, STEPS};
 use super::verdict::{OUTCOME, VERDICT, WARNINGS};
 
 /// Version of recordings and of what commands print; raised when older readers would fail.
 pub const SCHEMA_VERSION: u32 = 1;
 
-/// The same of plan and trajectory files; those of the first version are read as well.
+/// Version of plan and trajectory files.
 pub const PLAN_VERSION: u32 = 2;
 
-/// What a plan file may hold.
-pub(in crate::asset) static PLAN_FILE: Value =
-    Value::Told { by: plan_file, of: &[&STEPS_FILE, &PUSHES_FILE, &LEVER_FILE] };
-
-/// What a trajectory file may hold.
-pub(in crate::asset) static TRAJECTORY_FILE: Value =
-    Value::Told { by: trajectory_file, of: &[&STEPS_TRAJECTORY, &PUSHES_TRAJECTORY] };
-
-fn is_old(root: &Node) -> bool {
-    root.get("schema_version").and_then(Node::number) == Some(1.0)
-}
-
-fn plan_file(root: &Node) -> &'static Value {
-    match root.get("kind").and_then(Node::text) {
-        Some("lever_plan") => &LEVER_FILE,
-        _ if is_old(root) => &PUSHES_FILE,
-        _ => &STEPS_FILE,
-    }
-}
-
-fn trajectory_file(root: &Node) -> &'static Value {
-    if is_old(root) { &PUSHES_TRAJECTORY } else { &STEPS_TRAJECTORY }
-}
-
-static STEPS_FILE: Value = Value::Map(&[
-    Key::required("schema_version", PLAN_FILE_VERSION, "Version of the format."),
-    KIND,
+/// Keys of a plan file.
+pub(in crate::asset) static PLAN_FILE: Value = Value::Map(&[
+    Key::required("schema_version", version(PLAN_VERSION), "Version of the format."),
+    Key::required("kind", Value::Word(&["plan"]), "Kind of the file."),
     TASK,
     TOOLS,
     Key::required("plan", STEPS, "The steps."),
@@ -56,79 +33,20 @@ static STEPS_FILE: Value = Value::Map(&[
     ),
 ]);
 
-/// The first version, of pushes with one tool.
-static PUSHES_FILE: Value = Value::Map(&[
-    Key::required("schema_version", VERSION, "Version of the format."),
-    KIND,
-    TASK,
-    TOOL,
-    Key::required("plan", PUSHES, "The pushes."),
-    Key::optional("model", Value::Either(&[Value::Text, Value::Nothing]), MODEL),
-    PREDICTED,
-    JUDGED,
-]);
-
-/// The first version, of a lever-up and the pushes after it. It described the effect in a form that
-/// is not read any more; verifying the plan finds it again.
-static LEVER_FILE: Value = Value::Map(&[
-    Key::required("schema_version", VERSION, "Version of the format."),
-    Key::required("kind", Value::Word(&["lever_plan"]), "What the file is."),
-    TASK,
-    TOOL,
-    Key::required(
-        "plan",
-        Value::Map(&[
-            Key::required("tool", Value::Name, "Name of the tool."),
-            Key::required("lever", Value::Map(OLD_LEVER_KEYS), "The lever-up."),
-        ]),
-        "The lever-up.",
-    ),
-    Key::optional(
-        "follow_up",
-        Value::Either(&[
-            Value::Map(&[TOOL, Key::required("plan", PUSHES, "The pushes.")]),
-            Value::Nothing,
-        ]),
-        "The pushes that follow it; by default none.",
-    ),
-    Key::optional("model", Value::Either(&[Value::Text, Value::Nothing]), MODEL),
-    Key::optional("predicted", Value::Anything, "What the model says; by default unknown."),
-    Key::optional("verdict", Value::Anything, "What replays showed; by default unknown."),
-]);
-
-static STEPS_TRAJECTORY: Value = Value::Map(&[
-    Key::required("schema_version", PLAN_FILE_VERSION, "Version of the format."),
-    TRAJECTORY_KIND,
+/// Keys of a trajectory file.
+pub(in crate::asset) static TRAJECTORY_FILE: Value = Value::Map(&[
+    Key::required("schema_version", version(PLAN_VERSION), "Version of the format."),
+    Key::required("kind", Value::Word(&["trajectory"]), "Kind of the file."),
     TASK,
     TOOLS,
     Key::required("plan", STEPS, "The steps."),
     Key::required("trajectory", TRAJECTORY, "What happened."),
 ]);
 
-static PUSHES_TRAJECTORY: Value = Value::Map(&[
-    Key::required("schema_version", VERSION, "Version of the format."),
-    TRAJECTORY_KIND,
-    TASK,
-    TOOL,
-    Key::required("plan", PUSHES, "The pushes."),
-    Key::required("trajectory", TRAJECTORY, "What happened."),
-]);
-
-const KIND: Key = Key::required("kind", Value::Word(&["plan"]), "What the file is.");
-
-const TRAJECTORY_KIND: Key =
-    Key::required("kind", Value::Word(&["trajectory"]), "What the file is.");
-
 const TASK: Key = Key::required(
     "task",
     Value::Told { by: task_of_file, of: &TASKS },
     "The task, as in a task file.",
-);
-
-const TOOL: Key = Key::required(
-    "tool",
-    Value::Told { by: tool_of_file, of: &TOOLS_OF_FILES },
-    "The tool, as in a tool file.",
 );
 
 const TOOLS: Key = Key::required(
@@ -163,19 +81,15 @@ const JUDGED: Key = Key::optional(
 
 const MODEL: &str = "The effect model that predicted where the plan ends; by default unknown.";
 
-pub(in crate::asset) const VERSION: Value = Value::Count(Range {
-    what: "the schema version",
-    low: SCHEMA_VERSION as f64,
-    high: SCHEMA_VERSION as f64,
-    advice: "the file is of another version of pushplan; make it again with this one",
-});
-
-const PLAN_FILE_VERSION: Value = Value::Count(Range {
-    what: "the schema version",
-    low: 1.0,
-    high: PLAN_VERSION as f64,
-    advice: "the file is of another version of pushplan; make it again with this one",
-});
+/// The version of a format; no other one is read.
+pub(in crate::asset) const fn version(number: u32) -> Value {
+    Value::Count(Range {
+        what: "the schema version",
+        low: number as f64,
+        high: number as f64,
+        advice: "the file is of another version of pushplan; make it again with this one",
+    })
+}
 
 /// Large enough for anything on a table, small enough to betray a blown-up simulation.
 pub(super) const REAL: Value =

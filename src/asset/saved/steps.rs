@@ -1,4 +1,4 @@
-//! What steps and what comes of them may hold, and plans of the first version.
+//! Keys of steps and of their results.
 
 use crate::asset::spec::{Key, Range, Value, numbers};
 
@@ -44,17 +44,6 @@ const LEVER_STEP: Value = Value::Map(&[
     ),
 ]);
 
-pub(super) const OLD_LEVER_KEYS: &[Key] = &[
-    Key::required("plate", INDEX, "Index of the object that is levered."),
-    PLACE,
-    DEPTH,
-    PIVOT,
-    ANGLE,
-    SPEED,
-    HOLD,
-    RETREAT,
-];
-
 const PLACE: Key = Key::required(
     "place",
     Value::Map(&[
@@ -85,26 +74,6 @@ const TURN: Value = Value::Number(Range {
     high: 3.2,
     advice: "half a turn is 3.14",
 });
-
-/// The pushes of a plan of the first version.
-pub(super) const PUSHES: Value = Value::Map(&[
-    Key::required("tool", Value::Name, "Name of the tool."),
-    Key::required("grip_yaw", REAL, "Turn of the end effector against world +x, radians."),
-    Key::required("form", Value::Word(&["placed", "chained"]), "How the pushes start."),
-    Key::required("lift", UNSIGNED, "Height of the tool's underside above the table, metres."),
-    Key::required(
-        "pushes",
-        Value::List { of: &PUSH, items: "pushes", min: 0, max: 64 },
-        "The pushes, in order; none if nothing is to be done.",
-    ),
-]);
-
-const PUSH: Value = Value::Map(&[
-    Key::required("start", VECTOR, "End-effector position at the start, metres."),
-    Key::required("direction", REAL, "Heading of the motion, radians from world +x."),
-    Key::required("length", POSITIVE, "Travel, metres."),
-    Key::required("speed", POSITIVE, "Speed, m/s."),
-]);
 
 pub(super) const POSE_IN_SPACE: Value = Value::Map(&[
     Key::required("position", numbers(&REAL, 3), "Metres."),

@@ -24,7 +24,7 @@ pub struct Place {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeverUp {
     /// Index of the object that is levered.
-    #[serde(rename = "object", alias = "plate")]
+    #[serde(rename = "object")]
     pub plate: usize,
     /// Where the blade goes under.
     pub place: Place,

@@ -51,19 +51,3 @@ fn pushes_in_a_row_with_one_tool_are_one_motion() {
     assert_eq!(motions, [Motion::Slide(whole.motion(&tools[0]))]);
     assert_eq!(Plan::default().motions(&tools), Some(Vec::new()));
 }
-
-#[test]
-fn plans_of_the_first_version_are_read() {
-    let plan = Plan::pushing("bar", 0.5, PushForm::Chained, 0.002, [push(0.0), push(0.1)]);
-    let text = serde_json::to_string(&plan).expect("numbers");
-    assert_eq!(serde_json::from_str::<Plan>(&text).expect("sound"), plan);
-    let pushes = serde_json::to_string(&plan.pushes()).expect("numbers");
-    let old = format!(
-        r#"{{"tool":"bar","grip_yaw":0.5,"form":"chained","lift":0.002,"pushes":{pushes}}}"#
-    );
-    assert_eq!(serde_json::from_str::<Plan>(&old).expect("sound"), plan);
-    let plan = Plan::levering("blade", lever());
-    let old = serde_json::to_string(&lever()).expect("numbers").replace("object", "plate");
-    let old = format!(r#"{{"tool":"blade","lever":{old}}}"#);
-    assert_eq!(serde_json::from_str::<Plan>(&old).expect("sound"), plan);
-}

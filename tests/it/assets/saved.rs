@@ -132,7 +132,7 @@ fn a_plan_file_whose_fit_was_changed_is_refused() {
 fn damaged_plan_files_are_refused() {
     let version = format!("\"schema_version\":{PLAN_VERSION}");
     assert_snapshot!(damaged(&version, "\"schema_version\":7"), @r#"
-    p.json:1:19: error: expected the schema version from 1 to 2, found the number 7
+    p.json:1:19: error: expected the schema version 2, found the number 7
       help: the file is of another version of pushplan; make it again with this one
     "#);
     assert_snapshot!(damaged("\"grip_yaw\"", "\"gripyaw\""), @r#"
