@@ -7,7 +7,6 @@
 //! built (`tool`, `task`, `lever`, `saved`). Nothing is simulated here and nothing is drawn.
 
 mod arm;
-mod edit;
 mod example;
 mod fault;
 mod folder;
@@ -33,20 +32,21 @@ mod tool;
 mod world;
 mod write;
 
-pub use edit::{Edit, Step, edit, values};
 pub use example::{example_text, load_example};
 pub use fault::{Fault, Faults, Place};
 pub use folder::recordings_in;
 pub use kind::{Kind, check};
 pub use library::ToolLibrary;
+pub use node::{Content, Node};
 pub use printable::printable;
+pub use reader::locate;
 pub use recording::RECORDING_FORMAT;
 pub use saved::{PLAN_VERSION, PlanFile, SCHEMA_VERSION, TrajectoryFile};
 pub use schema::{
     plan_schema, recording_schema, task_schema, tool_schema, trajectory_schema, world_schema,
 };
 pub use task::{load_task, parse_task};
-pub use text::{named_after, read_text};
+pub use text::{Source, is_in_names, named_after, read_text};
 pub use tool::MAX_PARTS;
 pub use world::load_world;
 pub use write::write_atomic;

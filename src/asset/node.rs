@@ -2,22 +2,31 @@
 
 use std::fmt;
 
-/// A value and its number in reading order.
+/// A value of a file's text, numbered in reading order so that its place can be found.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Node {
+pub struct Node {
+    /// Its number in reading order.
     pub id: usize,
+    /// Its value.
     pub content: Content,
 }
 
-/// What a node holds.
+/// The value of a node.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Content {
+pub enum Content {
+    /// Null, or a key without a value.
     Nothing,
+    /// True or false.
     Switch(bool),
+    /// A number without fraction.
     Whole(i128),
+    /// Any other number.
     Number(f64),
+    /// A text.
     Text(String),
+    /// A list of values.
     List(Vec<Node>),
+    /// Keys with their values, in the order of the text.
     Map(Vec<(Node, Node)>),
 }
 

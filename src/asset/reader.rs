@@ -57,8 +57,8 @@ impl Node {
     }
 }
 
-/// Where node `id` of a text is.
-pub(super) fn locate(source: Source, id: usize) -> Option<Place> {
+/// Returns the place of node `id` of a text.
+pub fn locate(source: Source, id: usize) -> Option<Place> {
     read(source, id).err()?.place
 }
 

@@ -27,15 +27,18 @@ impl Language {
     }
 }
 
-/// A text and its name.
+/// A text, its name and its language.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Source<'a> {
+pub struct Source<'a> {
+    /// The name that faults give it.
     pub file: &'a str,
+    /// The text itself.
     pub text: &'a str,
-    pub language: Language,
+    pub(super) language: Language,
 }
 
 impl<'a> Source<'a> {
+    /// A text in YAML.
     pub fn yaml(file: &'a str, text: &'a str) -> Self {
         Self { file, text, language: Language::Yaml }
     }
@@ -46,6 +49,7 @@ impl<'a> Source<'a> {
         if json { Self::json(file, text) } else { Self::yaml(file, text) }
     }
 
+    /// A text in JSON.
     pub fn json(file: &'a str, text: &'a str) -> Self {
         Self { file, text, language: Language::Json }
     }
@@ -54,8 +58,8 @@ impl<'a> Source<'a> {
 /// Most characters of a name.
 pub(super) const LONGEST_NAME: usize = 64;
 
-/// Whether a name may hold `c`.
-pub(super) fn is_in_names(c: char) -> bool {
+/// Returns true if a name may hold `c`.
+pub fn is_in_names(c: char) -> bool {
     c.is_alphanumeric() || c == '-' || c == '_'
 }
 

@@ -4,6 +4,7 @@
 //! shown: the library says all of it. Here it is only handed over. What is drawn and dragged is in
 //! `page`.
 
+mod edit;
 mod follow;
 mod solve;
 mod table;

@@ -1,11 +1,12 @@
 //! The text of a task, what it says, and changes of it.
 
-use pushplan::asset::{self, Edit, Fault, Faults, parse_task};
+use pushplan::asset::{self, Fault, Faults, parse_task};
 use pushplan::report::task_stage;
 use pushplan::{Task, ToolLibrary};
 use serde_json::{Value as Json, json};
 use wasm_bindgen::prelude::wasm_bindgen;
 
+use crate::edit::{self, Edit};
 use crate::library;
 
 /// Names of the shipped tasks.
@@ -51,7 +52,7 @@ pub fn tools() -> Result<String, String> {
 /// what cannot be said is null.
 #[wasm_bindgen]
 pub fn look(text: &str, file: &str) -> String {
-    let values = asset::values(text, file).unwrap_or_default();
+    let values = edit::values(text, file).unwrap_or_default();
     let task = library().map_err(|error| Fault::of_file(file, error, "").into());
     let task = task.and_then(|library: &ToolLibrary| parse_task(text, file, library));
     let (stage, faults) = match &task {
@@ -70,7 +71,7 @@ pub fn look(text: &str, file: &str) -> String {
 #[wasm_bindgen]
 pub fn edit(text: &str, file: &str, edits: &str) -> Result<String, String> {
     let edits: Vec<Edit> = serde_json::from_str(edits).map_err(|error| error.to_string())?;
-    asset::edit(text, file, &edits).map_err(|faults| faults.to_string())
+    edit::edit(text, file, &edits).map_err(|faults| faults.to_string())
 }
 
 fn listed(faults: &Faults) -> Vec<Json> {

@@ -4,9 +4,7 @@ use serde::Deserialize;
 use serde_json::Value as Json;
 use serde_yaml::Value as Yaml;
 
-use crate::asset::fault::{Fault, Faults};
-use crate::asset::node::Node;
-use crate::asset::text::Source;
+use pushplan::asset::{Fault, Faults, Node, Source};
 
 use super::{change, tree};
 

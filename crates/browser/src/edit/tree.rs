@@ -2,7 +2,7 @@
 
 use serde_yaml::{Mapping, Value as Yaml};
 
-use crate::asset::node::{Content, Node};
+use pushplan::asset::{Content, Node};
 
 use super::apply::{Step, entry};
 

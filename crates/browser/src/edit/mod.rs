@@ -11,4 +11,4 @@ mod flow;
 mod place;
 mod tree;
 
-pub use apply::{Edit, Step, edit, values};
+pub use apply::{Edit, edit, values};

@@ -2,10 +2,7 @@
 
 use std::ops::Range;
 
-use crate::asset::fault::Place;
-use crate::asset::node::{Content, Node};
-use crate::asset::reader::locate;
-use crate::asset::text::Source;
+use pushplan::asset::{Content, Node, Place, Source, locate};
 
 /// The bytes of a node; `None` where its end cannot be told without reading as the parser does: words
 /// over several lines, anchors. `flow` says whether brackets are around it.

@@ -2,7 +2,7 @@
 
 use serde_yaml::Value as Yaml;
 
-use crate::asset::text::is_in_names;
+use pushplan::asset::is_in_names;
 
 /// `{cylinder: {radius: 0.05, height: 0.1}}`.
 pub fn written(value: &Yaml) -> String {

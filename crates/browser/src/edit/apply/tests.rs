@@ -114,8 +114,8 @@ fn what_cannot_be_changed_in_place_is_written_anew() {
 
 #[test]
 fn shipped_tasks_keep_every_other_letter() {
-    for name in crate::task::Task::examples() {
-        let text = crate::asset::example_text(name).unwrap();
+    for name in pushplan::Task::examples() {
+        let text = pushplan::asset::example_text(name).unwrap();
         let place = path("scene.objects.0.position");
         let new =
             edit(text, "t", &[Edit { path: place, value: Some(serde_json::json!([7.125, 8.25])) }]);

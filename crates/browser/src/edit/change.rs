@@ -4,8 +4,7 @@ use std::ops::Range;
 
 use serde_yaml::Value as Yaml;
 
-use crate::asset::node::{Content, Node};
-use crate::asset::text::Source;
+use pushplan::asset::{Content, Node, Source};
 
 use super::apply::Step;
 use super::flow::written;
