@@ -90,6 +90,8 @@ pub mod cli;
 #[doc(hidden)]
 pub mod contact;
 #[doc(hidden)]
+pub mod design;
+#[doc(hidden)]
 pub mod effect;
 #[doc(hidden)]
 pub mod export;
@@ -137,6 +139,7 @@ pub use act::{
     ActError, Look, RunSettings, Runner, SimulatedWorld, Trace, World, WorldError, hidden,
 };
 pub use asset::ToolLibrary;
+pub use design::{Design, DesignSettings};
 pub use effect::{EffectModel, Simulated, Trust};
 pub use error::Error;
 pub use geometry::{ConvexPolygon, PolygonError, Pose, Shape, Vector};
@@ -147,9 +150,7 @@ pub use scene::{
     Scene, Sight, Situation, State, TableFit, Tool, Unknowns,
 };
 pub use sim::Simulator;
-pub use solve::{
-    Design, DesignSettings, Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError,
-};
+pub use solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
 pub use task::{
     Coverage, Edge, Fall, Gap, Goal, Job, LeverRules, LeverStep, LeverUp, Motion, Noise, Pivot,
     Place, Plan, Push, PushForm, PushRules, PushStep, Step, Task, ToolMotion, Truth,

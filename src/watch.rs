@@ -48,6 +48,15 @@ pub struct Unwatched;
 
 impl Watch for Unwatched {}
 
+/// Forwards cancellation alone: many jobs run side by side, and reports of each would be noise.
+pub struct Quiet<'a>(pub &'a dyn Watch);
+
+impl Watch for Quiet<'_> {
+    fn cancelled(&self) -> bool {
+        self.0.cancelled()
+    }
+}
+
 /// Counts the finished units of a stage, from any number of threads.
 pub struct Count<'a> {
     watch: &'a dyn Watch,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::belief::Belief;
 use crate::geometry::Vector;
-use crate::solve::{Approach, AskedPush, AskedStart, SolveError, asked_plan};
+use crate::solve::{Approach, ManualPush, ManualStart, SolveError, manual_plan};
 use crate::watch::Watch;
 use crate::{
     scene::{Situation, Tool},
@@ -203,14 +203,14 @@ fn rest(task: &Task, now: &Situation, last: &Step) -> Option<(Plan, Arc<Tool>)> 
         return None;
     }
     let off: Vector = now.start.poses[task.goal.object].position - last.expected.position;
-    let asked = |push: &Push| AskedPush {
-        start: AskedStart::At(push.start + off),
+    let asked = |push: &Push| ManualPush {
+        start: ManualStart::At(push.start + off),
         direction: push.direction,
         length: Some(push.length),
         speed: Some(push.speed),
     };
-    let pushes: Vec<AskedPush> = left.iter().map(asked).collect();
+    let pushes: Vec<ManualPush> = left.iter().map(asked).collect();
     let tool = Arc::new(last.tool.clone());
-    let asked = asked_plan(task, now, &tool, &[grip_yaw], &pushes).ok()?;
+    let asked = manual_plan(task, now, &tool, &[grip_yaw], &pushes).ok()?;
     asked.broken.is_empty().then_some((asked.plan, tool))
 }

@@ -7,7 +7,7 @@ use clap::Args;
 
 use crate::asset::ToolLibrary;
 use crate::report::{Origin, TaskSource};
-use crate::solve::{ActionError, AskedLever, AskedPush, asked_lever, asked_plan};
+use crate::solve::{ActionError, ManualLever, ManualPush, manual_lever, manual_plan};
 use crate::{
     scene::{Models, Situation, Tool},
     task::{Plan, Task},
@@ -62,11 +62,11 @@ pub struct ActionArgs {
     /// A push, or several in order; see below
     #[arg(long = "push", value_name = "PUSH", requires = "tool", allow_hyphen_values = true,
           value_parser = push_argument, group = "moves")]
-    pushes: Vec<AskedPush>,
+    pushes: Vec<ManualPush>,
     /// A lever-up in a task of levering; see below. The tool is the task's first unless one is named
     #[arg(long, value_name = "LEVER", conflicts_with_all = ["pushes", "grip_yaw_deg"],
           allow_hyphen_values = true, value_parser = lever_argument, group = "moves")]
-    lever: Option<AskedLever>,
+    lever: Option<ManualLever>,
     /// Turn of the end effector against +x [default: the first of the task's that fits]
     #[arg(long, value_name = "DEGREES", allow_hyphen_values = true)]
     grip_yaw_deg: Option<f64>,
@@ -114,7 +114,7 @@ impl ActionArgs {
         };
         let situation = Situation::stated(&task.scene);
         let asked = session
-            .compute(|| asked_plan(task, &situation, tool, &yaws, &self.pushes))
+            .compute(|| manual_plan(task, &situation, tool, &yaws, &self.pushes))
             .map_err(|error| refused(&error, task))?;
         for (push, rule) in &asked.broken {
             session.warn(&format!("push {}: {rule}; a plan would not contain it", push + 1));
@@ -127,7 +127,7 @@ impl ActionArgs {
         &self,
         task: &Task,
         library: &ToolLibrary,
-        lever: &AskedLever,
+        lever: &ManualLever,
         session: &Session,
     ) -> Result<(Plan, Arc<Tool>), CliError> {
         if task.levers.is_none() {
@@ -142,7 +142,7 @@ impl ActionArgs {
             }
             None => task.blades(library)?.remove(0),
         };
-        let (plan, broken) = asked_lever(task, &tool, lever).map_err(|error| {
+        let (plan, broken) = manual_lever(task, &tool, lever).map_err(|error| {
             let advice = "edge 0 runs from the first corner to the second, counter-clockwise; of a \
                           cuboid it is that at the smallest y";
             CliError::usage(error.to_string(), advice)

@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use crate::design::DesignSettings;
 use crate::report::{Origin, design_document};
 use crate::scene::Tool;
-use crate::solve::{DesignSettings, Effort, Planner};
+use crate::solve::{Effort, Planner};
 
 use super::{
     error::CliError,

@@ -1,6 +1,6 @@
 //! The argument of `--lever`: one lever-up.
 
-use crate::solve::{AskedLever, AskedPlace};
+use crate::solve::{ManualLever, ManualPlace};
 use crate::task::Pivot;
 
 /// Help shown wherever a lever-up can be given.
@@ -17,7 +17,7 @@ A lever-up, in a task of levering:
 ///
 /// # Errors
 /// What is wrong with it, and what to write instead.
-pub fn lever_argument(text: &str) -> Result<AskedLever, String> {
+pub fn lever_argument(text: &str) -> Result<ManualLever, String> {
     let (mut place, mut pivot) = (None, None);
     let (mut depth, mut angle, mut speed) = (None, None, None);
     for word in text.split([',', ' ']).filter(|word| !word.is_empty()) {
@@ -47,7 +47,7 @@ pub fn lever_argument(text: &str) -> Result<AskedLever, String> {
             return Err(format!("{key} is given twice"));
         }
     }
-    Ok(AskedLever {
+    Ok(ManualLever {
         place: place.ok_or("point is missing: point=EDGE:FRACTION, or metres along the outline")?,
         depth: depth.ok_or("depth is missing, metres")?,
         angle: angle.ok_or("angle is missing, degrees")?.to_radians(),
@@ -56,13 +56,13 @@ pub fn lever_argument(text: &str) -> Result<AskedLever, String> {
     })
 }
 
-fn point(text: &str) -> Result<AskedPlace, String> {
+fn point(text: &str) -> Result<ManualPlace, String> {
     match text.split_once(':') {
         Some((edge, fraction)) => {
             let edge = edge.parse().map_err(|_| format!("point: `{edge}` is no edge's number"))?;
-            Ok(AskedPlace::Edge(edge, within("point", fraction, [0.0, 1.0])?))
+            Ok(ManualPlace::Edge(edge, within("point", fraction, [0.0, 1.0])?))
         }
-        None => Ok(AskedPlace::Along(within("point", text, [0.0, 100.0])?)),
+        None => Ok(ManualPlace::Along(within("point", text, [0.0, 100.0])?)),
     }
 }
 
@@ -81,10 +81,10 @@ mod tests {
     #[test]
     fn both_ways_to_say_a_place_are_read() {
         let lever = lever_argument("point=0:0.5,depth=0.012,angle=90").unwrap();
-        assert_eq!((lever.place, lever.pivot), (AskedPlace::Edge(0, 0.5), Pivot::Auto));
+        assert_eq!((lever.place, lever.pivot), (ManualPlace::Edge(0, 0.5), Pivot::Auto));
         assert_eq!((lever.depth, lever.angle), (0.012, std::f64::consts::FRAC_PI_2));
         let lever = lever_argument("point=0.13 depth=0.012 angle=30 pivot=-0.012").unwrap();
-        assert_eq!((lever.place, lever.pivot), (AskedPlace::Along(0.13), Pivot::At(-0.012)));
+        assert_eq!((lever.place, lever.pivot), (ManualPlace::Along(0.13), Pivot::At(-0.012)));
     }
 
     #[test]

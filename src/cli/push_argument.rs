@@ -1,7 +1,7 @@
 //! The argument of `--push`: a push given by where it starts, or by the object it meets.
 
 use crate::geometry::Vector;
-use crate::solve::{AskedPush, AskedStart};
+use crate::solve::{ManualPush, ManualStart};
 
 /// Help shown wherever a push can be given.
 const FORMS: &str = "\
@@ -22,11 +22,11 @@ pub fn forms() -> String {
 ///
 /// # Errors
 /// What is wrong with it, and what to write instead.
-pub fn push_argument(text: &str) -> Result<AskedPush, String> {
+pub fn push_argument(text: &str) -> Result<ManualPush, String> {
     if text.contains('=') { keyed(text) } else { colons(text) }
 }
 
-fn keyed(text: &str) -> Result<AskedPush, String> {
+fn keyed(text: &str) -> Result<ManualPush, String> {
     let (mut start, mut direction, mut length, mut speed) = (None, None, None, None);
     for word in text.split_whitespace() {
         let Some((key, value)) = word.split_once('=') else {
@@ -55,10 +55,10 @@ fn keyed(text: &str) -> Result<AskedPush, String> {
         }
     }
     let direction: f64 = direction.ok_or("direction_deg is missing")?;
-    finish(start.map_or(AskedStart::Last, AskedStart::At), direction, length, speed)
+    finish(start.map_or(ManualStart::Last, ManualStart::At), direction, length, speed)
 }
 
-fn colons(text: &str) -> Result<AskedPush, String> {
+fn colons(text: &str) -> Result<ManualPush, String> {
     let mut parts = text.split(':');
     let object = parts.next().unwrap_or_default().trim().to_owned();
     let direction = parts.next().ok_or("use OBJECT:DIRECTION_DEG[:OFFSET[:LENGTH]]")?;
@@ -68,22 +68,22 @@ fn colons(text: &str) -> Result<AskedPush, String> {
     if object.is_empty() || parts.next().is_some() {
         return Err("use OBJECT:DIRECTION_DEG[:OFFSET[:LENGTH]]".to_owned());
     }
-    finish(AskedStart::Before { object, offset }, direction, length, None)
+    finish(ManualStart::Before { object, offset }, direction, length, None)
 }
 
 fn finish(
-    start: AskedStart,
+    start: ManualStart,
     direction_deg: f64,
     length: Option<f64>,
     speed: Option<f64>,
-) -> Result<AskedPush, String> {
+) -> Result<ManualPush, String> {
     // The ranges of task files.
     for (name, value, largest) in [("length", length, 2.0), ("speed", speed, 2.0)] {
         if value.is_some_and(|value| !(value > 0.0 && value <= largest)) {
             return Err(format!("{name} must be above 0 and at most {largest}"));
         }
     }
-    Ok(AskedPush { start, direction: direction_deg.to_radians(), length, speed })
+    Ok(ManualPush { start, direction: direction_deg.to_radians(), length, speed })
 }
 
 fn number(name: &str, text: &str) -> Result<f64, String> {
@@ -100,11 +100,11 @@ mod tests {
     #[test]
     fn both_forms_are_read() {
         let push = push_argument("start=0.4,-0.1 direction_deg=180 length=0.2").unwrap();
-        assert_eq!(push.start, AskedStart::At(Vector::new(0.4, -0.1)));
+        assert_eq!(push.start, ManualStart::At(Vector::new(0.4, -0.1)));
         assert_eq!(push.direction, std::f64::consts::PI);
         assert_eq!((push.length, push.speed), (Some(0.2), None));
         let push = push_argument("can:-90:0.01").unwrap();
-        let before = AskedStart::Before { object: "can".to_owned(), offset: 0.01 };
+        let before = ManualStart::Before { object: "can".to_owned(), offset: 0.01 };
         assert_eq!((push.start, push.length), (before, None));
     }
 

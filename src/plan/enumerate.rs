@@ -10,7 +10,7 @@ use crate::{
     task::{Offsets, Push, Task},
 };
 
-use super::field::Field;
+use super::cost_to_go::CostToGo;
 use super::scored::Scores;
 use super::search::Node;
 use super::statistics::SearchStatistics;
@@ -76,7 +76,7 @@ pub(super) struct Extension {
 /// offsets.
 pub(super) fn extensions(
     workspace: &Workspace,
-    field: &Field,
+    field: &CostToGo,
     nodes: &[Node],
     grips: &Grips,
     offsets: usize,
@@ -173,7 +173,7 @@ fn pushes(
 
 fn extend(
     workspace: &Workspace,
-    field: &Field,
+    field: &CostToGo,
     node: &Node,
     index: usize,
     mut planned: CandidatePush,

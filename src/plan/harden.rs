@@ -14,7 +14,7 @@ use crate::watch::Watch;
 
 use super::parameters::Parameters;
 use super::supports::{Ends, Supports};
-use super::{Candidate, Evaluation, Found, REFINABLE, Rollouts, Workspace, evaluate, kinds};
+use super::{Candidate, Evaluation, REFINABLE, Rollouts, SearchResult, Workspace, evaluate, kinds};
 
 /// The share of the rollouts that goes to looking at what was found.
 const LOOKING: f64 = 0.25;
@@ -55,10 +55,10 @@ struct Work {
 pub fn harden(
     workspace: &Workspace,
     rollouts: &mut Rollouts,
-    found: &[Found],
+    found: &[SearchResult],
     settings: HardenSettings,
     watch: &dyn Watch,
-) -> Vec<Found> {
+) -> Vec<SearchResult> {
     let (before, start) = (rollouts.used(), rollouts.situation().start.clone());
     let supports = Supports::around(rollouts.situation());
     let steady = steadiest(workspace, rollouts, &supports, found, settings.rollouts);
@@ -81,7 +81,7 @@ pub fn harden(
         work.sort_by(|a, b| a.worst.total_cmp(&b.worst));
         work.truncate((work.len() / 2).max(LEFT));
     }
-    work.into_iter().map(|one| Found { candidate: one.best, score: one.worst }).collect()
+    work.into_iter().map(|one| SearchResult { candidate: one.best, score: one.worst }).collect()
 }
 
 /// What was found near the goal, in the order of how far apart it ends on all supports, which is its score.
@@ -89,9 +89,9 @@ fn steadiest(
     workspace: &Workspace,
     rollouts: &mut Rollouts,
     supports: &Supports,
-    found: &[Found],
+    found: &[SearchResult],
     most: usize,
-) -> Vec<Found> {
+) -> Vec<SearchResult> {
     let each = found.first().map_or(1, |one| one.candidate.pushes.len()) * supports.count();
     let most = (LOOKING * most as f64) as usize / each.max(1);
     let near = found.iter().filter(|one| one.score <= REFINABLE).take(most);
@@ -100,9 +100,11 @@ fn steadiest(
     let feasible: Vec<Evaluation> =
         evaluated.into_iter().flatten().filter(Evaluation::is_feasible).collect();
     let ends = supports.ends(workspace, rollouts, &feasible.iter().collect::<Vec<_>>());
-    let with =
-        |(one, ends): (Evaluation, Ends)| Found { candidate: one.candidate, score: ends.radius };
-    let mut steady: Vec<Found> = feasible.into_iter().zip(ends).map(with).collect();
+    let with = |(one, ends): (Evaluation, Ends)| SearchResult {
+        candidate: one.candidate,
+        score: ends.radius,
+    };
+    let mut steady: Vec<SearchResult> = feasible.into_iter().zip(ends).map(with).collect();
     steady.sort_by(|a, b| a.score.total_cmp(&b.score));
     steady
 }

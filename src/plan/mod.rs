@@ -7,47 +7,47 @@
 
 mod beam;
 mod candidate;
-mod carry;
-mod corridor;
+mod cost_to_go;
 mod enumerate;
 mod evaluate;
-mod field;
-mod found;
+mod goal_errors;
 mod harden;
 mod infeasible;
 pub mod lever;
 mod linear;
-mod misses;
 mod parameters;
-mod preference;
 mod qp;
 mod refine;
 mod rollouts;
 mod score;
 mod scored;
 mod search;
-mod spread;
+mod search_result;
 mod statistics;
 mod supports;
+mod swept_region;
+mod tie_break;
+mod transport;
+mod uncertainty;
 mod workspace;
 
 pub use candidate::{Candidate, CandidatePush, Start};
-pub use carry::{Carrying, FollowSettings, Followed, Leg, Things, follow};
-pub use corridor::{Corridor, alone};
+pub use cost_to_go::CostToGo;
 pub use evaluate::{Evaluation, evaluate};
-pub use field::Field;
-pub use found::{Found, kinds};
 pub use harden::{HardenSettings, harden};
 pub use infeasible::Infeasible;
-pub use preference::{Cost, NEAR, in_order, preferred};
 pub use qp::{QpProblem, QpSolution, QpSolver, QpStatus};
 pub use refine::{FOUND_RADIUS, REFINABLE, RefineSettings, Refined, refine};
 pub use rollouts::Rollouts;
 pub use score::{bare, behind, is_behind};
 pub use scored::ScoredPush;
 pub use search::{Search, SearchSettings};
-pub use spread::Spread;
+pub use search_result::{SearchResult, kinds};
 pub use statistics::{RefineStatistics, SearchStatistics};
+pub use swept_region::{SweptRegion, alone};
+pub use tie_break::{Cost, NEAR, in_order, preferred};
+pub use transport::{FollowSettings, Followed, Groups, Leg, Transport, follow};
+pub use uncertainty::Uncertainty;
 pub use workspace::{
     HAND_CLEARANCE, MIN_LENGTH, Margins, OBSTACLE_CLEARANCE, SET_DOWN_CLEARANCE, STAND_OFF,
     Workspace, distance_to_origin,

@@ -20,8 +20,8 @@ use rand_pcg::Pcg64;
 use crate::watch::Watch;
 use crate::{scene::Situation, task::Task};
 
+use super::goal_errors::{apart, asked, beside, farthest, goal_errors, largest};
 use super::linear::slopes;
-use super::misses::{apart, asked, beside, farthest, largest, misses};
 use super::parameters::Parameters;
 use super::score::{bare, behind, is_behind};
 use super::supports::{Ends, Supports};
@@ -199,7 +199,7 @@ impl Work {
 
 /// Score of the middle of all ends of a candidate.
 fn score(task: &Task, evaluation: &Evaluation, ends: &Ends) -> f64 {
-    let score = largest(&beside(&misses(task, &evaluation.outcome), &ends.middles));
+    let score = largest(&beside(&goal_errors(task, &evaluation.outcome), &ends.middles));
     match evaluation.score {
         blocked if is_behind(blocked) => behind(score),
         counts if counts.is_finite() => score,
@@ -209,7 +209,7 @@ fn score(task: &Task, evaluation: &Evaluation, ends: &Ends) -> f64 {
 
 /// Distance of the middle of all ends from the goal, metres; from that which is missed by most.
 fn off(task: &Task, evaluation: &Evaluation, ends: &Ends) -> f64 {
-    farthest(task, &beside(&misses(task, &evaluation.outcome), &ends.middles))
+    farthest(task, &beside(&goal_errors(task, &evaluation.outcome), &ends.middles))
 }
 
 /// One round for all candidates that are still open.
@@ -345,7 +345,7 @@ fn programme(
     radius: f64,
 ) -> QpProblem {
     let (n, best) = (work.parameters.count(), &work.refined.best);
-    let known = beside(&misses(task, &best.outcome), &work.ends.middles);
+    let known = beside(&goal_errors(task, &best.outcome), &work.ends.middles);
     let centre = asked(task, &known);
     let (goals, rules) = (centre.len(), best.margins.len() * Margins::COUNT);
     let held: Vec<f64> = best.margins.iter().flat_map(Margins::list).collect();
@@ -353,7 +353,7 @@ fn programme(
         .iter()
         .filter(|(_, sample)| sample.outcome.is_finite())
         .map(|(u, sample)| {
-            let sampled = beside(&misses(task, &sample.outcome), &work.ends.middles);
+            let sampled = beside(&goal_errors(task, &sample.outcome), &work.ends.middles);
             let mut y = asked(task, &apart(task, &sampled, &known));
             let margins = sample.margins.iter().flat_map(Margins::list);
             y.extend(margins.zip(&held).map(|(a, b)| a - b));

@@ -18,15 +18,15 @@ use crate::{
 };
 
 use super::beam::{Stop, choose};
+use super::cost_to_go::CostToGo;
 use super::enumerate::{Extension, Grips, extensions, keep_promising};
-use super::field::Field;
 use super::rollouts::{single_push, stops};
 use super::score::{final_score, finite_score, is_blocked};
 use super::scored::Scores;
-use super::spread::{Spread, room};
 use super::statistics::SearchStatistics;
+use super::uncertainty::{Uncertainty, room};
 use super::workspace::MIN_LENGTH;
-use super::{Candidate, Corridor, Found, Rollouts, ScoredPush, Workspace};
+use super::{Candidate, Rollouts, ScoredPush, SearchResult, SweptRegion, Workspace};
 
 /// Rollouts handed to the effect model at a time: enough for every thread, few enough that
 /// their recorded frames stay in the cache.
@@ -59,7 +59,7 @@ pub(super) struct Node {
     pub state: State,
     /// Where the end effector is then.
     pub end: Option<Vector>,
-    /// Where small errors at the start lead instead, see [`Spread`]; `None` if that is not needed.
+    /// Where small errors at the start lead instead, see [`Uncertainty`]; `None` if that is not needed.
     pub others: Vec<State>,
     /// Room for where the object may be, metres.
     pub room: f64,
@@ -70,13 +70,13 @@ pub struct Search<'a> {
     workspace: Workspace<'a>,
     situation: Situation,
     settings: SearchSettings,
-    field: Field<'a>,
+    field: CostToGo<'a>,
     grips: Grips,
     nodes: Vec<Node>,
     /// Where the last pushes may stop, and those pushes: from some of these the next level starts. They
     /// become nodes when it is asked for, as rolling them out is wasted where shorter plans work.
     ends: (Vec<Extension>, Vec<Stop>),
-    spread: Spread,
+    spread: Uncertainty,
     depth: usize,
     statistics: SearchStatistics,
     scores: Scores,
@@ -85,7 +85,7 @@ pub struct Search<'a> {
 impl<'a> Search<'a> {
     /// Prepares a search; rolls nothing out.
     pub fn new(workspace: Workspace<'a>, situation: &Situation, settings: SearchSettings) -> Self {
-        let laid = (Field::new(workspace.task), Spread::around(situation));
+        let laid = (CostToGo::new(workspace.task), Uncertainty::around(situation));
         Self::laid(workspace, situation, settings, laid)
     }
 
@@ -94,7 +94,7 @@ impl<'a> Search<'a> {
         workspace: Workspace<'a>,
         situation: &Situation,
         settings: SearchSettings,
-        laid: (Field<'a>, Spread),
+        laid: (CostToGo<'a>, Uncertainty),
     ) -> Self {
         let yaws = &workspace.task.pushes.grip_yaws;
         let grips = (0..workspace.tools.len())
@@ -114,7 +114,7 @@ impl<'a> Search<'a> {
 
     /// The same search from its start for plans that first move aside what stands in `corridor`, with the
     /// tool and grip yaw (radians) of the plan that needs it free.
-    pub fn clearing(&self, corridor: Corridor, grip: (usize, f64)) -> Self {
+    pub fn clearing(&self, corridor: SweptRegion, grip: (usize, f64)) -> Self {
         let field = self.field.clone().clearing(corridor);
         let kept = (field, self.spread.clone());
         let grips = Grips { all: vec![grip], changes: None };
@@ -131,7 +131,7 @@ impl<'a> Search<'a> {
         workspace: Workspace<'a>,
         situation: &Situation,
         settings: SearchSettings,
-        (field, spread): (Field<'a>, Spread),
+        (field, spread): (CostToGo<'a>, Uncertainty),
         grips: Grips,
     ) -> Self {
         let start = Node {
@@ -190,7 +190,7 @@ impl<'a> Search<'a> {
     /// Looks at all sequences of one push more and returns the best of them, best first.
     /// `watch` is told the rollouts done and to do; stopped, the best of what was rolled out are
     /// returned.
-    pub fn deepen(&mut self, rollouts: &mut Rollouts, watch: &dyn Watch) -> Vec<Found> {
+    pub fn deepen(&mut self, rollouts: &mut Rollouts, watch: &dyn Watch) -> Vec<SearchResult> {
         let before = rollouts.used();
         if self.depth > 0 {
             let (list, offers) = std::mem::take(&mut self.ends);
@@ -229,7 +229,7 @@ impl<'a> Search<'a> {
                     let candidate = self.candidate(extension, length);
                     // Those with one grip are what the search without changes finds.
                     if self.grips.changes.is_none() || !candidate.has_one_grip() {
-                        found.push(Found { candidate, score });
+                        found.push(SearchResult { candidate, score });
                     }
                 }
                 offers.extend(stops.into_iter().map(|stop| stop.of(index)));

@@ -16,7 +16,7 @@ use crate::{
     task::ToolMotion,
 };
 
-use super::misses::{apart, misses};
+use super::goal_errors::{apart, goal_errors};
 use super::score::final_score;
 use super::{Evaluation, Rollouts, Workspace};
 
@@ -85,10 +85,10 @@ impl Supports {
         let task = workspace.task;
         let of = |k: usize, evaluation: &Evaluation| {
             let others = &trajectories[k * self.0.len()..(k + 1) * self.0.len()];
-            let predicted = misses(task, &evaluation.outcome);
+            let predicted = goal_errors(task, &evaluation.outcome);
             let finite = || others.iter().filter(|other| other.outcome().is_finite());
             let all: Vec<Vec<Vector3<f64>>> = finite()
-                .map(|other| apart(task, &misses(task, other.outcome()), &predicted))
+                .map(|other| apart(task, &goal_errors(task, other.outcome()), &predicted))
                 .collect();
             let balls = (0..predicted.len()).map(|goal| {
                 let apart: Vec<_> = all.iter().map(|apart| apart[goal]).collect();

@@ -2,8 +2,9 @@
 
 use serde_json::json;
 
+use crate::design::Design;
 use crate::geometry::Vector;
-use crate::solve::{Design, PlanStatus};
+use crate::solve::PlanStatus;
 use crate::{
     scene::{Part, Tool},
     task::{Task, ToolChoice},

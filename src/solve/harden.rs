@@ -1,6 +1,6 @@
 //! Where the best plan works, but not nearly always: others are made that depend less on what objects rest on.
 
-use crate::plan::{Found, HardenSettings, harden};
+use crate::plan::{HardenSettings, SearchResult, harden};
 use crate::watch::Instant;
 
 use super::grade::{Class, Grade};
@@ -12,7 +12,7 @@ const HARDENING: u64 = 1 << 14;
 impl Solving<'_> {
     /// Hardens what was found of this many pushes, if the best plan so far works, but not nearly always; then
     /// refines and verifies that, too.
-    pub(super) fn harden(&mut self, found: &[Found], pushes: usize) {
+    pub(super) fn harden(&mut self, found: &[SearchResult], pushes: usize) {
         let shaky = |(grade, _): &(Grade, usize)| grade.class > Class::Fails && !grade.is_steady();
         if self.watch.cancelled() || !self.best.as_ref().is_some_and(shaky) {
             return;

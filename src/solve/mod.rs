@@ -2,45 +2,47 @@
 //!
 //! [`Planner::solve`] looks at plans of one push, then of two, and so on; of each length it
 //! searches, refines the best and has them verified, and it returns the first plan that passes.
-//! Not finding one is a [`PlanStatus`], not an error. [`asked_plan`] makes a plan of pushes that a
+//! Not finding one is a [`PlanStatus`], not an error. [`manual_plan`] makes a plan of pushes that a
 //! person asks for. Where something leaves the plane, `levering` does the same for lever-ups and for
 //! plans that push as well.
 
-mod armed;
-mod aside;
-mod asked;
-mod carry;
-mod cause;
-mod change;
+mod adaptive_verify;
+mod arm_feasibility;
+mod attempts;
 mod check;
-mod design;
+mod clearing;
 mod efforts;
 mod error;
 mod grade;
 mod harden;
+mod infeasibility;
 mod levering;
-mod partly;
+mod manual_plan;
+mod partial_goals;
 mod planner;
+mod progress;
 mod rank;
 mod ranking;
-mod reconsider;
+mod relaxation;
+mod retry;
 mod settings;
-mod settle;
 mod solution;
 mod solving;
-mod told;
-mod tried;
+mod tool_change;
+mod transport;
 mod typical;
-mod widen;
 
-pub use asked::{ActionError, Asked, AskedPush, AskedStart, asked_plan};
-pub use carry::Approach;
-pub use cause::Cause;
-pub use design::{Design, DesignSettings, Proposal, Spent};
 pub use error::SolveError;
-pub use levering::{AskedLever, AskedPlace, LeverActionError, LeverSettings, asked_lever};
+pub use infeasibility::Cause;
+pub use levering::{LeverActionError, LeverSettings, ManualLever, ManualPlace, manual_lever};
+pub use manual_plan::{ActionError, ManualPlan, ManualPush, ManualStart, manual_plan};
 pub use planner::{Planner, PlannerBuilder, Prediction};
 pub use settings::{Effort, Settings};
 pub use solution::{
     LeverStatistics, Partial, PlanStatus, RankedPlan, Refinement, Solution, Statistics, Timing,
 };
+pub use transport::Approach;
+
+pub(crate) use grade::{Class, Grade, WELL_INSIDE};
+pub(crate) use planner::stated;
+pub(crate) use rank::distinct;

@@ -335,7 +335,7 @@ impl Planner {
     }
 
     /// The seed.
-    pub(super) fn seed(&self) -> u64 {
+    pub(crate) fn seed(&self) -> u64 {
         self.seed
     }
 
@@ -384,7 +384,7 @@ impl Planner {
 }
 
 /// What a task states, and whether it says what objects rest on.
-pub(super) fn stated(task: &Task) -> Situation {
+pub(crate) fn stated(task: &Task) -> Situation {
     let mut situation = Situation::stated(&task.scene);
     if task.unknown.support {
         Arc::make_mut(&mut situation.physics).supports_known = false;

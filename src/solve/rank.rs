@@ -1,12 +1,12 @@
 //! Which candidates are refined, and which are worth verifying.
 
-use crate::plan::{Candidate, Evaluation, Found, is_behind, kinds};
+use crate::plan::{Candidate, Evaluation, SearchResult, is_behind, kinds};
 use crate::task::{Goal, Task};
 
 /// The best `count` found candidates of different kinds, then, if there are too few kinds, the next
 /// best ones; at most `most_behind` of them with something in the way. `found` is sorted, best
 /// first, and so is the answer.
-pub(super) fn distinct(found: &[Found], count: usize, most_behind: usize) -> Vec<Candidate> {
+pub(crate) fn distinct(found: &[SearchResult], count: usize, most_behind: usize) -> Vec<Candidate> {
     let kinds = kinds(found, count);
     let mut taken = vec![false; found.len()];
     kinds.iter().for_each(|&k| taken[k] = true);
@@ -15,7 +15,8 @@ pub(super) fn distinct(found: &[Found], count: usize, most_behind: usize) -> Vec
     spare.into_iter().for_each(|k| taken[k] = true);
     let kept = found.iter().zip(&taken).filter(|(_, taken)| **taken).map(|(one, _)| one);
     // Plans that lead through a wall come after everything else.
-    let (behind, sound): (Vec<&Found>, Vec<&Found>) = kept.partition(|one| is_behind(one.score));
+    let (behind, sound): (Vec<&SearchResult>, Vec<&SearchResult>) =
+        kept.partition(|one| is_behind(one.score));
     sound
         .into_iter()
         .chain(behind.into_iter().take(most_behind))

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use crate::plan::bare;
 use crate::{scene::Tool, task::Plan};
 
+use super::attempts::Attempt;
 use super::solving::Solving;
-use super::tried::Tried;
 use super::{PlanStatus, RankedPlan, Solution};
 
 /// At most this many plans are returned: as many as a reader looks at.
@@ -20,7 +20,7 @@ const TURNED: f64 = 0.1;
 
 impl Solving<'_> {
     /// Whether a plan, by prediction, is clearly better than doing nothing.
-    fn is_nearer(&self, tried: &Tried) -> bool {
+    fn is_nearer(&self, tried: &Attempt) -> bool {
         let start = &self.situation.start;
         // By the goal that asks for least, as scores are in units of tolerances.
         let least = self.task.goals().map(|goal| {
@@ -39,7 +39,7 @@ impl Solving<'_> {
         best: Option<usize>,
         began: Instant,
     ) -> Solution {
-        let rank = |index: usize, tried: &Tried| match (&tried.verdict, status) {
+        let rank = |index: usize, tried: &Attempt| match (&tried.verdict, status) {
             _ if Some(index) == best => 0,
             (Some(verdict), PlanStatus::Solved) => {
                 if verdict.passed {
@@ -52,7 +52,7 @@ impl Solving<'_> {
             (None, _) => 2,
         };
         let nearest = status == PlanStatus::NoPlan;
-        let mut order: Vec<(usize, Tried)> = std::mem::take(&mut self.tried)
+        let mut order: Vec<(usize, Attempt)> = std::mem::take(&mut self.tried)
             .into_iter()
             .enumerate()
             .filter(|(_, tried)| !nearest || tried.plan.is_empty() || self.is_nearer(tried))

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::plan::{
-    Candidate, FOUND_RADIUS, Found, REFINABLE, RefineSettings, Refined, Rollouts, ScoredPush,
-    Search, Workspace, alone, bare, in_order, is_behind, refine,
+    Candidate, FOUND_RADIUS, REFINABLE, RefineSettings, Refined, Rollouts, ScoredPush, Search,
+    SearchResult, Workspace, alone, bare, in_order, is_behind, refine,
 };
 use crate::verify::{Verifier, VerifySettings};
 use crate::watch::{Instant, Watch};
@@ -16,11 +16,11 @@ use crate::{
     task::{Goal, Job, Task},
 };
 
+use super::attempts::{Attempt, after};
 use super::grade::{Class, Grade};
+use super::progress::Milestone;
 use super::rank::is_worth_verifying;
-use super::reconsider::Way;
-use super::told::Known;
-use super::tried::{Tried, after};
+use super::retry::PushPattern;
 use super::typical::{error_p95, typical};
 use super::{PlanStatus, Planner, Solution, Statistics};
 
@@ -66,17 +66,17 @@ pub(super) struct Solving<'a> {
     pub statistics: Statistics,
     /// What the search made of every way to push.
     pub candidates: Vec<ScoredPush>,
-    pub tried: Vec<Tried>,
+    pub tried: Vec<Attempt>,
     /// Plans that were replayed with disturbances.
     disturbed: usize,
     /// What the arm cannot do, of the first plan that was not verified for that.
     pub unable: Option<ArmFault>,
     /// What replays have shown not to work.
-    pub refuted: Vec<Way>,
+    pub refuted: Vec<PushPattern>,
     /// The best plan that was replayed with disturbances.
     pub best: Option<(Grade, usize)>,
     /// What was told of the best plan so far.
-    pub known: Option<Known>,
+    pub known: Option<Milestone>,
     /// Where nothing is to be verified: whether any plan would be worth it. The search ends with the first.
     pub promising: Option<bool>,
 }
@@ -199,7 +199,7 @@ impl<'a> Solving<'a> {
     }
 
     /// Refines and verifies what was found of this many pushes, until a plan is safe.
-    pub(super) fn try_out(&mut self, found: &[Found], pushes: usize) {
+    pub(super) fn try_out(&mut self, found: &[SearchResult], pushes: usize) {
         let settings = *self.planner.settings();
         let began = Instant::now();
         let at_once = self.at_once();
@@ -358,7 +358,7 @@ impl<'a> Solving<'a> {
         let verdicts: Vec<Verdict> = indices
             .par_iter()
             .map(|&k| {
-                let Tried { tools, plan, .. } = &self.tried[k];
+                let Attempt { tools, plan, .. } = &self.tried[k];
                 self.verifier.nominal(self.task, self.situation, tools, plan)
             })
             .collect();

@@ -38,7 +38,7 @@ const HOUSES: [(&str, &str, Rooms); 3] = [
     ),
 ];
 
-const ROOMS: [(&str, &str); 26] = [
+const ROOMS: [(&str, &str); 27] = [
     ("geometry", ""),
     ("scene", "geometry"),
     ("task", "geometry scene"),
@@ -60,17 +60,18 @@ const ROOMS: [(&str, &str); 26] = [
     // Not `plan`: the check shares no code with what it checks.
     ("verify", "geometry scene task outcome arm sim"),
     ("solve", "geometry scene task outcome arm asset sim effect plan verify"),
+    ("design", "geometry scene task outcome asset effect plan solve"),
     ("act", "geometry scene task outcome asset sim effect judge fit belief solve"),
     ("bench", "geometry scene task outcome asset store sim effect judge solve"),
     (
         "report",
-        "geometry scene task outcome recording asset store graph judge fit belief plan solve act bench",
+        "geometry scene task outcome recording asset store graph judge fit belief plan solve design act bench",
     ),
     ("export", "geometry scene task outcome arm asset"),
     ("import", "geometry scene task asset"),
     (
         "cli",
-        "geometry scene task outcome recording asset store sim network effect judge fit belief verify solve act bench report export import",
+        "geometry scene task outcome recording asset store sim network effect judge fit belief verify solve design act bench report export import",
     ),
 ];
 
@@ -102,7 +103,7 @@ const DOORS: [(&str, &str); 30] = [
     ("clarabel", "plan"),
     (
         "rand",
-        "network effect judge belief plan verify solve act bench lab/bench lab/image lab/parts \
+        "network effect judge belief plan verify design act bench lab/bench lab/image lab/parts \
          learn/dataset learn/train",
     ),
     (

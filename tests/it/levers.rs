@@ -6,7 +6,7 @@ use std::sync::Arc;
 use pushplan::ToolLibrary;
 use pushplan::asset::{Kind, PlanFile, check, load_task};
 use pushplan::solve::{
-    AskedLever, AskedPlace, Effort, PlanStatus, Planner, RankedPlan, Solution, asked_lever,
+    Effort, ManualLever, ManualPlace, PlanStatus, Planner, RankedPlan, Solution, manual_lever,
 };
 use pushplan::verify::{Verifier, VerifySettings};
 use pushplan::{
@@ -182,30 +182,30 @@ fn faults_of_files_say_what_and_where() {
 fn what_no_robot_can_do_is_refused_in_words() {
     let mut task = Task::parse(PLATE, "plate.yaml").expect("sound");
     let tool = library().get("screwdriver").expect("shipped").clone();
-    let asked = |fraction: f64| AskedLever {
-        place: AskedPlace::Edge(1, fraction),
+    let asked = |fraction: f64| ManualLever {
+        place: ManualPlace::Edge(1, fraction),
         depth: 0.012,
         angle: 1.5,
         pivot: Pivot::Auto,
         speed: None,
     };
     let broken =
-        |task: &Task, lever: &AskedLever| asked_lever(task, &tool, lever).expect("a lever-up").1;
+        |task: &Task, lever: &ManualLever| manual_lever(task, &tool, lever).expect("a lever-up").1;
     assert_eq!(broken(&task, &asked(0.5)), None);
     assert_eq!(broken(&task, &asked(0.1)), Some(LeverFault::NearCorner));
-    assert_eq!(broken(&task, &AskedLever { depth: 0.1, ..asked(0.5) }), Some(LeverFault::TooDeep));
-    let pry = AskedLever { pivot: Pivot::At(-0.012), angle: 0.5, ..asked(0.5) };
+    assert_eq!(broken(&task, &ManualLever { depth: 0.1, ..asked(0.5) }), Some(LeverFault::TooDeep));
+    let pry = ManualLever { pivot: Pivot::At(-0.012), angle: 0.5, ..asked(0.5) };
     assert_eq!(broken(&task, &pry), Some(LeverFault::BelowTable));
-    let over = AskedLever { pivot: Pivot::At(0.005), ..asked(0.5) };
+    let over = ManualLever { pivot: Pivot::At(0.005), ..asked(0.5) };
     assert_eq!(broken(&task, &over), Some(LeverFault::NoSupport));
     task.robot.reach_max = 0.5;
     assert_eq!(broken(&task, &asked(0.5)), Some(LeverFault::OutOfReach));
-    let along = AskedLever { place: AskedPlace::Along(0.16), ..asked(0.5) };
-    let plan = asked_lever(&task, &tool, &along).expect("a lever-up").0;
+    let along = ManualLever { place: ManualPlace::Along(0.16), ..asked(0.5) };
+    let plan = manual_lever(&task, &tool, &along).expect("a lever-up").0;
     let place = plan.lever_steps().next().expect("a lever-up").lever.place;
     assert!(place.edge == 1 && (place.fraction - 0.5).abs() < 1e-9, "{place:?}");
     assert!(
-        asked_lever(&task, &tool, &AskedLever { place: AskedPlace::Edge(9, 0.5), ..along })
+        manual_lever(&task, &tool, &ManualLever { place: ManualPlace::Edge(9, 0.5), ..along })
             .is_err()
     );
 }
@@ -263,14 +263,14 @@ fn a_blade_goes_through_no_wall() {
     let walled = PLATE.replace("robot:", wall);
     let task = Task::parse(&walled, "plate.yaml").expect("sound");
     let tool = library().get("screwdriver").expect("shipped").clone();
-    let lever = AskedLever {
-        place: AskedPlace::Edge(1, 0.5),
+    let lever = ManualLever {
+        place: ManualPlace::Edge(1, 0.5),
         depth: 0.012,
         angle: 1.5,
         pivot: Pivot::Auto,
         speed: None,
     };
-    let (plan, broken) = asked_lever(&task, &tool, &lever).expect("a lever-up");
+    let (plan, broken) = manual_lever(&task, &tool, &lever).expect("a lever-up");
     let through = LeverFault::Meets { body: "wall".to_owned() };
     assert_eq!(broken, Some(through.clone()));
     let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
@@ -279,8 +279,8 @@ fn a_blade_goes_through_no_wall() {
     let verdict = verifier.verify(&task, &situation, tools, &plan);
     assert_eq!(verdict.forbidden, [cannot(through)]);
     // From the other side there is no wall.
-    let other = AskedLever { place: AskedPlace::Edge(3, 0.5), ..lever };
-    assert_eq!(asked_lever(&task, &tool, &other).expect("a lever-up").1, None);
+    let other = ManualLever { place: ManualPlace::Edge(3, 0.5), ..lever };
+    assert_eq!(manual_lever(&task, &tool, &other).expect("a lever-up").1, None);
 }
 
 #[test]
@@ -291,8 +291,8 @@ fn a_blade_is_held_by_fingers_that_need_room() {
     - {name: right, size: [0.08, 0.1, 0.05], position: [0.61, -0.06]}
 robot:";
     let task = Task::parse(&PLATE.replace("robot:", slot), "plate.yaml").expect("sound");
-    let lever = AskedLever {
-        place: AskedPlace::Edge(1, 0.5),
+    let lever = ManualLever {
+        place: ManualPlace::Edge(1, 0.5),
         depth: 0.012,
         angle: 0.2,
         pivot: Pivot::Auto,
@@ -302,7 +302,7 @@ robot:";
         let blade = format!("{{length: {length}, width: 0.006, thickness: 0.002}}");
         let text = format!("{{name: b, friction: 0.4, blade: {blade}}}");
         let tool = Arc::new(Tool::parse(&text, "b.yaml").expect("sound"));
-        asked_lever(task, &tool, &lever).expect("a lever-up").1
+        manual_lever(task, &tool, &lever).expect("a lever-up").1
     };
     let fingers = |broken: &Option<LeverFault>| {
         broken.as_ref().is_some_and(|fault| matches!(fault, LeverFault::HandMeets { .. }))

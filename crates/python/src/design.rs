@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use pushplan::report::{TaskSource, design_document};
-use pushplan::solve::{Design, DesignSettings};
+use pushplan::{Design, DesignSettings};
 use pushplan::{Solution, Task};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

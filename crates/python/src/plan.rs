@@ -6,7 +6,7 @@ use std::sync::Arc;
 use pushplan::asset::PlanFile;
 use pushplan::export::mjcf;
 use pushplan::report::{Origin, PageView, TaskSource, verdict_page};
-use pushplan::solve::{AskedPush, asked_plan};
+use pushplan::solve::{ManualPush, manual_plan};
 use pushplan::verify::{VerifySettings, broken_rules};
 use pushplan::{Graph, Job, RankedPlan, Task, Trajectory, Verdict, Verifier};
 use pushplan::{
@@ -78,10 +78,10 @@ impl PyPlan {
             Some(yaw) if yaw.is_finite() => vec![yaw],
             Some(_) => return Err(PyValueError::new_err("`grip_yaw` must be finite")),
         };
-        let pushes: Vec<AskedPush> = pushes.iter().map(|push| push.get().0.clone()).collect();
+        let pushes: Vec<ManualPush> = pushes.iter().map(|push| push.get().0.clone()).collect();
         let situation = Situation::stated(&task.task.scene);
         let asked =
-            work::run(py, 0, |_| asked_plan(&task.task, &situation, &tool, &yaws, &pushes))?;
+            work::run(py, 0, |_| manual_plan(&task.task, &situation, &tool, &yaws, &pushes))?;
         let asked = asked.map_err(|error| errors::action(py, &error.to_string()))?;
         let rules =
             broken_rules(&task.task, &task.task.scene, std::slice::from_ref(&tool), &asked.plan);

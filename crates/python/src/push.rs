@@ -1,6 +1,6 @@
 //! Pushes as they are asked for, and as plans hold them.
 
-use pushplan::solve::{AskedPush, AskedStart};
+use pushplan::solve::{ManualPush, ManualStart};
 use pushplan::{Push, Vector};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -12,7 +12,7 @@ pub const MOST: f64 = 2.0;
 /// One straight push of the end effector.
 #[pyclass(name = "Push", module = "pushplan", frozen, eq)]
 #[derive(Clone, PartialEq)]
-pub struct PyPush(pub AskedPush);
+pub struct PyPush(pub ManualPush);
 
 #[pymethods]
 impl PyPush {
@@ -27,8 +27,8 @@ impl PyPush {
         length: Option<f64>,
         speed: Option<f64>,
     ) -> PyResult<Self> {
-        let at = |[x, y]: [f64; 2]| AskedStart::At(Vector::new(x, y));
-        checked(AskedPush { start: start.map_or(AskedStart::Last, at), direction, length, speed })
+        let at = |[x, y]: [f64; 2]| ManualStart::At(Vector::new(x, y));
+        checked(ManualPush { start: start.map_or(ManualStart::Last, at), direction, length, speed })
     }
 
     /// A push that begins just before the object of this name, its centre `offset` metres left of
@@ -42,15 +42,15 @@ impl PyPush {
         length: Option<f64>,
         speed: Option<f64>,
     ) -> PyResult<Self> {
-        let start = AskedStart::Before { object, offset };
-        checked(AskedPush { start, direction, length, speed })
+        let start = ManualStart::Before { object, offset };
+        checked(ManualPush { start, direction, length, speed })
     }
 
     /// The end effector's position at the start, metres, where it is known.
     #[getter]
     fn start(&self) -> Option<(f64, f64)> {
         match &self.0.start {
-            AskedStart::At(at) => Some((at.x, at.y)),
+            ManualStart::At(at) => Some((at.x, at.y)),
             _ => None,
         }
     }
@@ -59,7 +59,7 @@ impl PyPush {
     #[getter]
     fn object(&self) -> Option<&str> {
         match &self.0.start {
-            AskedStart::Before { object, .. } => Some(object),
+            ManualStart::Before { object, .. } => Some(object),
             _ => None,
         }
     }
@@ -68,7 +68,7 @@ impl PyPush {
     #[getter]
     fn offset(&self) -> Option<f64> {
         match &self.0.start {
-            AskedStart::Before { offset, .. } => Some(*offset),
+            ManualStart::Before { offset, .. } => Some(*offset),
             _ => None,
         }
     }
@@ -93,18 +93,18 @@ impl PyPush {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let class = py.import("pushplan")?.getattr("Push")?;
-        let AskedPush { start, direction, length, speed } = &self.0;
+        let ManualPush { start, direction, length, speed } = &self.0;
         let (direction, length, speed) = (*direction, *length, *speed);
         match start {
-            AskedStart::At(at) => {
+            ManualStart::At(at) => {
                 let start = Some((at.x, at.y));
                 Ok((class, (start, direction, length, speed)).into_pyobject(py)?.into_any())
             }
-            AskedStart::Last => {
+            ManualStart::Last => {
                 let start = None::<(f64, f64)>;
                 Ok((class, (start, direction, length, speed)).into_pyobject(py)?.into_any())
             }
-            AskedStart::Before { object, offset } => {
+            ManualStart::Before { object, offset } => {
                 let arguments = (object.as_str(), direction, *offset, length, speed);
                 Ok((class.getattr("before")?, arguments).into_pyobject(py)?.into_any())
             }
@@ -112,11 +112,11 @@ impl PyPush {
     }
 
     fn __repr__(&self) -> String {
-        let AskedPush { start, direction, length, speed } = &self.0;
+        let ManualPush { start, direction, length, speed } = &self.0;
         let mut words = match start {
-            AskedStart::At(at) => format!("Push(({}, {}), {direction}", at.x, at.y),
-            AskedStart::Last => format!("Push(None, {direction}"),
-            AskedStart::Before { object, offset } => {
+            ManualStart::At(at) => format!("Push(({}, {}), {direction}", at.x, at.y),
+            ManualStart::Last => format!("Push(None, {direction}"),
+            ManualStart::Before { object, offset } => {
                 format!("Push.before({object:?}, {direction}, offset={offset}")
             }
         };
@@ -131,15 +131,15 @@ impl From<&Push> for PyPush {
     fn from(push: &Push) -> Self {
         let Push { start, direction, length, speed } = *push;
         let (length, speed) = (Some(length), Some(speed));
-        Self(AskedPush { start: AskedStart::At(start), direction, length, speed })
+        Self(ManualPush { start: ManualStart::At(start), direction, length, speed })
     }
 }
 
-fn checked(push: AskedPush) -> PyResult<PyPush> {
+fn checked(push: ManualPush) -> PyResult<PyPush> {
     let place = match &push.start {
-        AskedStart::At(at) => [at.x, at.y],
-        AskedStart::Last => [0.0; 2],
-        AskedStart::Before { offset, .. } => [*offset, 0.0],
+        ManualStart::At(at) => [at.x, at.y],
+        ManualStart::Last => [0.0; 2],
+        ManualStart::Before { offset, .. } => [*offset, 0.0],
     };
     if !(place.iter().all(|value| value.is_finite()) && push.direction.is_finite()) {
         return Err(PyValueError::new_err("start, offset and direction must be finite"));

@@ -15,7 +15,7 @@ use rand::seq::SliceRandom;
 
 use crate::belief::{Belief, generator};
 use crate::effect::EffectModel;
-use crate::solve::{AskedPush, AskedStart, asked_plan};
+use crate::solve::{ManualPush, ManualStart, manual_plan};
 use crate::{
     scene::{DisjointSets, Tool, near_pairs},
     task::{Plan, PushForm, Task},
@@ -93,15 +93,16 @@ fn candidates(
             for direction in task.pushes.directions.headings() {
                 for offset in OFFSETS {
                     let start = match placed {
-                        true => {
-                            AskedStart::Before { object: body.name.clone(), offset: offset * inner }
-                        }
-                        false => AskedStart::Last,
+                        true => ManualStart::Before {
+                            object: body.name.clone(),
+                            offset: offset * inner,
+                        },
+                        false => ManualStart::Last,
                     };
                     let length = Some(LENGTH.min(task.pushes.length));
-                    let push = [AskedPush { start, direction, length, speed: None }];
+                    let push = [ManualPush { start, direction, length, speed: None }];
                     let yaws = &task.pushes.grip_yaws;
-                    if let Ok(asked) = asked_plan(task, &samples.now, tool, yaws, &push)
+                    if let Ok(asked) = manual_plan(task, &samples.now, tool, yaws, &push)
                         && asked.broken.is_empty()
                     {
                         found.push((object, asked.plan, Arc::clone(tool)));

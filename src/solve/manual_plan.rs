@@ -21,9 +21,9 @@ const SAME_PLACE: f64 = 1e-6;
 
 /// One push that is asked for.
 #[derive(Clone, Debug, PartialEq)]
-pub struct AskedPush {
+pub struct ManualPush {
     /// Where it starts.
-    pub start: AskedStart,
+    pub start: ManualStart,
     /// Radians from world +x.
     pub direction: f64,
     /// Travel, metres; the task's if not given.
@@ -34,7 +34,7 @@ pub struct AskedPush {
 
 /// Where a push starts.
 #[derive(Clone, Debug, PartialEq)]
-pub enum AskedStart {
+pub enum ManualStart {
     /// The end effector's position, metres.
     At(Vector),
     /// At home, or where the last push ended (chained pushes).
@@ -90,7 +90,7 @@ pub enum ActionError {
 
 /// A plan with the rules of its task that it breaks.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
+pub struct ManualPlan {
     /// The plan.
     pub plan: Plan,
     /// Index of a push and a rule that it breaks; a plan that is searched for breaks none.
@@ -102,13 +102,13 @@ pub struct Asked {
 /// # Errors
 /// Why it cannot be made with the first grip yaw. A push that breaks a rule of the task (reach,
 /// obstacles) is made all the same: seeing what would happen is the point.
-pub fn asked_plan(
+pub fn manual_plan(
     task: &Task,
     situation: &Situation,
     tool: &Arc<Tool>,
     grip_yaws: &[f64],
-    pushes: &[AskedPush],
-) -> Result<Asked, ActionError> {
+    pushes: &[ManualPush],
+) -> Result<ManualPlan, ActionError> {
     if !tool.pushes() {
         return Err(ActionError::Blade { tool: tool.name.clone() });
     }
@@ -128,8 +128,8 @@ fn with_yaw(
     situation: &Situation,
     tool: &Arc<Tool>,
     grip_yaw: f64,
-    pushes: &[AskedPush],
-) -> Result<Asked, ActionError> {
+    pushes: &[ManualPush],
+) -> Result<ManualPlan, ActionError> {
     let rules = &task.pushes;
     let (form, lift) = (rules.form, rules.lift);
     let mut plan = Plan::default();
@@ -156,7 +156,7 @@ fn with_yaw(
         }
         plan = plan.then(made);
     }
-    Ok(Asked { plan, broken })
+    Ok(ManualPlan { plan, broken })
 }
 
 /// Where a push leaves objects that rest at `start`: to the bit as if all the pushes before had been made
@@ -170,22 +170,22 @@ fn after(situation: &Situation, tool: &Arc<Tool>, push: &Plan, start: State) -> 
 fn start(
     task: &Task,
     (tool, grip_yaw): (&Arc<Tool>, f64),
-    asked: &AskedPush,
+    asked: &ManualPush,
     state: &State,
     previous: Option<Vector>,
 ) -> Result<(Vector, usize), ActionError> {
     let goal = task.goal.object;
     let chained = task.pushes.form == PushForm::Chained;
     let (object, offset) = match &asked.start {
-        AskedStart::At(at) => {
+        ManualStart::At(at) => {
             let elsewhere = |end: Vector| (end - at).norm() > SAME_PLACE;
             let broken = chained && previous.is_some_and(elsewhere);
             return if broken { Err(ActionError::ChainBroken) } else { Ok((*at, goal)) };
         }
-        AskedStart::Last if chained => return Ok((previous.unwrap_or(task.robot.home), goal)),
-        AskedStart::Last => return Err(ActionError::NoStart),
-        AskedStart::Before { .. } if chained => return Err(ActionError::Chained),
-        AskedStart::Before { object, offset } => (object, *offset),
+        ManualStart::Last if chained => return Ok((previous.unwrap_or(task.robot.home), goal)),
+        ManualStart::Last => return Err(ActionError::NoStart),
+        ManualStart::Before { .. } if chained => return Err(ActionError::Chained),
+        ManualStart::Before { object, offset } => (object, *offset),
     };
     let index = task
         .scene

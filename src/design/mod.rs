@@ -5,12 +5,12 @@
 
 mod assembly;
 mod form;
-mod look;
+mod proposal;
 mod propose;
-mod proposed;
+mod screening;
 mod search;
 mod settings;
 mod trace;
 
-pub use proposed::{Design, Proposal, Spent};
+pub use proposal::{Design, Proposal, Spent};
 pub use settings::DesignSettings;

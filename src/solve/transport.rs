@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use crate::asset::ToolLibrary;
 use crate::plan::{
-    Carrying, FollowSettings, Followed, Found, Leg, RefineSettings, Search, Things, evaluate,
-    follow,
+    FollowSettings, Followed, Groups, Leg, RefineSettings, Search, SearchResult, Transport,
+    evaluate, follow,
 };
 use crate::watch::{Instant, Until, Watch};
 use crate::{
@@ -91,7 +91,7 @@ impl Solving<'_> {
             self.statistics.timing.search += began.elapsed().as_secs_f64();
             if followed.legs == legs.len() {
                 let score = self.task.score(&followed.state);
-                let found = Found { candidate: followed.candidate, score };
+                let found = SearchResult { candidate: followed.candidate, score };
                 self.try_out(&[found], legs.len());
                 self.settle(Class::Edge);
             }
@@ -131,12 +131,12 @@ impl Solving<'_> {
         if !self.workspace.is_placed() {
             return Vec::new();
         }
-        let Some(things) = Things::of(&self.workspace, self.situation) else { return Vec::new() };
+        let Some(things) = Groups::of(&self.workspace, self.situation) else { return Vec::new() };
         self.watch.stage("search, what is carried where");
         let longest = LONGEST * self.task.pushes.length;
         let (workspace, situation) = (self.workspace, self.situation);
         let carrying = |pair: &(usize, f64)| {
-            Some((*pair, Carrying::new(workspace, situation, &things, *pair, longest)?))
+            Some((*pair, Transport::new(workspace, situation, &things, *pair, longest)?))
         };
         let mut all: Vec<_> = usual.grips().iter().filter_map(carrying).collect();
         // Stable: of those that need as much the first comes first.

@@ -3,7 +3,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::unit::{Hold, ROOMY, Unit};
+use super::group::{Group, Hold, ROOMY};
 
 /// Cost of a metre that is carried, in pushes.
 const METRE: f64 = 1.0;
@@ -23,36 +23,36 @@ pub(super) struct Taken {
 
 /// One push: from a place, held so, to another place.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Stretch {
+pub(super) struct PathSegment {
     pub from: usize,
     pub hold: usize,
     pub to: usize,
 }
 
 /// Ways to places.
-pub(super) struct Ways {
+pub(super) struct Paths {
     /// For every place, in pushes.
     pub cost: Vec<f64>,
     last: Vec<Option<(usize, usize)>>,
 }
 
-impl Ways {
+impl Paths {
     /// Of a thing from one place, with pushes of at most `longest` metres, as far as `enough` does not
     /// say of the next place and its cost that it is.
     pub fn from(
-        (unit, holds): (&Unit, &[Hold]),
+        (group, holds): (&Group, &[Hold]),
         start: usize,
         taken: &Taken,
         longest: f64,
         mut enough: impl FnMut(usize, f64) -> bool,
     ) -> Self {
-        let (lattice, count) = (&unit.lattice, unit.lattice.count());
+        let (lattice, count) = (&group.lattice, group.lattice.count());
         let mut ways = Self { cost: vec![f64::INFINITY; count], last: vec![None; count] };
         let mut passed = vec![vec![f64::INFINITY; count]; holds.len()];
         let mut queue = BinaryHeap::new();
         ways.cost[start] = 0.0;
         queue.push(Reverse((0.0f64.to_bits(), start)));
-        let narrow = |place: usize| 1.0 - f64::from(unit.clear[place]) / ROOMY;
+        let narrow = |place: usize| 1.0 - f64::from(group.clear[place]) / ROOMY;
         while let Some(Reverse((bits, place))) = queue.pop() {
             let cost = f64::from_bits(bits);
             if cost > ways.cost[place] {
@@ -92,11 +92,11 @@ impl Ways {
     }
 
     /// The pushes to a place; none if there is no way.
-    pub fn to(&self, place: usize) -> Vec<Stretch> {
+    pub fn to(&self, place: usize) -> Vec<PathSegment> {
         let mut way = Vec::new();
         let mut at = place;
         while let Some((from, hold)) = self.last[at] {
-            way.push(Stretch { from, hold, to: at });
+            way.push(PathSegment { from, hold, to: at });
             at = from;
         }
         way.reverse();

@@ -4,9 +4,9 @@ use std::collections::{HashMap, HashSet};
 
 use crate::geometry::Vector;
 
-use super::carrying::{Carrying, Leg};
 use super::lattice::Solid;
-use super::way::{Stretch, Ways};
+use super::path::{PathSegment, Paths};
+use super::reach::{Leg, Transport};
 
 /// Room that what is moved aside leaves for what it makes way for, metres: objects come to lie off by as
 /// much.
@@ -35,7 +35,7 @@ const MOST: usize = 120;
 #[derive(Clone)]
 struct Node {
     places: Vec<usize>,
-    moves: Vec<(usize, Stretch)>,
+    moves: Vec<(usize, PathSegment)>,
     /// Pushes so far.
     cost: f64,
     /// With what is left at least.
@@ -44,7 +44,7 @@ struct Node {
     left: usize,
 }
 
-impl Carrying<'_> {
+impl Transport<'_> {
     /// The legs of plans of at most `most` pushes, up to `count` of them, cheapest first.
     pub fn legs(&self, most: usize, count: usize) -> Vec<Vec<Leg>> {
         let mut found = Vec::new();
@@ -84,7 +84,7 @@ impl Carrying<'_> {
         let mut children = Vec::new();
         let wanting = self.wanting(&node.places);
         for &k in &wanting {
-            let Some((_, goal)) = self.units[k].goal else { continue };
+            let Some((_, goal)) = self.groups[k].goal else { continue };
             let taken = self.taken_by_others(k, &node.places);
             let ways = self.ways(k, node.places[k], &taken, |place, _| place == goal);
             if ways.cost[goal].is_finite() {
@@ -102,7 +102,7 @@ impl Carrying<'_> {
     fn make_room(
         &self,
         node: &Node,
-        ways: &[(usize, &[Stretch])],
+        ways: &[(usize, &[PathSegment])],
         deep: usize,
         children: &mut Vec<Node>,
     ) {
@@ -111,7 +111,7 @@ impl Carrying<'_> {
             if ways.iter().any(|(k, _)| *k == other) {
                 continue;
             }
-            let asides = |found: &Ways| self.asides(other, ways, found, node);
+            let asides = |found: &Paths| self.asides(other, ways, found, node);
             let taken = self.taken_by_others(other, &node.places);
             let found = self.ways(other, node.places[other], &taken, |_, _| false);
             let free = asides(&found);
@@ -134,19 +134,19 @@ impl Carrying<'_> {
     fn asides(
         &self,
         k: usize,
-        ways: &[(usize, &[Stretch])],
-        found: &Ways,
+        ways: &[(usize, &[PathSegment])],
+        found: &Paths,
         node: &Node,
     ) -> Vec<usize> {
-        let unit = &self.units[k];
-        let lattice = &unit.lattice;
+        let group = &self.groups[k];
+        let lattice = &group.lattice;
         let passed: Vec<(Vector, &[Solid])> =
             ways.iter().flat_map(|(other, way)| self.passed(*other, way)).collect();
         let mut order: Vec<(f64, usize)> = (0..lattice.count())
             .filter(|&place| found.cost[place].is_finite() && place != node.places[k])
             .map(|place| {
                 let off =
-                    unit.goal.map_or(0.0, |(goal, _)| (goal - lattice.position(place)).norm());
+                    group.goal.map_or(0.0, |(goal, _)| (goal - lattice.position(place)).norm());
                 (found.cost[place] + ASTRAY * off, place)
             })
             .collect();
@@ -164,7 +164,7 @@ impl Carrying<'_> {
                     let clear = |own: &Solid| {
                         !own.meets(solid) || own.gap(at, (&solid.footprint, &still), ASIDE) >= ASIDE
                     };
-                    unit.solids.iter().all(clear)
+                    group.solids.iter().all(clear)
                 })
             });
             if clear {
@@ -178,7 +178,7 @@ impl Carrying<'_> {
     }
 
     /// The node after a thing has come to a place.
-    fn child(&self, node: &Node, k: usize, place: usize, ways: &Ways) -> Option<Node> {
+    fn child(&self, node: &Node, k: usize, place: usize, ways: &Paths) -> Option<Node> {
         let mut child = node.clone();
         child.places[k] = place;
         child.cost += ways.cost[place];
@@ -202,15 +202,15 @@ impl Carrying<'_> {
         Some(child)
     }
 
-    fn told(&self, moves: &[(usize, Stretch)]) -> Vec<Leg> {
-        let leg = |&(k, stretch): &(usize, Stretch)| {
-            let unit = &self.units[k];
-            let arrived = unit.goal.filter(|(_, goal)| *goal == stretch.to);
+    fn told(&self, moves: &[(usize, PathSegment)]) -> Vec<Leg> {
+        let leg = |&(k, stretch): &(usize, PathSegment)| {
+            let group = &self.groups[k];
+            let arrived = group.goal.filter(|(_, goal)| *goal == stretch.to);
             Leg {
-                object: unit.thing,
+                object: group.thing,
                 direction: self.holds(k)[stretch.hold].direction,
-                from: unit.lattice.position(stretch.from),
-                to: arrived.map_or(unit.lattice.position(stretch.to), |(goal, _)| goal),
+                from: group.lattice.position(stretch.from),
+                to: arrived.map_or(group.lattice.position(stretch.to), |(goal, _)| goal),
                 last: arrived.is_some(),
             }
         };

@@ -8,9 +8,9 @@ use crate::geometry::Vector;
 use crate::plan::Workspace;
 use crate::scene::Situation;
 
+use super::group::{Group, Hold, groups, holds};
 use super::lattice::Solid;
-use super::unit::{Hold, Unit, holds, units};
-use super::way::{Stretch, Taken, Ways};
+use super::path::{PathSegment, Paths, Taken};
 
 /// What things keep clear of each other, and of a tool that carries another, metres.
 const BESIDE: f64 = 0.004;
@@ -34,21 +34,21 @@ pub struct Leg {
 }
 
 /// What can be carried, with any tool.
-pub struct Things(Vec<Unit>);
+pub struct Groups(Vec<Group>);
 
-impl Things {
+impl Groups {
     /// Of a situation; `None` where a goal asks for more than to be carried somewhere.
     pub fn of(workspace: &Workspace, situation: &Situation) -> Option<Self> {
-        units(workspace, situation).map(Self)
+        groups(workspace, situation).map(Self)
     }
 }
 
 /// Things that one grip of a tool carries.
-pub struct Carrying<'a> {
+pub struct Transport<'a> {
     workspace: Workspace<'a>,
     situation: &'a Situation,
     pair: (usize, f64),
-    pub(super) units: &'a [Unit],
+    pub(super) groups: &'a [Group],
     /// Of every thing, once it is asked for.
     holds: Vec<OnceCell<Vec<Hold>>>,
     longest: f64,
@@ -65,23 +65,23 @@ struct Marks {
 /// How a thing would come to its goal if nothing else could stand in its way.
 pub(super) struct Course {
     pub cost: f64,
-    pub way: Vec<Stretch>,
+    pub way: Vec<PathSegment>,
     pub pushes: usize,
 }
 
-impl<'a> Carrying<'a> {
+impl<'a> Transport<'a> {
     /// With this tool and grip yaw (radians) and pushes of at most `longest` metres; `None` where a goal's
     /// object finds no way even alone.
     pub fn new(
         workspace: Workspace<'a>,
         situation: &'a Situation,
-        Things(units): &'a Things,
+        Groups(groups): &'a Groups,
         pair: (usize, f64),
         longest: f64,
     ) -> Option<Self> {
         let (marks, alone) = Default::default();
-        let holds = units.iter().map(|_| OnceCell::new()).collect();
-        let carrying = Self { workspace, situation, pair, units, holds, longest, marks, alone };
+        let holds = groups.iter().map(|_| OnceCell::new()).collect();
+        let carrying = Self { workspace, situation, pair, groups, holds, longest, marks, alone };
         let start = carrying.start();
         let finds = |&k: &usize| carrying.alone(k, start[k]).cost.is_finite();
         carrying.wanting(&start).iter().all(finds).then_some(carrying)
@@ -95,37 +95,37 @@ impl<'a> Carrying<'a> {
 
     /// Where everything is at first.
     pub(super) fn start(&self) -> Vec<usize> {
-        self.units
+        self.groups
             .iter()
-            .map(|unit| unit.lattice.nearest(unit.lattice.position_of_origin()))
+            .map(|group| group.lattice.nearest(group.lattice.position_of_origin()))
             .collect()
     }
 
     /// How the tool holds on to a thing.
     pub(super) fn holds(&self, k: usize) -> &[Hold] {
-        let unit = &self.units[k];
+        let group = &self.groups[k];
         self.holds[k]
-            .get_or_init(|| holds(&self.workspace, self.pair, self.situation, (unit, self.units)))
+            .get_or_init(|| holds(&self.workspace, self.pair, self.situation, (group, self.groups)))
     }
 
     /// The things that are not at their goals.
     pub(super) fn wanting(&self, places: &[usize]) -> Vec<usize> {
-        let off = |k: &usize| self.units[*k].goal.is_some_and(|(_, goal)| places[*k] != goal);
-        (0..self.units.len()).filter(off).collect()
+        let off = |k: &usize| self.groups[*k].goal.is_some_and(|(_, goal)| places[*k] != goal);
+        (0..self.groups.len()).filter(off).collect()
     }
 
     /// What a thing and the tool behind it pass, sampled: where the thing is, and the solids about that.
-    pub(super) fn passed(&self, k: usize, way: &[Stretch]) -> Vec<(Vector, &[Solid])> {
-        let unit = &self.units[k];
+    pub(super) fn passed(&self, k: usize, way: &[PathSegment]) -> Vec<(Vector, &[Solid])> {
+        let group = &self.groups[k];
         let mut passed = Vec::new();
         for stretch in way {
             let hold = &self.holds(k)[stretch.hold];
-            let places = places(unit, hold, stretch);
+            let places = places(group, hold, stretch);
             let last = places.len() - 1;
             for (n, place) in places.into_iter().enumerate() {
                 if n % SAMPLE == 0 || n == last {
-                    let at = unit.lattice.position(place);
-                    passed.push((at, unit.solids.as_slice()));
+                    let at = group.lattice.position(place);
+                    passed.push((at, group.solids.as_slice()));
                     passed.push((at, hold.solids.as_slice()));
                 }
             }
@@ -134,11 +134,16 @@ impl<'a> Carrying<'a> {
     }
 
     /// What stands in a way.
-    pub(super) fn blocking(&self, k: usize, way: &[Stretch], places_of: &[usize]) -> Vec<usize> {
+    pub(super) fn blocking(
+        &self,
+        k: usize,
+        way: &[PathSegment],
+        places_of: &[usize],
+    ) -> Vec<usize> {
         let blocks = |other: &usize| {
             let marks = self.marks(k, *other, places_of[*other]);
             way.iter().any(|stretch| {
-                let passed = places(&self.units[k], &self.holds(k)[stretch.hold], stretch);
+                let passed = places(&self.groups[k], &self.holds(k)[stretch.hold], stretch);
                 let held = &marks.holds[stretch.hold];
                 passed.iter().any(|place| {
                     held.binary_search(place).is_ok()
@@ -146,18 +151,18 @@ impl<'a> Carrying<'a> {
                 })
             })
         };
-        (0..self.units.len()).filter(|other| *other != k).filter(blocks).collect()
+        (0..self.groups.len()).filter(|other| *other != k).filter(blocks).collect()
     }
 
     /// A stretch as pushes that are short enough.
-    pub(super) fn parted(&self, k: usize, stretch: Stretch) -> Vec<(usize, Stretch)> {
-        let (unit, hold) = (&self.units[k], &self.holds(k)[stretch.hold]);
-        let passed = places(unit, hold, &stretch);
+    pub(super) fn parted(&self, k: usize, stretch: PathSegment) -> Vec<(usize, PathSegment)> {
+        let (group, hold) = (&self.groups[k], &self.holds(k)[stretch.hold]);
+        let passed = places(group, hold, &stretch);
         let steps = passed.len() - 1;
         let count =
-            (steps as f64 * unit.lattice.spacing / self.longest - 1e-9).ceil().max(1.0) as usize;
+            (steps as f64 * group.lattice.spacing / self.longest - 1e-9).ceil().max(1.0) as usize;
         let end = |n: usize| passed[steps * n / count];
-        (0..count).map(|n| (k, Stretch { from: end(n), to: end(n + 1), ..stretch })).collect()
+        (0..count).map(|n| (k, PathSegment { from: end(n), to: end(n + 1), ..stretch })).collect()
     }
 
     /// The way of a thing to its goal if nothing else stood on the table.
@@ -166,7 +171,7 @@ impl<'a> Carrying<'a> {
             return Rc::clone(known);
         }
         let nobody = self.taken(k, &[]);
-        let course = match self.units[k].goal {
+        let course = match self.groups[k].goal {
             Some((_, goal)) => {
                 let ways = self.ways(k, place, &nobody, |at, _| at == goal);
                 let way = ways.to(goal);
@@ -187,8 +192,8 @@ impl<'a> Carrying<'a> {
         start: usize,
         taken: &Taken,
         enough: impl FnMut(usize, f64) -> bool,
-    ) -> Ways {
-        Ways::from((&self.units[k], self.holds(k)), start, taken, self.longest, enough)
+    ) -> Paths {
+        Paths::from((&self.groups[k], self.holds(k)), start, taken, self.longest, enough)
     }
 
     /// Where a thing cannot be for all others.
@@ -200,7 +205,7 @@ impl<'a> Carrying<'a> {
 
     /// Where a thing cannot be for others at these places.
     pub(super) fn taken(&self, k: usize, others: &[(usize, usize)]) -> Taken {
-        let count = self.units[k].lattice.count();
+        let count = self.groups[k].lattice.count();
         let mut all = Taken {
             thing: vec![false; count],
             holds: vec![vec![false; count]; self.holds(k).len()],
@@ -221,8 +226,8 @@ impl<'a> Carrying<'a> {
         if let Some(known) = self.marks.borrow().get(&key) {
             return Rc::clone(known);
         }
-        let (unit, still) = (&self.units[k], &self.units[other]);
-        let (lattice, at) = (&unit.lattice, still.lattice.position(place));
+        let (group, still) = (&self.groups[k], &self.groups[other]);
+        let (lattice, at) = (&group.lattice, still.lattice.position(place));
         let here = lattice.position_of_origin();
         let stood = place == still.lattice.nearest(still.lattice.position_of_origin());
         let mark = |solids: &[Solid], own: bool| {
@@ -248,7 +253,7 @@ impl<'a> Carrying<'a> {
             marked
         };
         let marks = Rc::new(Marks {
-            thing: mark(&unit.solids, true),
+            thing: mark(&group.solids, true),
             holds: self.holds(k).iter().map(|hold| mark(&hold.solids, false)).collect(),
         });
         self.marks.borrow_mut().insert(key, Rc::clone(&marks));
@@ -257,11 +262,11 @@ impl<'a> Carrying<'a> {
 }
 
 /// All places of a stretch, both ends included.
-fn places(unit: &Unit, hold: &Hold, stretch: &Stretch) -> Vec<usize> {
+fn places(group: &Group, hold: &Hold, stretch: &PathSegment) -> Vec<usize> {
     let mut places = vec![stretch.from];
     let mut at = stretch.from;
     while at != stretch.to
-        && let Some(next) = unit.lattice.next(at, hold.step)
+        && let Some(next) = group.lattice.next(at, hold.step)
     {
         at = next;
         places.push(at);

@@ -3,24 +3,24 @@
 use crate::verify::Verifier;
 use crate::watch::Instant;
 
+use super::attempts::Perturbed;
 use super::grade::{Class, Grade};
 use super::solving::Solving;
-use super::tried::Disturbed;
 
 impl Solving<'_> {
     /// Replays a plan with disturbances, and says what it is worth. One that is not safe in the plane is
     /// replayed there alone: it is worth no more than that, see [`Self::best_of_all`].
     pub(super) fn disturb(&mut self, k: usize) -> Class {
-        let class = self.replay(k, &self.verifier.clone().in_plane(), Disturbed::InPlane);
+        let class = self.replay(k, &self.verifier.clone().in_plane(), Perturbed::InPlane);
         if class == Class::Safe { self.complete(k) } else { class }
     }
 
     /// Replays a plan in 3-D, too.
     fn complete(&mut self, k: usize) -> Class {
-        self.replay(k, &self.verifier.clone(), Disturbed::InBoth)
+        self.replay(k, &self.verifier.clone(), Perturbed::InBoth)
     }
 
-    fn replay(&mut self, k: usize, verifier: &Verifier, disturbed: Disturbed) -> Class {
+    fn replay(&mut self, k: usize, verifier: &Verifier, disturbed: Perturbed) -> Class {
         let tried = &mut self.tried[k];
         tried.disturbed = disturbed;
         let Some(verdict) = tried.verdict.take() else { return Class::Fails };
@@ -40,14 +40,14 @@ impl Solving<'_> {
         while let Some((grade, k)) = self.best
             && asked
             && grade.class >= least
-            && self.tried[k].disturbed != Disturbed::Settled
+            && self.tried[k].disturbed != Perturbed::Settled
             && !self.watch.cancelled()
         {
             let verifier = self.verifier.clone().until_clear();
             let seeking = least > Class::Fragile;
             let verifier = if seeking { verifier.giving_up() } else { verifier };
-            if self.replay(k, &verifier, Disturbed::Settled) < least {
-                self.tried[k].disturbed = Disturbed::InBoth;
+            if self.replay(k, &verifier, Perturbed::Settled) < least {
+                self.tried[k].disturbed = Perturbed::InBoth;
             }
             self.best = self.best_of_all();
         }
@@ -59,14 +59,14 @@ impl Solving<'_> {
     pub(super) fn best_of_all(&mut self) -> Option<(Grade, usize)> {
         loop {
             let graded = self.tried.iter().enumerate().filter_map(|(k, tried)| {
-                let replayed = tried.verdict.as_ref().filter(|_| tried.disturbed != Disturbed::No);
+                let replayed = tried.verdict.as_ref().filter(|_| tried.disturbed != Perturbed::No);
                 Some((Grade::of(self.task, replayed?), k))
             });
             let better = |best: (Grade, usize), next: (Grade, usize)| {
                 if next.0.compare(&best.0).is_gt() { next } else { best }
             };
             match graded.reduce(better) {
-                Some((_, k)) if self.tried[k].disturbed == Disturbed::InPlane => {
+                Some((_, k)) if self.tried[k].disturbed == Perturbed::InPlane => {
                     self.complete(k);
                 }
                 best => return best,

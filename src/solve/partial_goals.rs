@@ -2,11 +2,10 @@
 
 use crate::asset::ToolLibrary;
 use crate::verify::{Verifier, VerifySettings};
-use crate::watch::Watch;
+use crate::watch::{Quiet, Watch};
 use crate::{outcome::Outcome, task::Task};
 
 use super::planner::stated;
-use super::widen::Quiet;
 use super::{Partial, PlanStatus, Planner, Solution, SolveError};
 
 /// Of more goals than this only all but one, and each alone, are tried: their sets double with each.

@@ -3,7 +3,7 @@
 
 use crate::effect::EffectModel;
 use crate::geometry::Footprint;
-use crate::plan::spread::{Spread, room};
+use crate::plan::uncertainty::{Uncertainty, room};
 use crate::plan::{
     Candidate, CandidatePush, Evaluation, RefineSettings, RefineStatistics, Rollouts, Search,
     SearchSettings, Workspace, kinds, refine,
@@ -68,7 +68,7 @@ pub fn follow(
 ) -> Followed {
     let mut followed =
         Followed { candidate: Candidate::default(), legs: 0, state: situation.start.clone() };
-    let spread = Spread::around(situation);
+    let spread = Uncertainty::around(situation);
     let mut others = spread.starts().to_vec();
     for (k, leg) in legs.iter().enumerate() {
         let now = Situation { start: followed.state.clone(), ..situation.clone() };

@@ -3,18 +3,16 @@
 use std::sync::Arc;
 
 use crate::asset::ToolLibrary;
-use crate::plan::{Field, Spread};
+use crate::plan::{CostToGo, Uncertainty};
+use crate::solve::{Class, Grade, Planner, Solution, SolveError, stated};
 use crate::watch::Watch;
 use crate::{
     scene::Tool,
     task::{Task, ToolChoice},
 };
 
-use super::super::grade::{Class, Grade};
-use super::super::planner::stated;
-use super::super::{Planner, Solution, SolveError};
-use super::look::Looking;
-use super::proposed::Spent;
+use super::proposal::Spent;
+use super::screening::Looking;
 use super::search::{Seen, kept, search};
 use super::{Design, DesignSettings, Proposal};
 
@@ -35,7 +33,7 @@ impl Planner {
     /// use pushplan::watch::Unwatched;
     ///
     /// let library = ToolLibrary::embedded()?;
-    /// let task = Task::parse(include_str!("../../../tasks/pull-back.yaml"), "pull-back.yaml")?;
+    /// let task = Task::parse(include_str!("../../tasks/pull-back.yaml"), "pull-back.yaml")?;
     /// let planner = Planner::for_effort(Effort::Draft)?.build();
     /// let settings = DesignSettings::looking_at(20);
     /// let design = planner.design(&task, &library, &settings, &Unwatched)?;
@@ -69,8 +67,8 @@ impl Planner {
         }
 
         watch.stage("looking at tools");
-        let (model, field) = (self.screen(), Field::new(task));
-        let spread = Spread::around(&situation);
+        let (model, field) = (self.screen(), CostToGo::new(task));
+        let spread = Uncertainty::around(&situation);
         let looking = Looking { task, situation: &situation, model, field, spread, watch };
         let mut seen = search(&looking, settings, self.seed());
         design.spent = Spent {

@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use rayon::prelude::*;
 
 use crate::geometry::{Footprint, Pose, Vector, clearance, perpendicular, swept_clearance};
-use crate::plan::{Field, HAND_CLEARANCE, MIN_LENGTH, OBSTACLE_CLEARANCE, STAND_OFF};
+use crate::plan::{CostToGo, HAND_CLEARANCE, MIN_LENGTH, OBSTACLE_CLEARANCE, STAND_OFF};
 use crate::{scene::Mover, task::Task};
 
 use super::assembly::{Assembly, Bar, HEIGHT, Route};
@@ -59,7 +59,7 @@ struct Wanted {
 }
 
 /// Handles of at most `parts` parts for the first push of a task, those of few parts first.
-pub(super) fn traced(task: &Task, field: &Field, parts: usize) -> Vec<Assembly> {
+pub(super) fn traced(task: &Task, field: &CostToGo, parts: usize) -> Vec<Assembly> {
     let start = task.scene.start();
     let mut wanted = Vec::new();
     for object in field.movers(&start) {

@@ -13,7 +13,7 @@ use crate::watch::Count;
 use super::DesignSettings;
 use super::assembly::{Assembly, NUMBERS};
 use super::form::Form;
-use super::look::{Look, Looking};
+use super::screening::{Look, Looking};
 use super::trace::traced;
 
 /// Variations that are looked at together.

@@ -1,7 +1,8 @@
 //! Plans that first move aside what stands in the way.
 
 use crate::plan::{
-    Corridor, Evaluation, Rollouts, Search, SearchSettings, Workspace, evaluate, is_behind, kinds,
+    Evaluation, Rollouts, Search, SearchSettings, SweptRegion, Workspace, evaluate, is_behind,
+    kinds,
 };
 use crate::{
     outcome::Record,
@@ -36,7 +37,7 @@ pub(super) struct Clearings<'a> {
 
 /// One of them.
 struct Clearing {
-    corridor: Corridor,
+    corridor: SweptRegion,
     /// How the tool is held on it.
     grip: (usize, f64),
     /// Pushes of the goals' objects, and one for each object that stands there.
@@ -71,7 +72,8 @@ impl<'a> Clearings<'a> {
         let trajectories = self.rollouts.in_turn(&jobs, Record::Frames);
         let objects = &solving.task.scene.objects;
         for ((one, motions), trajectory) in made.iter().zip(&motions).zip(&trajectories) {
-            let corridor = Corridor::of(&solving.workspace, solving.situation, motions, trajectory);
+            let corridor =
+                SweptRegion::of(&solving.workspace, solving.situation, motions, trajectory);
             let blocking = corridor.blocking(&solving.situation.start);
             if !blocking.is_empty() && blocking.iter().all(|&k| objects[k].keep.is_none()) {
                 let pushes = one.pushes.len() + blocking.len();

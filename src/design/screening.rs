@@ -6,19 +6,16 @@ use std::sync::Arc;
 
 use crate::effect::EffectModel;
 use crate::plan::{
-    FOUND_RADIUS, Field, REFINABLE, RefineSettings, RefineStatistics, Refined, Rollouts, Search,
-    Spread, Workspace, refine,
+    CostToGo, FOUND_RADIUS, REFINABLE, RefineSettings, RefineStatistics, Refined, Rollouts, Search,
+    Uncertainty, Workspace, refine,
 };
-use crate::watch::Watch;
+use crate::watch::{Quiet, Watch};
 use crate::{
     scene::{Situation, Tool},
     task::Task,
 };
 
-use super::super::grade::WELL_INSIDE;
-use super::super::rank::distinct;
-use super::super::widen::Quiet;
-use super::super::{LeverSettings, Settings};
+use crate::solve::{LeverSettings, Settings, WELL_INSIDE, distinct};
 
 /// What a first look takes: about half a thousand rollouts where three pushes are allowed.
 const SETTINGS: Settings = Settings {
@@ -70,8 +67,8 @@ pub(super) struct Looking<'a> {
     pub task: &'a Task,
     pub situation: &'a Situation,
     pub model: &'a dyn EffectModel,
-    pub field: Field<'a>,
-    pub spread: Spread,
+    pub field: CostToGo<'a>,
+    pub spread: Uncertainty,
     pub watch: &'a dyn Watch,
 }
 

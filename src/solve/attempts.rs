@@ -13,7 +13,7 @@ use super::Refinement;
 use super::solving::Solving;
 
 /// A plan that was refined, and verified where it was worth that.
-pub(super) struct Tried {
+pub(super) struct Attempt {
     pub plan: Plan,
     /// Those that it names, each once; of doing nothing the first one.
     pub tools: Vec<Arc<Tool>>,
@@ -26,12 +26,12 @@ pub(super) struct Tried {
     /// What is compared where it is as near as another.
     pub cost: Cost,
     pub verdict: Option<Verdict>,
-    pub disturbed: Disturbed,
+    pub disturbed: Perturbed,
 }
 
 /// How a plan was replayed with disturbances.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Disturbed {
+pub(super) enum Perturbed {
     No,
     /// In the planar engine alone.
     InPlane,
@@ -42,9 +42,9 @@ pub(super) enum Disturbed {
 
 impl Solving<'_> {
     /// What was made of a candidate that was refined towards `aims`.
-    pub(super) fn tried(&self, refined: Refined, aims: &[Goal]) -> Tried {
+    pub(super) fn tried(&self, refined: Refined, aims: &[Goal]) -> Attempt {
         let Refined { best, off: [before, after], rounds, .. } = refined;
-        Tried {
+        Attempt {
             refinement: Refinement {
                 before,
                 after,
@@ -61,7 +61,7 @@ impl Solving<'_> {
             },
             cost: Cost::of(&best, &self.workspace, self.situation),
             verdict: None,
-            disturbed: Disturbed::No,
+            disturbed: Perturbed::No,
             plan: best.plan(&self.workspace),
             tools: best.tools(&self.workspace),
             candidate: Some(best.candidate),
@@ -69,10 +69,10 @@ impl Solving<'_> {
     }
 
     /// Doing nothing, which is a plan too.
-    pub(super) fn without_pushes(&self) -> Tried {
+    pub(super) fn without_pushes(&self) -> Attempt {
         let start = &self.situation.start;
         let error = self.task.goal.error(start);
-        Tried {
+        Attempt {
             plan: Plan::default(),
             tools: self.workspace.tools.iter().take(1).cloned().collect(),
             candidate: None,
@@ -86,7 +86,7 @@ impl Solving<'_> {
             score: self.task.score(start),
             cost: Cost::default(),
             verdict: None,
-            disturbed: Disturbed::No,
+            disturbed: Perturbed::No,
         }
     }
 }

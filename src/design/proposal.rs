@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::scene::Tool;
 
-use super::super::{PlanStatus, Solution};
+use crate::solve::{PlanStatus, Solution};
 
 /// A tool with what it does for the task.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,16 +4,16 @@
 use std::sync::Arc;
 
 use crate::geometry::{Vector, wrap_angle};
-use crate::plan::{Candidate, CandidatePush, Found, is_behind};
+use crate::plan::{Candidate, CandidatePush, SearchResult, is_behind};
 use crate::{
     outcome::{Verdict, Warning},
     scene::{Engine, State, Tool},
     task::{Goal, Task},
 };
 
+use super::attempts::{Attempt, Perturbed};
 use super::rank::distinct;
 use super::solving::Solving;
-use super::tried::{Disturbed, Tried};
 
 /// A plan is refuted if its replay misses the goal by more than this many tolerances: one that
 /// misses by less may work with another tool.
@@ -36,9 +36,9 @@ const SAME_DIRECTION: f64 = 0.26;
 const SAME_LENGTH: f64 = 0.02;
 
 /// Objects, directions and lengths of the pushes of a plan.
-pub(super) struct Way(Vec<(usize, f64, f64)>);
+pub(super) struct PushPattern(Vec<(usize, f64, f64)>);
 
-impl Way {
+impl PushPattern {
     fn of(pushes: &[CandidatePush]) -> Self {
         Self(pushes.iter().map(|push| (push.object, push.direction, push.length)).collect())
     }
@@ -60,11 +60,11 @@ impl Solving<'_> {
     /// a refuted plan or is a variant of one of `known`, as long as there are others.
     pub(super) fn choose(
         &self,
-        found: &[Found],
+        found: &[SearchResult],
         count: usize,
         known: &[&Candidate],
     ) -> Vec<Candidate> {
-        let others: Vec<Found> = found
+        let others: Vec<SearchResult> = found
             .iter()
             .filter(|one| !self.is_refuted(&one.candidate))
             .filter(|one| !known.iter().any(|known| one.candidate.is_variant_of(known)))
@@ -87,7 +87,7 @@ impl Solving<'_> {
         &mut self,
         queue: &mut Vec<usize>,
         failed: &[usize],
-        found: &[Found],
+        found: &[SearchResult],
         (first, pushes): (usize, usize),
     ) {
         for &k in failed {
@@ -95,7 +95,7 @@ impl Solving<'_> {
             if missed(self.task, tried) > REFUTED
                 && let Some(candidate) = &tried.candidate
             {
-                self.refuted.push(Way::of(&candidate.pushes));
+                self.refuted.push(PushPattern::of(&candidate.pushes));
             }
         }
         let at_once = self.at_once();
@@ -162,14 +162,14 @@ impl Solving<'_> {
             let known = self.tried.iter().any(|tried| tried.plan == plan);
             if !known {
                 let named = |tool: &&Arc<Tool>| plan.tools().contains(&tool.name.as_str());
-                let shorter = Tried {
+                let shorter = Attempt {
                     tools: tried.tools.iter().filter(named).cloned().collect(),
                     plan,
                     candidate: Some(candidate),
                     aims: tried.aims.clone(),
                     refinement: tried.refinement.clone(),
                     verdict: None,
-                    disturbed: Disturbed::No,
+                    disturbed: Perturbed::No,
                     ..*tried
                 };
                 next.push(self.tried.len());
@@ -242,7 +242,7 @@ impl Solving<'_> {
 
 /// By how many tolerances a plan misses the goal as written, in the engine where it misses by more;
 /// infinite where its end does not count at all.
-fn missed(task: &Task, tried: &Tried) -> f64 {
+fn missed(task: &Task, tried: &Attempt) -> f64 {
     let Some(verdict) = &tried.verdict else { return f64::INFINITY };
     if !verdict.forbidden.is_empty() {
         return f64::INFINITY;

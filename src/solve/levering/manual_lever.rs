@@ -13,9 +13,9 @@ use crate::{
 
 /// A lever-up as it is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AskedLever {
+pub struct ManualLever {
     /// Where the blade goes under.
-    pub place: AskedPlace,
+    pub place: ManualPlace,
     /// How far the tip lies behind the edge, metres.
     pub depth: f64,
     /// Turn, radians.
@@ -28,7 +28,7 @@ pub struct AskedLever {
 
 /// A place on the outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum AskedPlace {
+pub enum ManualPlace {
     /// An edge, and how far along it, 0 to 1.
     Edge(usize, f64),
     /// So far along the outline from the first corner on, metres.
@@ -56,21 +56,21 @@ pub enum LeverActionError {
 ///
 /// # Errors
 /// Why there is no such lever-up.
-pub fn asked_lever(
+pub fn manual_lever(
     task: &Task,
     tool: &Arc<Tool>,
-    asked: &AskedLever,
+    asked: &ManualLever,
 ) -> Result<(Plan, Option<LeverFault>), LeverActionError> {
     let plate = task.plate();
     let corners = plate.corners();
     let edges = corners.len();
     let side = |edge: usize| (corners[(edge + 1) % edges] - corners[edge]).norm();
     let place = match asked.place {
-        AskedPlace::Edge(edge, _) if edge >= edges => {
+        ManualPlace::Edge(edge, _) if edge >= edges => {
             return Err(LeverActionError::NoEdge { edge, edges });
         }
-        AskedPlace::Edge(edge, fraction) => Place { edge, fraction },
-        AskedPlace::Along(way) => {
+        ManualPlace::Edge(edge, fraction) => Place { edge, fraction },
+        ManualPlace::Along(way) => {
             let around: f64 = (0..edges).map(side).sum();
             let mut left = way.rem_euclid(around);
             let mut edge = 0;

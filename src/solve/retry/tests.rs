@@ -20,7 +20,7 @@ fn candidate(pushes: &[(f64, f64)]) -> Candidate {
 
 #[test]
 fn what_begins_like_a_refuted_plan_is_known_by_directions_and_lengths_alone() {
-    let way = Way::of(&candidate(&[(3.1, 0.2), (1.5, 0.1)]).pushes);
+    let way = PushPattern::of(&candidate(&[(3.1, 0.2), (1.5, 0.1)]).pushes);
     // Directions wrap around, and further pushes do not matter.
     assert!(way.begins(&candidate(&[(-3.1, 0.21), (1.4, 0.09), (0.0, 0.3)])));
     assert!(!way.begins(&candidate(&[(3.1, 0.2)])));

@@ -39,7 +39,7 @@ const ROOM: f64 = 0.005;
 const BESIDE: f64 = 0.25;
 
 /// A thing that one push carries along.
-pub(super) struct Unit {
+pub(super) struct Group {
     pub thing: usize,
     pub solids: Vec<Solid>,
     pub lattice: Lattice,
@@ -62,7 +62,7 @@ pub(super) struct Hold {
 
 /// All things that can be carried from `situation`; `None` where a goal asks for more than to be carried
 /// somewhere.
-pub(super) fn units(workspace: &Workspace, situation: &Situation) -> Option<Vec<Unit>> {
+pub(super) fn groups(workspace: &Workspace, situation: &Situation) -> Option<Vec<Group>> {
     let (task, state) = (workspace.task, &situation.start);
     let scene = &*situation.scene;
     let goals: Vec<&Goal> = task.goals().collect();
@@ -106,7 +106,7 @@ pub(super) fn units(workspace: &Workspace, situation: &Situation) -> Option<Vec<
     let [low, high] = [extent.low, extent.high].map(|p| p.map(|v| v.clamp(-reach, reach)));
     let extent = Extent { low, high };
     let spacing = extent.spacing();
-    let unit = |&thing: &usize| {
+    let group = |&thing: &usize| {
         let at = state.poses[thing].position;
         let solids = solids_of(scene, state, thing);
         let lattice = Lattice::new(at, &extent, spacing);
@@ -116,9 +116,9 @@ pub(super) fn units(workspace: &Workspace, situation: &Situation) -> Option<Vec<
             (at, lattice.nearest(at))
         });
         let clear = clear(scene, (state, &loose), (thing, &solids), &lattice);
-        Unit { thing, solids, lattice, goal, clear }
+        Group { thing, solids, lattice, goal, clear }
     };
-    Some(loose.iter().map(unit).collect())
+    Some(loose.iter().map(group).collect())
 }
 
 /// The solids of a thing, against where it is.
@@ -182,11 +182,11 @@ pub(super) fn holds(
     workspace: &Workspace,
     pair: (usize, f64),
     situation: &Situation,
-    (unit, units): (&Unit, &[Unit]),
+    (group, groups): (&Group, &[Group]),
 ) -> Vec<Hold> {
     let (task, scene, state) = (workspace.task, &*situation.scene, &situation.start);
-    let centre = scene.centre(unit.thing, state);
-    let at = state.poses[unit.thing].position;
+    let centre = scene.centre(group.thing, state);
+    let at = state.poses[group.thing].position;
     let mut found = Vec::new();
     for direction in task.pushes.directions.headings() {
         let ahead = Vector::new(direction.cos(), direction.sin());
@@ -196,7 +196,7 @@ pub(super) fn holds(
         }
         let left = perpendicular(ahead);
         let mut ways: Vec<(f64, Vector)> = Vec::new();
-        for object in [unit.thing].into_iter().chain(scene.parts_of(unit.thing)) {
+        for object in [group.thing].into_iter().chain(scene.parts_of(group.thing)) {
             for (part, face) in workspace.tools[pair.0].parts().iter().enumerate() {
                 let span = workspace.offset_span(pair, (state, object), part, direction);
                 let tool = workspace.tools[pair.0].pose(Pose::new(0.0, 0.0, pair.1));
@@ -229,14 +229,14 @@ pub(super) fn holds(
             taken.push(effector);
             let solids = tool_solids(workspace, pair, effector);
             let own = |solid: &Solid| {
-                unit.solids.iter().all(|other| {
+                group.solids.iter().all(|other| {
                     let still = (&other.footprint, &other.pose);
                     !solid.meets(other)
                         || solid.gap(Vector::zeros(), still, ROOMY) >= SET_DOWN_CLEARANCE
                 })
             };
             if solids.iter().all(own) {
-                let free = free(workspace, situation, (unit, units), (effector, pair.1), &solids);
+                let free = free(workspace, situation, (group, groups), (effector, pair.1), &solids);
                 found.push(Hold { direction, step, solids, free });
             }
         }
@@ -268,15 +268,15 @@ fn tool_solids(workspace: &Workspace, (tool, yaw): (usize, f64), effector: Vecto
 fn free(
     workspace: &Workspace,
     situation: &Situation,
-    (unit, units): (&Unit, &[Unit]),
+    (group, groups): (&Group, &[Group]),
     (effector, yaw): (Vector, f64),
     solids: &[Solid],
 ) -> Vec<bool> {
     let (task, scene, state) = (workspace.task, &*situation.scene, &situation.start);
-    let lattice = &unit.lattice;
+    let lattice = &group.lattice;
     let stands = |place| task.stands(lattice.position(place) + effector, yaw);
     let mut free: Vec<bool> =
-        (0..lattice.count()).map(|place| unit.clear[place] >= 0.0 && stands(place)).collect();
+        (0..lattice.count()).map(|place| group.clear[place] >= 0.0 && stands(place)).collect();
     let parts = workspace.task.pushes.lift;
     for solid in solids {
         let mover = if solid.span[0] <= parts { Mover::Tool } else { Mover::Hand };
@@ -287,7 +287,7 @@ fn free(
             keep(&fixed.footprint, &fixed.pose);
         }
         for (k, object) in scene.objects.iter().enumerate() {
-            let carried = units.iter().any(|unit| unit.thing == scene.thing(k));
+            let carried = groups.iter().any(|group| group.thing == scene.thing(k));
             if !carried && object.meets(solid.span) {
                 keep(&object.shape.footprint(), &state.poses[k]);
             }

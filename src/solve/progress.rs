@@ -1,6 +1,6 @@
 //! What is told while a task is solved: what is being done, and the best plan so far.
 
-use crate::plan::Found;
+use crate::plan::SearchResult;
 use crate::task::Plan;
 
 use super::grade::Class;
@@ -8,9 +8,9 @@ use super::solving::Solving;
 
 /// What is known of a plan, least first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Known {
+pub(super) enum Milestone {
     /// The model that screens says that it reaches the goal.
-    Found,
+    SearchResult,
     /// So does the one that decides, after refinement.
     Refined,
     /// It works as written in both engines, in some of the disturbed replays.
@@ -19,13 +19,13 @@ pub(super) enum Known {
     Passes,
 }
 
-impl Known {
+impl Milestone {
     fn words(self) -> &'static str {
         match self {
-            Known::Found => "a first look says that it reaches the goal",
-            Known::Refined => "predicted to reach the goal",
-            Known::Works => "works as written in both engines",
-            Known::Passes => "passes",
+            Milestone::SearchResult => "a first look says that it reaches the goal",
+            Milestone::Refined => "predicted to reach the goal",
+            Milestone::Works => "works as written in both engines",
+            Milestone::Passes => "passes",
         }
     }
 }
@@ -38,11 +38,11 @@ impl Solving<'_> {
     }
 
     /// Tells of the best of what the search found, all of it with one tool.
-    pub(super) fn tell_found(&mut self, found: &[Found]) {
+    pub(super) fn tell_found(&mut self, found: &[SearchResult]) {
         let best = found.first().filter(|best| best.score <= 1.0).map(|best| &best.candidate);
         if let Some((candidate, (tool, _))) = best.and_then(|one| Some((one, one.grip()?))) {
             let name = &self.workspace.tools[tool].name;
-            self.tell_known(Known::Found, named(&[name], candidate.pushes.len()));
+            self.tell_known(Milestone::SearchResult, named(&[name], candidate.pushes.len()));
         }
     }
 
@@ -50,7 +50,7 @@ impl Solving<'_> {
     pub(super) fn tell_refined(&mut self, indices: &[usize]) {
         let best = indices.first().map(|&k| &self.tried[k]).filter(|tried| tried.score <= 1.0);
         if let Some(tried) = best {
-            self.tell_known(Known::Refined, of(&tried.plan));
+            self.tell_known(Milestone::Refined, of(&tried.plan));
         }
     }
 
@@ -59,15 +59,15 @@ impl Solving<'_> {
         let Some((grade, k)) = self.best else { return };
         let known = match grade.class {
             Class::Fails => return,
-            Class::Fragile => Known::Works,
-            Class::Edge | Class::Passes | Class::Safe => Known::Passes,
+            Class::Fragile => Milestone::Works,
+            Class::Edge | Class::Passes | Class::Safe => Milestone::Passes,
         };
         let plan = of(&self.tried[k].plan);
         self.tell_known(known, plan);
     }
 
     /// Tells it unless as much is known of a plan that was told before.
-    fn tell_known(&mut self, known: Known, plan: String) {
+    fn tell_known(&mut self, known: Milestone, plan: String) {
         if self.known.is_none_or(|before| known > before) {
             self.known = Some(known);
             self.watch.so_far(&format!("{plan}: {}", known.words()));

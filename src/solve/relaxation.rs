@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use crate::asset::ToolLibrary;
 use crate::geometry::Pose;
 use crate::plan::{Search, distance_to_origin, is_behind};
-use crate::watch::Watch;
+use crate::watch::{Quiet, Watch};
 use crate::{
     scene::{JointKind, Obstacle, Robot, Tool},
     task::{Directions, Plan, Task, ToolChoice},
@@ -33,15 +33,6 @@ const STEP: f64 = 0.01;
 
 /// At most this many obstacles are removed, one at a time, to find the one that is the cause.
 const OBSTACLES: usize = 8;
-
-/// Stops as another does and tells nothing: many tasks are looked at side by side.
-pub(super) struct Quiet<'a>(pub &'a dyn Watch);
-
-impl Watch for Quiet<'_> {
-    fn cancelled(&self) -> bool {
-        self.0.cancelled()
-    }
-}
 
 /// A task with one limit wider, and what it means if that has a plan.
 struct Wider<'a> {

@@ -34,7 +34,7 @@ const MOST: f64 = 0.03;
 
 /// Possible differences from what is believed: the same draws for a whole search.
 #[derive(Clone, Debug)]
-pub struct Spread {
+pub struct Uncertainty {
     physics: Vec<Arc<Physics>>,
     /// Relative changes of the tools' friction.
     tools: Vec<f64>,
@@ -42,7 +42,7 @@ pub struct Spread {
     starts: Vec<State>,
 }
 
-impl Spread {
+impl Uncertainty {
     /// Draws around a situation.
     pub fn around(situation: &Situation) -> Self {
         let mut random = Pcg64::seed_from_u64(0x5_9EAD);

@@ -4,7 +4,7 @@ use super::Candidate;
 
 /// A candidate as the search scored it.
 #[derive(Clone, Debug)]
-pub struct Found {
+pub struct SearchResult {
     /// The candidate, its last push cut to the best stop.
     pub candidate: Candidate,
     /// Predicted error in units of the tolerance at that stop, estimated where the tool stops
@@ -15,7 +15,7 @@ pub struct Found {
 /// Which of `found` are the best of different kinds, at most `count` of them: indices, in order.
 /// `found` is sorted, best first; variants of one another (see [`Candidate::is_variant_of`]) are
 /// of one kind.
-pub fn kinds(found: &[Found], count: usize) -> Vec<usize> {
+pub fn kinds(found: &[SearchResult], count: usize) -> Vec<usize> {
     let mut kinds: Vec<usize> = Vec::new();
     for (k, one) in found.iter().enumerate() {
         if kinds.len() == count {

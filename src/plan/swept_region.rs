@@ -42,7 +42,7 @@ fn others(task: &Task, groups: &[usize]) -> Vec<usize> {
 
 /// All that a plan passes.
 #[derive(Clone, Debug)]
-pub struct Corridor {
+pub struct SweptRegion {
     passed: Vec<Passed>,
     /// The objects that may stand in it.
     others: Vec<(usize, Object)>,
@@ -76,7 +76,7 @@ pub fn alone(task: &Task, situation: &Situation) -> Option<(Task, Situation)> {
     (put > 0 && task.pushes.max_count > 0).then_some((task, situation))
 }
 
-impl Corridor {
+impl SweptRegion {
     /// Of `motions`, in which the goals' objects move as `trajectory` says.
     pub fn of(
         workspace: &Workspace,

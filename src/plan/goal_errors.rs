@@ -9,7 +9,7 @@ use crate::{
 
 /// Where every goal's object is relative to its goal: x, y and the heading; zero where none is asked
 /// for.
-pub(super) fn misses(task: &Task, outcome: &State) -> Vec<Vector3<f64>> {
+pub(super) fn goal_errors(task: &Task, outcome: &State) -> Vec<Vector3<f64>> {
     let of = |goal: &Goal| {
         let apart = goal.off(outcome) / goal.tolerance;
         let turned = match (goal.heading, goal.turned(outcome)) {

@@ -14,7 +14,7 @@ use crate::{
     task::{Goal, Task},
 };
 
-use super::Corridor;
+use super::SweptRegion;
 
 /// Grid spacing where the scene is small enough, metres: finer than any object that is pushed.
 const SPACING: f64 = 0.02;
@@ -41,17 +41,17 @@ const FREE: f64 = 0.02;
 
 /// Distances to the goals for the centres of their objects.
 #[derive(Clone)]
-pub struct Field<'a> {
+pub struct CostToGo<'a> {
     task: &'a Task,
     /// The goals in the world, as things stand at the start.
     goals: Arc<[Goal]>,
     /// One for every goal, if there are obstacles.
     grids: Arc<[Option<Grid>]>,
     /// What has to be free before the goal's object is pushed.
-    corridor: Option<Corridor>,
+    corridor: Option<SweptRegion>,
 }
 
-impl<'a> Field<'a> {
+impl<'a> CostToGo<'a> {
     /// Lays the field for a task; costs nothing where there are no obstacles.
     pub fn new(task: &'a Task) -> Self {
         let start = task.scene.start();
@@ -65,7 +65,7 @@ impl<'a> Field<'a> {
     }
 
     /// The same where this has to be free first.
-    pub fn clearing(self, corridor: Corridor) -> Self {
+    pub fn clearing(self, corridor: SweptRegion) -> Self {
         Self { corridor: Some(corridor), ..self }
     }
 
@@ -309,11 +309,11 @@ goal: {object: can, position: [0.6, 0.0], tolerance: 0.02}
     #[test]
     fn the_way_leads_around_the_wall() {
         let mut task = Task::parse(TASK, "around.yaml").unwrap();
-        let field = Field::new(&task);
+        let field = CostToGo::new(&task);
         // Around the wall's end, grown by the can's radius on all sides.
         let half_wall = Vector::new(0.01 + 0.03, 0.20 + 0.03);
         let around = 2.0 * (0.1 - half_wall.x).hypot(half_wall.y) + 2.0 * half_wall.x;
-        let distance = |field: &Field, at: Vector| {
+        let distance = |field: &CostToGo, at: Vector| {
             field.ways(&State::at_rest(vec![Pose { position: at, heading: 0.0 }]))
         };
         let found = distance(&field, Vector::new(0.4, 0.0));
@@ -325,7 +325,7 @@ goal: {object: can, position: [0.6, 0.0], tolerance: 0.02}
         assert!(distance(&field, Vector::new(-9.0, 0.0)) > 9.0);
 
         task.scene.obstacles.clear();
-        let free = Field::new(&task);
+        let free = CostToGo::new(&task);
         assert!((distance(&free, Vector::new(0.4, 0.0)) - 0.2).abs() < 1e-12);
         let mut state = task.scene.start();
         state.poses[0].position.x = f64::NAN;
