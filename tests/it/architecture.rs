@@ -60,7 +60,7 @@ const ROOMS: [(&str, &str); 27] = [
     // Not `plan`: the check shares no code with what it checks.
     ("verify", "geometry scene task outcome arm sim"),
     ("solve", "geometry scene task outcome arm asset sim effect plan verify"),
-    ("design", "geometry scene task outcome asset effect plan solve"),
+    ("design", "geometry scene task asset effect plan solve"),
     ("act", "geometry scene task outcome asset sim effect judge fit belief solve"),
     ("bench", "geometry scene task outcome asset store sim effect judge solve"),
     (
