@@ -198,11 +198,11 @@ fn rest(task: &Task, now: &Situation, last: &Step) -> Option<(Plan, Arc<Tool>)> 
         return None;
     }
     // Of several goals it is not known which object the next push is for.
-    let several = !task.further.is_empty();
+    let several = task.goals.len() > 1;
     if last.why == Why::Probe || last.plan.form() == PushForm::Chained || several {
         return None;
     }
-    let off: Vector = now.start.poses[task.goal.object].position - last.expected.position;
+    let off: Vector = now.start.poses[task.goals[0].object].position - last.expected.position;
     let asked = |push: &Push| ManualPush {
         start: ManualStart::At(push.start + off),
         direction: push.direction,

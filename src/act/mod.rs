@@ -17,7 +17,7 @@
 //! let mut trace = Trace::new(task, RunSettings::default(), "draft".into(), None);
 //! let runner = Runner::new(&planner, &library);
 //! runner.run(&mut trace, &mut world, &mut |_| Ok(()), &pushplan::internals::watch::Unwatched)?;
-//! assert!(trace.task.goal.reached(world.state()));
+//! assert!(trace.task.goals[0].reached(world.state()));
 //! # Ok::<(), pushplan::Error>(())
 //! ```
 //!

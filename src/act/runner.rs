@@ -192,7 +192,7 @@ impl<'a> Runner<'a> {
         let Trace { task, settings, steps, .. } = trace;
         let now = belief.situation();
         let doubt = belief.doubt();
-        if task.goals().all(|goal| is_sure(goal, &now.start, doubt[goal.object])) {
+        if task.goals.iter().all(|goal| is_sure(goal, &now.start, doubt[goal.object])) {
             return Ok(Decision::Done);
         }
         let mut rng = generator(settings.seed, steps.len() as u64);
@@ -239,7 +239,7 @@ impl<'a> Runner<'a> {
             why,
             pushes,
             chance,
-            expected: rest.poses[task.goal.object],
+            expected: rest.poses[task.goals[0].object],
             predicted: predicted.frames,
             tool: Tool::clone(&tool),
             plan,

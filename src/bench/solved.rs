@@ -63,7 +63,7 @@ impl SolvedTask {
         Self {
             task: task.name.clone(),
             status: solution.status,
-            tolerance: Some(task.goal.tolerance).filter(|tolerance| tolerance.is_finite()),
+            tolerance: Some(task.goals[0].tolerance).filter(|tolerance| tolerance.is_finite()),
             plan: best.map(|best| best.plan.clone()),
             predicted: best.map(|best| End::of(&best.outcome)),
             planar: end(Engine::Planar),

@@ -213,7 +213,7 @@ fn numbers(plan: &PlanFile, frame: &Frame) -> Json {
     json!({
         "time": frame.time,
         "push": frame.stroke,
-        "error": plan.task.goal.error(&frame.state),
+        "error": plan.task.goals[0].error(&frame.state),
         "tool": place(&frame.tool),
         "objects": objects.collect::<Vec<_>>(),
     })

@@ -62,7 +62,7 @@ pub(super) fn plan_mjcf(file: &PlanFile) -> Result<String, ExportError> {
     let first = motions.iter().find(|motion| motion.is_lever());
     let blade = first.and_then(|motion| motion.tool().blade()).unwrap_or_default();
     let scene = LeverScene::new(&file.task.scene, blade);
-    let goal = &file.task.goal;
+    let goal = &file.task.goals[0];
     Ok(written(&file.task.name, &scene, &motions, (goal.object, Some(goal))))
 }
 

@@ -21,7 +21,7 @@ pub(super) fn wanted(xml: &mut Xml, file: &PlanFile) {
         "x, y, tolerance; where it matters, heading, its tolerance, and the number of headings in \
          a turn that look alike.",
     );
-    for goal in file.task.goals() {
+    for goal in file.task.goals.iter() {
         let name = &scene.objects[goal.object].name;
         // MJCF has no infinity; no table is as large.
         let placed = goal.has_place() && !goal.is_relation();

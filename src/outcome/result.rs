@@ -61,12 +61,12 @@ impl Outcome {
     /// Judges where a trajectory in `scene` ended by the goals of `task`. One that did not come to
     /// rest, became NaN or infinite, or in which an object fell does not count as reaching them.
     pub fn judge(scene: &Scene, task: &Task, trajectory: &Trajectory) -> Self {
-        let goal = &task.goal;
+        let goal = &task.goals[0];
         let state = trajectory.outcome().clone();
         let sound = trajectory.warnings.iter().all(|warning| !warning.forbids_success());
         let lying = Lying::of(scene, goal, trajectory);
         let mut near = lying.map_or_else(|| goal.reached(&state), |lying| lying.score <= 1.0);
-        let further = task.further.iter().map(|goal| {
+        let further = task.goals.iter().skip(1).map(|goal| {
             near &= goal.reached(&state);
             let (error, heading_error) = (goal.error(&state), goal.heading_error(&state));
             Miss { object: goal.object, error, heading_error }

@@ -55,7 +55,7 @@ impl<'a> CostToGo<'a> {
     /// Lays the field for a task; costs nothing where there are no obstacles.
     pub fn new(task: &'a Task) -> Self {
         let start = task.scene.start();
-        let goals: Vec<Goal> = task.goals().map(|goal| goal.in_world(&start)).collect();
+        let goals: Vec<Goal> = task.goals.iter().map(|goal| goal.in_world(&start)).collect();
         let grid = |goal: &Goal| {
             // Of a relation no single place is the right one.
             let met = if goal.is_relation() { Vec::new() } else { in_the_way(task, goal) };
@@ -76,7 +76,7 @@ impl<'a> CostToGo<'a> {
         if !blocking.is_empty() {
             return blocking;
         }
-        let goals = || self.task.goals();
+        let goals = || self.task.goals.iter();
         let left: Vec<usize> =
             goals().filter(|goal| !goal.reached(state)).map(|goal| goal.object).collect();
         match left.is_empty() {
@@ -122,7 +122,7 @@ impl<'a> CostToGo<'a> {
             }
         };
         let cost: f64 = self.goals.iter().zip(self.grids.iter()).map(cost).sum();
-        let tolerance = self.task.goal.tolerance;
+        let tolerance = self.task.goals[0].tolerance;
         let tolerance = if tolerance.is_finite() { tolerance } else { FREE };
         let depths = self.corridor.iter().flat_map(|corridor| corridor.depths(state));
         let aside: f64 = depths.map(|(_, depth)| depth / tolerance).sum();

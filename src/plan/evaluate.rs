@@ -190,7 +190,7 @@ fn run(
                 evaluation.score = if blocked { behind(score) } else { score };
             }
             evaluation.outcome = frame.state.clone();
-            let own = workspace.task.goals();
+            let own = workspace.task.goals.iter();
             let own = own.filter_map(|goal| trajectory.spreads.get(goal.object).copied());
             let own = own.max_by(|a, b| a.within_90().position.total_cmp(&b.within_90().position));
             evaluation.spread = match (evaluation.spread, own) {

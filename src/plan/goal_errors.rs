@@ -18,7 +18,7 @@ pub(super) fn goal_errors(task: &Task, outcome: &State) -> Vec<Vector3<f64>> {
         };
         Vector3::new(apart.x, apart.y, turned)
     };
-    task.goals().map(of).collect()
+    task.goals.iter().map(of).collect()
 }
 
 /// From the misses `from` to `to`, the shorter way round unless a joint with limits leaves one only.
@@ -32,7 +32,7 @@ pub(super) fn apart(task: &Task, to: &[Vector3<f64>], from: &[Vector3<f64>]) -> 
         }
         apart
     };
-    task.goals().zip(to).zip(from).map(of).collect()
+    task.goals.iter().zip(to).zip(from).map(of).collect()
 }
 
 /// The same misses seen from `middles`, one for every goal.
@@ -47,7 +47,7 @@ pub(super) fn largest(misses: &[Vector3<f64>]) -> f64 {
 
 /// The largest distance from a goal, metres.
 pub(super) fn farthest(task: &Task, misses: &[Vector3<f64>]) -> f64 {
-    let off = task.goals().zip(misses).map(|(goal, miss)| goal.tolerance * miss.xy().norm());
+    let off = task.goals.iter().zip(misses).map(|(goal, miss)| goal.tolerance * miss.xy().norm());
     off.fold(0.0, f64::max)
 }
 
@@ -57,5 +57,5 @@ pub(super) fn asked(task: &Task, misses: &[Vector3<f64>]) -> Vec<f64> {
         let count = if goal.heading.is_some() { 3 } else { 2 };
         (0..count).map(|k| miss[k]).collect::<Vec<_>>()
     };
-    task.goals().zip(misses).flat_map(of).collect()
+    task.goals.iter().zip(misses).flat_map(of).collect()
 }

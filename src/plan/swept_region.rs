@@ -35,7 +35,7 @@ const FAR_AWAY: f64 = 1e3;
 
 /// What is not joined to an object that a goal speaks of, when `groups` says what is joined.
 fn others(task: &Task, groups: &[usize]) -> Vec<usize> {
-    let named: Vec<usize> = task.goals().flat_map(Goal::objects).collect();
+    let named: Vec<usize> = task.goals.iter().flat_map(Goal::objects).collect();
     let own = |k: usize| named.iter().any(|named| groups[*named] == groups[k]);
     (0..groups.len()).filter(|&k| !own(k)).collect()
 }

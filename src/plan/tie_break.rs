@@ -37,7 +37,8 @@ impl Cost {
     pub fn of(plan: &Evaluation, workspace: &Workspace, situation: &Situation) -> Self {
         // What is one with an object that has a goal moves with it.
         let rigid = situation.physics.groups(|joint| joint.kind == JointKind::Fixed);
-        let goals: Vec<usize> = workspace.task.goals().map(|goal| rigid[goal.object]).collect();
+        let goals: Vec<usize> =
+            workspace.task.goals.iter().map(|goal| rigid[goal.object]).collect();
         let before = &situation.start.poses;
         let others =
             situation.scene.things().map(|(k, _)| k).filter(|k| !goals.contains(&rigid[*k]));

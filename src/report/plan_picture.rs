@@ -63,7 +63,7 @@ pub fn space_figures(
         scene: &task.scene,
         plan,
         tools,
-        goal: &task.goal,
+        goal: &task.goals[0],
         trajectory,
     };
     let mut figures = vec![Figure::svg(name, picture.to_svg())];
@@ -111,7 +111,7 @@ fn still<'a>(
         let source = Source::Simulated(evidence.engine);
         tracks.extend(evidence.trajectory.iter().map(|trajectory| Track { source, trajectory }));
     }
-    let allowed = millimetres(task.goal.tolerance);
+    let allowed = millimetres(task.goals[0].tolerance);
     tracks.push(Track { source: Source::Predicted, trajectory: &plan.predicted });
     ScenePicture {
         title: format!("{}: {}", task.name, plan_line(&plan.plan)),

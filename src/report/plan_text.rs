@@ -109,17 +109,17 @@ pub(super) fn outcome_table<'a>(
     outcomes: impl Iterator<Item = (String, &'a Outcome, Option<&'a Warning>)>,
 ) -> Table {
     let end = |outcome: &Outcome| {
-        let end = outcome.state.poses.get(task.goal.object);
+        let end = outcome.state.poses.get(task.goals[0].object);
         end.map_or(NONE.to_owned(), |pose| point(pose.position))
     };
     let covered =
-        |outcome: &Outcome| task.goal.covered(&outcome.state).map_or(NONE.to_owned(), percent);
+        |outcome: &Outcome| task.goals[0].covered(&outcome.state).map_or(NONE.to_owned(), percent);
     let heading = |outcome: &Outcome| outcome.heading_error.map_or(NONE.to_owned(), degrees);
     let outcomes: Vec<(String, &Outcome, Option<&Warning>)> = outcomes.collect();
     if outcomes.iter().any(|(_, outcome, _)| outcome.lying.is_some()) {
         return lying_table(outcomes, &end);
     }
-    if !task.further.is_empty() {
+    if task.goals.len() > 1 {
         return goals_table(task, outcomes);
     }
     let position = |(_, outcome, _): &Row| end(outcome);
@@ -133,7 +133,7 @@ pub(super) fn outcome_table<'a>(
         ("error", Right, &error),
         ("heading error", Right, &turned),
     ];
-    if task.goal.coverage.is_some() {
+    if task.goals[0].coverage.is_some() {
         columns.push(("covered", Right, &share));
     }
     columns.push(("reached", Left, &there));
@@ -153,7 +153,7 @@ fn goals_table(task: &Task, outcomes: Vec<(String, &Outcome, Option<&Warning>)>)
         };
         let ends = &outcome.state.poses;
         let known = |goal: &&Goal| goal.object < ends.len();
-        let rows: Vec<_> = task.goals().filter(known).enumerate().map(goal).collect();
+        let rows: Vec<_> = task.goals.iter().filter(known).enumerate().map(goal).collect();
         rows.into_iter().map(|row| (row, ends)).collect::<Vec<_>>()
     });
     Table::of(
@@ -212,7 +212,7 @@ pub(super) fn engine_name(engine: Engine) -> &'static str {
 
 /// One line: what must come where.
 pub(super) fn goal_line(task: &Task) -> String {
-    task.goals().map(|goal| one_goal(task, goal)).collect::<Vec<_>>().join("; ")
+    task.goals.iter().map(|goal| one_goal(task, goal)).collect::<Vec<_>>().join("; ")
 }
 
 fn one_goal(task: &Task, goal: &Goal) -> String {

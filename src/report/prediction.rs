@@ -29,7 +29,7 @@ pub fn prediction_document(task: &Task, plan: &Plan, effects: &[TimedEffect]) ->
             json!({
                 "model": effect.trajectory.by,
                 "state": end,
-                "goal_error": task.goal.error(end),
+                "goal_error": task.goals[0].error(end),
                 "warnings": effect.warnings,
                 "seconds": effect.seconds,
             })
@@ -80,7 +80,7 @@ fn effect_table(task: &Task, effects: &[TimedEffect]) -> Table {
         false => degrees(end.poses[k].heading - start.poses[k].heading),
     };
     let error = |k: usize, end: &State| {
-        let goal = task.goals().find(|goal| goal.object == k);
+        let goal = task.goals.iter().find(|goal| goal.object == k);
         goal.map_or(String::new(), |goal| millimetres(goal.error(end)))
     };
     Table::of(

@@ -33,7 +33,7 @@ pub fn run_document(trace: &Trace) -> Document {
     let mut sections = vec![steps];
     sections.extend(joints(trace));
     sections.extend(numbers(trace));
-    let real = trace.real().map(|state| task.goal.error(&state));
+    let real = trace.real().map(|state| task.goals[0].error(&state));
     Document {
         title: format!("{}: {}", task.name, headline(trace)),
         notes: vec![format!("goal: {}", goal_line(task)), format!("unknown: {}", task.unknown)],
@@ -43,9 +43,9 @@ pub fn run_document(trace: &Trace) -> Document {
             "end": trace.end,
             "pushes": trace.pushes(),
             "probes": trace.steps.iter().filter(|step| step.why == Why::Probe).count(),
-            "seen_error": seen(trace).map(|state| task.goal.error(&state)),
+            "seen_error": seen(trace).map(|state| task.goals[0].error(&state)),
             "real_error": real,
-            "really_reached": trace.real().map(|state| task.goal.reached(&state)),
+            "really_reached": trace.real().map(|state| task.goals[0].reached(&state)),
             "steps": trace.steps.iter().map(|step| json!({
                 "why": step.why,
                 "tool": step.tool.name,
@@ -76,7 +76,7 @@ pub fn headline(trace: &Trace) -> String {
         None => "not finished",
     };
     let off = |what: &str, state: Option<State>| {
-        state.map(|state| format!("{what} {}", millimetres(trace.task.goal.error(&state))))
+        state.map(|state| format!("{what} {}", millimetres(trace.task.goals[0].error(&state))))
     };
     let off: Vec<String> =
         [off("seen", seen(trace)), off("really", trace.real())].into_iter().flatten().collect();
@@ -93,7 +93,7 @@ fn seen(trace: &Trace) -> Option<State> {
 
 /// What was done, push by push.
 pub fn steps(trace: &Trace) -> Table {
-    let goal = &trace.task.goal;
+    let goal = &trace.task.goals[0];
     let push = |step: &Step| step.plan.pushes().first().copied();
     let real = |step: &Step| step.world.as_ref().map(|world| goal.error(&world.state));
     Table::of(

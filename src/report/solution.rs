@@ -68,7 +68,7 @@ pub(super) fn headline(task: &Task, solution: &Solution) -> String {
         PlanStatus::Fragile => format!("fragile; the most robust is {plan}"),
         PlanStatus::Partial => {
             let (met, missed) = met(task, solution);
-            format!("partial: {met} of {} goals with {plan}; not {missed}", task.goals().count())
+            format!("partial: {met} of {} goals with {plan}; not {missed}", task.goals.len())
         }
         PlanStatus::NoPlan if best.plan.is_empty() => {
             format!("no plan{}; no push brings the object nearer", cause(solution))
@@ -87,7 +87,7 @@ pub(super) fn headline(task: &Task, solution: &Solution) -> String {
 /// How many goals a partial plan meets, and the objects of those that it does not.
 fn met(task: &Task, solution: &Solution) -> (usize, String) {
     let met = solution.partial.as_ref().map_or(&[][..], |partial| &partial.met);
-    let missed = task.goals().enumerate().filter(|(k, _)| !met.contains(k));
+    let missed = task.goals.iter().enumerate().filter(|(k, _)| !met.contains(k));
     let names: Vec<&str> =
         missed.map(|(_, goal)| task.scene.objects[goal.object].name.as_str()).collect();
     (met.len(), names.join(", "))
@@ -209,7 +209,7 @@ fn json(task: &Task, solution: &Solution) -> Json {
         "stopped": solution.stopped,
         "partial": solution.partial.as_ref().map(|partial| {
             let name = |goal: &Goal| task.scene.objects[goal.object].name.clone();
-            let met = task.goals().enumerate().map(|(k, goal)| {
+            let met = task.goals.iter().enumerate().map(|(k, goal)| {
                 json!({"object": name(goal), "met": partial.met.contains(&k)})
             });
             json!({"goals": met.collect::<Vec<Json>>(), "robustness": partial.robustness})

@@ -15,7 +15,7 @@ pub fn trajectory_figures(file: &TrajectoryFile, name: &str, animate: bool) -> V
     let (false, Some(motions)) = (task.in_space() || plan.levers(), plan.slides(tools)) else {
         return space_figures(task, (plan, tools), trajectory, &[], (name, animate));
     };
-    let error = task.goal.error(trajectory.outcome());
+    let error = task.goals[0].error(trajectory.outcome());
     let source = source(trajectory);
     let picture = ScenePicture {
         title: format!("{}: {}", task.name, plan_line(plan)),

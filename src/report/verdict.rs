@@ -98,25 +98,25 @@ pub(super) fn verdict_line(task: &Task, verdict: Option<&Verdict>) -> String {
         Some(Reason::Misses { engine, error, heading_error }) => {
             let mut by = Vec::new();
             let covered =
-                verdict.nominal(*engine).and_then(|e| task.goal.covered(&e.outcome.state));
-            if let (Some(covered), Some(asked)) = (covered, &task.goal.coverage) {
+                verdict.nominal(*engine).and_then(|e| task.goals[0].covered(&e.outcome.state));
+            if let (Some(covered), Some(asked)) = (covered, &task.goals[0].coverage) {
                 let [covered, asked] = [covered, asked.share].map(percent);
                 return format!(
                     "failed: covers {covered} of its outline, not {asked}, in the {} simulation",
                     engine_name(*engine)
                 );
             }
-            if *error > task.goal.tolerance {
-                let allowed = millimetres(task.goal.tolerance);
+            if *error > task.goals[0].tolerance {
+                let allowed = millimetres(task.goals[0].tolerance);
                 by.push(format!("{} ({allowed} allowed)", millimetres(*error)));
             }
-            if let (Some(turned), Some((_, allowed))) = (heading_error, task.goal.heading)
+            if let (Some(turned), Some((_, allowed))) = (heading_error, task.goals[0].heading)
                 && *turned > allowed
             {
                 by.push(format!("{} ({} allowed)", degrees(*turned), degrees(allowed)));
             }
             let ended = verdict.nominal(*engine).map_or(&[][..], |e| &e.outcome.further);
-            for (goal, miss) in task.further.iter().zip(ended) {
+            for (goal, miss) in task.goals.iter().skip(1).zip(ended) {
                 if miss.error > goal.tolerance {
                     let name = task.scene.objects.get(miss.object).map_or("?", |o| &o.name);
                     let [off, allowed] = [miss.error, goal.tolerance].map(millimetres);

@@ -48,7 +48,7 @@ impl Solving<'_> {
             refinement: Refinement {
                 before,
                 after,
-                aimed_at: (!self.task.goals().eq(aims) && !aims[0].is_relation())
+                aimed_at: (!self.task.goals.iter().eq(aims) && !aims[0].is_relation())
                     .then(|| aims[0].position),
                 rounds: rounds.into_iter().skip(1).map(bare).collect(),
             },
@@ -71,12 +71,12 @@ impl Solving<'_> {
     /// Doing nothing, which is a plan too.
     pub(super) fn without_pushes(&self) -> Attempt {
         let start = &self.situation.start;
-        let error = self.task.goal.error(start);
+        let error = self.task.goals[0].error(start);
         Attempt {
             plan: Plan::default(),
             tools: self.workspace.tools.iter().take(1).cloned().collect(),
             candidate: None,
-            aims: self.goals(),
+            aims: self.task.goals.clone(),
             refinement: Refinement {
                 before: error,
                 after: error,

@@ -68,11 +68,14 @@ pub(super) fn check(
     {
         return fault("the offsets must be finite numbers, at least one".into());
     }
-    for (k, goal) in task.goals().enumerate() {
+    if task.goals.is_empty() {
+        return fault("the task has no goal".into());
+    }
+    for (k, goal) in task.goals.iter().enumerate() {
         if goal.object >= scene.objects.len() {
             return fault(format!("the goal names object {}, which does not exist", goal.object));
         }
-        if task.goals().take(k).any(|before| before.object == goal.object) {
+        if task.goals.iter().take(k).any(|before| before.object == goal.object) {
             return fault(format!("object {} has two goals", goal.object));
         }
         let positive = |value: f64| value.is_finite() && value > 0.0;

@@ -174,7 +174,7 @@ fn start(
     state: &State,
     previous: Option<Vector>,
 ) -> Result<(Vector, usize), ActionError> {
-    let goal = task.goal.object;
+    let goal = task.goals[0].object;
     let chained = task.pushes.form == PushForm::Chained;
     let (object, offset) = match &asked.start {
         ManualStart::At(at) => {

@@ -50,5 +50,5 @@ pub(super) fn is_worth_verifying(
         };
         near && turned || goal.coverage.is_some() && goal.reached(&evaluation.outcome)
     };
-    task.goals().all(near)
+    task.goals.iter().all(near)
 }

@@ -23,7 +23,7 @@ impl Solving<'_> {
     fn is_nearer(&self, tried: &Attempt) -> bool {
         let start = &self.situation.start;
         // By the goal that asks for least, as scores are in units of tolerances.
-        let least = self.task.goals().map(|goal| {
+        let least = self.task.goals.iter().map(|goal| {
             let turned = goal.heading.map_or(f64::INFINITY, |(_, tolerance)| TURNED / tolerance);
             if goal.has_place() { (NEARER / goal.tolerance).min(turned) } else { turned }
         });

@@ -111,7 +111,7 @@ impl Solving<'_> {
             let known: Vec<&Candidate> =
                 self.tried[first..].iter().filter_map(|tried| tried.candidate.as_ref()).collect();
             let others = self.choose(found, missing, &known);
-            let goals = self.goals();
+            let goals = self.task.goals.clone();
             next.extend(self.refined(&others, &goals, pushes));
         }
         next.extend(rest);
@@ -199,7 +199,7 @@ impl Solving<'_> {
                 wider.push(candidate);
             }
         }
-        let goals = self.goals();
+        let goals = self.task.goals.clone();
         match wider.is_empty() {
             true => Vec::new(),
             false => self.refined_again(&wider, &goals, pushes),
@@ -222,7 +222,7 @@ impl Solving<'_> {
             let (Some(candidate), Some(verdict)) = (tried.candidate.clone(), &tried.verdict) else {
                 continue;
             };
-            let aims = task.goals().zip(&tried.aims);
+            let aims = task.goals.iter().zip(&tried.aims);
             let next_aims: Vec<Option<Goal>> =
                 aims.clone().map(|(goal, aimed)| aim(goal, aimed, verdict)).collect();
             if next_aims.iter().any(Option::is_some) {

@@ -164,11 +164,6 @@ impl<'a> Solving<'a> {
         search
     }
 
-    /// The task's goals.
-    pub(super) fn goals(&self) -> Vec<Goal> {
-        self.task.goals().cloned().collect()
-    }
-
     /// Whether plans of more than `depth` pushes are looked at: longer ones are no better than one that
     /// passes, but one push more is better than an end near the edge of the tolerance.
     pub(super) fn goes_on(&self, depth: usize) -> bool {
@@ -188,7 +183,7 @@ impl<'a> Solving<'a> {
         self.tell("search", pushes);
         let mut found = search.deepen(&mut self.rollouts, self.watch);
         // A plan that leaves one of several goals behind is no candidate yet.
-        if !self.task.further.is_empty() {
+        if self.task.goals.len() > 1 {
             found.retain(|one| bare(one.score) <= REFINABLE);
         }
         self.statistics.timing.search += began.elapsed().as_secs_f64();
@@ -208,7 +203,7 @@ impl<'a> Solving<'a> {
         let most_disturbed = (DISTURBED_SHARE * most as f64).ceil() as usize;
         let before = self.disturbed;
         let first = self.tried.len();
-        let goals = self.goals();
+        let goals = self.task.goals.clone();
         let mut queue = self.refined(&candidates, &goals, pushes);
         self.statistics.timing.refinement += began.elapsed().as_secs_f64();
         self.tell_refined(&queue);

@@ -12,7 +12,7 @@ use crate::{
 /// A push of the goal's object towards the goal by the tool's first part: what a model would be
 /// used for, as far as can be known beforehand.
 pub(super) fn typical(task: &Task, start: &State, tool: &Arc<Tool>) -> ToolMotion {
-    let (rules, goal) = (&task.pushes, &task.goal);
+    let (rules, goal) = (&task.pushes, &task.goals[0]);
     let object = start.poses[goal.object].position;
     let way = goal.place(start) - object;
     let part = tool.part_pose(0, &tool.pose(Pose::default()));

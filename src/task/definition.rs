@@ -49,11 +49,8 @@ pub struct Task {
     /// Allowed lever-ups, if any are.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub levers: Option<LeverRules>,
-    /// What to reach.
-    pub goal: Goal,
-    /// What other objects must reach as well, each another one.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub further: Vec<Goal>,
+    /// Goals of different objects, at least one; all count.
+    pub goals: Vec<Goal>,
     /// Share of the disturbed replays that must reach the goal for a plan to count, 0 to 1.
     pub robustness: f64,
 }
@@ -88,8 +85,7 @@ impl Task {
             tool_costs: BTreeMap::new(),
             pushes: PushRules::default(),
             levers: None,
-            goal,
-            further: Vec::new(),
+            goals: vec![goal],
             robustness: Self::ROBUSTNESS,
         }
     }
@@ -103,17 +99,12 @@ impl Task {
     /// let scene = Scene::new([can.at(0.5, 0.1, 0.0), cup.at(0.5, -0.1, 0.0)]);
     /// let task = Task::new("both", scene, Robot::reaching(0.1, 0.9), Goal::new(0, [0.7, 0.1], 0.02))
     ///     .and(Goal::new(1, [0.7, -0.1], 0.02));
-    /// assert_eq!(task.goals().count(), 2);
+    /// assert_eq!(task.goals.len(), 2);
     /// ```
     pub fn and(mut self, goal: Goal) -> Self {
         self.scene.let_fall(&goal);
-        self.further.push(goal);
+        self.goals.push(goal);
         self
-    }
-
-    /// All goals.
-    pub fn goals(&self) -> impl Iterator<Item = &Goal> + Clone {
-        std::iter::once(&self.goal).chain(&self.further)
     }
 
     /// All goals in the world as things stand at the start, for pictures: what asks for no place of its
@@ -131,22 +122,20 @@ impl Task {
             };
             Goal { position, ..goal }
         };
-        self.goals().map(shown).collect()
+        self.goals.iter().map(shown).collect()
     }
 
     /// The same task with other goals in their places; those that are missing stay.
     pub fn aiming(&self, goals: &[Goal]) -> Self {
         let mut task = self.clone();
-        let own = std::iter::once(&mut task.goal).chain(&mut task.further);
-        own.zip(goals).for_each(|(own, goal)| *own = goal.clone());
+        task.goals.iter_mut().zip(goals).for_each(|(own, goal)| *own = goal.clone());
         task
     }
 
     /// The same with these of its goals alone, by their indices, in order; `None` for none.
     pub fn only(&self, goals: &[usize]) -> Option<Self> {
-        let all: Vec<&Goal> = self.goals().collect();
-        let mut kept = goals.iter().filter_map(|k| all.get(*k).copied().cloned());
-        Some(Self { goal: kept.next()?, further: kept.collect(), ..self.clone() })
+        let goals: Vec<Goal> = goals.iter().filter_map(|k| self.goals.get(*k).cloned()).collect();
+        (!goals.is_empty()).then(|| Self { goals, ..self.clone() })
     }
 
     /// Whether the end effector can stand at `position` (metres), turned by `yaw` (radians), as far as that
@@ -158,19 +147,19 @@ impl Task {
 
     /// Whether an object (an index into [`Scene::objects`]) has a goal.
     pub fn wants(&self, object: usize) -> bool {
-        self.goals().any(|goal| goal.object == object)
+        self.goals.iter().any(|goal| goal.object == object)
     }
 
     /// Whether every goal is reached, see [`Goal::reached`].
     pub fn reached(&self, state: &State) -> bool {
-        self.goals().all(|goal| goal.reached(state))
+        self.goals.iter().all(|goal| goal.reached(state))
     }
 
     /// The largest [`Goal::score`]: at most 1 where every goal is reached.
     pub fn score(&self, state: &State) -> f64 {
         // NaN counts as one.
         let larger = |a: f64, b: f64| if a >= b { a } else { b };
-        self.goals().map(|goal| goal.score(state)).reduce(larger).unwrap_or(0.0)
+        self.goals.iter().map(|goal| goal.score(state)).reduce(larger).unwrap_or(0.0)
     }
 
     /// The task with one line about it for people.
@@ -214,7 +203,7 @@ impl Task {
 
     /// The goal's object with all its solids.
     pub fn plate(&self) -> Plate {
-        Plate::of(&self.scene.objects[self.goal.object])
+        Plate::of(&self.scene.objects[self.goals[0].object])
     }
 
     /// The lever-ups that are allowed, or would be.
@@ -224,7 +213,7 @@ impl Task {
 
     /// Whether something of it leaves the plane, or may.
     pub fn in_space(&self) -> bool {
-        self.levers.is_some() || self.goal.in_space() || self.scene.in_space()
+        self.levers.is_some() || self.goals.iter().any(Goal::in_space) || self.scene.in_space()
     }
 
     /// The task with other rules for pushes.

@@ -85,7 +85,7 @@ fn disturb(poses: &mut [Pose], group: &[usize], first: usize, shift: Vector, tur
 /// falls, unless something is to.
 pub(super) fn wary(task: &Task, scene: &Scene) -> Scene {
     let mut scene = scene.clone();
-    let falls = task.goals().any(|goal| goal.fall.is_some());
+    let falls = task.goals.iter().any(|goal| goal.fall.is_some());
     if let Some(top) = scene.table_top.as_mut().filter(|_| !falls) {
         top.size = top.size.map(|extent| (extent - 2.0 * EDGE).max(0.0));
     }

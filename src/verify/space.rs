@@ -174,7 +174,7 @@ fn broken_by_lever(task: &Task, scene: &Scene, tool: &Tool, step: &LeverStep) ->
     let within = |value: f64, [low, high]: [f64; 2]| value >= low - SLACK && value <= high + SLACK;
     for (allowed, what) in [
         (task.levers.is_some(), "motion"),
-        (lever.plate == task.goal.object, "object"),
+        (lever.plate == task.goals[0].object, "object"),
         (within(lever.depth, rules.depth), "depth"),
         (within(lever.angle, rules.angle), "angle"),
         (pivot, "pivot"),

@@ -277,7 +277,7 @@ impl<'a> Verifier<'a> {
         let blade =
             first.and_then(|step| tools.iter().find(|tool| tool.name == step.tool)?.blade());
         let planned = LeverScene::new(scene, blade.unwrap_or_default());
-        let about = first.map_or(task.goal.object, |step| step.lever.plate);
+        let about = first.map_or(task.goals[0].object, |step| step.lever.plate);
         let really = draw.map(|draw| space::disturbed(&planned, about, self.settings.seed, draw));
         let really = really.as_ref().unwrap_or(&planned);
         let record = if draw.is_none() { Record::Frames } else { Record::Outcome };
@@ -344,7 +344,7 @@ fn evidence(
     trajectory.warnings.extend(scene.not_kept(trajectory.outcome()));
     // What is to fall need not be told of.
     let wanted = |name: &str| {
-        let mut goals = task.goals().filter(|goal| goal.fall.is_some());
+        let mut goals = task.goals.iter().filter(|goal| goal.fall.is_some());
         goals.any(|goal| scene.objects.get(goal.object).is_some_and(|object| object.name == name))
     };
     let told = |warning: &Warning| !matches!(warning, Warning::Fell { object } if wanted(object));

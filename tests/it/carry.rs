@@ -91,7 +91,7 @@ fn run(task: &Task) -> Trace {
     let mut world = SimulatedWorld::new(truth);
     let runner = Runner::new(&planner, &library);
     runner.run(&mut trace, &mut world, &mut |_| Ok(()), &Unwatched).unwrap();
-    assert_eq!(trace.end == Some(End::Reached), task.goal.reached(world.state()));
+    assert_eq!(trace.end == Some(End::Reached), task.goals[0].reached(world.state()));
     trace
 }
 

@@ -61,9 +61,9 @@ fn every_shipped_task_with_unknowns_is_solved_in_drawn_worlds() {
         for seed in 1..=2 {
             let (mut trace, mut world) = drawn(&task, seed);
             run(&mut trace, &mut world).unwrap_or_else(|error| panic!("{}: {error}", task.name));
-            let error = task.goal.error(world.state());
+            let error = task.goals[0].error(world.state());
             assert_eq!(trace.end, Some(End::Reached), "{} {seed}: off by {error}", task.name);
-            assert!(task.goal.reached(world.state()), "{} {seed}: off by {error}", task.name);
+            assert!(task.goals[0].reached(world.state()), "{} {seed}: off by {error}", task.name);
         }
     }
 }

@@ -61,7 +61,7 @@ fn joints_to_the_world_are_written_as_they_were_read() {
     assert_eq!(axis, Vector::new(-1.0, 0.0));
     let again = Task::parse(&task.to_yaml().expect("YAML"), "furniture.yaml").expect("a task");
     assert_eq!(again.scene, task.scene);
-    let (goal, kept) = (task.goal.heading.expect("a heading"), again.goal.heading);
+    let (goal, kept) = (task.goals[0].heading.expect("a heading"), again.goals[0].heading);
     assert!((goal.0 - 65f64.to_radians()).abs() < 1e-12 && kept == Some(goal));
 }
 
@@ -182,7 +182,7 @@ fn what_a_joint_lets_turn_is_off_by_the_way_that_its_limits_leave() {
         pose.heading += counted.to_radians();
         let state = State::at_rest(vec![pose]);
         assert_eq!(task.reached(&state), (now - wanted).abs() <= 10.0, "{limits} {wanted} {now}");
-        task.goal.turned(&state).expect("a heading").to_degrees()
+        task.goals[0].turned(&state).expect("a heading").to_degrees()
     };
     for (limits, wanted, now) in [
         ("[-10, 225]", 190.0, 0.0),

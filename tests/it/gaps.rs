@@ -34,8 +34,8 @@ goal: {{object: box, {goal}}}
 
 /// The gap that the goal speaks of, metres.
 fn gap(task: &Task, state: &State) -> f64 {
-    let gap = task.goal.gap.as_ref().expect("a goal of a gap");
-    gap.nearest(&state.poses[task.goal.object], state).expect("both exist").gap
+    let gap = task.goals[0].gap.as_ref().expect("a goal of a gap");
+    gap.nearest(&state.poses[task.goals[0].object], state).expect("both exist").gap
 }
 
 #[test]
@@ -79,7 +79,7 @@ fn it_is_read_as_it_is_written_and_a_plan_file_keeps_it() {
         ("gap: {to: mug, min: 0.01, max: 0.04}, heading_deg: 30", Body::Object(1)),
     ] {
         let task = task([0.6, -0.1], goal);
-        assert_eq!(task.goal.gap.as_ref().map(|gap| gap.to), Some(to));
+        assert_eq!(task.goals[0].gap.as_ref().map(|gap| gap.to), Some(to));
         let again = Task::parse(&task.to_yaml().expect("as text"), "gap.yaml").expect("sound");
         assert_eq!(again, task);
         let json = serde_json::to_string(&task).expect("as JSON");
@@ -98,7 +98,7 @@ fn only_where_they_are_to_each_other_counts() {
         own.poses[0].position += by;
         let mut other = start.clone();
         other.poses[1].position -= by;
-        assert!((task.goal.error(&own) - task.goal.error(&other)).abs() < 1e-9, "{by}");
+        assert!((task.goals[0].error(&own) - task.goals[0].error(&other)).abs() < 1e-9, "{by}");
         assert_eq!(task.reached(&own), task.reached(&other));
         assert_eq!(task.reached(&own), (0.01..=0.04).contains(&gap(&task, &own)));
         assert_eq!(task.score(&own) <= 1.0 + 1e-9, task.reached(&own), "{by}");

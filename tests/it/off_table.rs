@@ -47,7 +47,7 @@ fn things_are_pushed_over_the_edge_that_is_asked_for() {
             let nominal = verdict.nominal(engine).expect("replayed");
             let gone = |k: &usize| !top.holds(nominal.outcome.state.poses[*k].position);
             assert_eq!([0, 1].into_iter().filter(gone).collect::<Vec<_>>(), off, "{goal}");
-            if let Some(span) = task.goal.fall.as_ref().and_then(|fall| fall.between) {
+            if let Some(span) = task.goals[0].fall.as_ref().and_then(|fall| fall.between) {
                 assert!(span.contains(nominal.outcome.state.poses[0].position.x), "{goal}");
             }
             // What is wanted is no news.
@@ -137,7 +137,7 @@ fn it_is_read_as_it_is_written_and_a_plan_file_keeps_it() {
         ("right", Some(Edge::Right)),
     ] {
         let task = task(&format!("{{object: box, off_table: {word}}}"));
-        assert_eq!(task.goal.fall.as_ref().map(|fall| fall.over), Some(over));
+        assert_eq!(task.goals[0].fall.as_ref().map(|fall| fall.over), Some(over));
         assert!(task.scene.objects[0].may_fall && !task.scene.objects[1].may_fall);
         let again = Task::parse(&task.to_yaml().expect("as text"), "fall.yaml").expect("sound");
         assert_eq!(again, task);
@@ -145,7 +145,7 @@ fn it_is_read_as_it_is_written_and_a_plan_file_keeps_it() {
         assert_eq!(serde_json::from_str::<Task>(&json).expect("the same"), task);
     }
     let task = task("{object: box, off_table: {edge: far, between: [-0.1, 0.25]}}");
-    let fall = task.goal.fall.as_ref().expect("a fall");
+    let fall = task.goals[0].fall.as_ref().expect("a fall");
     assert_eq!((fall.over, fall.between), (Some(Edge::Far), Some(Span::new(-0.1, 0.25))));
     let again = Task::parse(&task.to_yaml().expect("as text"), "fall.yaml").expect("sound");
     assert_eq!(again, task);

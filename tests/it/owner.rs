@@ -137,7 +137,7 @@ fn what_stands_elsewhere_than_the_task_says_is_pushed_where_it_stands() {
     let elsewhere = |truth: &mut Truth| truth.scene.objects[0].pose.position.y = 0.11;
     let (trace, world) = run(&task(CAN), elsewhere);
     assert_eq!(trace.notes, [Note::Elsewhere { object: 0 }]);
-    assert!(trace.end == Some(End::Reached) && trace.task.goal.reached(world.state()));
+    assert!(trace.end == Some(End::Reached) && trace.task.goals[0].reached(world.state()));
 }
 
 /// A thin can in a closed pen with walls as high as a hand begins.
@@ -225,9 +225,9 @@ goal: {object: bar, position: [0.5, 0], tolerance: 0.02, heading_deg: 180}
 ";
     let whole = task(text);
     let at_the_start = whole.scene.start();
-    assert!(!whole.goal.reached(&at_the_start));
+    assert!(!whole.goals[0].reached(&at_the_start));
     let alone = text.replace("  joints: [{between: [bar, stem], kind: fixed}]\n", "");
-    assert!(task(&alone).goal.reached(&at_the_start));
+    assert!(task(&alone).goals[0].reached(&at_the_start));
 }
 
 /// A box whose way to the goal is blocked by a vase.
@@ -352,7 +352,7 @@ fn what_stands_in_the_way_of_a_plan_is_named() {
         assert_eq!(why.as_ref(), Some(&cause));
         assert!(first.starts_with(&format!("task: no plan: {cause}")), "{first}");
         // What is not clearly nearer than doing nothing is no plan to look at.
-        let start = task.goal.error(&task.scene.start());
+        let start = task.goals[0].error(&task.scene.start());
         let nearer = |ranked: &RankedPlan| ranked.outcome.error < start - 5e-3;
         assert!(found.plans.iter().filter(|ranked| !ranked.plan.is_empty()).all(nearer));
         cause

@@ -69,7 +69,7 @@ fn the_error_shown_is_that_of_the_trajectory_at_any_time() {
                 for (layer, trajectory) in &layers {
                     let shown = browser.text(&format!("#error-{layer}"));
                     let shown: f64 = shown.trim_end_matches(" mm").parse().expect("millimetres");
-                    let own = 1e3 * error_at(&task.goal, trajectory, time);
+                    let own = 1e3 * error_at(&task.goals[0], trajectory, time);
                     // Longer distances are shown in whole millimetres.
                     let digit = if own < 99.9 { SHOWN } else { 10.0 * SHOWN };
                     assert!(

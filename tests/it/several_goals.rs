@@ -17,12 +17,12 @@ fn faults(change: impl Fn(&str) -> String) -> String {
 #[test]
 fn a_plan_counts_only_if_it_reaches_all_of_them() {
     let task = Task::parse(TWO, "two-places.yaml").unwrap();
-    assert_eq!(task.goals().map(|goal| goal.object).collect::<Vec<_>>(), [0, 1]);
+    assert_eq!(task.goals.iter().map(|goal| goal.object).collect::<Vec<_>>(), [0, 1]);
     let solution = solve(&task);
     assert_eq!(solution.status, PlanStatus::Solved);
     let best = &solution.plans[0];
     for evidence in &best.verdict.as_ref().unwrap().evidence[..2] {
-        assert!(task.goals().all(|goal| goal.reached(&evidence.outcome.state)));
+        assert!(task.goals.iter().all(|goal| goal.reached(&evidence.outcome.state)));
         let [further] = evidence.outcome.further[..] else { panic!("two goals") };
         assert_eq!(further.object, 1);
         assert!(further.error <= 0.02 && further.heading_error.unwrap() < 10f64.to_radians());
@@ -36,7 +36,7 @@ fn a_plan_counts_only_if_it_reaches_all_of_them() {
 fn the_order_in_which_they_are_written_does_not_matter_to_whether_they_are_reached() {
     let task = Task::parse(TWO, "two-places.yaml").unwrap();
     let mut turned = task.clone();
-    std::mem::swap(&mut turned.goal, &mut turned.further[0]);
+    turned.goals.swap(0, 1);
     let state = task.scene.start();
     assert_eq!(task.score(&state), turned.score(&state));
     assert_eq!(solve(&turned).status, PlanStatus::Solved);
@@ -46,9 +46,8 @@ fn the_order_in_which_they_are_written_does_not_matter_to_whether_they_are_reach
 fn a_list_is_read_as_it_is_written_and_a_plan_file_keeps_it() {
     let task = Task::parse(TWO, "two-places.yaml").unwrap();
     assert_eq!(Task::parse(&task.to_yaml().unwrap(), "two-places.yaml").unwrap(), task);
-    let made = Task { further: Vec::new(), ..task.clone() }.and(task.further[0].clone());
-    assert_eq!(made, task);
-    let one = Task { further: Vec::new(), ..task.clone() };
+    let one = task.only(&[0]).unwrap();
+    assert_eq!(one.clone().and(task.goals[1].clone()), task);
     assert_eq!(Task::parse(&one.to_yaml().unwrap(), "two-places.yaml").unwrap(), one);
 
     let solution = solve(&task);
@@ -82,7 +81,7 @@ fn what_makes_no_sense_in_a_list_is_a_fault_with_its_place() {
     });
     assert!(none.contains("goals"), "{none}");
     let far = Task::parse(TWO, "two.yaml").unwrap();
-    assert!(far.aiming(&[Goal::new(0, [0.1, 0.1], 0.01)]).further == far.further);
+    assert!(far.aiming(&[Goal::new(0, [0.1, 0.1], 0.01)]).goals[1] == far.goals[1]);
 }
 
 /// A can that can be pushed to its goal, and a block that no tool reaches.

@@ -83,14 +83,14 @@ fn shipped(name: &str) -> (Task, ToolLibrary) {
 fn a_plan_that_ends_beside_the_goal_in_3d_is_aimed_as_far_on_the_other_side() {
     let (task, library) = shipped("pull-back.yaml");
     let off = Vector::new(0.02, 0.025);
-    assert!(off.norm() > task.goal.tolerance, "the first plans must fail");
+    assert!(off.norm() > task.goals[0].tolerance, "the first plans must fail");
     let model = Beside(Simulated::new(Simulator::planar()), off);
     let solution = Planner::builder(model).build().solve(&task, &library).unwrap();
     assert_eq!(solution.status, PlanStatus::Solved);
     let best = solution.best().unwrap();
     let aim = best.refinement.aimed_at.expect("an aim next to the goal");
     // The two engines differ by millimetres on top of what the model is off by.
-    assert!((aim - task.goal.position - off).norm() < 0.01, "{aim:?}");
+    assert!((aim - task.goals[0].position - off).norm() < 0.01, "{aim:?}");
     let verdict = best.verdict.as_ref().unwrap();
     assert!(Engine::ALL.iter().all(|e| verdict.nominal(*e).is_some_and(|e| e.outcome.reached)));
 }
@@ -155,7 +155,7 @@ fn plans_that_only_work_in_the_model_fail_verification() {
     let (task, library) = shipped("pull-back.yaml");
     // One plan is verified: of many wishes some come true.
     let settings = Settings::FIRST_LOOK;
-    let planner = Planner::builder(Wishful(task.goal.position)).settings(settings).build();
+    let planner = Planner::builder(Wishful(task.goals[0].position)).settings(settings).build();
     let solution = planner.solve(&task, &library).unwrap();
     assert_eq!(solution.status, PlanStatus::FailedVerification);
     let best = solution.best().unwrap();
@@ -168,10 +168,10 @@ fn plans_that_only_work_in_the_model_fail_verification() {
 #[test]
 fn without_a_way_to_the_goal_there_is_no_plan_but_a_nearest_one() {
     let (mut task, library) = shipped("pull-back.yaml");
-    task.goal.position = Vector::new(task.goal.position.x, 2.0);
+    task.goals[0].position = Vector::new(task.goals[0].position.x, 2.0);
     let solution = planner().solve(&task, &library).unwrap();
     assert_eq!(solution.status, PlanStatus::NoPlan);
-    let before = task.goal.error(&task.scene.start());
+    let before = task.goals[0].error(&task.scene.start());
     assert!(solution.best().unwrap().outcome.error < before - 0.05);
     assert!(solution.plans.iter().all(|plan| plan.verdict.is_none()));
     let errors = solution.plans.windows(2);
@@ -181,7 +181,7 @@ fn without_a_way_to_the_goal_there_is_no_plan_but_a_nearest_one() {
 #[test]
 fn a_goal_that_is_met_already_needs_no_push() {
     let (mut task, library) = shipped("pull-back.yaml");
-    task.goal.position = task.scene.objects[task.goal.object].pose.position;
+    task.goals[0].position = task.scene.objects[task.goals[0].object].pose.position;
     let solution = planner().solve(&task, &library).unwrap();
     assert_eq!(solution.status, PlanStatus::Solved);
     let best = solution.best().unwrap();
@@ -216,9 +216,9 @@ fn any_number_of_threads_gives_the_same_plans() {
 fn tasks_made_in_code_are_refused_when_they_make_no_sense() {
     let (task, library) = shipped("pull-back.yaml");
     let spoil: [fn(&mut Task); 11] = [
-        |task| task.goal.tolerance = f64::NAN,
-        |task| task.goal.position.x = f64::INFINITY,
-        |task| task.goal.object = 99,
+        |task| task.goals[0].tolerance = f64::NAN,
+        |task| task.goals[0].position.x = f64::INFINITY,
+        |task| task.goals[0].object = 99,
         |task| task.pushes.length = 0.0,
         |task| task.pushes.speed = -1.0,
         |task| task.pushes.grip_yaws.clear(),

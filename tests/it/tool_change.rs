@@ -51,13 +51,13 @@ fn what_no_single_tool_does_two_do() {
     let verdict = best.verdict.as_ref().expect("replayed");
     for engine in Engine::ALL {
         let nominal = verdict.nominal(engine).expect("replayed");
-        assert!(task.goals().all(|goal| goal.reached(&nominal.outcome.state)), "{engine:?}");
+        assert!(task.goals.iter().all(|goal| goal.reached(&nominal.outcome.state)), "{engine:?}");
         let frames = &nominal.trajectory.as_ref().expect("recorded").frames;
         assert_eq!(frames.last().map(|frame| frame.stroke), Some(1));
         assert!(frames.windows(2).all(|pair| pair[0].time < pair[1].time));
     }
     // Its own prediction is of both tools.
-    assert!(task.goals().all(|goal| goal.reached(&best.outcome.state)));
+    assert!(task.goals.iter().all(|goal| goal.reached(&best.outcome.state)));
 
     // Where no change is allowed, one of the goals is left, and this plan breaks a rule.
     let (strict, alone) = solve(&TWO.replace("max_count: 2", "max_count: 2, tool_changes: 0"));

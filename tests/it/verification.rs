@@ -267,8 +267,8 @@ fn what_fails_in_the_plane_is_not_asked_in_3d() {
     });
     let (middle, apart) = ((ends[0] + ends[1]) / 2.0, (ends[0] - ends[1]).norm());
     let mut narrow = task();
-    narrow.goal.position = middle;
-    narrow.goal.tolerance = apart / 2.0 + 2e-5;
+    narrow.goals[0].position = middle;
+    narrow.goals[0].tolerance = apart / 2.0 + 2e-5;
     let verdict = verify(&narrow);
     let planar = matches!(verdict.reason, Some(Reason::Fragile { engine: Engine::Planar, .. }));
     assert!(planar, "{:?}", verdict.reason);

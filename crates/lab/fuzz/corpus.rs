@@ -149,7 +149,7 @@ fn sample(name: &str) -> Option<Sample> {
         Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(format!("tasks/{name}.yaml"));
     let task = Task::load(path).ok()?;
     let tool = Arc::clone(task.tools(&library).ok()?.first()?);
-    let at = task.scene.objects[task.goal.object].pose.position;
+    let at = task.scene.objects[task.goals[0].object].pose.position;
     let push = |start, direction| Push { start, direction, length: 0.1, speed: 0.1 };
     let (yaw, rules) = (0.0, &task.pushes);
     let pushes = vec![push(at - Vector::new(0.5, 0.0), 0.0), push(at - Vector::new(0.4, 0.0), 0.3)];

@@ -81,7 +81,7 @@ pub fn plans() -> Vec<(String, Vec<u8>)> {
         let task = Task::load(root.join(format!("{name}.yaml"))).ok()?;
         let mut tools: Vec<Arc<Tool>> = task.blades(&library).ok()?.into_iter().take(1).collect();
         let lever = LeverUp {
-            plate: task.goal.object,
+            plate: task.goals[0].object,
             place: Place { edge: 1, fraction: 0.5 },
             depth: 0.012,
             pivot: 0.1,

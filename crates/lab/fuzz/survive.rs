@@ -44,7 +44,7 @@ pub fn task(task: Task) {
     }
     let library = ToolLibrary::embedded().expect("the shipped tools are sound");
     let Ok(tools) = task.tools(&library) else { return };
-    let at = task.scene.objects[task.goal.object].pose.position;
+    let at = task.scene.objects[task.goals[0].object].pose.position;
     let start = at - Vector::new(0.4, 0.0);
     let rules = &task.pushes;
     let push = Push { start, direction: 0.0, length: rules.length, speed: rules.speed };

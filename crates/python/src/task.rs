@@ -117,32 +117,32 @@ impl PyTask {
     /// Name of the object to bring to the goal.
     #[getter]
     fn goal_object(&self) -> &str {
-        &self.task.scene.objects[self.task.goal.object].name
+        &self.task.scene.objects[self.task.goals[0].object].name
     }
 
     /// Wanted position of its centre, metres.
     #[getter]
     fn goal_position(&self) -> (f64, f64) {
-        let goal = self.task.goal.position;
+        let goal = self.task.goals[0].position;
         (goal.x, goal.y)
     }
 
     /// Largest distance from the goal that still counts as success, metres.
     #[getter]
     fn tolerance(&self) -> f64 {
-        self.task.goal.tolerance
+        self.task.goals[0].tolerance
     }
 
     /// Wanted heading, radians, where one is asked for.
     #[getter]
     fn goal_heading(&self) -> Option<f64> {
-        self.task.goal.heading.map(|(heading, _)| heading)
+        self.task.goals[0].heading.map(|(heading, _)| heading)
     }
 
     /// Largest heading error that still counts as success, radians, where one is asked for.
     #[getter]
     fn heading_tolerance(&self) -> Option<f64> {
-        self.task.goal.heading.map(|(_, tolerance)| tolerance)
+        self.task.goals[0].heading.map(|(_, tolerance)| tolerance)
     }
 
     /// Turns of the end effector against world +x that a plan may choose from, radians.
@@ -191,7 +191,7 @@ impl PyTask {
     /// How far the goal's object is from the goal with the objects at these poses, `[objects, 3]`, in
     /// units of the tolerance, the larger of position and heading: at most 1 is success.
     fn score(&self, poses: Numbers<'_>) -> PyResult<f64> {
-        Ok(self.task.goal.score(&State::at_rest(self.poses(&poses)?)))
+        Ok(self.task.goals[0].score(&State::at_rest(self.poses(&poses)?)))
     }
 
     /// The keys of its file, from which `Task.of` makes it again.

@@ -85,7 +85,7 @@ fn candidates(
     let placed = task.pushes.form == PushForm::Placed;
     let mut found = Vec::new();
     for (object, body) in scene.objects.iter().enumerate() {
-        if sets.lowest(object) != sets.lowest(task.goal.object) {
+        if sets.lowest(object) != sets.lowest(task.goals[0].object) {
             continue;
         }
         let inner = body.shape.footprint().inner_radius();

@@ -35,8 +35,7 @@ pub(super) fn lever_task(root: &Node, file: &str) -> Option<Task> {
     Some(Task {
         name: name_of(root).map_or_else(|| apart_by_name(&stem()), str::to_owned),
         description: root.get("description").and_then(Node::text).unwrap_or_default().into(),
-        goal: goal(root.get("goal")?, &scene)?,
-        further: Vec::new(),
+        goals: vec![goal(root.get("goal")?, &scene)?],
         scene,
         unknown: unknown_of(root)?,
         robot: Robot { base: 0.0, ..reach_of(root.get("robot")?)? },

@@ -58,9 +58,9 @@ pub(in crate::asset) fn task(task: &Task) -> Json {
         },
         "robot": robot,
         "tools": emitted_tools(task),
-        "goal": match task.further.is_empty() {
-            true => goal(&task.goal, &task.scene),
-            false => task.goals().map(|one| goal(one, &task.scene)).collect(),
+        "goal": match &task.goals[..] {
+            [only] => goal(only, &task.scene),
+            all => all.iter().map(|one| goal(one, &task.scene)).collect(),
         },
         "robustness": task.robustness,
     });

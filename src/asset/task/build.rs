@@ -24,7 +24,7 @@ pub(super) fn task(root: &Node, file: &str, arm: Option<Standing>) -> Option<Tas
     let mut scene = scene(root.get("scene")?)?;
     let goals = goals::each(root.get("goal")?).iter().map(|node| goals::goal(node, &scene));
     let goals: Vec<Goal> = goals.collect::<Option<_>>()?;
-    let (goal, further) = goals.split_first()?;
+    goals.first()?;
     let robot = match &arm {
         Some(arm) => standing(root.get("robot")?, arm)?,
         None => robot(root.get("robot")?)?,
@@ -53,8 +53,7 @@ pub(super) fn task(root: &Node, file: &str, arm: Option<Standing>) -> Option<Tas
             None => PushRules::default(),
         },
         levers: None,
-        goal: goal.clone(),
-        further: further.to_vec(),
+        goals,
         robustness: number_or(root, "robustness", Task::ROBUSTNESS)?,
     })
 }

@@ -25,8 +25,8 @@ const LOOKED_AT: usize = 16;
 /// Not pushing.
 pub fn nothing(task: &Task) -> Choice {
     let action = Action { pose: 0, form: PushForm::Chained, pushes: Vec::new() };
-    let start = task.scene.objects[task.goal.object].pose.position;
-    Choice { action, predicted: Some((start - task.goal.position).norm()) }
+    let start = task.scene.objects[task.goals[0].object].pose.position;
+    Choice { action, predicted: Some((start - task.goals[0].position).norm()) }
 }
 
 /// The best action of `sequences` with one of `poses` for the goal of `task`, by where `model`
@@ -38,7 +38,7 @@ pub fn first_choice(
     sequences: &Sequences,
     poses: &[usize],
 ) -> Choice {
-    let best = sequences.best(&task.goal, LOOKED_AT, poses);
+    let best = sequences.best(&task.goals[0], LOOKED_AT, poses);
     let actions = best.into_iter().map(|(_, action)| action).collect();
     rested(setup, model, task, actions).into_iter().fold(nothing(task), |best, choice| match choice
         .predicted
@@ -65,7 +65,7 @@ pub fn rested(
             let sound = trajectory.warnings.iter().all(|warning| !warning.forbids_success());
             let state = trajectory.frames.last().map(|frame| &frame.state);
             let state = state.filter(|state| sound && state.is_finite())?;
-            Some(Choice { action, predicted: Some(task.goal.error(state)) })
+            Some(Choice { action, predicted: Some(task.goals[0].error(state)) })
         })
         .collect()
 }

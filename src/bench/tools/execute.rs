@@ -89,7 +89,7 @@ impl Executions {
 fn play(setup: &ReferenceSetup, task: &Task, engine: Engine, action: &Action) -> Landing {
     let scene = &task.scene;
     if action.pushes.is_empty() {
-        return Landing { at: scene.objects[task.goal.object].pose.position, sound: true };
+        return Landing { at: scene.objects[task.goals[0].object].pose.position, sound: true };
     }
     let simulator = match engine {
         Engine::Planar => Simulator::planar(),

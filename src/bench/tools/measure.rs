@@ -111,7 +111,7 @@ impl ToolBench {
 
 impl Shared {
     fn new(setup: &ReferenceSetup, model: &dyn EffectModel, task: &Task, start: usize) -> Self {
-        let free = setup.free_poses(task.scene.objects[task.goal.object].pose.position);
+        let free = setup.free_poses(task.scene.objects[task.goals[0].object].pose.position);
         let planar = Simulated::new(Simulator::planar());
         let rolling = Rolling { setup, task, model, poses: &free, steps: STEPS };
         let (predicted, spent) = Spent::on(|| rolling.shared());

@@ -158,7 +158,7 @@ impl Rolling<'_> {
 
     fn none(&self) -> Sequences {
         let situation = Situation::stated(&self.task.scene);
-        let (object, steps) = (self.task.goal.object, self.steps);
+        let (object, steps) = (self.task.goals[0].object, self.steps);
         Sequences { situation, object, steps, branches: Vec::new() }
     }
 

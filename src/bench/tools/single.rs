@@ -103,7 +103,7 @@ fn one(setup: &ReferenceSetup, model: &dyn EffectModel, seed: u64, index: usize)
     }
     let mut task = setup.task(start, goal);
     task.pushes.max_count = 1;
-    task.goal.tolerance = COARSE;
+    task.goals[0].tolerance = COARSE;
     let nothing = (goal - start).norm() <= COARSE;
     let choice = choose(setup, model, &task);
     let mut executions = Executions::default();
@@ -129,7 +129,7 @@ fn one(setup: &ReferenceSetup, model: &dyn EffectModel, seed: u64, index: usize)
 /// The whole push that `model` predicts to end nearest to the goal, and how near; `None` where
 /// not pushing is nearest.
 fn choose(setup: &ReferenceSetup, model: &dyn EffectModel, task: &Task) -> Option<(Action, f64)> {
-    let goal = &task.goal;
+    let goal = &task.goals[0];
     let start = task.scene.objects[goal.object].pose.position;
     let poses = setup.free_poses(start);
     let sequences = Rolling { setup, task, model, poses: &poses, steps: 1 }.shared();

@@ -121,7 +121,7 @@ impl<'a> Trials<'a> {
     }
 
     fn executed(&self, landing: &Landing) -> Executed {
-        let error = (landing.at - self.task.goal.position).norm();
+        let error = (landing.at - self.task.goals[0].position).norm();
         Executed { error, sound: landing.sound }
     }
 
@@ -175,11 +175,11 @@ impl<'a> Trials<'a> {
 
     /// The best of the stops that the planar engine brings nearest, as played.
     fn oracle(&mut self) -> Choice {
-        let best = self.shared.played.best(&self.task.goal, ORACLE, &self.poses);
+        let best = self.shared.played.best(&self.task.goals[0], ORACLE, &self.poses);
         let still = nothing(self.task).action;
         let best = best.into_iter().map(|(_, action)| action);
         // Stops are ranked by an estimate, the ends of whole sequences are known.
-        let goal = self.task.goal.position;
+        let goal = self.task.goals[0].position;
         let ends =
             self.shared.played.ends().filter(|(action, _)| self.poses.contains(&action.pose));
         let end = ends.min_by(|a, b| (a.1 - goal).norm().total_cmp(&(b.1 - goal).norm()));

@@ -34,7 +34,7 @@ impl Task {
     /// Seen from above objects are their outlines, on the points that carry them. Those that lie on
     /// something else are obstacles, and obstacles count as standing on the table.
     pub fn after(&self, rests: &[Pose3]) -> Option<Task> {
-        if !self.goal.has_place() || self.pushes.max_count == 0 {
+        if !self.goals[0].has_place() || self.pushes.max_count == 0 {
             return None;
         }
         let mut scene = Scene::new([]).on_table(self.scene.table_friction);
@@ -43,8 +43,8 @@ impl Task {
             let plate = Plate::of(object);
             match lying(&plate, rest).filter(|object| self.is_clear(object)) {
                 Some(object) => {
-                    if k == self.goal.object {
-                        let Goal { position, tolerance, .. } = self.goal;
+                    if k == self.goals[0].object {
+                        let Goal { position, tolerance, .. } = self.goals[0];
                         goal = Some(Goal::new(scene.objects.len(), position.into(), tolerance));
                     }
                     scene.objects.push(object);
@@ -64,8 +64,7 @@ impl Task {
             tools: self.tools.clone(),
             pushes: self.pushes.clone(),
             levers: None,
-            goal: goal?,
-            further: Vec::new(),
+            goals: vec![goal?],
             robustness: self.robustness,
         })
     }

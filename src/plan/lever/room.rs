@@ -36,7 +36,7 @@ impl<'a> LeverRoom<'a> {
             .blocks
             .iter()
             .map(|block| (block.name.clone(), block.solid(), block.z + block.size[2]));
-        let others = scene.plates.iter().enumerate().filter(|(k, _)| *k != task.goal.object);
+        let others = scene.plates.iter().enumerate().filter(|(k, _)| *k != task.goals[0].object);
         let others = others.flat_map(|(_, plate)| {
             plate.slabs.iter().zip(plate.solids()).map(|(slab, solid)| {
                 (plate.name.clone(), solid, plate.z + (slab.bottom + slab.height))

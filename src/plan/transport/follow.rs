@@ -103,7 +103,7 @@ pub fn follow(
 /// The task of carrying one object to the end of a leg.
 fn towards(task: &Task, leg: &Leg, situation: &Situation, grip_yaw: f64) -> Task {
     let object = &task.scene.objects[leg.object];
-    let own = task.goals().find(|goal| leg.last && goal.object == leg.object);
+    let own = task.goals.iter().find(|goal| leg.last && goal.object == leg.object);
     let tolerance = own.map_or(NEAR, |goal| goal.tolerance.min(NEAR));
     let goal = Goal::new(leg.object, [leg.to.x, leg.to.y], tolerance);
     let turns = !matches!(object.shape.footprint(), Footprint::Disc { .. });
@@ -118,7 +118,7 @@ fn towards(task: &Task, leg: &Leg, situation: &Situation, grip_yaw: f64) -> Task
         max_count: 1,
         ..task.pushes.clone()
     };
-    Task { goal, further: Vec::new(), pushes, ..task.clone() }
+    Task { goals: vec![goal], pushes, ..task.clone() }
 }
 
 /// The best single push for a task from here.
@@ -155,7 +155,7 @@ fn push(
         used[1] += deciding.used();
     }
     let moved = |one: &Evaluation| {
-        let goal = workspace.task.goal.object;
+        let goal = workspace.task.goals[0].object;
         let others = now.scene.things().map(|(k, _)| k).filter(|k| *k != goal);
         let ways =
             others.map(|k| (one.outcome.poses[k].position - now.start.poses[k].position).norm());

@@ -65,7 +65,7 @@ pub(super) struct Hold {
 pub(super) fn groups(workspace: &Workspace, situation: &Situation) -> Option<Vec<Group>> {
     let (task, state) = (workspace.task, &situation.start);
     let scene = &*situation.scene;
-    let goals: Vec<&Goal> = task.goals().collect();
+    let goals: Vec<&Goal> = task.goals.iter().collect();
     let groups = situation.physics.groups(|_| true);
     let joined = |thing: usize| {
         (0..groups.len()).any(|k| groups[k] == groups[thing] && scene.thing(k) != thing)
@@ -85,7 +85,7 @@ pub(super) fn groups(workspace: &Workspace, situation: &Situation) -> Option<Vec
             return None;
         }
     }
-    let mut extent = Extent::around(state.poses[task.goal.object].position);
+    let mut extent = Extent::around(state.poses[task.goals[0].object].position);
     let mut include = |footprint: &Footprint, pose: &Pose| {
         let wide = |axis: Vector| footprint.extent(pose.local_vector(axis)) + BORDER;
         let [x, y] = [Vector::x(), Vector::y()];

@@ -79,7 +79,7 @@ pub fn replays(verdict: &Verdict) -> impl Iterator<Item = (Layer, &Trajectory, b
 /// Where the goal's object ends in the disturbed replays.
 pub fn ends(task: &Task, verdict: &Verdict) -> Vec<End> {
     let end = |evidence: &Evidence| {
-        let pose = evidence.outcome.state.poses.get(task.goal.object)?;
+        let pose = evidence.outcome.state.poses.get(task.goals[0].object)?;
         pose.is_finite().then(|| End {
             layer: layer(evidence.engine),
             at: point(pose.position),

@@ -59,7 +59,7 @@ pub(super) fn shown_replay(
         return space::replay(layer, task, (plan, tools), trajectory, reached);
     }
     let mut replay = replay(layer, trajectory, reached)?;
-    let goal = &task.goal;
+    let goal = &task.goals[0];
     // The page measures distances from a place; from anything else they are told.
     let told = goal.area.is_some()
         || goal.coverage.is_some()
@@ -108,9 +108,9 @@ pub fn prediction_page(
         let one = (layer, trajectory, outcome.reached);
         page.replays.extend(shown_replay(task, (plan, tools), one));
     }
-    page.verdict = match task.goal.has_place() {
+    page.verdict = match task.goals[0].has_place() {
         true => {
-            let allowed = millimetres(task.goal.tolerance);
+            let allowed = millimetres(task.goals[0].tolerance);
             format!("error: {}; allowed {allowed}", ends.join(", "))
         }
         false => ends.join(", "),

@@ -147,7 +147,7 @@ impl Clock {
 }
 
 fn replays(trace: &Trace, clock: &Clock) -> Vec<data::Replay> {
-    let goal = &trace.task.goal;
+    let goal = &trace.task.goals[0];
     let mut replays = Vec::new();
     let predicted = clock.joined(&clock.predicted);
     let reached = predicted.last().is_some_and(|last| goal.reached(&last.state));

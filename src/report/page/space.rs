@@ -67,7 +67,7 @@ pub fn replay(
     let edge = edge(task, plan, tools);
     let height = |frame: &Frame| match edge {
         Some((object, edge)) => at(frame, object).point(edge).z,
-        None => task.goal.error(&frame.state),
+        None => task.goals[0].error(&frame.state),
     };
     let before = edge.map_or(0.0, |_| height(frames[0]));
     Some(Replay {

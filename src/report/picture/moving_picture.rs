@@ -234,7 +234,7 @@ impl MovingPicture<'_> {
     }
 
     fn entries(&self) -> Vec<(Sample, String)> {
-        let goal = &self.task.goal;
+        let goal = &self.task.goals[0];
         let tolerance = match (&goal.area, goal.has_place() && !goal.is_relation()) {
             (None, true) => format!("goal, tolerance {}", millimetres(goal.tolerance)),
             _ => "goal".to_owned(),

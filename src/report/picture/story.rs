@@ -112,7 +112,7 @@ impl Story<'_> {
 
     /// The first goal.
     fn goal(&self) -> &Goal {
-        &self.task.goal
+        &self.task.goals[0]
     }
 
     fn is_reached(&self) -> bool {

@@ -20,10 +20,10 @@ pub(in crate::solve) fn check(
     let fault = |what: String| Err(SolveError::BadTask { task: task.name.clone(), what });
     let positive = |value: f64| value.is_finite() && value > 0.0;
     let from_zero = |value: f64| value.is_finite() && value >= 0.0;
-    let (goal, scene) = (&task.goal, &*situation.scene);
-    if !task.further.is_empty() {
+    let scene = &*situation.scene;
+    let [goal] = &task.goals[..] else {
         return fault("where something leaves the plane there is one goal".into());
-    }
+    };
     if goal.object >= scene.objects.len() {
         return fault(format!("the goal names object {}, which does not exist", goal.object));
     }

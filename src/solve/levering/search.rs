@@ -94,7 +94,7 @@ impl Steps<'_> {
                     (trajectory, outcome)
                 };
                 let (trajectory, outcome) = run(&planned);
-                let mut merit = merit(&task.goal, &outcome, &trajectory) + 1.0 - scored.company;
+                let mut merit = merit(&task.goals[0], &outcome, &trajectory) + 1.0 - scored.company;
                 if outcome.reached && doubts > 0 {
                     let missed = (0..doubts)
                         .filter(|&draw| !run(&doubted(&planned, lever.plate, draw)).1.reached);
@@ -143,7 +143,7 @@ impl Steps<'_> {
             hopeful.retain(|k| !batch.contains(k));
             tried.extend(&batch);
             // The goal is that of this lever-up: what pushes are to bring comes later.
-            let goal = Task { goal: task.goal.clone(), ..self.task.clone() };
+            let goal = Task { goals: task.goals.clone(), ..self.task.clone() };
             let verdicts: Vec<_> = batch
                 .par_iter()
                 .map(|&k| self.verify(&goal, &plans[k].plan, &plans[k].tools))

@@ -172,8 +172,8 @@ impl<'a> Steps<'a> {
     /// Plans of what was `made`, a lever-up of `task`, and pushes that follow.
     fn followed(&mut self, task: &Task, made: &Made) -> Result<Vec<RankedPlan>, SolveError> {
         // The place is left to the pushes.
-        let goal = Goal { tolerance: f64::INFINITY, ..task.goal.clone() };
-        let lifted = Task { goal, ..task.clone() };
+        let goal = Goal { tolerance: f64::INFINITY, ..task.goals[0].clone() };
+        let lifted = Task { goals: vec![goal], ..task.clone() };
         let levered = self.lever_up(&lifted, made);
         let began = Instant::now();
         let mut plans = Vec::new();
@@ -205,7 +205,7 @@ impl<'a> Steps<'a> {
         let start: Vec<Pose3> =
             self.task.scene.objects.iter().map(|object| Plate::of(object).start()).collect();
         let (goal, at) =
-            (self.task.goal.clone(), self.task.scene.objects[self.task.goal.object].pose);
+            (self.task.goals[0].clone(), self.task.scene.objects[self.task.goals[0].object].pose);
         let mut plans = Vec::new();
         let mut tried = 0;
         let ways = AWAY
@@ -217,15 +217,15 @@ impl<'a> Steps<'a> {
             }
             let place = at.position + away * Vector::new(direction.cos(), direction.sin());
             let mut there = self.task.clone();
-            there.goal.tolerance = f64::INFINITY;
+            there.goals[0].tolerance = f64::INFINITY;
             there.scene.objects[goal.object].pose.position = place;
             if !self.is_free(&there) || self.promising(&there, self.blades) == 0 {
                 continue;
             }
             tried += 1;
             self.until.stage("pushing to where it can be levered");
-            let towards =
-                Task { goal: Goal::new(goal.object, place.into(), NEAR), ..self.task.clone() };
+            let goals = vec![Goal::new(goal.object, place.into(), NEAR)];
+            let towards = Task { goals, ..self.task.clone() };
             let Some(mut left) = towards.after(&start) else { continue };
             left.tools = self.pushers();
             let pushed = self.planner.solve_with(&left, self.library, self.until)?;
@@ -252,7 +252,7 @@ impl<'a> Steps<'a> {
     /// Whether the goal's object has room where it is put.
     fn is_free(&self, task: &Task) -> bool {
         let (scene, own) = (&task.scene, task.plate());
-        let others = scene.objects.iter().enumerate().filter(|(k, _)| *k != task.goal.object);
+        let others = scene.objects.iter().enumerate().filter(|(k, _)| *k != task.goals[0].object);
         let others = others.flat_map(|(_, object)| Plate::of(object).solids());
         let others: Vec<Solid> =
             others.chain(scene.obstacles.iter().map(Obstacle::solid)).collect();

@@ -131,7 +131,8 @@ parts:
 #[test]
 fn headings_that_look_the_same_count_alike_unless_the_goal_says_otherwise() {
     let heading = ", heading_deg: 30, heading_tolerance_deg: 5";
-    let alike = |shape: &str, more: &str| read(shape, "", &format!("{heading}{more}")).goal.alike;
+    let alike =
+        |shape: &str, more: &str| read(shape, "", &format!("{heading}{more}")).goals[0].alike;
     let square = "{cuboid: {size: [0.08, 0.08, 0.05]}}";
     assert_eq!(alike(square, ""), 4);
     assert_eq!(alike(square, ", symmetric: true"), 4);

@@ -24,7 +24,7 @@ pub fn plan_file(name: &str) -> PlanFile {
     let push = Push { start: Vector::new(0.1, 0.2 / 3.0), direction: 1.1, length: 0.2, speed: 0.1 };
     let (yaw, rules) = (90f64.to_radians(), &task.pushes);
     let plan = Plan::pushing(&tool.name, yaw, rules.form, rules.lift, [push; 2]);
-    let further = task.further.iter().map(|goal| Miss {
+    let further = task.goals.iter().skip(1).map(|goal| Miss {
         object: goal.object,
         error: 0.2,
         heading_error: None,

@@ -147,8 +147,8 @@ fn every_shipped_task_comes_back_with_its_sizes_masses_frictions_and_places() {
         // Where a table ends, and what presses how high, MJCF has no word for.
         same_scene(&task.scene, &found.scene, &task.name);
         assert!(has_goal && found.name == task.name);
-        assert_eq!(task.goals().count(), found.goals().count());
-        for (wanted, goal) in task.goals().zip(found.goals()) {
+        assert_eq!(task.goals.len(), found.goals.len());
+        for (wanted, goal) in task.goals.iter().zip(&found.goals) {
             let names = [(&task, wanted), (&found, goal)]
                 .map(|(task, goal)| &task.scene.objects[goal.object].name);
             assert_eq!(names[0], names[1]);
@@ -179,7 +179,7 @@ goal: {{object: a, {goal}}}
         let text = mjcf(&plan(task.clone(), stick)).unwrap();
         let (model, _, notes) = parse(&text, "scene.xml").unwrap();
         let made = objects(&model, "scene.xml", &Wanted::default()).unwrap().value;
-        (task.goal, made.has_goal.then_some(made.task.goal), notes)
+        (task.goals, made.has_goal.then_some(made.task.goals), notes)
     };
     for goal in
         ["position: [0.6, 0.1], tolerance: 0.02", "heading_deg: 90, heading_tolerance_deg: 5"]

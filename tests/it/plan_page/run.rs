@@ -34,7 +34,7 @@ fn a_run_is_played_with_what_was_predicted_and_believed() {
 
     let Some(mut browser) = Browser::start() else { return };
     browser.open(&file, "t=0");
-    let goal = &trace.task.goal;
+    let goal = &trace.task.goals[0];
     for (k, step) in trace.steps.iter().enumerate() {
         let predicted = Trajectory { frames: step.predicted.clone(), ..real[k].clone() };
         for share in [0.05, 0.3, 0.6, 0.95] {
@@ -132,7 +132,7 @@ fn the_command_writes_the_page_and_says_how_to_make_it_again() {
 }
 
 fn goal(trace: &Trace) -> &Goal {
-    &trace.task.goal
+    &trace.task.goals[0]
 }
 
 /// A shipped task, carried out in a drawn world.

@@ -36,7 +36,7 @@ fn things_stand_in_3d_where_they_were_computed() {
     );
 
     let frames = &spatial(&solution).frames;
-    let object = task.goal.object;
+    let object = task.goals[0].object;
     for k in [0, frames.len() / 3, 2 * frames.len() / 3, frames.len() - 1] {
         follow(&mut browser, &format!("t={}", frames[k].time));
         let pose: Pose = frames[k].state.poses[object];

@@ -65,7 +65,7 @@ impl RandomSuite {
         index: usize,
     ) -> Result<Measured<ClosedRecord>, RandomError> {
         let hidden = self.hidden(index)?.in_world(world);
-        let goal = hidden.task.goal.clone();
+        let goal = hidden.task.goals[0].clone();
         let began = Instant::now();
         let mut trace =
             Trace::new(hidden.task.clone(), settings, String::new(), Some(hidden.truth.clone()));
@@ -116,5 +116,5 @@ fn once(
     let solution = planner.solve_from(&Situation::stated(&scene), task, library, &Unwatched)?;
     let best = solution.best().filter(|best| !best.plan.is_empty());
     let sound = best.is_none_or(|best| world.act(&best.plan.motion(best.tool())).is_ok());
-    Ok(Left::of(&task.goal, world.state(), sound))
+    Ok(Left::of(&task.goals[0], world.state(), sound))
 }

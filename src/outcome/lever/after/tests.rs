@@ -30,7 +30,7 @@ fn a_plate_on_its_feet_stands_on_them() {
     assert!(points.iter().all(|point| (point.norm() - 0.06f64.hypot(0.04)).abs() < 1e-9));
     assert!((object.shape.height() - 0.014).abs() < 1e-9);
     assert!((object.shape.footprint().area() - 0.12 * 0.08).abs() < 1e-9);
-    assert_eq!(after.goal.position, Vector::new(0.5, 0.2));
+    assert_eq!(after.goals[0].position, Vector::new(0.5, 0.2));
 }
 
 #[test]

@@ -85,7 +85,7 @@ pub(super) fn all_in_the_way(task: &Task, kind: TaskKind, end: &Pose) -> bool {
         return true;
     }
     let Scene { objects, obstacles, .. } = &task.scene;
-    let own = &objects[task.goal.object];
+    let own = &objects[task.goals[0].object];
     let thin = inscribed(&own.shape);
     let blocks = |crate_: &Object| {
         let still = (&crate_.shape.footprint(), &crate_.pose);

@@ -83,8 +83,7 @@ pub(super) fn gap_task(rng: &mut Pcg64, ordinal: usize) -> Task {
         tool_costs: Default::default(),
         pushes: pushes(2),
         levers: None,
-        goal: Goal::new(0, place(behind, 0.0, 0.0).position.into(), TOLERANCE),
-        further: Vec::new(),
+        goals: vec![Goal::new(0, place(behind, 0.0, 0.0).position.into(), TOLERANCE)],
         robustness: Task::ROBUSTNESS,
     }
 }

@@ -39,8 +39,8 @@ impl HiddenTask {
     /// The same in another world.
     pub fn in_world(mut self, world: HiddenWorld) -> Self {
         self.truth.engine = world.engine;
-        self.task.goal.tolerance *= world.tolerance;
-        self.known.goal.tolerance *= world.tolerance;
+        self.task.goals[0].tolerance *= world.tolerance;
+        self.known.goals[0].tolerance *= world.tolerance;
         self
     }
 }

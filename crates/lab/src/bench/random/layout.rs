@@ -66,7 +66,7 @@ pub(super) fn open_task(rng: &mut Pcg64, kind: TaskKind, ordinal: usize) -> Opti
 /// Every goal where its object ends.
 pub(super) fn set_goals(task: &mut Task, ends: &State) {
     let start = task.scene.start();
-    for goal in std::iter::once(&mut task.goal).chain(&mut task.further) {
+    for goal in &mut task.goals {
         let end = round_pose(&seen(goal, ends));
         if let Some(Area { shape, pose }) = goal.area {
             let way = end.position - seen(goal, &start).position;

@@ -55,7 +55,7 @@ pub(super) fn random_candidate(
 fn meant_for(rng: &mut Pcg64, task: &Task, kind: TaskKind) -> Vec<usize> {
     let mut objects: Vec<usize> = (1..=kind.aside()).collect();
     objects.shuffle(rng);
-    objects.extend(task.goals().map(|goal| goal.object));
+    objects.extend(task.goals.iter().map(|goal| goal.object));
     objects
 }
 
@@ -72,11 +72,11 @@ fn pushes_of(
     let at = task.scene.objects[object].pose.position;
     let angle = |way: Vector| way.y.atan2(way.x);
     // What stands in the way goes anywhere, what is to go there as straight as it can.
-    let is_aside = kind.aside() > 0 && object != task.goal.object;
+    let is_aside = kind.aside() > 0 && object != task.goals[0].object;
     let straight = kind.aside() > 0 && !is_aside;
     (0..DRAWS).find_map(|_| {
         let pushes = if is_aside { 1 } else { rng.random_range(least..=most) };
-        let way = task.goal.position - at;
+        let way = task.goals[0].position - at;
         let travel = match straight {
             true => {
                 let each = way.norm() / pushes as f64 + LATER_ROOM;
@@ -107,9 +107,10 @@ pub(super) fn random_plan(rng: &mut Pcg64, task: &Task, tools: &[Arc<Tool>]) -> 
     const TRIES: usize = 2000;
     let workspace = workspace(task, tools);
     (0..TRIES).find_map(|_| {
-        let candidate = draw(rng, &workspace, ((task.goal.object, 0), 1, TRAVEL), |rng, _, _| {
-            std::f64::consts::TAU / WAYS as f64 * f64::from(rng.random_range(0..WAYS as u32))
-        });
+        let candidate =
+            draw(rng, &workspace, ((task.goals[0].object, 0), 1, TRAVEL), |rng, _, _| {
+                std::f64::consts::TAU / WAYS as f64 * f64::from(rng.random_range(0..WAYS as u32))
+            });
         let push = first_push(&workspace, &candidate)?;
         Some(plan(&workspace, &candidate, vec![push]))
     })
@@ -128,7 +129,7 @@ pub(super) fn carried_out(
 /// Whether the tool keeps clear of the obstacles on these pushes.
 pub(super) fn keeps_clear(workspace: &Workspace, candidate: &Candidate, pushes: &[Push]) -> bool {
     let start = workspace.task.scene.start();
-    let object = workspace.task.goal.object;
+    let object = workspace.task.goals[0].object;
     pushes.iter().zip(&candidate.pushes).all(|(push, planned)| {
         let margins = workspace.margins(planned.grip(), (&start, object), push, None);
         margins.broken().is_none()

@@ -55,7 +55,7 @@ pub fn random_task(library: &ToolLibrary, seed: u64, index: usize) -> Task {
         let (start, end) = (task.scene.objects[0].pose, made.outcome.poses[0]);
         let moved = (end.position - start.position).norm();
         if made.is_feasible() && made.is_sound() && moved > FARTHEST_TRIVIAL {
-            task.goal.position = end.position;
+            task.goals[0].position = end.position;
             return task;
         }
     }
@@ -103,7 +103,7 @@ fn random_candidate(rng: &mut Pcg64, task: &Task, tools: &[Arc<Tool>]) -> Candid
     let way = TAU / WAYS as f64 * f64::from(rng.random_range(0..WAYS as u32));
     let direction = way + rng.random_range(-FRAC_PI_8..FRAC_PI_8);
     let workspace = Workspace { task, tools };
-    let (start, object) = (task.scene.start(), task.goal.object);
+    let (start, object) = (task.scene.start(), task.goals[0].object);
     let span = workspace.offset_span((tool, grip_yaw), (&start, object), part, direction);
     let offset = rng.random_range(-span..=span);
     let length = rng.random_range(TRAVEL.low..TRAVEL.high);

@@ -120,7 +120,7 @@ impl RandomSuite {
         if TaskKind::EVERYDAY.contains(&kind) {
             task = as_filed(&task)?;
             let start = task.scene.start();
-            if task.goals().any(|goal| goal.reached(&start)) {
+            if task.goals.iter().any(|goal| goal.reached(&start)) {
                 return None;
             }
         }
@@ -153,8 +153,8 @@ impl RandomSuite {
         let plan = plan(&workspace, candidate, made.pushes);
         let (start, ends) = (scene.start(), made.outcome);
         let accepted = |goal| kind.accepts(&seen(goal, &start), &seen(goal, &ends));
-        let brought = task.goals().all(accepted);
-        if !brought || !all_in_the_way(task, kind, &ends.poses[task.goal.object]) {
+        let brought = task.goals.iter().all(accepted);
+        if !brought || !all_in_the_way(task, kind, &ends.poses[task.goals[0].object]) {
             return None;
         }
         set_goals(task, &ends);
@@ -170,9 +170,9 @@ impl RandomSuite {
         candidate: &Candidate,
         plan: &Plan,
     ) -> Option<Plan> {
-        let object = task.goal.object;
+        let object = task.goals[0].object;
         let start = task.scene.objects[object].pose;
-        let straight = Pose { position: task.goal.position, ..start };
+        let straight = Pose { position: task.goals[0].position, ..start };
         let corner = corner(start.position, straight.position, candidate);
         for _ in 0..WALLS {
             let Some(wall) = wall(rng, &task.scene, object, corner, &straight) else { continue };
@@ -182,7 +182,7 @@ impl RandomSuite {
             let clear = keeps_clear(&workspace(task, &self.tools), candidate, &plan.pushes());
             let plan = clear.then(|| self.made(task, TaskKind::Obstacle, candidate)).flatten();
             // A wall that the object is pushed against would make another task than planned.
-            let kept = (task.goal.position - straight.position).norm() < 1e-3;
+            let kept = (task.goals[0].position - straight.position).norm() < 1e-3;
             match plan {
                 Some(plan) if kept => return Some(plan),
                 _ => *task = before,

@@ -170,7 +170,7 @@ impl<'a> TradeOff<'a> {
             }
             k => {
                 let mut made = self.suite.task(k - tasks)?;
-                made.task.goal.tolerance *= self.settings.tolerance;
+                made.task.goals[0].tolerance *= self.settings.tolerance;
                 self.task(made.kind, &made.task)?
             }
         })

@@ -46,21 +46,23 @@ pub struct TaskCell {
 const TASKS: [(&str, Expected, Change); 20] = [
     ("an ordinary one", Expected::Solved(1), |_| {}),
     ("goal at the start", Expected::Solved(0), |task| {
-        task.goal.position = task.scene.objects[0].pose.position;
+        task.goals[0].position = task.scene.objects[0].pose.position;
     }),
     ("goal and heading at the start, 1000 turns on", Expected::Solved(0), |task| {
         let pose = task.scene.objects[0].pose;
-        task.goal.position = pose.position;
-        task.goal.heading = Some((pose.heading + 1000.0 * std::f64::consts::TAU, 0.1));
+        task.goals[0].position = pose.position;
+        task.goals[0].heading = Some((pose.heading + 1000.0 * std::f64::consts::TAU, 0.1));
     }),
-    ("goal 1e6 m away", Expected::Unsolved, |task| task.goal.position = Vector::new(1e6, 0.0)),
+    ("goal 1e6 m away", Expected::Unsolved, |task| task.goals[0].position = Vector::new(1e6, 0.0)),
     ("goal 1e6 m away, tolerance 1e7 m", Expected::Solved(0), |task| {
-        task.goal.position = Vector::new(1e6, 0.0);
-        task.goal.tolerance = 1e7;
+        task.goals[0].position = Vector::new(1e6, 0.0);
+        task.goals[0].tolerance = 1e7;
     }),
-    ("goal 1e150 m away", Expected::Unsolved, |task| task.goal.position = Vector::new(1e150, 0.0)),
-    ("tolerance 1e-9 m", Expected::Unsolved, |task| task.goal.tolerance = 1e-9),
-    ("tolerance 1e-300 m", Expected::Unsolved, |task| task.goal.tolerance = 1e-300),
+    ("goal 1e150 m away", Expected::Unsolved, |task| {
+        task.goals[0].position = Vector::new(1e150, 0.0)
+    }),
+    ("tolerance 1e-9 m", Expected::Unsolved, |task| task.goals[0].tolerance = 1e-9),
+    ("tolerance 1e-300 m", Expected::Unsolved, |task| task.goals[0].tolerance = 1e-300),
     ("reach of 1 mm", Expected::Unsolved, |task| {
         task.robot.reach_min = 0.0;
         task.robot.reach_max = 0.001;
@@ -68,11 +70,11 @@ const TASKS: [(&str, Expected, Change); 20] = [
     ("everything 1 km from the base", Expected::Unsolved, |task| {
         let far = Vector::new(1000.0, 0.0);
         task.scene.objects[0].pose.position += far;
-        task.goal.position += far;
+        task.goals[0].position += far;
     }),
     ("walled in", Expected::Unsolved, |task| {
         let at = task.scene.objects[0].pose.position;
-        task.goal.position = at + Vector::new(0.3, 0.0);
+        task.goals[0].position = at + Vector::new(0.3, 0.0);
         for (k, (x, y)) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)].iter().enumerate() {
             let size = [0.02 + 0.3 * f64::abs(*y), 0.02 + 0.3 * f64::abs(*x), 0.2];
             let pose = Pose { position: at + 0.13 * Vector::new(*x, *y), heading: 0.0 };
@@ -98,8 +100,8 @@ const TASKS: [(&str, Expected, Change); 20] = [
         task.scene.table_friction = 0.0;
     }),
     ("mass 1e-6 kg", Expected::Anything, |task| task.scene.objects[0].mass = 1e-6),
-    ("goal that is not a number", Expected::Refused, |task| task.goal.position.x = f64::NAN),
-    ("infinite tolerance", Expected::Refused, |task| task.goal.tolerance = f64::INFINITY),
+    ("goal that is not a number", Expected::Refused, |task| task.goals[0].position.x = f64::NAN),
+    ("infinite tolerance", Expected::Refused, |task| task.goals[0].tolerance = f64::INFINITY),
     ("friction that is not a number", Expected::Refused, |task| {
         task.scene.table_friction = f64::NAN
     }),
