@@ -131,7 +131,7 @@ fn every_shipped_task_comes_back_with_its_sizes_masses_frictions_and_places() {
             let own = goal.area.is_none() && goal.relative.is_none() && goal.coverage.is_none();
             goal.has_place() && !goal.is_relation() && own
         };
-        scene.mounts.is_empty() && scene.seams().next().is_none() && task.goals().all(placed)
+        scene.mounts.is_empty() && scene.seams().next().is_none() && task.goals.iter().all(placed)
     };
     let tasks: Vec<Task> = tasks.into_iter().filter(simple).collect();
     assert!(tasks.len() > 10);
