@@ -3,7 +3,7 @@
 //! Each imports only from rooms before it, in this order:
 //!
 //! geometry, scene, task, outcome, arm, recording, asset, store, sim, contact, graph, network, rollout, effect, judge,
-//! fit, belief, plan, verify, solve, design, act, bench, report, export, import, cli
+//! fit, belief, plan, verify, solve, design, act, bench, report, export, import
 
 #[doc(inline)]
 pub use crate::{

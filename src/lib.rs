@@ -53,15 +53,13 @@
 //!
 //! # Features
 //!
-//! All are on by default; a library needs none of them, and then no C compiler either. CI counts
-//! the crates that are left, at most 120, with `cargo tree -e normal,build --no-default-features
-//! --prefix none --no-dedupe | sort -u | wc -l`.
+//! It is on by default, and none of its crates needs a C compiler. CI counts the crates that are left
+//! without it, at most 120, with `cargo tree -p pushplan -e normal,build --no-default-features --prefix
+//! none --no-dedupe | sort -u | wc -l`.
 //!
 //! | feature | what it adds |
 //! |---|---|
-//! | `cli` | the command `pushplan` |
 //! | `formats` | MJCF and URDF in, MCAP out |
-//! | `mimalloc` | a faster allocator for the command, written in C |
 //!
 //! # Internals
 //!
@@ -83,10 +81,8 @@ pub mod asset;
 pub mod belief;
 #[doc(hidden)]
 pub mod bench;
-mod checksum;
-#[cfg(feature = "cli")]
 #[doc(hidden)]
-pub mod cli;
+pub mod checksum;
 #[doc(hidden)]
 pub mod contact;
 #[doc(hidden)]

@@ -9,12 +9,13 @@ use tempfile::TempDir;
 use pushplan::store::FolderLock;
 use pushplan::watch::Unwatched;
 
+use crate::ROOT;
 use crate::program::{command, run, stderr};
 
 /// The transcripts in `tests/cmd`, with what was printed and the exit codes.
 #[test]
 fn transcripts() {
-    trycmd::TestCases::new().case("tests/cmd/*.md").default_bin_name("pushplan");
+    trycmd::TestCases::new().case(format!("{ROOT}/tests/cmd/*.md")).default_bin_name("pushplan");
 }
 
 #[test]
@@ -50,7 +51,7 @@ fn results_are_the_same_for_any_number_of_threads_and_progress_stays_off_stdout(
 /// More than that nobody finds their way among.
 #[test]
 fn there_are_at_most_twelve_commands() {
-    let command = pushplan::cli::command();
+    let command = pushplan_command::command();
     assert!(command.get_subcommands().filter(|one| !one.is_hide_set()).count() <= 12);
 }
 
@@ -160,10 +161,10 @@ fn control_characters_of_a_file_never_reach_the_terminal() {
     let folder = TempDir::new().expect("a folder");
     let out = folder.path().to_str().expect("UTF-8");
     let path = folder.path().join("red\u{1b}[31m \u{9b}2J.yaml");
-    std::fs::copy("tasks/pull-back.yaml", &path).expect("a task");
+    std::fs::copy(format!("{ROOT}/tasks/pull-back.yaml"), &path).expect("a task");
     let path = path.to_str().expect("UTF-8");
     let bad = folder.path().join("a\u{1b}b.yaml");
-    let text = std::fs::read_to_string("tasks/pull-back.yaml").expect("a task");
+    let text = std::fs::read_to_string(format!("{ROOT}/tasks/pull-back.yaml")).expect("a task");
     std::fs::write(&bad, text.replace("mass:", "\"\\e[2Jmass\":")).expect("a task");
     let bad = bad.to_str().expect("UTF-8");
     for (arguments, code) in [
@@ -269,7 +270,7 @@ fn results_of_one_kind_or_task_do_not_write_over_those_of_another() {
     let long = "a".repeat(80);
     for name in ["my task", "my-task", "my+task", &format!("{long}1"), &format!("{long}2")] {
         let file = within(&format!("{name}.yaml"));
-        std::fs::copy("tasks/pull-back.yaml", &file).expect("a task");
+        std::fs::copy(format!("{ROOT}/tasks/pull-back.yaml"), &file).expect("a task");
         let ran = run(&["run", &file, "--world", "1", "--out", &out]);
         assert_eq!(ran.status.code(), Some(0), "{}", stderr(&ran));
         let action = ["predict", &file, "--tool", "l-hook", "--push", "can:180", "--out", &out];
@@ -312,7 +313,7 @@ fn check_says_why_there_is_no_plan_only_when_asked() {
     let folder = TempDir::new().expect("a folder");
     let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
     let (far, near) = (path("far.yaml"), path("near.yaml"));
-    let text = std::fs::read_to_string("tasks/pull-back.yaml").expect("a task");
+    let text = std::fs::read_to_string(format!("{ROOT}/tasks/pull-back.yaml")).expect("a task");
     std::fs::write(&near, &text).expect("a task");
     std::fs::write(&far, format!("{text}pushes: {{max_count: 1, length: 0.06}}\n"))
         .expect("a task");

@@ -1,6 +1,8 @@
 //! What a user of the library sees: errors that read as text, tools that can be added, results
 //! that can be written.
 
+use std::path::Path;
+
 use pushplan::{
     EffectModel, Effort, Error, Goal, Job, LeverRules, Object, Outcome, Part, Pivot, PlanStatus,
     Planner, Pose, PushRules, Record, Robot, Scene, Simulated, Simulator, Solution, SolveError,
@@ -11,7 +13,7 @@ use rayon::ThreadPoolBuilder;
 const TASKS: [&str; 3] = ["tasks/pull-back.yaml", "tasks/too-far.yaml", "tasks/diagonal.yaml"];
 
 fn tasks() -> Vec<Task> {
-    TASKS.iter().map(|path| Task::load(path).unwrap()).collect()
+    TASKS.iter().map(|path| Task::load(Path::new(crate::ROOT).join(path)).unwrap()).collect()
 }
 
 fn planner() -> Planner {

@@ -74,5 +74,5 @@ mod tool_graph;
 mod verification;
 
 /// The repository, and its program.
-const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 const PROGRAM: &str = env!("CARGO_BIN_EXE_pushplan");

@@ -1,10 +1,12 @@
 //! How well models predict recordings, from the command line.
 
 use std::fs;
+use std::path::Path;
 
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
+use crate::ROOT;
 use crate::program::{self, stderr};
 
 const PUSH: &str = "tests/it/assets/push.recording.json";
@@ -26,7 +28,7 @@ fn files_and_folders_are_judged_by_themselves_and_together() {
     let set = folder.path().join("set");
     fs::create_dir_all(set.join("more")).expect("folders");
     for file in ["b.recording.json", "a.recording.json", "more/c.recording.json"] {
-        fs::copy(PUSH, set.join(file)).expect("a file");
+        fs::copy(Path::new(ROOT).join(PUSH), set.join(file)).expect("a file");
     }
     fs::write(set.join("README.md"), "Not a recording.").expect("a file");
     assert!(out.join("errors.json").exists());
@@ -50,7 +52,8 @@ fn files_and_folders_are_judged_by_themselves_and_together() {
     assert!(stderr(&refused).contains("c.yaml:1:1: error:"), "{}", stderr(&refused));
 
     let bad = folder.path().join("bad.recording.json");
-    let spoiled = fs::read_to_string(PUSH).expect("a file").replace("0.05", "5.0");
+    let spoiled =
+        fs::read_to_string(Path::new(ROOT).join(PUSH)).expect("a file").replace("0.05", "5.0");
     fs::write(&bad, spoiled).expect("a file");
     let refused = run(&[bad.to_str().expect("UTF-8")]);
     assert_eq!(refused.status.code(), Some(3));

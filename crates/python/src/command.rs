@@ -8,5 +8,5 @@ use pyo3::prelude::*;
 /// command's.
 #[pyfunction]
 pub fn main(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
-    py.detach(|| pushplan::cli::run(arguments))
+    py.detach(|| pushplan_command::run(arguments))
 }

@@ -3,14 +3,14 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use pushplan::cli::error::CliError;
-use pushplan::cli::form::Form;
-use pushplan::cli::model;
-use pushplan::cli::recordings::load_recordings;
-use pushplan::cli::session::Session;
 use pushplan::internals::effect::Network;
 use pushplan::internals::judge::Trial;
 use pushplan::internals::scene::{ModelKind, ModelSpec};
+use pushplan_command::error::CliError;
+use pushplan_command::form::Form;
+use pushplan_command::model;
+use pushplan_command::recordings::load_recordings;
+use pushplan_command::session::Session;
 use rayon::prelude::*;
 
 use crate::bench::{adapted_rows, measure_split, splits};
@@ -76,5 +76,5 @@ pub fn run(args: &AdaptedArgs, session: &Session) -> Result<u8, CliError> {
         })
         .collect();
     args.form.show(session, &adapted_document(&adapted_rows(&found), args.draws, args.seed))?;
-    Ok(pushplan::cli::exit_code::DONE)
+    Ok(pushplan_command::exit_code::DONE)
 }

@@ -3,14 +3,14 @@
 use std::ffi::OsString;
 
 use clap::{Parser, Subcommand};
-use pushplan::cli::bench::saved::{MergeArgs, ReportArgs};
-use pushplan::cli::bench::status::StatusArgs;
-use pushplan::cli::bench::suite::SuiteArgs;
-use pushplan::cli::bench::{saved, status};
-use pushplan::cli::error::CliError;
-use pushplan::cli::groups::Groups;
-use pushplan::cli::session::{GlobalArgs, Session};
-use pushplan::cli::{exit_code, start};
+use pushplan_command::bench::saved::{MergeArgs, ReportArgs};
+use pushplan_command::bench::status::StatusArgs;
+use pushplan_command::bench::suite::SuiteArgs;
+use pushplan_command::bench::{saved, status};
+use pushplan_command::error::CliError;
+use pushplan_command::groups::Groups;
+use pushplan_command::session::{GlobalArgs, Session};
+use pushplan_command::{exit_code, start};
 
 use super::{
     adapted, convergence, cost, evaluate, hdd, joints, kept, lever_points, lever_tasks, levers,

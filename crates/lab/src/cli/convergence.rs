@@ -1,10 +1,10 @@
 //! `pushplan-lab convergence`: how exact simulated lever-ups are.
 
 use clap::Args;
-use pushplan::cli::error::CliError;
-use pushplan::cli::form::Form;
-use pushplan::cli::session::Session;
-use pushplan::cli::words::words;
+use pushplan_command::error::CliError;
+use pushplan_command::form::Form;
+use pushplan_command::session::Session;
+use pushplan_command::words::words;
 use pushplan_learn::cli::words::LEVER_PRESETS;
 use pushplan_learn::dataset::LeverPreset;
 

@@ -4,16 +4,16 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
-use pushplan::cli::bench::common::Common;
-use pushplan::cli::error::CliError;
-use pushplan::cli::form::Form;
-use pushplan::cli::session::Session;
-use pushplan::cli::solve::solve_error;
-use pushplan::cli::{model, output};
 use pushplan::internals::asset::load_task;
 use pushplan::internals::effect::{EffectModel, Network, Simulated};
 use pushplan::internals::sim::Simulator;
 use pushplan::internals::solve::Effort;
+use pushplan_command::bench::common::Common;
+use pushplan_command::error::CliError;
+use pushplan_command::form::Form;
+use pushplan_command::session::Session;
+use pushplan_command::solve::solve_error;
+use pushplan_command::{model, output};
 
 use crate::bench::{
     FAR_COUNTS, Suite, SuiteKind, crowd_cases, equation_costs, far_costs, inference_costs,

@@ -3,14 +3,14 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use pushplan::cli::error::CliError;
-use pushplan::cli::follow::Following;
-use pushplan::cli::form::Form;
-use pushplan::cli::interrupt;
-use pushplan::cli::session::Session;
 use pushplan::internals::effect::{LeverModel, LeverPrior, PriorSettings, SimulatedLevers};
 use pushplan::internals::scene::LeverFeatures;
 use pushplan::internals::sim::LeverSimulator;
+use pushplan_command::error::CliError;
+use pushplan_command::follow::Following;
+use pushplan_command::form::Form;
+use pushplan_command::interrupt;
+use pushplan_command::session::Session;
 use pushplan_learn::cli::generate::data_error;
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverPreset};
 

@@ -1,17 +1,17 @@
 //! `pushplan-lab joints`: how well joints are inferred from what is seen.
 
 use clap::Args;
-use pushplan::cli::bench::keep;
-use pushplan::cli::bench::keep::KeepArgs;
-use pushplan::cli::bench::suite::{Cases, Measure, Run, Suite, only};
-use pushplan::cli::error::CliError;
-use pushplan::cli::model;
-use pushplan::cli::regulator::RegulatorArgs;
-use pushplan::cli::session::Session;
-use pushplan::cli::words::{ENGINES, words};
 use pushplan::internals::report::Document;
 use pushplan::internals::scene::{Engine, ModelSpec};
 use pushplan::internals::store::RunManifest;
+use pushplan_command::bench::keep;
+use pushplan_command::bench::keep::KeepArgs;
+use pushplan_command::bench::suite::{Cases, Measure, Run, Suite, only};
+use pushplan_command::error::CliError;
+use pushplan_command::model;
+use pushplan_command::regulator::RegulatorArgs;
+use pushplan_command::session::Session;
+use pushplan_command::words::{ENGINES, words};
 use pushplan_learn::cli::words::JOINTS;
 use pushplan_learn::dataset::JointRule;
 use serde_json::json;

@@ -1,9 +1,9 @@
 //! The suites whose runs are kept in folders, and what runs must have in common to be compared.
 
-use pushplan::cli::bench::saved::Kept;
-use pushplan::cli::bench::suite::{Run, load, only};
-use pushplan::cli::error::CliError;
 use pushplan::internals::store::RunManifest;
+use pushplan_command::bench::saved::Kept;
+use pushplan_command::bench::suite::{Run, load, only};
+use pushplan_command::error::CliError;
 use serde::de::DeserializeOwned;
 
 use crate::bench::{Evaluated, TradeOff, by_kind};

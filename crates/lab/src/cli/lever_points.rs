@@ -1,13 +1,13 @@
 //! `pushplan-lab lever-points`: where plates are levered, from how they begin to move.
 
 use clap::Args;
-use pushplan::cli::error::CliError;
-use pushplan::cli::follow::Following;
-use pushplan::cli::form::Form;
-use pushplan::cli::interrupt;
-use pushplan::cli::session::Session;
-use pushplan::cli::words::words;
 use pushplan::internals::effect::LeverPrior;
+use pushplan_command::error::CliError;
+use pushplan_command::follow::Following;
+use pushplan_command::form::Form;
+use pushplan_command::interrupt;
+use pushplan_command::session::Session;
+use pushplan_command::words::words;
 use pushplan_learn::cli::generate::data_error;
 use pushplan_learn::cli::words::LEVER_PRESETS;
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverPreset};

@@ -4,17 +4,17 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Args;
-use pushplan::cli::error::CliError;
-use pushplan::cli::follow::Following;
-use pushplan::cli::form::Form;
-use pushplan::cli::interrupt;
-use pushplan::cli::session::Session;
-use pushplan::cli::words::words;
 use pushplan::internals::effect::{
     LeverModel, LeverNetwork, LeverPrior, LeverTrust, PriorSettings, SimulatedLevers,
 };
 use pushplan::internals::sim::LeverSimulator;
 use pushplan::internals::{outcome::LeverTrajectory, scene::LeverFeatures, task::LeverJob};
+use pushplan_command::error::CliError;
+use pushplan_command::follow::Following;
+use pushplan_command::form::Form;
+use pushplan_command::interrupt;
+use pushplan_command::session::Session;
+use pushplan_command::words::words;
 use pushplan_learn::cli::generate::data_error;
 use pushplan_learn::cli::words::LEVER_PRESETS;
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPart, LeverPreset};

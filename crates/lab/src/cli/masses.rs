@@ -1,16 +1,16 @@
 //! `pushplan-lab masses`: how well masses are told from pushes.
 
 use clap::Args;
-use pushplan::cli::bench::keep;
-use pushplan::cli::bench::keep::KeepArgs;
-use pushplan::cli::bench::suite::{Cases, Measure, Run, Suite, only};
-use pushplan::cli::error::CliError;
-use pushplan::cli::model;
-use pushplan::cli::session::Session;
-use pushplan::cli::words::words;
 use pushplan::internals::report::Document;
 use pushplan::internals::scene::ModelSpec;
 use pushplan::internals::store::RunManifest;
+use pushplan_command::bench::keep;
+use pushplan_command::bench::keep::KeepArgs;
+use pushplan_command::bench::suite::{Cases, Measure, Run, Suite, only};
+use pushplan_command::error::CliError;
+use pushplan_command::model;
+use pushplan_command::session::Session;
+use pushplan_command::words::words;
 use pushplan_learn::dataset::{Controlled, MassSetup};
 use serde_json::json;
 

@@ -1,17 +1,17 @@
 //! `pushplan-lab probes`: how much pushes tell, by how they were chosen.
 
 use clap::Args;
-use pushplan::cli::bench::keep;
-use pushplan::cli::bench::keep::KeepArgs;
-use pushplan::cli::bench::suite::{Cases, Measure, Run, Suite, only};
-use pushplan::cli::error::CliError;
-use pushplan::cli::model;
-use pushplan::cli::session::Session;
-use pushplan::cli::words::{PROBES, words};
 use pushplan::internals::act::ProbeRule;
 use pushplan::internals::report::Document;
 use pushplan::internals::scene::ModelSpec;
 use pushplan::internals::store::RunManifest;
+use pushplan_command::bench::keep;
+use pushplan_command::bench::keep::KeepArgs;
+use pushplan_command::bench::suite::{Cases, Measure, Run, Suite, only};
+use pushplan_command::error::CliError;
+use pushplan_command::model;
+use pushplan_command::session::Session;
+use pushplan_command::words::{PROBES, words};
 use serde_json::json;
 
 use crate::bench::{ProbeRecord, ProbeSuite, summarise_probes};

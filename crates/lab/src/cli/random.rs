@@ -3,16 +3,16 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use pushplan::cli::bench::keep;
-use pushplan::cli::bench::keep::KeepArgs;
-use pushplan::cli::bench::suite::{Cases, Measure, Run, Suite};
-use pushplan::cli::error::CliError;
-use pushplan::cli::session::Session;
-use pushplan::cli::solve::solve_error;
-use pushplan::cli::words::{EFFORTS, words};
 use pushplan::internals::bench::SolvedTask;
 use pushplan::internals::report::Document;
 use pushplan::internals::solve::Effort;
+use pushplan_command::bench::keep;
+use pushplan_command::bench::keep::KeepArgs;
+use pushplan_command::bench::suite::{Cases, Measure, Run, Suite};
+use pushplan_command::error::CliError;
+use pushplan_command::session::Session;
+use pushplan_command::solve::solve_error;
+use pushplan_command::words::{EFFORTS, words};
 
 use crate::bench::{RandomError, RandomRecord};
 use crate::cli::kept::same_tasks;

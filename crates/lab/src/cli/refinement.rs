@@ -1,17 +1,17 @@
 //! `pushplan-lab refinement`: what refinement brings.
 
 use clap::Args;
-use pushplan::cli::bench::common::Common;
-use pushplan::cli::bench::keep;
-use pushplan::cli::bench::keep::{KeepArgs, tools_digest, weights_digest};
-use pushplan::cli::bench::suite::{Cases, Measure, Run, Suite, only};
-use pushplan::cli::error::CliError;
-use pushplan::cli::session::Session;
-use pushplan::cli::solve::solve_error;
-use pushplan::cli::words::{EFFORTS, words};
 use pushplan::internals::report::Document;
 use pushplan::internals::solve::{Effort, Planner, Settings};
 use pushplan::internals::store::RunManifest;
+use pushplan_command::bench::common::Common;
+use pushplan_command::bench::keep;
+use pushplan_command::bench::keep::{KeepArgs, tools_digest, weights_digest};
+use pushplan_command::bench::suite::{Cases, Measure, Run, Suite, only};
+use pushplan_command::error::CliError;
+use pushplan_command::session::Session;
+use pushplan_command::solve::solve_error;
+use pushplan_command::words::{EFFORTS, words};
 use serde_json::json;
 
 use crate::bench::{RefinedTask, RefinementReport, refine_task};

@@ -4,20 +4,20 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use pushplan::cli::error::CliError;
-use pushplan::cli::follow::Following;
-use pushplan::cli::form::Form;
-use pushplan::cli::model;
-use pushplan::cli::model::OutsideArgs;
-use pushplan::cli::noise::NoiseArgs;
-use pushplan::cli::recordings::load_recordings;
-use pushplan::cli::regulator::RegulatorArgs;
-use pushplan::cli::session::Session;
-use pushplan::cli::words::words;
 use pushplan::internals::effect::EffectModel;
 use pushplan::internals::recording::Recording;
 use pushplan::internals::scene::ModelSpec;
 use pushplan::internals::watch::Count;
+use pushplan_command::error::CliError;
+use pushplan_command::follow::Following;
+use pushplan_command::form::Form;
+use pushplan_command::model;
+use pushplan_command::model::OutsideArgs;
+use pushplan_command::noise::NoiseArgs;
+use pushplan_command::recordings::load_recordings;
+use pushplan_command::regulator::RegulatorArgs;
+use pushplan_command::session::Session;
+use pushplan_command::words::words;
 
 use crate::bench::{Asked, BeliefRecord, JointMethod, belief_steps, follow};
 use crate::report::recorded_joints_document;

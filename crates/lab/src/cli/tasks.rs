@@ -3,16 +3,16 @@
 use std::path::Path;
 
 use clap::Args;
-use pushplan::cli::bench::common::Common;
-use pushplan::cli::bench::keep::{tools_digest, weights_digest};
-use pushplan::cli::error::CliError;
-use pushplan::cli::session::Session;
-use pushplan::cli::words::words;
-use pushplan::cli::{interrupt, output};
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::solve::{Effort, Planner};
 use pushplan::internals::store::RunManifest;
 use pushplan::internals::task::Task;
+use pushplan_command::bench::common::Common;
+use pushplan_command::bench::keep::{tools_digest, weights_digest};
+use pushplan_command::error::CliError;
+use pushplan_command::session::Session;
+use pushplan_command::words::words;
+use pushplan_command::{interrupt, output};
 use serde_json::json;
 
 use crate::bench::{RandomSuite, TaskKind};

@@ -3,15 +3,15 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use pushplan::cli::action::LibraryArgs;
-use pushplan::cli::bench::weights_digest;
-use pushplan::cli::error::CliError;
-use pushplan::cli::follow::Following;
-use pushplan::cli::form::Form;
-use pushplan::cli::session::Session;
-use pushplan::cli::{exit_code, interrupt, output};
 use pushplan::internals::store::{RunManifest, Seconds, Shard, Store};
 use pushplan::internals::watch::Watch;
+use pushplan_command::action::LibraryArgs;
+use pushplan_command::bench::weights_digest;
+use pushplan_command::error::CliError;
+use pushplan_command::follow::Following;
+use pushplan_command::form::Form;
+use pushplan_command::session::Session;
+use pushplan_command::{exit_code, interrupt, output};
 
 use crate::bench::{TradeOff, TradeOffSettings, Unit, levels, plan_levels};
 use crate::report::tradeoff_document;

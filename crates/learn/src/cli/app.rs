@@ -3,12 +3,12 @@
 use std::ffi::OsString;
 
 use clap::{Parser, Subcommand};
-use pushplan::cli::bench::status;
-use pushplan::cli::bench::status::StatusArgs;
-use pushplan::cli::error::CliError;
-use pushplan::cli::groups::Groups;
-use pushplan::cli::session::{GlobalArgs, Session};
-use pushplan::cli::{exit_code, start};
+use pushplan_command::bench::status;
+use pushplan_command::bench::status::StatusArgs;
+use pushplan_command::error::CliError;
+use pushplan_command::groups::Groups;
+use pushplan_command::session::{GlobalArgs, Session};
+use pushplan_command::{exit_code, start};
 
 use super::{generate, merge, train};
 

@@ -4,16 +4,16 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use pushplan::cli::error::CliError;
-use pushplan::cli::follow::Following;
-use pushplan::cli::session::Session;
-use pushplan::cli::words::words;
-use pushplan::cli::{exit_code, interrupt};
 use pushplan::internals::asset::write_atomic;
 use pushplan::internals::export::{LEVER_SCRIPT, lever_mjcf};
 use pushplan::internals::geometry::Pose3;
 use pushplan::internals::outcome::LeverTrajectory;
 use pushplan::internals::store::{Shard, StoreError};
+use pushplan_command::error::CliError;
+use pushplan_command::follow::Following;
+use pushplan_command::session::Session;
+use pushplan_command::words::words;
+use pushplan_command::{exit_code, interrupt};
 use serde_json::json;
 
 use crate::cli::words::{DATA, Data, JOINTS, SOLIDS, TRUTHS};

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use pushplan::cli::error::CliError;
-use pushplan::cli::exit_code;
-use pushplan::cli::session::Session;
+use pushplan_command::error::CliError;
+use pushplan_command::exit_code;
+use pushplan_command::session::Session;
 
 use crate::dataset::merge_data;
 

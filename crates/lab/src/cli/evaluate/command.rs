@@ -1,14 +1,14 @@
 //! The command: what is measured on what.
 
 use clap::Args;
-use pushplan::cli::action::LibraryArgs;
-use pushplan::cli::error::CliError;
-use pushplan::cli::form::Form;
-use pushplan::cli::model::OutsideArgs;
-use pushplan::cli::session::Session;
-use pushplan::cli::{exit_code, model, output};
 use pushplan::internals::scene::ModelSpec;
 use pushplan::internals::store::Shard;
+use pushplan_command::action::LibraryArgs;
+use pushplan_command::error::CliError;
+use pushplan_command::form::Form;
+use pushplan_command::model::OutsideArgs;
+use pushplan_command::session::Session;
+use pushplan_command::{exit_code, model, output};
 
 use crate::bench::SuiteKind;
 use crate::cli::evaluate::crowds::Crowds;

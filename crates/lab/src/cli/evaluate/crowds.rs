@@ -1,14 +1,14 @@
 //! Measuring on a set of crowds.
 
-use pushplan::cli::error::CliError;
-use pushplan::cli::follow::Following;
-use pushplan::cli::form::Form;
-use pushplan::cli::model::OutsideArgs;
-use pushplan::cli::session::Session;
-use pushplan::cli::{model, output};
 use pushplan::internals::effect::EffectModel;
 use pushplan::internals::judge::assumed;
 use pushplan::internals::scene::ModelSpec;
+use pushplan_command::error::CliError;
+use pushplan_command::follow::Following;
+use pushplan_command::form::Form;
+use pushplan_command::model::OutsideArgs;
+use pushplan_command::session::Session;
+use pushplan_command::{model, output};
 
 use crate::bench::{CrowdReport, CrowdSet, HeldOutReport, crowd_baselines};
 use crate::report::{crowd_document, evaluation_document};

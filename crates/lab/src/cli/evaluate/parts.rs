@@ -1,13 +1,13 @@
 //! What is drawn to be measured on, part by part: kept, resumed and split into shards.
 
-use pushplan::cli::bench::{tools_digest, weights_digest};
-use pushplan::cli::error::CliError;
-use pushplan::cli::follow::Following;
-use pushplan::cli::model;
-use pushplan::cli::session::Session;
 use pushplan::internals::effect::EffectModel;
 use pushplan::internals::store::{Measured, RunManifest, Seconds, Shard, Store};
 use pushplan::internals::watch::Unwatched;
+use pushplan_command::bench::{tools_digest, weights_digest};
+use pushplan_command::error::CliError;
+use pushplan_command::follow::Following;
+use pushplan_command::model;
+use pushplan_command::session::Session;
 use serde_json::json;
 
 use crate::bench::{

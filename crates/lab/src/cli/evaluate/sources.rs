@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use pushplan::cli::error::CliError;
-use pushplan::cli::words::words;
+use pushplan_command::error::CliError;
+use pushplan_command::words::words;
 use pushplan_learn::cli::words::{JOINTS, SOLIDS};
 use pushplan_learn::dataset::{JointRule, Solids};
 

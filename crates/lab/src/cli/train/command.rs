@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
-use pushplan::cli::error::CliError;
-use pushplan::cli::session::Session;
+use pushplan_command::error::CliError;
+use pushplan_command::session::Session;
 
 use super::{memory, parts};
 

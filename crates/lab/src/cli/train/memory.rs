@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use pushplan::cli::error::CliError;
-use pushplan::cli::session::Session;
-use pushplan::cli::words::words;
 use pushplan::internals::scene::LeverFeatures;
+use pushplan_command::error::CliError;
+use pushplan_command::session::Session;
+use pushplan_command::words::words;
 use pushplan_learn::cli::train::{distinct, opened, take, weights};
 use pushplan_learn::dataset::{LeverDataset, LeverEpisode, LeverPart};
 use pushplan_learn::train::{Descent, LeverSettings, train_lever};

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use pushplan::cli::error::CliError;
-use pushplan::cli::session::Session;
 use pushplan::internals::network::Config;
+use pushplan_command::error::CliError;
+use pushplan_command::session::Session;
 use pushplan_learn::cli::train::{distinct, opened, take, weights};
 use pushplan_learn::dataset::{LeverDataset, LeverEpisode};
 use pushplan_learn::train::Descent;

@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
-use pushplan::cli::error::CliError;
-use pushplan::cli::follow::Following;
-use pushplan::cli::session::Session;
-use pushplan::cli::{exit_code, interrupt};
 use pushplan::internals::store::FolderLock;
 use pushplan::internals::watch::Watch;
+use pushplan_command::error::CliError;
+use pushplan_command::follow::Following;
+use pushplan_command::session::Session;
+use pushplan_command::{exit_code, interrupt};
 
 use crate::cli::generate::data_error;
 use crate::dataset::DatasetError;

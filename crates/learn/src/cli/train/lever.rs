@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use pushplan::cli::error::CliError;
-use pushplan::cli::session::Session;
 use pushplan::internals::store::Shard;
+use pushplan_command::error::CliError;
+use pushplan_command::session::Session;
 
 use crate::cli::train::{data, take, weights};
 use crate::dataset::{

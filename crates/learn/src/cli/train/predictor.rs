@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use pushplan::cli::error::CliError;
-use pushplan::cli::follow::Following;
-use pushplan::cli::output;
-use pushplan::cli::session::Session;
-use pushplan::cli::words::words;
 use pushplan::internals::network::Config;
 use pushplan::internals::store::Shard;
 use pushplan::internals::watch::Watch;
+use pushplan_command::error::CliError;
+use pushplan_command::follow::Following;
+use pushplan_command::output;
+use pushplan_command::session::Session;
+use pushplan_command::words::words;
 
 use crate::cli::train::{data, take, written};
 use crate::cli::words::EXPOSURES;

@@ -4,11 +4,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
-use pushplan::cli::bench::weights_digest;
-use pushplan::cli::error::CliError;
-use pushplan::cli::session::Session;
 use pushplan::internals::effect::{EffectModels, Network};
 use pushplan::internals::scene::{ModelKind, ModelSpec};
+use pushplan_command::bench::weights_digest;
+use pushplan_command::error::CliError;
+use pushplan_command::session::Session;
 
 use crate::cli::train::{data, take, weights};
 use crate::dataset::lessons;

@@ -1,0 +1,174 @@
+//! Benchmarks that are kept in a folder: resumed, and measured in parts.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::Args;
+use serde::{Serialize, de::DeserializeOwned};
+
+use crate::{
+    error::CliError, follow::Following, form::Form, interrupt, model, output, session::Session,
+};
+use pushplan::report::Document;
+use pushplan::scene::{ModelSpec, Tool};
+use pushplan::store::{Measured, RunManifest, Shard, Store, StoreError, digest};
+
+/// Names of the files that a report leaves next to the records.
+const PAGE: &str = "report.html";
+const ROWS: &str = "tasks.csv";
+
+/// The section of `--help` for benchmarks that are kept.
+pub const HELP: &str = "With --out every finished task is kept as soon as those before it are: \
+after an interruption (Ctrl-C) the same command goes on.
+manifest.json and records.jsonl are then the same bytes as without interruption; times.jsonl holds
+the wall times, which differ. --shard 2/3 measures every third task, for example on another machine;
+`merge OUT SHARD...` puts the parts together as one run would have left them, `status SHARD...` says
+which are missing, and `report DIR...` shows them again.";
+
+/// Where results are kept.
+#[derive(Args, Debug)]
+pub struct KeepArgs {
+    /// Folder that keeps every task's result, a report (HTML) and a table (CSV)
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Measure only part I of N
+    #[arg(long, value_name = "I/N", requires = "out")]
+    shard: Option<Shard>,
+}
+
+impl KeepArgs {
+    /// Indices of the tasks that this part of a run measures, of `count`.
+    pub fn indices(&self, count: usize) -> impl ExactSizeIterator<Item = usize> {
+        self.shard.unwrap_or(Shard::WHOLE).indices(count)
+    }
+
+    /// Measures what is left of a run, following it on stderr.
+    ///
+    /// # Errors
+    /// What [`Store::open`] and `measure` refuse, and an interruption.
+    pub fn measure<R: Serialize + DeserializeOwned>(
+        &self,
+        session: &Session,
+        manifest: RunManifest,
+        measure: impl FnMut(usize) -> Result<Measured<R>, CliError>,
+    ) -> Result<Store<R>, CliError> {
+        self.kept(session, manifest, |store, following| store.run(following, measure))
+    }
+
+    /// The same with one task on each of the session's threads, which share no work.
+    ///
+    /// # Errors
+    /// What [`Store::open`] refuses, and an interruption.
+    pub fn measure_side_by_side<R: Serialize + DeserializeOwned + Send>(
+        &self,
+        session: &Session,
+        manifest: RunManifest,
+        measure: impl Fn(usize) -> Measured<R> + Sync,
+    ) -> Result<Store<R>, CliError> {
+        self.kept(session, manifest, |store, following| {
+            let alone = |index| session.compute_alone(|| measure(index));
+            Ok(store.run_side_by_side(following, session.threads(), alone)?)
+        })
+    }
+
+    fn kept<R: Serialize + DeserializeOwned>(
+        &self,
+        session: &Session,
+        manifest: RunManifest,
+        run: impl FnOnce(&mut Store<R>, &Following<'_>) -> Result<(), CliError>,
+    ) -> Result<Store<R>, CliError> {
+        let manifest = match self.shard {
+            Some(shard) => manifest.with_shard(shard),
+            None => manifest,
+        };
+        interrupt::watch();
+        let following = Following::bar(session, "tasks");
+        let mut store = match &self.out {
+            Some(dir) => Store::open(dir, manifest, &following)?,
+            None => Store::in_memory(manifest),
+        };
+        let measured = run(&mut store, &following);
+        following.finish()?;
+        match measured {
+            Err(CliError::Interrupted(message)) => Err(CliError::Interrupted(match &self.out {
+                Some(_) => format!("{message}; the same command goes on from there"),
+                None => format!("{message}; with --out DIR they would have been kept"),
+            })),
+            measured => measured.map(|()| store),
+        }
+    }
+}
+
+/// Prints a report, and writes its page and rows into the folder of a run, if there is one.
+///
+/// # Errors
+/// If that cannot be written.
+pub fn show(
+    form: Form,
+    session: &Session,
+    document: &Document,
+    folder: Option<&Path>,
+) -> Result<(), CliError> {
+    if let Some(folder) = folder {
+        output::write(folder, PAGE, document.to_html().as_bytes())?;
+        output::write(folder, ROWS, document.to_csv().as_bytes())?;
+    }
+    form.show(session, document)
+}
+
+/// Digest of a network's weights; `None` for a model without any.
+///
+/// # Errors
+/// If they cannot be read.
+pub fn weights_digest(spec: &ModelSpec) -> Result<Option<String>, CliError> {
+    let Some(weights) = model::weights(spec)? else { return Ok(None) };
+    let bytes = weights.to_bytes();
+    let bytes = bytes.map_err(|error| CliError::unexpected("cannot read the weights", &error))?;
+    Ok(Some(digest(&bytes)))
+}
+
+/// Tells a value from all others.
+///
+/// # Errors
+/// If it cannot be written as JSON, which nothing of ours refuses.
+pub fn value_digest(value: &impl Serialize) -> Result<String, CliError> {
+    let text = serde_json::to_vec(value);
+    let text = text.map_err(|error| CliError::unexpected("cannot write JSON", &error))?;
+    Ok(digest(&text))
+}
+
+/// Tells tools from all others.
+///
+/// # Errors
+/// Those of [`value_digest`].
+pub fn tools_digest<'a>(tools: impl Iterator<Item = &'a Arc<Tool>>) -> Result<String, CliError> {
+    value_digest(&tools.map(|tool| &**tool).collect::<Vec<_>>())
+}
+
+impl From<StoreError> for CliError {
+    fn from(error: StoreError) -> Self {
+        let message = error.to_string();
+        match error {
+            StoreError::Cancelled { .. } => Self::Interrupted(message),
+            StoreError::Write(faults) => Self::Output(faults),
+            StoreError::OtherRun { .. } | StoreError::Stray { .. } => {
+                Self::usage(message, "the same command as before goes on with an unfinished run")
+            }
+            StoreError::DuplicateShard { .. }
+            | StoreError::MissingShards { .. }
+            | StoreError::Occupied { .. }
+            | StoreError::NothingToMerge => Self::usage(
+                message,
+                "name a new folder, then those of all shards: merge OUT SHARD...",
+            ),
+            StoreError::Manifest { .. }
+            | StoreError::Damaged { .. }
+            | StoreError::Missing { .. }
+            | StoreError::NoRun { .. }
+            | StoreError::Unfinished { .. } => Self::File(message),
+            StoreError::Io { .. } | StoreError::Busy { .. } | StoreError::Record { .. } => {
+                Self::Unexpected(message)
+            }
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! The page of one task of a benchmark: its plan is replayed as it was measured.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::Args;
+
+use crate::{action::LibraryArgs, error::CliError, output, page, session::Session};
+use pushplan::asset::{PlanFile, load_task};
+use pushplan::bench::{End, SolvedTask};
+use pushplan::report::{PageView, TaskSource};
+use pushplan::scene::{Engine, Models, Situation};
+use pushplan::store::RunManifest;
+use pushplan::verify::{Verifier, VerifySettings};
+
+/// Which task, and the tools that it was solved with.
+#[derive(Args, Debug)]
+pub struct PageArgs {
+    /// A task file of the run whose plan a page is to play
+    #[arg(long, value_name = "TASK", requires = "out")]
+    page: Option<PathBuf>,
+    #[command(flatten)]
+    library: LibraryArgs,
+}
+
+impl PageArgs {
+    /// The task file, if a page is asked for.
+    pub fn wanted(&self) -> Option<&Path> {
+        self.page.as_deref()
+    }
+
+    /// Replays the plan of the task in `path`, one of those `solved` in a run, with the seed of its
+    /// disturbed replays, and writes its page.
+    ///
+    /// # Errors
+    /// A task that the run does not hold, or holds with other results; a page that cannot be
+    /// written.
+    pub fn write<'a>(
+        &self,
+        path: &Path,
+        out: &Path,
+        session: &Session,
+        (run, seed): (&RunManifest, u64),
+        mut solved: impl Iterator<Item = &'a SolvedTask>,
+    ) -> Result<PathBuf, CliError> {
+        output::prepare(out)?;
+        let library = self.library.load()?;
+        let task = load_task(path, &library)?;
+        let found = solved.find(|record| record.task == task.name);
+        let record = found.ok_or_else(|| {
+            let message = format!("the run holds no task `{}`", task.name);
+            CliError::usage(message, "name the file of a task that was measured")
+        })?;
+        let plan = record.plan.clone().ok_or_else(|| {
+            let message = format!("no push can be made in `{}`, so there is no plan", task.name);
+            CliError::usage(message, "name another task")
+        })?;
+        let tool = library.get(plan.tool()).ok_or_else(|| {
+            let message = format!("the plan uses the tool `{}`, which is not here", plan.tool());
+            CliError::usage(message, "give the --tools or --more-tools of the run")
+        })?;
+        let disturbed = run.settings["budget"]["disturbed"].as_u64().unwrap_or(0) as usize;
+        let verifier = Verifier::new(VerifySettings { disturbed, seed }).until_clear();
+        let situation = Situation::stated(&task.scene);
+        let verdict = session
+            .compute(|| verifier.verify(&task, &situation, std::slice::from_ref(tool), &plan));
+        let end = |engine| verdict.nominal(engine).map(|evidence| End::of(&evidence.outcome));
+        if [record.planar, record.spatial] != Engine::ALL.map(end) {
+            return Err(CliError::usage(
+                format!("the replays of `{}` end elsewhere than in the run", task.name),
+                "name exactly the task and tools that were measured, and use the same program",
+            ));
+        }
+        let models: Option<Models> = run.model.parse().ok();
+        let model = models.map(|models| models.decided);
+        let recipe =
+            self.library.origin(TaskSource::of(path), model.clone().map(Models::from)).plan(&plan);
+        let file = PlanFile { model, ..PlanFile::new(task, vec![Arc::clone(tool)], plan) };
+        page::write(out, session, &file, &verdict, (recipe, PageView::Above))
+    }
+}

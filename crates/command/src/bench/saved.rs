@@ -1,0 +1,179 @@
+//! `pushplan bench merge` and `report`: runs that are kept in folders.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::{error::CliError, form::Form, output, session::Session};
+use pushplan::bench::SolvedTask;
+use pushplan::report::Document;
+use pushplan::store::{self, RunManifest, Store, line_index, merge_runs};
+
+use super::keep;
+use super::page::PageArgs;
+use super::suite::{Suite, load};
+use super::tasks::TasksArgs;
+use super::tools::ToolsArgs;
+
+/// Put the shards of a benchmark together: the same bytes as one run
+#[derive(Args, Debug)]
+#[command(after_help = "Example:
+  pushplan bench tools --out part-1 --shard 1/2      # here
+  pushplan bench tools --out part-2 --shard 2/2      # there
+  pushplan bench merge whole part-1 part-2")]
+pub struct MergeArgs {
+    /// Folder for the merged run; must hold none
+    #[arg(value_name = "OUT")]
+    out: PathBuf,
+    /// Folders of all shards, in any order
+    #[arg(required = true, value_name = "SHARD")]
+    shards: Vec<PathBuf>,
+    #[command(flatten)]
+    form: Form,
+}
+
+/// Show runs that are kept in folders; several of one suite side by side
+#[derive(Args, Debug)]
+pub struct ReportArgs {
+    /// Folders of runs
+    #[arg(required = true, value_name = "DIR")]
+    runs: Vec<PathBuf>,
+    /// Folder for the report (HTML) and a table (CSV)
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    page: PageArgs,
+    #[command(flatten)]
+    form: Form,
+}
+
+/// A suite whose runs are kept, and what is shown of them.
+pub struct Kept {
+    suite: &'static str,
+    /// None where only the command that measures has all that a report needs.
+    document: Option<Show>,
+    solved: fn(&Path) -> Result<Option<SolvedRun>, CliError>,
+}
+
+/// Makes the report of the runs in folders.
+pub type Show = fn(&[PathBuf]) -> Result<Document, CliError>;
+
+/// What a run is of, the seed of its disturbed replays, and its solved tasks.
+type SolvedRun = (RunManifest, u64, Vec<SolvedTask>);
+
+impl Kept {
+    /// The runs of a suite.
+    pub const fn of<S: Suite>() -> Self {
+        Self {
+            suite: S::NAME,
+            document: Some(|dirs| S::document(&load(dirs)?)),
+            solved: |dir| {
+                let run = Store::<S::Record>::load(dir)?.into_parts();
+                let solved = S::solved(&run);
+                Ok(solved.map(|(seed, solved)| (run.0, seed, solved)))
+            },
+        }
+    }
+
+    /// Runs of which `document` is made by itself, if it can be made of what is kept at all.
+    pub const fn apart(suite: &'static str, document: Option<Show>) -> Self {
+        Self { suite, document, solved: |_| Ok(None) }
+    }
+}
+
+/// The suites of this command.
+pub const SUITES: [Kept; 2] = [Kept::of::<TasksArgs>(), Kept::of::<ToolsArgs>()];
+
+/// Merges shards of one of these `suites` and shows what they hold together.
+///
+/// # Errors
+/// Folders that are not the shards of one run, or hold another suite.
+pub fn merge(args: &MergeArgs, suites: &[Kept], session: &Session) -> Result<(), CliError> {
+    let (out, shards) = (&args.out, &args.shards);
+    let kept = shards.first().map(|first| known(suites, first)).transpose()?;
+    let whole = merge_runs(out, shards, store::Form::Lines, &mut line_index)?;
+    if kept.is_some_and(|kept| kept.document.is_none()) {
+        return session.print(&format!(
+            "{} units in {}; the command of the shards with this folder and without --shard shows \
+             the results\n",
+            whole.tasks,
+            out.display()
+        ));
+    }
+    let runs = std::slice::from_ref(out);
+    keep::show(args.form, session, &document(suites, runs)?, Some(&args.out))
+}
+
+/// Shows runs of one of these `suites`.
+///
+/// # Errors
+/// Folders that hold no such run; a page of a run without plans.
+pub fn report(args: &ReportArgs, suites: &[Kept], session: &Session) -> Result<(), CliError> {
+    let mut document = document(suites, &args.runs)?;
+    if let Some(out) = &args.out {
+        output::prepare(out)?;
+        if let Some(task) = args.page.wanted() {
+            document.wrote(&[page(args, suites, task, out, session)?]);
+        }
+    }
+    keep::show(args.form, session, &document, args.out.as_deref())
+}
+
+/// The report of one suite's runs.
+fn document(suites: &[Kept], runs: &[PathBuf]) -> Result<Document, CliError> {
+    let mut names = Vec::new();
+    for dir in runs {
+        names.push(RunManifest::expect(dir)?.suite);
+    }
+    let suite = names[0].as_str();
+    if let Some(other) = names.iter().position(|other| other != suite) {
+        return Err(CliError::usage(
+            format!(
+                "{} holds the suite `{}`, {} `{suite}`",
+                runs[other].display(),
+                names[other],
+                runs[0].display()
+            ),
+            "show each suite by itself",
+        ));
+    }
+    match known(suites, &runs[0])?.document {
+        Some(document) => document(runs),
+        None => Err(CliError::usage(
+            format!("the report of the suite `{suite}` needs more than is kept"),
+            "repeat the command of the run, with its --out: it measures only what is missing",
+        )),
+    }
+}
+
+/// The suite of the run in a folder.
+fn known<'a>(suites: &'a [Kept], dir: &Path) -> Result<&'a Kept, CliError> {
+    let name = RunManifest::expect(dir)?.suite;
+    suites.iter().find(|kept| kept.suite == name).ok_or_else(|| {
+        CliError::File(format!(
+            "{} holds a suite that this program does not know: `{name}`",
+            dir.display()
+        ))
+    })
+}
+
+/// The page of one task of the run.
+fn page(
+    args: &ReportArgs,
+    suites: &[Kept],
+    task: &Path,
+    out: &Path,
+    session: &Session,
+) -> Result<PathBuf, CliError> {
+    let [dir] = &args.runs[..] else {
+        return Err(CliError::usage("a page is of one run", "name one folder"));
+    };
+    let kept = known(suites, dir)?;
+    let Some((run, seed, solved)) = (kept.solved)(dir)? else {
+        return Err(CliError::usage(
+            format!("runs of the suite `{}` are not of single plans", kept.suite),
+            "leave out --page",
+        ));
+    };
+    args.page.write(task, out, session, (&run, seed), solved.iter())
+}

@@ -1,0 +1,108 @@
+//! `pushplan check`: reads files and says everything that is wrong with them; JSON schemas of files
+//! that people write.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+
+use pushplan::act::{ActError, Trace};
+use pushplan::asset::{
+    self, Fault, Faults, Kind, ToolLibrary, recording_schema, task_schema, tool_schema,
+    world_schema,
+};
+use pushplan::solve::{Effort, Planner};
+
+use super::{
+    action::LibraryArgs, error::CliError, exit_code, follow::Following, session::Session,
+    solve::solve_error,
+};
+
+/// Check your files: every fault with its place; or print their schema for editors
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  pushplan check tools/*.yaml tasks/*.yaml
+  pushplan check --why my-task.yaml
+  pushplan check --schema task > task.schema.json
+  # then, as the first line of a task file:
+  # yaml-language-server: $schema=task.schema.json")]
+pub struct CheckArgs {
+    /// Tool, task, plan, trajectory, recording, world and run files; content tells their kind
+    #[arg(required_unless_present = "schema", value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Print the JSON schema of this kind of file
+    #[arg(long, value_name = "KIND", conflicts_with = "files")]
+    schema: Option<Schema>,
+    /// Say also why a task of pushing has no plan: what `solve` would name, without verifying any
+    #[arg(long, conflicts_with = "schema")]
+    why: bool,
+    #[command(flatten)]
+    library: LibraryArgs,
+}
+
+/// Files that people write.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Schema {
+    Tool,
+    Task,
+    Recording,
+    World,
+}
+
+fn damaged(file: &Path, error: &ActError) -> Faults {
+    let advice = "the file is damaged, or of another version; make it again";
+    Fault::of_file(&file.display().to_string(), error.to_string(), advice).into()
+}
+
+pub fn run(args: &CheckArgs, session: &Session) -> Result<u8, CliError> {
+    if let Some(kind) = args.schema {
+        let schema = match kind {
+            Schema::Tool => tool_schema(),
+            Schema::Task => task_schema(),
+            Schema::Recording => recording_schema(),
+            Schema::World => world_schema(),
+        };
+        session.print(&format!("{schema:#}\n"))?;
+        return Ok(exit_code::DONE);
+    }
+    let library = args.library.load()?;
+    let (mut faults, mut code) = (Vec::new(), exit_code::DONE);
+    for file in &args.files {
+        let read = |kind| match kind {
+            Kind::Run => Trace::load(file).map(|_| kind).map_err(|error| damaged(file, &error)),
+            _ => Ok(kind),
+        };
+        match asset::check(file, Some(&library)).and_then(read) {
+            Ok(kind) => {
+                session.print(&format!("{}: {kind}, fine\n", file.display()))?;
+                if args.why && kind == Kind::Task {
+                    code = code.max(why(file, &library, session)?);
+                }
+            }
+            Err(found) => faults.extend(found.0),
+        }
+    }
+    if faults.is_empty() { Ok(code) } else { Err(Faults(faults).into()) }
+}
+
+/// Says what keeps a task from having a plan; the exit code.
+fn why(file: &Path, library: &ToolLibrary, session: &Session) -> Result<u8, CliError> {
+    let task = asset::load_task(file, library)?;
+    if task.in_space() {
+        session.print("  of tasks of levering only `pushplan solve` tells\n")?;
+        return Ok(exit_code::DONE);
+    }
+    let planner = Planner::for_effort(Effort::default())?.build();
+    let following = Following::spinner(session, "looking for a plan");
+    let found = session.compute(|| planner.why(&task, library, &following));
+    following.finish()?;
+    match found.map_err(solve_error)? {
+        Some(cause) => {
+            session.print(&format!("  no plan: {cause}\n"))?;
+            Ok(exit_code::NO_PLAN)
+        }
+        None => {
+            session.print("  a plan may reach the goal; `pushplan solve` verifies it\n")?;
+            Ok(exit_code::DONE)
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! `pushplan design`: a tool for a task that no tool solves.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use pushplan::design::DesignSettings;
+use pushplan::report::{Origin, design_document};
+use pushplan::scene::Tool;
+use pushplan::solve::{Effort, Planner};
+
+use super::{
+    error::CliError,
+    exit_code,
+    follow::Following,
+    form::Form,
+    output::{self, ResultArgs},
+    session::Session,
+    solve::{Results, ending, share, solve_error},
+    task_argument::TaskArgs,
+    words::{EFFORTS, words},
+};
+
+/// The folder of proposed tools, below that of the results.
+const TOOLS: &str = "tools";
+
+/// Propose a tool for a task that none solves, or that one solves with more margin
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  pushplan design my-task.yaml
+  pushplan design my-task.yaml --parts 4 --candidates 2000
+  pushplan solve my-task.yaml --more-tools plans/tools
+
+Bars, hooks, cranks, forks and rings of cuboids are drawn, and the best of them varied; the simplest
+with which a verified plan works is proposed. Writes <out>/tools/<tool>.yaml, a tool file to change and
+to choose from, <out>/<tool>.plan.json, <out>/<tool>.svg and <out>/<tool>.html. Where the tools that
+there are solve the task and none was found that does so with more margin, nothing is written.
+Without a plan that works, exit codes and names of files are those of `solve`, and there is no tool file.")]
+pub struct DesignArgs {
+    #[command(flatten)]
+    task: TaskArgs,
+    /// The most parts of the tool
+    #[arg(long, value_name = "N", default_value_t = DesignSettings::PARTS as u8,
+          value_parser = clap::value_parser!(u8).range(1..=DesignSettings::MOST_PARTS as i64))]
+    parts: u8,
+    /// Tools that are looked at
+    #[arg(long, value_name = "N", default_value_t = DesignSettings::CANDIDATES as u32,
+          value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    candidates: u32,
+    /// Draw all of them by chance, to see what the search is worth
+    #[arg(long, hide = true)]
+    random: bool,
+    /// How hard to try with each of the best tools
+    #[arg(long, value_parser = words(&EFFORTS), default_value = "standard")]
+    effort: Effort,
+    /// Seed of the tools, of refinement's samples and of the disturbed replays
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Share of the disturbed replays that must reach the goal, 0 to 1 [default: what the task
+    /// says, 0.75 if nothing]
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    robustness: Option<f64>,
+    #[command(flatten)]
+    results: ResultArgs,
+    /// Also draw a moving picture of the 3-D replay
+    #[arg(long)]
+    animate: bool,
+    #[command(flatten)]
+    form: Form,
+}
+
+pub fn run(args: &DesignArgs, session: &Session) -> Result<u8, CliError> {
+    let library = args.results.library.load()?;
+    let mut task = args.task.load(&library)?;
+    task.robustness = args.robustness.unwrap_or(task.robustness);
+    if task.in_space() {
+        let advice = "tools with blades are not proposed";
+        return Err(CliError::usage("this is a task of levering, not one of pushes", advice));
+    }
+    let planner = Planner::for_effort(args.effort)?.seed(args.seed).build();
+    output::prepare(&args.results.out)?;
+    let settings = DesignSettings::looking_at(args.candidates as usize);
+    let settings = DesignSettings { parts: args.parts.into(), ..settings };
+    let settings = if args.random { settings.at_random() } else { settings };
+    let following = Following::spinner(session, "designing");
+    let designed = session.compute(|| planner.design(&task, &library, &settings, &following));
+    following.finish()?;
+    let design = designed.map_err(solve_error)?;
+    for warning in &design.best().warnings {
+        session.warn(&warning.to_string());
+    }
+    let (code, suffix) = ending(design.status());
+    let mut document = design_document(&task, &design);
+    let written = match design.proposal.as_ref().and_then(|one| Some((one, one.solution.best()?))) {
+        Some((proposal, best)) => {
+            let tools = args.results.out.join(TOOLS);
+            let origin = |model| Origin {
+                more_tools: Some(tools.display().to_string()),
+                ..args.results.library.origin(args.task.source(), model)
+            };
+            let results = Results {
+                out: &args.results.out,
+                name: format!("{}{suffix}", proposal.tool.name),
+                page: args.results.page,
+                animate: args.animate,
+                origin: &origin,
+            };
+            let works = code != exit_code::NO_PLAN && code != exit_code::FAILED_VERIFICATION;
+            let tool = if works { write_tool(&tools, &proposal.tool).map(Some) } else { Ok(None) };
+            tool.and_then(|tool| {
+                let plan = (&proposal.solution, best);
+                let plan = results.write(session, &task, &planner, plan)?;
+                Ok(tool.into_iter().chain(plan).collect())
+            })
+        }
+        None => Ok(Vec::new()),
+    };
+    // As a plan, a tool is shown also where the disk has no place for it.
+    document.wrote(written.as_deref().unwrap_or_default());
+    args.form.show(session, &document)?;
+    written.map(|_: Vec<PathBuf>| code)
+}
+
+/// Writes the file of a tool into the folder, and gives its path.
+fn write_tool(folder: &Path, tool: &Tool) -> Result<PathBuf, CliError> {
+    output::prepare(folder)?;
+    output::write(folder, &format!("{}.yaml", tool.name), tool.to_yaml()?.as_bytes())
+}

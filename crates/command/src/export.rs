@@ -1,0 +1,197 @@
+//! `pushplan export`: plans for other programs.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use serde_json::json;
+
+use pushplan::asset::{self, Fault, Faults, Kind, PlanFile, SCHEMA_VERSION, TrajectoryFile};
+use pushplan::export::{
+    ExportError, LEVER_SCRIPT, REPLAY_SCRIPT, joint_table, joint_trajectory, mjcf,
+};
+use pushplan::{outcome::Trajectory, scene::ModelSpec};
+
+use super::{error::CliError, exit_code, model, output, session::Session};
+
+/// Write plans for other programs: MuJoCo scenes, recordings for Foxglove and Rerun, joint trajectories
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  pushplan export plans/pull-back.plan.json --out mjcf
+  pip install mujoco && python3 mjcf/replay.py mjcf/pull-back.xml
+  pushplan export plans/pull-back.plan.json --format mcap --model planar
+
+mjcf writes <out>/<plan>.xml, a MuJoCo scene with the plan's pushes and goal in it, and
+<out>/replay.py, which plays such scenes and says for each whether the plan works there; of a plan with
+lever-ups <out>/lever.py does.
+
+mcap writes <out>/<plan>.mcap: how tool and objects move, as foxglove.SceneUpdate (/scene) and
+foxglove.FrameTransforms (/tf) that viewers such as Foxglove and Rerun play, the same as plain numbers
+(/state, metres and radians), all in JSON, and the plan as an attachment. A plan is carried out by
+--model; a trajectory file (`pushplan predict --trajectories`) is written as it is.
+
+trajectory writes <out>/<plan>.joints.json, the message trajectory_msgs/JointTrajectory of ROS, and
+<out>/<plan>.joints.csv: times in seconds, positions and velocities in radians, of a task whose robot has
+a `urdf`.")]
+pub struct ExportArgs {
+    /// Plan or trajectory files; each holds the task and the tool as well
+    #[arg(required = true, value_name = "PLAN")]
+    plans: Vec<PathBuf>,
+    /// For which program
+    #[arg(long, value_enum, default_value_t = Format::Mjcf)]
+    format: Format,
+    #[arg(long, value_name = "MODEL", default_value = "3d", help = model::HELP)]
+    model: ModelSpec,
+    /// Folder for the results
+    #[arg(long, value_name = "DIR", default_value = output::FOLDER)]
+    out: PathBuf,
+    /// Print JSON instead of text
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// MuJoCo's scenes
+    Mjcf,
+    /// Recordings for Foxglove, Rerun and others
+    Mcap,
+    /// How the joints of an arm move, for ROS and as a table
+    Trajectory,
+}
+
+impl Format {
+    /// How names of its files end.
+    fn ending(self) -> &'static str {
+        match self {
+            Format::Mjcf => "xml",
+            Format::Mcap => "mcap",
+            Format::Trajectory => "joints.json",
+        }
+    }
+}
+
+pub fn run(args: &ExportArgs, session: &Session) -> Result<u8, CliError> {
+    let (mut opened, mut faults) = (Vec::new(), Vec::new());
+    for path in &args.plans {
+        match open(path) {
+            Ok((plan, known)) => opened.push((path, plan, known)),
+            Err(found) => faults.extend(found.0),
+        }
+    }
+    if !faults.is_empty() {
+        return Err(Faults(faults).into());
+    }
+    let names: Vec<String> = args.plans.iter().map(|path| name(path, args.format)).collect();
+    for (index, name) in names.iter().enumerate() {
+        if names[..index].contains(name) {
+            return Err(CliError::usage(
+                format!("two plans would be written to {name}"),
+                "export them to different folders",
+            ));
+        }
+    }
+    output::prepare(&args.out)?;
+    let mut written = Vec::new();
+    let in_space = |plan: &PlanFile| plan.task.in_space() || plan.plan.levers();
+    let spaces: Vec<bool> = opened.iter().map(|(_, plan, _)| in_space(plan)).collect();
+    for (name, (path, plan, known)) in names.iter().zip(opened) {
+        let refused = |error: ExportError| CliError::File(format!("{}: {error}", path.display()));
+        let bytes = match args.format {
+            Format::Mjcf => mjcf(&plan).map_err(refused)?.into_bytes(),
+            Format::Trajectory => joint_trajectory(&plan).map_err(refused)?.into_bytes(),
+            Format::Mcap => {
+                let trajectory = match known {
+                    Some(trajectory) => trajectory,
+                    None => carried_out(&plan, &args.model, session)?,
+                };
+                pushplan::export::mcap(&plan, &trajectory).map_err(refused)?
+            }
+        };
+        if args.format == Format::Trajectory {
+            let table = joint_table(&plan).map_err(refused)?;
+            let name = format!("{}csv", name.trim_end_matches("json"));
+            written.push(output::write(&args.out, &name, table.as_bytes())?);
+        }
+        written.push(output::write(&args.out, name, &bytes)?);
+    }
+    if args.format == Format::Mjcf {
+        for (script, text, of_space) in
+            [("replay.py", REPLAY_SCRIPT, false), ("lever.py", LEVER_SCRIPT, true)]
+        {
+            if spaces.contains(&of_space) {
+                written.push(output::write(&args.out, script, text.as_bytes())?);
+            }
+        }
+    }
+    if args.json {
+        let report = json!({"schema_version": SCHEMA_VERSION, "files": written});
+        session.print(&format!("{report:#}\n"))?;
+    } else {
+        let lines: Vec<String> =
+            written.iter().map(|path| format!("wrote {}\n", path.display())).collect();
+        session.print(&lines.concat())?;
+    }
+    Ok(exit_code::DONE)
+}
+
+/// A plan, and what it does if the file says so.
+fn open(path: &Path) -> Result<(PlanFile, Option<Trajectory>), Faults> {
+    match asset::check(path, None)? {
+        Kind::Plan => PlanFile::load(path).map(|plan| (plan, None)),
+        Kind::Trajectory => {
+            let TrajectoryFile { task, tools, plan, trajectory } = TrajectoryFile::load(path)?;
+            let model = Some(trajectory.by.clone());
+            let plan = PlanFile { model, ..PlanFile::new(task, tools, plan) };
+            Ok((plan, Some(trajectory)))
+        }
+        kind => {
+            let message = format!("this is a {kind} file; plans and trajectories are exported");
+            let advice =
+                "`pushplan solve` writes plans, `pushplan predict --trajectories` trajectories";
+            Err(Fault::of_file(&path.display().to_string(), message, advice).into())
+        }
+    }
+}
+
+/// What a plan does according to a model.
+fn carried_out(
+    plan: &PlanFile,
+    spec: &ModelSpec,
+    session: &Session,
+) -> Result<Trajectory, CliError> {
+    use pushplan::effect::EffectModel;
+    use pushplan::{
+        outcome::Record,
+        task::{Job, Motion},
+    };
+    let scene = &plan.task.scene;
+    let motions = plan.plan.motions(&plan.tools).unwrap_or_default();
+    let trajectory =
+        // What follows something levered is for the engine alone.
+        match motions.len() > 1 && plan.plan.levers() {
+            false => {
+                let model = model::load(spec)?;
+                let job = |motion: &Motion| Job::stated(scene, motion.clone());
+                let jobs: Vec<Job> = motions.iter().map(job).collect();
+                session.compute(|| model.in_turn(scene, &jobs, Record::Frames))
+            }
+            true => Some(session.compute(|| {
+                pushplan::sim::Simulator::spatial().run_plan(scene, &motions, Record::Frames)
+            })),
+        };
+    let trajectory =
+        trajectory.ok_or_else(|| CliError::unexpected("cannot carry out the plan", spec))?;
+    for warning in &trajectory.warnings {
+        session.warn(&format!("{}: {warning}", trajectory.by));
+    }
+    Ok(trajectory)
+}
+
+/// `a/b.plan.json` becomes `b.xml`, `a/b.3d.trajectory.json` `b.3d.xml`.
+fn name(path: &Path, format: Format) -> String {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let stem = name.strip_suffix(".json").unwrap_or(&name);
+    let stem = [".plan", ".trajectory"].iter().find_map(|kind| stem.strip_suffix(kind));
+    let stem = stem.unwrap_or_else(|| name.strip_suffix(".json").unwrap_or(&name));
+    format!("{stem}.{}", format.ending())
+}

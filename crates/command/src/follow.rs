@@ -1,0 +1,102 @@
+//! How a long job shows itself on stderr and is stopped by Ctrl-C.
+
+use std::sync::Mutex;
+
+use indicatif::ProgressBar;
+
+use pushplan::watch::Watch;
+
+use super::{
+    error::CliError,
+    interrupt,
+    session::{Session, count},
+};
+
+/// Follows a job with a bar or a spinner.
+pub struct Following<'a> {
+    session: &'a Session,
+    bar: ProgressBar,
+    /// Whether the units that it counts are those of a stage.
+    staged: bool,
+    /// The stage and the best answer so far.
+    said: Mutex<[String; 2]>,
+    /// What went wrong while showing; the job is asked to stop then.
+    trouble: Mutex<Option<CliError>>,
+}
+
+impl<'a> Following<'a> {
+    /// A bar, for many equal units of `what`.
+    pub fn bar(session: &'a Session, what: &str) -> Self {
+        Self::with(session, session.bar(what), false)
+    }
+
+    /// A spinner with the stage and how far it is.
+    pub fn spinner(session: &'a Session, what: &str) -> Self {
+        Self::with(session, session.staged(what), true)
+    }
+
+    fn with(session: &'a Session, bar: ProgressBar, staged: bool) -> Self {
+        Self { session, bar, staged, said: Mutex::default(), trouble: Mutex::default() }
+    }
+
+    /// Shows what was said last, changed.
+    fn say(&self, change: impl FnOnce(&mut [String; 2])) {
+        let mut said = self.said.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        change(&mut said);
+        let [stage, so_far] = &*said;
+        let message = if so_far.is_empty() { stage.clone() } else { format!("{stage} ({so_far})") };
+        self.bar.set_message(message);
+    }
+
+    /// Ends the bar.
+    ///
+    /// # Errors
+    /// What went wrong while showing.
+    pub fn finish(self) -> Result<(), CliError> {
+        self.bar.finish_and_clear();
+        let trouble = self.trouble.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
+        trouble.map_or(Ok(()), Err)
+    }
+
+    /// Keeps the first trouble.
+    pub fn keep(&self, shown: Result<(), CliError>) {
+        if let Err(error) = shown {
+            let mut trouble = self.trouble.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+            trouble.get_or_insert(error);
+        }
+    }
+}
+
+impl Watch for Following<'_> {
+    fn stage(&self, what: &str) {
+        if self.staged {
+            count(&self.bar, false);
+        }
+        self.say(|[stage, _]| *stage = what.to_owned());
+    }
+
+    fn so_far(&self, answer: &str) {
+        self.say(|[_, so_far]| *so_far = format!("so far {answer}"));
+    }
+
+    fn progress(&self, done: u64, total: u64) {
+        if self.staged {
+            count(&self.bar, total > 0);
+        }
+        self.bar.set_length(total);
+        self.bar.set_position(done);
+    }
+
+    fn line(&self, text: &str) {
+        self.keep(self.bar.suspend(|| self.session.print(&format!("{text}\n"))));
+    }
+
+    fn note(&self, message: &str) {
+        self.bar.suspend(|| self.session.warn(message));
+    }
+
+    fn cancelled(&self) -> bool {
+        let trouble = self.trouble.lock().map_or(true, |trouble| trouble.is_some());
+        trouble || interrupt::requested()
+    }
+}

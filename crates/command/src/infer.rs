@@ -1,0 +1,140 @@
+//! `pushplan infer`: which objects are joined, from recorded pushes.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use pushplan::belief::{Belief, BeliefSettings};
+use pushplan::recording::Recording;
+use pushplan::report::{PageView, Recipe, Setting, belief_document, recording_page};
+use pushplan::scene::{ModelSpec, Span};
+use pushplan::watch::Count;
+
+use super::{
+    error::CliError,
+    exit_code,
+    follow::Following,
+    form::Form,
+    model,
+    noise::NoiseArgs,
+    output,
+    recordings::load_recordings,
+    regulator::RegulatorArgs,
+    session::Session,
+    words::{VIEWS, words},
+};
+
+/// What usually rolls hypotheses out.
+const MODEL: &str = "prior";
+
+/// Infer from a recording which objects are joined, and by which joints
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Tells for every two objects within 3 cm of each other at the start whether they are free,
+fixed to each other, turn about a point (revolute) or slide along a line (prismatic), how sure that
+is, and where the point or line is. Joints that the recording states are ignored. Five recorded
+instants are looked at together; what else the recording says about the scene, masses and frictions,
+is taken as true but hardly matters. Headings that are not recorded are estimated: where objects are
+pushed one by one, nearly as many joints are found as with headings; in a tight crowd about a fifth
+of the pairs are mistaken.
+
+Masses can only be told of objects that another object touched: unless forces are measured, motion
+shows only their ratios, and which range each is in as far as ratios tell it (--mass-ranges).
+
+Examples:
+  pushplan infer pushes.recording.json
+  pushplan infer pushes.recording.json --noise 0.003 --heading-noise 0.03 --out plans
+  pushplan infer pushes.recording.json --mass-ranges 0.2-0.5 1-2 8-10"
+)]
+pub struct InferArgs {
+    /// A recording, or a trajectory file
+    #[arg(value_name = "FILE")]
+    recording: PathBuf,
+    /// Effect model that rolls hypotheses out
+    #[arg(long, value_name = "MODEL", default_value = MODEL)]
+    model: ModelSpec,
+    #[command(flatten)]
+    noise: NoiseArgs,
+    /// Also tell which of these ranges every mass is in, lightest first, kg; masses that the
+    /// recording states are then ignored
+    #[arg(long, value_name = "LOW-HIGH", num_args = 2.., value_parser = mass_range)]
+    mass_ranges: Vec<Span>,
+    /// Folder for belief.json, belief.svg and belief.html, a page that plays what was seen
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// What the page shows
+    #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d")]
+    page: PageView,
+    #[command(flatten)]
+    regulator: RegulatorArgs,
+    #[command(flatten)]
+    form: Form,
+}
+
+pub fn run(args: &InferArgs, session: &Session) -> Result<u8, CliError> {
+    let sets = load_recordings(std::slice::from_ref(&args.recording))?;
+    let recordings: Vec<&Recording> = sets.iter().flat_map(|set| &set.recordings).collect();
+    let [recording] = recordings[..] else {
+        let advice = "name one of them; beliefs about several tables cannot be mixed";
+        return Err(CliError::usage("this folder holds several recordings", advice));
+    };
+    let model = model::load(&args.model)?;
+    if let Some(folder) = &args.out {
+        output::prepare(folder)?;
+    }
+    let noise = args.noise.noise();
+    let (tool, lift) = (recording.tool.clone(), recording.lift);
+    let mut belief = Belief::new(&recording.scene, tool, lift, BeliefSettings::new(noise))
+        .moving(&recording.velocities)
+        .with_mass_ranges(&args.mass_ranges);
+    if let Some((regulator, _)) = args.regulator.load()? {
+        belief = belief.regulated(regulator);
+    }
+    let before = belief.probabilities();
+    let following = Following::bar(session, "inferring");
+    let observations = recording.observations();
+    let count = Count::new(&following, 0, observations.len());
+    session.compute(|| {
+        for observation in observations {
+            belief.update(&model, observation);
+            count.one();
+        }
+        belief.finish(&model);
+    });
+    following.finish()?;
+    let names: Vec<&str> =
+        recording.scene.objects.iter().map(|object| object.name.as_str()).collect();
+    let document = belief_document(&recording.name, &belief, &names, &args.mass_ranges);
+    if let Some(folder) = &args.out {
+        output::write(folder, "belief.json", document.to_json().as_bytes())?;
+        output::write_figures(folder, document.figures())?;
+        let page =
+            recording_page(recording, (&before, &belief), &document, recipe(args), args.page);
+        output::write(folder, "belief.html", page.as_bytes())?;
+    }
+    args.form.show(session, &document)?;
+    Ok(exit_code::DONE)
+}
+
+/// What infers the same again: settings that are not as usual.
+fn recipe(args: &InferArgs) -> Recipe {
+    let mut settings = Vec::new();
+    let value = args.model.to_string();
+    if value != MODEL {
+        settings.push(Setting { option: "--model", keyword: Some("model"), value });
+    }
+    settings.extend(args.noise.settings());
+    settings.extend(args.regulator.setting());
+    Recipe::of_recording(&args.recording.display().to_string(), &settings, &args.mass_ranges)
+}
+
+fn mass_range(text: &str) -> Result<Span, String> {
+    let range = text.split_once('-').and_then(|(low, high)| {
+        Some(Span::new(low.trim().parse().ok()?, high.trim().parse().ok()?))
+    });
+    let range = range.ok_or_else(|| "200 to 500 g is 0.2-0.5".to_owned())?;
+    let sound = 1e-3 <= range.low && range.low < range.high && range.high <= 1e3;
+    sound
+        .then_some(range)
+        .ok_or_else(|| "it must go from low to high, within 0.001 kg to 1000 kg".to_owned())
+}

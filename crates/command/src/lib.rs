@@ -1,0 +1,41 @@
+//! The `pushplan` command: one file per subcommand, each from arguments to a call and its report.
+//!
+//! Results go to stdout; progress, warnings and errors to stderr. No logic lives here.
+#![deny(unsafe_code)]
+
+pub mod action;
+pub mod app;
+pub mod bench;
+pub mod check;
+pub mod completions;
+pub mod design;
+pub mod error;
+pub mod exit_code;
+pub mod export;
+pub mod fit;
+pub mod follow;
+pub mod form;
+pub mod groups;
+pub mod import;
+pub mod infer;
+pub mod interrupt;
+pub mod lever_argument;
+pub mod model;
+pub mod new;
+pub mod noise;
+pub mod output;
+pub mod page;
+pub mod poses;
+pub mod predict;
+pub mod push_argument;
+pub mod recorded;
+pub mod recordings;
+pub mod regulator;
+pub mod run;
+pub mod session;
+pub mod solve;
+pub mod task_argument;
+pub mod verify;
+pub mod words;
+
+pub use app::{command, run, start};

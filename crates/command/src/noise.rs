@@ -1,0 +1,45 @@
+//! How exactly things are seen.
+
+use clap::Args;
+
+use pushplan::report::Setting;
+use pushplan::task::Noise;
+
+/// Usual errors, metres and radians.
+const USUAL: (f64, f64) = (1e-3, 0.01);
+
+/// Errors of recorded poses.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct NoiseArgs {
+    /// Standard deviation of recorded positions, metres
+    #[arg(long, value_name = "METRES", default_value_t = USUAL.0, value_parser = deviation)]
+    noise: f64,
+    /// Standard deviation of recorded headings, radians
+    #[arg(long, value_name = "RADIANS", default_value_t = USUAL.1, value_parser = deviation)]
+    heading_noise: f64,
+}
+
+impl NoiseArgs {
+    /// The noise.
+    pub fn noise(self) -> Noise {
+        Noise { position: self.noise, heading: self.heading_noise }
+    }
+
+    /// What of it is not as usual.
+    pub fn settings(self) -> Vec<Setting> {
+        let setting = |option, keyword, value: f64, usual: f64| {
+            let value = value.to_string();
+            let setting = Setting { option, keyword: Some(keyword), value };
+            (setting.value != usual.to_string()).then_some(setting)
+        };
+        let position = setting("--noise", "noise", self.noise, USUAL.0);
+        let heading = setting("--heading-noise", "heading_noise", self.heading_noise, USUAL.1);
+        position.into_iter().chain(heading).collect()
+    }
+}
+
+fn deviation(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "1 mm is 0.001".to_owned())?;
+    let sound = (0.0..=0.5).contains(&value);
+    sound.then_some(value).ok_or_else(|| "it must be 0 to 0.5".to_owned())
+}

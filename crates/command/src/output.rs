@@ -1,0 +1,62 @@
+//! The folder that results are written to.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use pushplan::asset::{Fault, write_atomic};
+use pushplan::report::{Figure, PageView};
+
+use super::action::LibraryArgs;
+use super::error::CliError;
+use super::words::{VIEWS, words};
+
+/// Where results go unless `--out` says otherwise.
+pub const FOLDER: &str = "plans";
+
+/// Where results go, what their page shows, and which tools there are.
+#[derive(Args, Debug)]
+pub struct ResultArgs {
+    /// Folder for the results
+    #[arg(long, value_name = "DIR", default_value = FOLDER)]
+    pub out: PathBuf,
+    /// What the page shows
+    #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d")]
+    pub page: PageView,
+    #[command(flatten)]
+    pub library: LibraryArgs,
+}
+
+/// Makes the folder and sees that it can be written to, before anything long is computed.
+///
+/// # Errors
+/// [`CliError::Output`] if it cannot be made or written to.
+pub fn prepare(folder: &Path) -> Result<(), CliError> {
+    let refused = |error: std::io::Error| {
+        CliError::Output(Fault::io(folder, "write to the folder", &error).into())
+    };
+    std::fs::create_dir_all(folder).map_err(refused)?;
+    tempfile::tempfile_in(folder).map(drop).map_err(refused)
+}
+
+/// Writes a file of the folder whole or not at all, and gives its path.
+///
+/// # Errors
+/// [`CliError::Output`] if that fails.
+pub fn write(folder: &Path, name: &str, bytes: &[u8]) -> Result<PathBuf, CliError> {
+    let path = folder.join(name);
+    write_atomic(&path, bytes).map_err(CliError::Output)?;
+    Ok(path)
+}
+
+/// Writes figures into the folder, and gives their paths.
+///
+/// # Errors
+/// [`CliError::Output`] if one cannot be written.
+pub fn write_figures<'a>(
+    folder: &Path,
+    figures: impl IntoIterator<Item = &'a Figure>,
+) -> Result<Vec<PathBuf>, CliError> {
+    let figures = figures.into_iter();
+    figures.map(|figure| write(folder, &figure.file_name(), figure.to_svg().as_bytes())).collect()
+}

@@ -1,0 +1,67 @@
+//! Recordings named on the command line: files, and folders of them.
+
+use std::path::{Path, PathBuf};
+
+use pushplan::asset::{self, Fault, Faults, Kind, TrajectoryFile};
+use pushplan::recording::Recording;
+
+use super::error::CliError;
+
+/// Recordings that are judged together.
+#[derive(Debug)]
+pub struct RecordingSet {
+    /// The folder, or the name of the only recording.
+    pub title: String,
+    /// At least one.
+    pub recordings: Vec<Recording>,
+}
+
+/// Reads recordings: every file by itself, and what is in a folder, or in a folder in it,
+/// together.
+///
+/// # Errors
+/// All faults of all files; a folder without recordings.
+pub fn load_recordings(paths: &[PathBuf]) -> Result<Vec<RecordingSet>, CliError> {
+    let (mut sets, mut faults) = (Vec::new(), Vec::new());
+    for path in paths {
+        if !path.is_dir() {
+            match load(path) {
+                Ok(recording) => sets.push(RecordingSet {
+                    title: recording.name.clone(),
+                    recordings: vec![recording],
+                }),
+                Err(found) => faults.extend(found.0),
+            }
+            continue;
+        }
+        for (folder, files) in asset::recordings_in(path).map_err(Faults::from)? {
+            let mut recordings = Vec::new();
+            for file in files {
+                match load(&file) {
+                    Ok(recording) => recordings.push(recording),
+                    Err(found) => faults.extend(found.0),
+                }
+            }
+            sets.push(RecordingSet { title: folder.display().to_string(), recordings });
+        }
+    }
+    if faults.is_empty() { Ok(sets) } else { Err(Faults(faults).into()) }
+}
+
+/// A recording, or a trajectory file taken for one.
+fn load(file: &Path) -> Result<Recording, Faults> {
+    match asset::check(file, None)? {
+        Kind::Trajectory => {
+            let file = TrajectoryFile::load(file)?;
+            let slides = file.plan.slides(&file.tools).filter(|_| !file.task.in_space());
+            let Some([motion]) = slides.as_deref() else {
+                let message =
+                    "what leaves the plane, or changes the tool, is no recording of pushes";
+                return Err(Fault::of_file(&file.task.name, message, "leave it out").into());
+            };
+            let frames = &file.trajectory.frames;
+            Ok(Recording::of_frames(&file.task.name, &file.task.scene, motion, frames))
+        }
+        _ => Recording::load(file),
+    }
+}

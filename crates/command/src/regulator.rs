@@ -1,0 +1,53 @@
+//! Which belief regulator a command uses.
+
+use std::path::Path;
+
+use clap::Args;
+
+use pushplan::belief::BeliefRegulator;
+use pushplan::network::RegulatorWeights;
+use pushplan::report::Setting;
+use pushplan::store::digest;
+
+use super::error::CliError;
+
+/// The word for no regulator.
+const NONE: &str = "none";
+
+/// Which belief regulator.
+#[derive(Args, Debug)]
+pub struct RegulatorArgs {
+    /// Weights of the belief regulator that corrects the hypothesis filter, or `none` for the filter
+    /// alone [default: the shipped ones]
+    #[arg(long, value_name = "FILE")]
+    regulator: Option<String>,
+}
+
+impl RegulatorArgs {
+    /// The regulator, if it is not the usual one.
+    pub fn setting(&self) -> Option<Setting> {
+        let value = self.regulator.clone()?;
+        Some(Setting { option: "--regulator", keyword: None, value })
+    }
+
+    /// The regulator with a digest of its weights; `None` for the filter alone.
+    ///
+    /// # Errors
+    /// Weights that cannot be read.
+    pub fn load(&self) -> Result<Option<(BeliefRegulator, String)>, CliError> {
+        let weights = match self.regulator.as_deref() {
+            Some(NONE) => return Ok(None),
+            Some(path) => std::fs::read(Path::new(path))
+                .map_err(Into::into)
+                .and_then(|bytes| RegulatorWeights::from_bytes(&bytes))
+                .map_err(|error| CliError::File(format!("{path}: {error}")))?,
+            None => BeliefRegulator::shipped_weights()
+                .map_err(|error| CliError::unexpected("cannot read the shipped weights", &error))?,
+        };
+        let file = |error: &dyn std::error::Error| CliError::File(error.to_string());
+        let bytes = weights.to_bytes().map_err(|error| file(&error))?;
+        let regulator =
+            BeliefRegulator::on_shipped_network(&weights).map_err(|error| file(&error))?;
+        Ok(Some((regulator, digest(&bytes))))
+    }
+}

@@ -1,0 +1,261 @@
+//! `pushplan run`: plan, push, look, believe, plan again.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use pushplan::act::{
+    ActError, End, ProbeRule, RunSettings, Runner, SimulatedWorld, Trace, hidden, really,
+};
+use pushplan::asset::{ToolLibrary, load_world};
+use pushplan::effect::{EffectModels, Outside};
+use pushplan::report::{Recipe, Setting, run_document, run_page, table_fit_section};
+use pushplan::solve::{Effort, Planner};
+use pushplan::store::FolderLock;
+use pushplan::{
+    scene::Models,
+    task::{Task, Truth},
+};
+
+use super::{
+    error::CliError,
+    exit_code,
+    follow::Following,
+    form::Form,
+    interrupt,
+    model::{self, OutsideArgs, TableArgs},
+    output::{self, ResultArgs},
+    regulator::RegulatorArgs,
+    session::Session,
+    solve::{share, solve_error},
+    task_argument::TaskArgs,
+    words::{EFFORTS, PROBES, words},
+};
+
+/// Carry out a task in a world that is only partly known: push, look, learn, plan again
+#[derive(Args, Debug)]
+#[command(
+    after_help = "The task's `unknown` says what is not known of its scene: joints, masses, frictions, support. What
+they really are is hidden in the world: a file (`pushplan check --schema world`), or a seed from which
+it is drawn. Every plan is judged under samples of what is believed; after every push the rest of the
+plan is judged again, and another one is made where too few samples reach the goal.
+
+Writes <out>/<task>.run.json after every push; after an interruption the same command with --resume
+goes on from there, and the file ends up the same to the byte. <task>.run.html plays the run: what
+was predicted, what happened, what was believed meanwhile. Pictures: <task>.run.svg and
+<task>.belief.svg. Exit code 0: reached, as far as can be seen; 4: no push brings the object nearer;
+5: all pushes are used up.
+
+Examples:
+  pushplan run --example hidden-hinge --world 1
+  pushplan run my-task.yaml --world my-world.yaml --pushes 20 --out runs --resume"
+)]
+pub struct RunArgs {
+    #[command(flatten)]
+    task: TaskArgs,
+    /// What is really there: a world file, or a seed from which it is drawn
+    #[arg(long, value_name = "FILE|SEED")]
+    world: String,
+    /// How hard to try with every plan
+    #[arg(long, value_parser = words(&EFFORTS), default_value = "draft")]
+    effort: Effort,
+    #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
+    model: Option<Models>,
+    #[command(flatten)]
+    table: TableArgs,
+    /// Let the network learn from the pushes of the run where the task leaves nothing unknown, and
+    /// write what it knows in the end to this file; without --fit it takes ten pushes
+    #[arg(long, value_name = "FILE")]
+    save_fit: Option<PathBuf>,
+    #[command(flatten)]
+    regulator: RegulatorArgs,
+    #[command(flatten)]
+    outside: OutsideArgs,
+    /// Most pushes before giving up
+    #[arg(long, value_name = "N", default_value_t = 12,
+          value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pushes: u16,
+    /// Samples of the belief under which plans are judged
+    #[arg(long, value_name = "N", default_value_t = 16,
+          value_parser = clap::value_parser!(u16).range(1..=1000))]
+    samples: u16,
+    /// Share of the samples in which a plan must reach the goal, 0 to 1
+    #[arg(long, value_name = "SHARE", default_value_t = 0.8, value_parser = share)]
+    enough: f64,
+    /// Most pushes that are made only to learn something
+    #[arg(long, value_name = "N", default_value_t = 3,
+          value_parser = clap::value_parser!(u16).range(0..=1000))]
+    probes: u16,
+    /// How these are chosen
+    #[arg(long, value_parser = words(&PROBES), value_name = "RULE", default_value = "task")]
+    rule: ProbeRule,
+    /// Seed of samples and plans
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Go on with the run that is kept in the folder, if there is one
+    #[arg(long)]
+    resume: bool,
+    #[command(flatten)]
+    results: ResultArgs,
+    #[command(flatten)]
+    form: Form,
+}
+
+pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
+    let library = args.results.library.load()?;
+    let mut task = args.task.load(&library)?;
+    if task.in_space() {
+        return Err(CliError::usage(
+            "what leaves the plane cannot be run: after a lever-up nobody looks",
+            "`pushplan solve` plans it and verifies it as a whole",
+        ));
+    }
+    if args.save_fit.is_some() && task.unknown.any() {
+        return Err(CliError::usage(
+            "nothing is learnt where the task leaves things unknown: pushes tell of those first",
+            "leave out --save-fit, or state them in the task",
+        ));
+    }
+    let truth = world(&args.world, &task, &library)?;
+    let models = args.model.clone().unwrap_or_else(|| args.effort.models());
+    let fit = args.table.load()?;
+    if let Some(fit) = &fit {
+        model::state(fit, &mut task.scene, session);
+    }
+    let planner = Planner::fitted(&models, fit.as_ref())?
+        .effort(args.effort)
+        .seed(args.seed)
+        .outside(args.outside.outside())
+        .build();
+    output::prepare(&args.results.out)?;
+    let path = args.results.out.join(format!("{}.run.json", task.name));
+    let settings = RunSettings {
+        pushes: args.pushes.into(),
+        samples: args.samples.into(),
+        enough: args.enough,
+        probes: args.probes.into(),
+        rule: args.rule,
+        noise: truth.noise,
+        seed: args.seed,
+        ..RunSettings::default()
+    };
+    if args.save_fit.is_some() && EffectModels::weights_of(&models.decided)?.is_none() {
+        let advice = "leave out --save-fit, or let the network decide: --model prior>network";
+        return Err(CliError::usage(format!("{models} has no network that could learn"), advice));
+    }
+    let regulator = args.regulator.load()?;
+    let mut planned_by =
+        format!("{models}, effort {}, outside {}", args.effort, args.outside.outside());
+    if let Some((_, digest)) = &regulator {
+        planned_by += &format!(", regulator {digest}");
+    }
+    if let Some(fit) = &fit {
+        planned_by += &format!(", fit {}", fit.checksum());
+    }
+    let mut runner = Runner::new(&planner, &library).learning(fit)?;
+    if let Some((regulator, _)) = regulator {
+        runner = runner.regulated(regulator);
+    }
+    interrupt::watch();
+    let following = Following::bar(session, "pushes");
+    // Until the results are written: what another run writes here would be lost.
+    let _alone = FolderLock::take(&args.results.out, &following)?;
+    let begun = Trace::new(task, settings, planned_by, Some(truth.clone()));
+    let mut trace = begin(&path, begun, args.resume)?;
+    let mut world = SimulatedWorld::new(truth).pushed_with(trace.task.robot.max_force);
+    let mut keep = |trace: &Trace| trace.write(&path);
+    let ran = session.compute(|| runner.run(&mut trace, &mut world, &mut keep, &following));
+    following.finish()?;
+    ran.map_err(|error| act_error(error, &path))?;
+    for note in trace.all_notes() {
+        session.warn(&note.words(&trace.task.scene));
+    }
+    let mut document = run_document(&trace);
+    let mut written = vec![path];
+    if let (Some(file), Some(learnt)) = (&args.save_fit, &trace.learnt) {
+        document.sections.push(table_fit_section(learnt));
+        learnt.write(file).map_err(CliError::Output)?;
+        written.push(file.clone());
+    }
+    written.extend(output::write_figures(&args.results.out, document.figures())?);
+    let real = session.compute(|| really(&trace));
+    let page = run_page(&trace, &real, recipe(args), args.results.page);
+    let name = format!("{}.run.html", trace.task.name);
+    written.push(output::write(&args.results.out, &name, page.as_bytes())?);
+    document.wrote(&written);
+    args.form.show(session, &document)?;
+    Ok(match trace.end {
+        Some(End::Reached) => exit_code::DONE,
+        Some(End::UsedUp) => exit_code::FAILED_VERIFICATION,
+        Some(End::NoPush) | None => exit_code::NO_PLAN,
+    })
+}
+
+/// What makes the run again: settings that are not as usual.
+fn recipe(args: &RunArgs) -> Recipe {
+    let word = |table: &[(&str, ProbeRule, &str)]| {
+        let own = table.iter().find(|(_, rule, _)| *rule == args.rule);
+        own.map_or(String::new(), |(word, ..)| (*word).to_owned())
+    };
+    let outside = args.outside.outside();
+    let usual = RunSettings::default();
+    let given = [
+        (args.effort != Effort::Draft, "--effort", args.effort.to_string()),
+        (outside != Outside::Warn, "--outside", outside.to_string()),
+        (usize::from(args.pushes) != usual.pushes, "--pushes", args.pushes.to_string()),
+        (usize::from(args.samples) != usual.samples, "--samples", args.samples.to_string()),
+        (args.enough != usual.enough, "--enough", args.enough.to_string()),
+        (usize::from(args.probes) != usual.probes, "--probes", args.probes.to_string()),
+        (args.rule != usual.rule, "--rule", word(&PROBES)),
+        (args.seed != usual.seed, "--seed", args.seed.to_string()),
+    ];
+    let given = given.into_iter().filter(|(unusual, ..)| *unusual);
+    let files = [args.table.setting(), args.regulator.setting()];
+    let settings = given.map(|(_, option, value)| Setting {
+        option,
+        keyword: Some(option.trim_start_matches('-')).filter(|keyword| *keyword != "rule"),
+        value,
+    });
+    let settings: Vec<Setting> = settings.chain(files.into_iter().flatten()).collect();
+    args.results.library.origin(args.task.source(), args.model.clone()).run(&args.world, &settings)
+}
+
+/// The world in a file, or drawn from a number.
+fn world(argument: &str, task: &Task, library: &ToolLibrary) -> Result<Truth, CliError> {
+    match argument.parse() {
+        Ok(seed) => Ok(hidden(task, library, seed)?),
+        Err(_) => Ok(load_world(argument, task)?),
+    }
+}
+
+/// The trace to go on with.
+fn begin(path: &Path, begun: Trace, resume: bool) -> Result<Trace, CliError> {
+    if !resume || !path.exists() {
+        return Ok(begun);
+    }
+    let there = Trace::load(path).map_err(|error| CliError::File(error.to_string()))?;
+    match there.is_of(&begun) {
+        true => Ok(there),
+        false => Err(CliError::usage(
+            format!("{} is of another task, world or settings", path.display()),
+            "the same command as before goes on with a run; without --resume a new one begins",
+        )),
+    }
+}
+
+fn act_error(error: ActError, path: &Path) -> CliError {
+    let message = error.to_string();
+    match error {
+        ActError::Solve(error) => solve_error(error),
+        ActError::Model(error) => error.into(),
+        ActError::Keep(faults) => CliError::Output(faults),
+        ActError::Trace(_) => CliError::File(format!("{}: {message}", path.display())),
+        ActError::Stopped { .. } => CliError::Interrupted(format!(
+            "{message}; the same command with --resume goes on from there"
+        )),
+        ActError::Objects { .. } => CliError::File(format!("{}: {message}", path.display())),
+        ActError::World(_) | ActError::Lost { .. } => {
+            CliError::Ended(format!("{message}; what was done is in {}", path.display()))
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! What every subcommand shares: where to write, how to show progress, how many threads.
+
+use std::io::{IsTerminal, Write};
+use std::time::Duration;
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+use pushplan::asset::printable;
+
+use super::error::CliError;
+
+/// Options of every subcommand.
+#[derive(Args, Clone, Debug)]
+pub struct GlobalArgs {
+    /// Worker threads; 0 means one per core of the machine, the container or the Slurm task (its
+    /// --cpus-per-task). Results never depend on it
+    #[arg(long, global = true, value_name = "N", default_value_t = 0,
+          value_parser = clap::value_parser!(u16).range(0..=1024))]
+    pub threads: u16,
+    /// No progress and no warnings on stderr
+    #[arg(long, short, global = true)]
+    pub quiet: bool,
+}
+
+/// What is being done, and how much of it is, once that is known.
+const STAGE: &str = "{spinner} {prefix}, {elapsed} {msg}";
+const COUNTED: &str = "{spinner} {prefix}, {elapsed} {msg}, {pos}/{len}";
+
+/// Work that ends sooner shows no progress. A first plan is often found by then, and people see it within a
+/// tenth of a second.
+const SHOW_AFTER: Duration = Duration::from_millis(50);
+
+/// One run of the command.
+#[derive(Debug)]
+pub struct Session {
+    pool: ThreadPool,
+    quiet: bool,
+}
+
+impl Session {
+    /// Starts the threads.
+    ///
+    /// # Errors
+    /// [`CliError::Unexpected`] if the system refuses that many threads.
+    pub fn start(args: &GlobalArgs) -> Result<Self, CliError> {
+        let threads = match args.threads {
+            0 => {
+                // Affinity and control groups are known to it, which Slurm need not use.
+                let cores = std::thread::available_parallelism().map_or(1, usize::from);
+                allocated(cores, std::env::var("SLURM_CPUS_PER_TASK").ok().as_deref())
+            }
+            threads => usize::from(threads),
+        };
+        let pool = ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .map_err(|error| CliError::unexpected("cannot start the threads", &error))?;
+        Ok(Self { pool, quiet: args.quiet })
+    }
+
+    /// How many threads there are.
+    pub fn threads(&self) -> usize {
+        self.pool.current_num_threads()
+    }
+
+    /// Runs `work` on the session's threads.
+    pub fn compute<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+        self.pool.install(work)
+    }
+
+    /// Runs `work` on one thread of its own, so that the processor time it measures is all it needs.
+    pub fn compute_alone<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+        match ThreadPoolBuilder::new().num_threads(1).build() {
+            Ok(alone) => alone.install(work),
+            // Only times suffer.
+            Err(_) => self.compute(work),
+        }
+    }
+
+    /// Writes results to stdout, with control characters written out: names and descriptions come
+    /// from files that anybody may have made. In JSON that is the same text.
+    ///
+    /// # Errors
+    /// [`CliError::Closed`] if the reader went away, [`CliError::Unexpected`] for anything else.
+    pub fn print(&self, text: &str) -> Result<(), CliError> {
+        let mut out = std::io::stdout().lock();
+        out.write_all(shown(text).as_bytes())
+            .and_then(|()| out.flush())
+            .map_err(|error| CliError::output(&error))
+    }
+
+    /// Writes a warning to stderr.
+    pub fn warn(&self, text: &str) {
+        self.say(&format!("warning: {text}"));
+    }
+
+    /// Writes a line to stderr, apart from the results.
+    pub fn say(&self, text: &str) {
+        if !self.quiet {
+            // Were stderr gone, there would be nobody left to tell.
+            let _ = writeln!(std::io::stderr(), "{}", shown(text));
+        }
+    }
+
+    /// A bar for long work in many equal units. Invisible unless stderr is a terminal.
+    pub fn bar(&self, what: &str) -> ProgressBar {
+        if self.quiet || !std::io::stderr().is_terminal() {
+            return ProgressBar::hidden();
+        }
+        let bar = ProgressBar::new(0);
+        bar.set_style(style("{prefix} [{bar:30}] {pos}/{len}, {per_sec}, {eta} left {msg}"));
+        bar.set_prefix(what.to_owned());
+        bar
+    }
+
+    /// A spinner for work whose length is not known, shown once it has taken a while. Invisible
+    /// unless stderr is a terminal.
+    pub fn spinner(&self, what: &str) -> ProgressBar {
+        self.spinning(what, STAGE)
+    }
+
+    /// The same for work in stages, each of a number of units.
+    pub fn staged(&self, what: &str) -> ProgressBar {
+        self.spinning(what, STAGE)
+    }
+
+    fn spinning(&self, what: &str, template: &str) -> ProgressBar {
+        let bar = ProgressBar::hidden();
+        if !self.quiet && std::io::stderr().is_terminal() {
+            bar.set_prefix(what.to_owned());
+            bar.set_style(style(template));
+            let later = bar.clone();
+            std::thread::spawn(move || {
+                std::thread::sleep(SHOW_AFTER);
+                if !later.is_finished() {
+                    later.set_draw_target(ProgressDrawTarget::stderr());
+                    later.enable_steady_tick(Duration::from_millis(200));
+                }
+            });
+        }
+        bar
+    }
+}
+
+/// Shows the number of units of a stage, or none where there is nothing to count.
+pub fn count(bar: &ProgressBar, counted: bool) {
+    bar.set_style(style(if counted { COUNTED } else { STAGE }));
+}
+
+/// Of `cores`, as many as Slurm has allotted to the task, if it has.
+fn allocated(cores: usize, slurm: Option<&str>) -> usize {
+    match slurm.and_then(|text| text.trim().parse().ok()) {
+        Some(allotted @ 1..) => cores.min(allotted),
+        _ => cores,
+    }
+}
+
+/// `text` line by line without anything that a terminal would obey.
+pub fn shown(text: &str) -> String {
+    text.split('\n').map(printable).collect::<Vec<_>>().join("\n")
+}
+
+fn style(template: &str) -> ProgressStyle {
+    // Only a typing mistake in a template above can fail; the default bar then does.
+    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn threads_follow_the_allocation() {
+        for (slurm, threads) in
+            [(None, 8), (Some("3"), 3), (Some("64"), 8), (Some("0"), 8), (Some("all"), 8)]
+        {
+            assert_eq!(allocated(8, slurm), threads, "{slurm:?}");
+        }
+    }
+}

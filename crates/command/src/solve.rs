@@ -1,0 +1,218 @@
+//! `pushplan solve`: from a task file to a verified plan with a picture and a page.
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use clap::Args;
+
+use pushplan::asset::PlanFile;
+use pushplan::report::{Origin, PageView, plan_figures, solution_document, solution_page};
+use pushplan::solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
+use pushplan::{
+    scene::{Models, Situation},
+    task::Task,
+};
+
+use super::{
+    error::CliError,
+    exit_code,
+    follow::Following,
+    form::Form,
+    model::{self, OutsideArgs},
+    output::{self, ResultArgs},
+    session::Session,
+    task_argument::TaskArgs,
+    words::{EFFORTS, words},
+};
+
+/// Choose a tool and pushes, or a lever-up, for a task, verify them, write plan, picture and page
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  pushplan solve my-task.yaml
+  pushplan solve --example narrow-gap --effort thorough --json
+  pushplan solve --example raise-plate
+  pushplan solve my-task.yaml --tools my-tools --out results --animate
+
+Writes <out>/<task>.plan.json, <out>/<task>.svg and <out>/<task>.html, a page that plays the plan and
+shows why the others lost; with --animate <out>/<task>.animated.svg, too.
+Without a plan that works, the nearest one is written as <task>.nearest.* (exit code 4) or
+<task>.failed.* (exit code 5); one that works too seldom as <task>.fragile.* (exit code 7), one that
+meets some of several goals as <task>.partial.* (exit code 8).")]
+pub struct SolveArgs {
+    #[command(flatten)]
+    task: TaskArgs,
+    /// How hard to try
+    #[arg(long, value_parser = words(&EFFORTS), default_value = "standard")]
+    effort: Effort,
+    #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
+    model: Option<Models>,
+    #[command(flatten)]
+    table: model::TableArgs,
+    #[command(flatten)]
+    outside: OutsideArgs,
+    /// Seed of refinement's samples and of the disturbed replays
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub seed: u64,
+    /// Disturbed replays of the winning plan in each simulation, at least; up to 64 are made as long as
+    /// it is not clear whether enough of them reach the goal, and none in 3-D if too few clearly do in
+    /// the plane [default: 4, 8 or 16 by effort]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=10_000))]
+    pub disturbed: Option<u16>,
+    /// Share of the disturbed replays that must reach the goal, 0 to 1 [default: what the task
+    /// says, 0.75 if nothing]
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    robustness: Option<f64>,
+    /// Stop after this time and show the best plan so far
+    #[arg(long, value_name = "SECONDS", value_parser = time_limit)]
+    time_limit: Option<Duration>,
+    #[command(flatten)]
+    results: ResultArgs,
+    /// Also draw a moving picture of the 3-D replay
+    #[arg(long)]
+    animate: bool,
+    #[command(flatten)]
+    form: Form,
+}
+
+pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
+    let library = args.results.library.load()?;
+    let mut task = args.task.load(&library)?;
+    task.robustness = args.robustness.unwrap_or(task.robustness);
+    let effort = args.effort;
+    let fit = args.table.load()?;
+    if let Some(fit) = &fit {
+        model::state(fit, &mut task.scene, session);
+    }
+    let models = args.model.clone().unwrap_or_else(|| effort.models());
+    let planner = Planner::fitted(&models, fit.as_ref())?;
+    output::prepare(&args.results.out)?;
+    let settings = match args.disturbed {
+        Some(count) => effort.settings().replaying(count.into()),
+        None => effort.settings(),
+    };
+    let planner = planner.settings(settings).seed(args.seed).outside(args.outside.outside());
+    let planner = match args.time_limit {
+        Some(limit) => planner.time_limit(limit).build(),
+        None => planner.build(),
+    };
+    let following = Following::spinner(session, "solving");
+    let solved = session.compute(|| planner.solve_with(&task, &library, &following));
+    following.finish()?;
+    let solution = solved.map_err(solve_error)?;
+    for warning in &solution.warnings {
+        session.warn(&warning.to_string());
+    }
+    let (code, suffix) = ending(solution.status);
+    let written = match solution.best() {
+        Some(best) => {
+            let results = Results {
+                out: &args.results.out,
+                name: format!("{}{suffix}", task.name),
+                page: args.results.page,
+                animate: args.animate,
+                origin: &|model| args.results.library.origin(args.task.source(), model),
+            };
+            results.write(session, &task, &planner, (&solution, best))
+        }
+        None => Ok(Vec::new()),
+    };
+    let mut document = solution_document(&task, &solution);
+    // A plan that took minutes is shown also where the disk has no place for it.
+    document.wrote(written.as_deref().unwrap_or_default());
+    args.form.show(session, &document)?;
+    written.map(|_| code)
+}
+
+/// A share from 0 to 1.
+pub fn share(text: &str) -> Result<f64, String> {
+    let share: f64 = text.parse().map_err(|_| "a share is a number from 0 to 1".to_owned())?;
+    match (0.0..=1.0).contains(&share) {
+        true => Ok(share),
+        false => Err("a share is from 0 to 1; three quarters are 0.75".to_owned()),
+    }
+}
+
+/// A time in seconds.
+pub fn time_limit(text: &str) -> Result<Duration, String> {
+    let seconds: f64 = text.parse().map_err(|_| "a time is a number of seconds".to_owned())?;
+    let limit = Duration::try_from_secs_f64(seconds).map_err(|error| error.to_string())?;
+    match limit.is_zero() {
+        true => Err("a time limit must be above zero; half a second is 0.5".to_owned()),
+        false => Ok(limit),
+    }
+}
+
+/// What a task that cannot be tried means for the exit code.
+pub fn solve_error(error: SolveError) -> CliError {
+    match error {
+        SolveError::Tools(faults) => CliError::Files(faults),
+        SolveError::BadTask { .. } => CliError::File(error.to_string()),
+        SolveError::Refused { .. } => CliError::Refused(error.to_string()),
+        SolveError::Model(_) => CliError::unexpected("cannot use the shipped weights", &error),
+    }
+}
+
+/// The exit code of a status, and what the names of its files end in.
+pub fn ending(status: PlanStatus) -> (u8, &'static str) {
+    match status {
+        PlanStatus::Solved => (exit_code::DONE, ""),
+        PlanStatus::Fragile => (exit_code::FRAGILE, ".fragile"),
+        PlanStatus::Partial => (exit_code::PARTIAL, ".partial"),
+        PlanStatus::NoPlan => (exit_code::NO_PLAN, ".nearest"),
+        PlanStatus::FailedVerification => (exit_code::FAILED_VERIFICATION, ".failed"),
+    }
+}
+
+/// What is written of a solution, and where.
+pub struct Results<'a> {
+    /// The folder.
+    pub out: &'a Path,
+    /// What the files are called.
+    pub name: String,
+    /// What the page shows.
+    pub page: PageView,
+    /// Whether a moving picture is drawn, too.
+    pub animate: bool,
+    /// From what plans of a model are made.
+    pub origin: &'a dyn Fn(Option<Models>) -> Origin,
+}
+
+impl Results<'_> {
+    /// Writes the plan file, the pictures and the page.
+    ///
+    /// # Errors
+    /// Results that cannot be written.
+    pub fn write(
+        &self,
+        session: &Session,
+        task: &Task,
+        planner: &Planner,
+        (solution, best): (&Solution, &RankedPlan),
+    ) -> Result<Vec<PathBuf>, CliError> {
+        let Self { out, name, .. } = self;
+        let situation = Situation::stated(&task.scene);
+        let replays = session.compute(|| best.replays(task, &situation));
+        let path = out.join(format!("{name}.plan.json"));
+        let file = PlanFile {
+            task: task.clone(),
+            tools: best.tools.clone(),
+            plan: best.plan.clone(),
+            model: Some(best.predicted.by.clone()),
+            fit: planner.fit().cloned(),
+            predicted: Some(best.outcome.clone()),
+            verdict: best.verdict.clone(),
+            joints: best.joints.clone(),
+        };
+        file.write(&path).map_err(CliError::Output)?;
+        let mut written = vec![path];
+        let figures = plan_figures(task, best, &replays, name, self.animate);
+        written.extend(output::write_figures(out, &figures)?);
+        let recipe = |ranked: &RankedPlan| {
+            let model = Some(ranked.predicted.by.clone().into());
+            (self.origin)(model).plan(&ranked.plan)
+        };
+        let page = solution_page(task, solution, &replays, &recipe, self.page);
+        written.push(output::write(out, &format!("{name}.html"), page.as_bytes())?);
+        Ok(written)
+    }
+}

@@ -1,0 +1,48 @@
+//! Which task a command is about: a file of yours, or one that is shipped.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use clap::builder::PossibleValuesParser;
+
+use pushplan::asset::{ToolLibrary, load_example, load_task};
+use pushplan::report::TaskSource;
+use pushplan::task::Task;
+
+use super::error::CliError;
+
+/// What `--example` is for.
+pub const HELP: &str = "A shipped task instead of a file";
+
+/// Reads the name of a shipped task; help and faults list them.
+pub fn example() -> PossibleValuesParser {
+    Task::examples().into()
+}
+
+/// One task.
+#[derive(Args, Debug)]
+#[group(required = true, multiple = false)]
+pub struct TaskArgs {
+    /// The task file
+    task: Option<PathBuf>,
+    #[arg(long, value_name = "NAME", help = HELP, value_parser = example())]
+    example: Option<String>,
+}
+
+impl TaskArgs {
+    /// Reads the task, with the tools that it names looked up in `library`.
+    pub fn load(&self, library: &ToolLibrary) -> Result<Task, CliError> {
+        Ok(match self.source() {
+            TaskSource::Example(name) => load_example(&name, library)?,
+            TaskSource::File(path) => load_task(path, library)?,
+        })
+    }
+
+    /// What to call it.
+    pub fn source(&self) -> TaskSource {
+        match (&self.example, &self.task) {
+            (Some(name), _) => TaskSource::Example(name.clone()),
+            (None, path) => TaskSource::of(path.clone().unwrap_or_default()),
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! `pushplan verify`: replays a plan and gives a verdict.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use clap::Args;
+
+use pushplan::asset::PlanFile;
+use pushplan::report::{PageView, Recipe, replay_warnings, verdict_document};
+use pushplan::scene::Situation;
+use pushplan::verify::{Verifier, VerifySettings};
+use pushplan::watch::Until;
+
+use super::{
+    error::CliError,
+    exit_code,
+    follow::Following,
+    form::Form,
+    output, page,
+    session::Session,
+    solve::{share, time_limit},
+    words::{VIEWS, words},
+};
+
+/// Replays that take longer are announced, seconds.
+const LONG: f64 = 20.0;
+
+/// Replay a plan in both simulations, as written and disturbed
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Exit code 0: it passes; that is, it keeps the rules of its task, its replays as written reach
+the goal in both simulations, and so does the share of disturbed ones that the task asks for. 7: only
+the disturbed ones fail. 5: it does not work.
+
+Example:
+  pushplan verify plans/pull-back.plan.json --disturbed 64"
+)]
+pub struct VerifyArgs {
+    /// The plan file; it holds the task and the tool as well
+    plan: PathBuf,
+    /// Disturbed replays in each simulation, at least; up to 64 are made as long as it is not clear
+    /// whether enough of them reach the goal, and none in 3-D if too few clearly do in the plane
+    #[arg(long, value_name = "N", default_value_t = 8,
+          value_parser = clap::value_parser!(u32).range(0..=100_000))]
+    disturbed: u32,
+    /// Share of the disturbed replays that must reach the goal, 0 to 1 [default: what the task
+    /// says]
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    robustness: Option<f64>,
+    /// Stop after this time, with whatever is done by then
+    #[arg(long, value_name = "SECONDS", value_parser = time_limit)]
+    time_limit: Option<Duration>,
+    /// Seed of the disturbances
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Folder for a page that plays the replays, named after the task
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// What the page shows
+    #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d", requires = "out")]
+    page: PageView,
+    #[command(flatten)]
+    form: Form,
+}
+
+pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
+    args.out.as_deref().map(output::prepare).transpose()?;
+    let mut file = PlanFile::load(&args.plan)?;
+    file.task.robustness = args.robustness.unwrap_or(file.task.robustness);
+    let settings = VerifySettings { disturbed: args.disturbed as usize, seed: args.seed };
+    let situation = Situation::stated(&file.task.scene);
+    let following = Following::spinner(session, "replaying");
+    let until = Until::new(&following, args.time_limit);
+    let verifier =
+        Verifier::new(settings).watched(&until).until_clear().moving(file.joints.as_ref());
+    let seconds = verifier.seconds(&file.task.scene, &file.plan) / session.threads() as f64;
+    if seconds > LONG {
+        session.warn(&format!(
+            "replaying this plan takes about {seconds:.0} s; Ctrl-C or `--time-limit` stops it, \
+             `--disturbed 0` makes it shorter"
+        ));
+    }
+    let verdict =
+        session.compute(|| verifier.verify(&file.task, &situation, &file.tools, &file.plan));
+    following.finish()?;
+    for warning in replay_warnings(&verdict) {
+        session.warn(&warning);
+    }
+    let mut document = verdict_document(&file, &verdict);
+    let written = args.out.as_deref().map(|out| {
+        let recipe = Recipe::of_plan_file(&args.plan.display().to_string());
+        page::write(out, session, &file, &verdict, (recipe, args.page))
+    });
+    if let Some(Ok(path)) = &written {
+        document.wrote(std::slice::from_ref(path));
+    }
+    args.form.show(session, &document)?;
+    written.transpose()?;
+    Ok(match (verdict.passed, verdict.works()) {
+        (true, _) => exit_code::DONE,
+        (false, true) => exit_code::FRAGILE,
+        (false, false) => exit_code::FAILED_VERIFICATION,
+    })
+}
