@@ -8,7 +8,10 @@ use clap::Args;
 use pushplan::asset::ToolLibrary;
 use pushplan::report::{Origin, TaskSource};
 use pushplan::solve::{ActionError, ManualLever, ManualPush, manual_lever, manual_plan};
-use pushplan::{scene::{Models, Situation, Tool}, task::{Plan, Task}};
+use pushplan::{
+    scene::{Models, Situation, Tool},
+    task::{Plan, Task},
+};
 
 use super::{
     error::CliError, lever_argument::lever_argument, push_argument::push_argument, session::Session,
