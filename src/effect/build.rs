@@ -13,8 +13,8 @@ use crate::{
 };
 
 use super::{
-    Assuming, EffectModel, Follow, LeverModel, LeverNetwork, LeverPrior, Levering, Network, Prior,
-    Projection, Routed, Simulated, Still, UpTo,
+    Assuming, EffectModel, LeverModel, LeverNetwork, LeverPrior, Levering, Network, Prior,
+    Routed, Simulated, Still, UpTo,
 };
 
 /// Why a model cannot be made.
@@ -32,6 +32,9 @@ pub enum ModelError {
         #[source]
         error: WeightsError,
     },
+    /// A model from outside of the library.
+    #[error("the library has no model `{0}`; build it where it is defined")]
+    Custom(&'static str),
     /// What was learnt about a table belongs to another network.
     #[error(
         "the fit was learnt with other weights ({weights}) than those of the model; fit again with \
@@ -144,9 +147,8 @@ fn part(part: &ModelPart, fit: Option<&TableFit>) -> Result<Arc<dyn EffectModel>
         ModelKind::Simulated { engine, rate } => {
             Arc::new(Simulated::new(Simulator::new(*engine, *rate)))
         }
-        ModelKind::Projection => Arc::new(Projection),
-        ModelKind::Follow => Arc::new(Follow),
         ModelKind::Still => Arc::new(Still),
+        ModelKind::Custom(name) => return Err(ModelError::Custom(name)),
     };
     let model: Arc<dyn EffectModel> = match assumptions.are_none() {
         true => model,

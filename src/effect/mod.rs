@@ -1,7 +1,7 @@
 //! What a tool motion does to a scene, whatever computes it.
 //!
-//! Planner, benchmarks and trade-off see only [`EffectModel`]; the network, its prior, the engines
-//! and models without physics implement it, as rungs of one ladder of speed and accuracy. Nothing
+//! Planner, benchmarks and trade-off see only [`EffectModel`]; the network, its prior and the engines
+//! implement it, as rungs of one ladder of speed and accuracy. Nothing
 //! is searched here.
 
 mod assuming;
@@ -14,7 +14,7 @@ mod prior;
 mod routed;
 mod sensitivity;
 mod simulated;
-mod trivial;
+mod still;
 mod trust;
 mod up_to;
 
@@ -32,6 +32,6 @@ pub use prior::Prior;
 pub use routed::{Outside, Routed, consequence};
 pub use sensitivity::Sensitivity;
 pub use simulated::Simulated;
-pub use trivial::{Follow, Projection, Still};
+pub use still::Still;
 pub use trust::Trust;
 pub use up_to::UpTo;

@@ -1,11 +1,7 @@
-//! What a model is compared with where its errors are measured: what it must beat, and what the
-//! planar engine predicts when it is told something wrong about a scene.
+//! Models that a model is compared with where its errors are measured, such as the planar engine with
+//! wrong assumptions about a scene.
 
 use crate::scene::{Assumptions, JointBelief, ModelKind, ModelSpec};
-
-/// What a model must beat, on any scenes.
-const RIVALS: [ModelKind; 4] =
-    [ModelKind::PRIOR, ModelKind::Projection, ModelKind::Follow, ModelKind::Still];
 
 /// Percentages of the true friction that the planar engine is told.
 const FRICTION: [u16; 2] = [70, 130];
@@ -13,11 +9,6 @@ const FRICTION: [u16; 2] = [70, 130];
 /// The start that the planar engine is told is off by 0.1 mm: the engine's own spread.
 pub const SHIFTED_START: Assumptions =
     Assumptions { joints: None, friction: None, start: Some(100) };
-
-/// What `spec` must beat.
-pub fn rivals(spec: &ModelSpec) -> Vec<ModelSpec> {
-    RIVALS.map(ModelSpec::of).into_iter().filter(|other| other != spec).collect()
-}
 
 /// The planar engine, told too little friction, and too much.
 pub fn mistaken_frictions() -> [ModelSpec; 2] {
@@ -37,7 +28,7 @@ pub fn assumed(spec: &ModelSpec) -> [ModelSpec; 3] {
 /// What `spec` is compared with on recordings. There the planar engine is not the truth, so it is
 /// there as itself, and its own spread is no error that could stand in a row.
 pub fn recorded_baselines(spec: &ModelSpec) -> Vec<ModelSpec> {
-    let planar = ModelSpec::of(ModelKind::PLANAR);
-    let engine = (planar != *spec).then_some(planar);
-    rivals(spec).into_iter().chain(engine).chain(mistaken_frictions()).collect()
+    let others = [ModelKind::PRIOR, ModelKind::Still, ModelKind::PLANAR].map(ModelSpec::of);
+    let others = others.into_iter().filter(|other| other != spec);
+    others.chain(mistaken_frictions()).collect()
 }

@@ -14,7 +14,7 @@ mod physical;
 mod statistics;
 mod trial;
 
-pub use baselines::{SHIFTED_START, assumed, mistaken_frictions, recorded_baselines, rivals};
+pub use baselines::{SHIFTED_START, assumed, mistaken_frictions, recorded_baselines};
 pub use comparison::Comparison;
 pub use error::{MOVED, ObjectError, object_errors};
 pub use model_errors::{

@@ -121,8 +121,8 @@ fn each_table(names: &[String], each: &[OneError]) -> Table {
     )
 }
 
-/// One row a set of recordings: the first model, the projection and the planar engine's own
-/// spread.
+/// Table with one row a set of recordings: errors of the first model and of the prior, and the planar
+/// engine's own spread.
 fn recordings_table(reports: &[RecordedErrors]) -> Table {
     Table::of(
         reports.iter().filter_map(|report| Some((report, report.errors.models.first()?))),
@@ -136,9 +136,7 @@ fn recordings_table(reports: &[RecordedErrors]) -> Table {
             ("heading", Right, &|(_, model)| angle(model.any_heading_deg)),
             ("moved", Right, &|(_, model)| share(model.moved.end.as_ref(), |e| e.mean)),
             ("over frames", Right, &|(_, model)| share(model.all.averaged.as_ref(), |e| e.mean)),
-            ("projection", Right, &|(report, _)| {
-                beside(&report.errors, |name| name == "projection")
-            }),
+            ("prior", Right, &|(report, _)| beside(&report.errors, |name| name == "prior")),
             ("own spread", Right, &|(report, model)| {
                 let apart = report.own_spread.zip(model.all.end.as_ref());
                 apart.map_or(NONE.to_owned(), |(apart, end)| percent(end.share(apart)))

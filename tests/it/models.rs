@@ -17,8 +17,6 @@ fn kind() -> impl Strategy<Value = ModelKind> {
         stride().prop_map(|stride| ModelKind::Prior { stride }),
         (engine, any::<NonZeroU16>())
             .prop_map(|(engine, rate)| ModelKind::Simulated { engine, rate: Rate(rate) }),
-        Just(ModelKind::Projection),
-        Just(ModelKind::Follow),
         Just(ModelKind::Still),
         Just(ModelKind::NETWORK),
         Just(ModelKind::PLANAR),
@@ -77,8 +75,7 @@ fn texts_as_they_are_meant_to_look() {
         "planar,friction=70%",
         "planar,start=100um",
         "3d,step=1/60",
-        "projection,joints=guessed",
-        "follow",
+        "prior,joints=guessed",
         "still,joints=fixed",
     ] {
         let spec: ModelSpec = text.parse().unwrap_or_else(|error| panic!("{text}: {error}"));

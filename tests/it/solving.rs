@@ -24,7 +24,7 @@ fn planner() -> Planner {
 const EXACT: Trust =
     Trust::Mine { error: Some(Quantiles { median: 0.0, p95: 0.0 }), warnings: Vec::new() };
 
-static WISHFUL: ModelSpec = ModelSpec::of(ModelKind::Follow);
+static WISHFUL: ModelSpec = ModelSpec::of(ModelKind::Custom("wishful"));
 
 /// Predicts that any push brings every object onto the goal.
 struct Wishful(Vector);

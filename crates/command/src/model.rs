@@ -18,8 +18,7 @@ macro_rules! help {
     ($end:literal) => {
         concat!(
             "What predicts the effect of pushes: network; prior (the network's prior alone); \
-             planar or 3d (simulations); projection, follow or still (without physics); or a file \
-             of weights. Settings stand behind commas: prior,frame=20mm or planar,step=1/120; a \
+             planar or 3d (simulations); still (nothing moves); or a file of weights. Settings stand behind commas: prior,frame=20mm or planar,step=1/120; a \
              bar says which model takes over: prior,up-to=2|planar",
             $end
         )
@@ -65,7 +64,9 @@ impl From<ModelError> for CliError {
     fn from(error: ModelError) -> Self {
         match &error {
             ModelError::Shipped(_) => Self::Unexpected(error.to_string()),
-            ModelError::File { .. } | ModelError::Fit { .. } => Self::File(error.to_string()),
+            ModelError::File { .. } | ModelError::Fit { .. } | ModelError::Custom(_) => {
+                Self::File(error.to_string())
+            }
         }
     }
 }

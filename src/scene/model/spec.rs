@@ -12,7 +12,7 @@ use super::Assumptions;
 /// ```text
 /// spec = part { "|" part }             a job goes to the first part that takes it
 /// part = kind { "," key "=" value }
-/// kind = network | prior | planar | 3d | projection | follow | still
+/// kind = network | prior | planar | 3d | 3d-upright | still
 /// ```
 ///
 /// | key | of | value |
@@ -26,7 +26,7 @@ use super::Assumptions;
 /// | `start` | all | told a start off by this much, `100um` |
 /// | `up-to` | all | takes no job in which the tool can set more objects in motion |
 ///
-/// [`std::fmt::Display`] and [`std::str::FromStr`] are inverse. A text that is only a path ending
+/// [`std::fmt::Display`] and [`std::str::FromStr`] are inverse except for custom models. A text that is only a path ending
 /// in `.safetensors` is short for `network,weights=` that file.
 ///
 /// ```
@@ -80,12 +80,10 @@ pub enum ModelKind {
         /// How finely it steps.
         rate: Rate,
     },
-    /// Overlaps are removed and joints held, and nothing else happens.
-    Projection,
-    /// What the tool touches moves along with it.
-    Follow,
     /// Nothing moves.
     Still,
+    /// A model from outside of the library, by the word that stands for it; no text is read as one.
+    Custom(&'static str),
 }
 
 /// Frames of a moving tool ([`crate::scene::FRAME_TRAVEL`]) that are predicted as one.

@@ -16,8 +16,8 @@ use super::{Assumptions, JointBelief, ModelKind, ModelPart, ModelSpec, Rate, Str
 pub enum SpecError {
     /// No such kind.
     #[error(
-        "`{found}` is not an effect model; use network, prior, planar, 3d, 3d-upright, projection, \
-         follow or still, or a file that ends in .safetensors"
+        "`{found}` is not an effect model; use network, prior, planar, 3d, 3d-upright or still, \
+         or a file that ends in .safetensors"
     )]
     Kind {
         /// What stands in its place.
@@ -70,9 +70,8 @@ impl ModelKind {
             Self::Simulated { engine: Engine::Planar, .. } => "planar",
             Self::Simulated { engine: Engine::Spatial, .. } => "3d",
             Self::Simulated { engine: Engine::Upright, .. } => "3d-upright",
-            Self::Projection => "projection",
-            Self::Follow => "follow",
             Self::Still => "still",
+            Self::Custom(word) => word,
         }
     }
 
@@ -83,8 +82,6 @@ impl ModelKind {
             Self::PLANAR,
             Self::SPATIAL,
             Self::UPRIGHT,
-            Self::Projection,
-            Self::Follow,
             Self::Still,
         ];
         all.into_iter().find(|kind| kind.word() == word)
@@ -95,7 +92,7 @@ impl ModelKind {
             Self::Network { .. } => takes!("weights=FILE, steps=2, frame=20mm, "),
             Self::Prior { .. } => takes!("frame=20mm, "),
             Self::Simulated { .. } => takes!("step=1/120, "),
-            Self::Projection | Self::Follow | Self::Still => takes!(""),
+            Self::Still | Self::Custom(_) => takes!(""),
         }
     }
 

@@ -1,7 +1,18 @@
 //! What a model is compared with in an evaluation on random scenes.
 
-use pushplan::internals::judge::{SHIFTED_START, mistaken_frictions, rivals};
+use pushplan::internals::judge::{SHIFTED_START, mistaken_frictions};
 use pushplan::internals::scene::{ModelKind, ModelSpec};
+
+use crate::trivial::{Follow, Projection};
+
+/// Models that any model must beat, on any scenes.
+const RIVALS: [ModelKind; 4] =
+    [ModelKind::PRIOR, Projection::KIND, Follow::KIND, ModelKind::Still];
+
+/// Returns the models that `spec` must beat.
+fn rivals(spec: &ModelSpec) -> impl Iterator<Item = ModelSpec> {
+    RIVALS.map(ModelSpec::of).into_iter().filter(move |other| other != spec)
+}
 
 /// What `spec` is compared with on held-out pushes: the other engine, and what it must beat.
 pub fn push_baselines(spec: &ModelSpec) -> Vec<ModelSpec> {
@@ -12,5 +23,5 @@ pub fn push_baselines(spec: &ModelSpec) -> Vec<ModelSpec> {
 /// What `spec` is compared with on crowds, where the planar engine is the truth.
 pub fn crowd_baselines(spec: &ModelSpec) -> Vec<ModelSpec> {
     let shifted = ModelSpec::of(ModelKind::PLANAR).assuming(SHIFTED_START);
-    rivals(spec).into_iter().chain(mistaken_frictions()).chain([shifted]).collect()
+    rivals(spec).chain(mistaken_frictions()).chain([shifted]).collect()
 }

@@ -4,13 +4,14 @@
 use pushplan::recording::Recording;
 use pushplan::watch::Unwatched;
 use pushplan::{
-    effect::{Assuming, EffectModel, Projection, Simulated, Still},
+    effect::{Assuming, EffectModel, Simulated, Still},
     judge::{ModelErrors, Trial, TrialErrors},
     scene::{Assumptions, JointBelief},
     sim::Simulator,
 };
 use pushplan_lab::bench::{CrowdFamily, CrowdReport, CrowdSet, crowd_cases};
 use pushplan_lab::report::{crowd_document, evaluation_document};
+use pushplan_lab::trivial::Projection;
 use pushplan_learn::dataset::{DatasetConfig, Episode, JointRule, Preset, Solids};
 use serde_json::Value as Json;
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use pushplan::{
     asset::ToolLibrary,
-    effect::{EffectModel, Projection, Simulated, Still},
+    effect::{EffectModel, Simulated, Still},
     judge::MOVED,
     sim::Simulator,
     solve::{Effort, Planner, Settings},
@@ -13,6 +13,7 @@ use pushplan_lab::bench::{
     HeldOut, HeldOutReport, PlanErrors, RefinedTask, RefinementReport, Suite, SuiteKind,
     push_costs, random_task, refine_task, search_costs,
 };
+use pushplan_lab::trivial::Projection;
 
 fn library() -> ToolLibrary {
     ToolLibrary::embedded().unwrap()

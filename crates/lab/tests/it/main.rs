@@ -15,6 +15,7 @@ mod shipped_network;
 mod steps;
 mod symmetry;
 mod tradeoff;
+mod trivial;
 
 // What these tests share with others.
 #[path = "../../../../tests/it/fixtures.rs"]

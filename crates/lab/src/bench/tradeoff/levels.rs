@@ -8,6 +8,8 @@ use pushplan::internals::scene::{Engine, ModelKind, ModelSpec, Models, Rate, Str
 use pushplan::internals::solve::Settings;
 use serde::{Deserialize, Serialize};
 
+use crate::trivial::{self, Follow, Projection};
+
 /// Frames predicted as one, besides single frames, that the shipped network and its prior are
 /// measured with.
 const STRIDES: [u8; 2] = [2, 4];
@@ -29,7 +31,7 @@ impl Level {
     /// # Errors
     /// [`ModelError`] if it needs weights that cannot be used.
     pub fn new(spec: &ModelSpec) -> Result<Self, ModelError> {
-        Ok(Self { name: spec.to_string(), model: Arc::new(EffectModels::build(spec)?) })
+        Ok(Self { name: spec.to_string(), model: Arc::new(trivial::load(spec)?) })
     }
 
     /// The predictor.
@@ -94,7 +96,7 @@ pub fn levels(other: &[String]) -> Result<Vec<Level>, ModelError> {
     kinds.extend(strides().map(|stride| ModelKind::Prior { stride }));
     kinds.extend(rates(Engine::Planar, &PLANAR_RATES));
     kinds.extend(rates(Engine::Spatial, &SPATIAL_RATES));
-    kinds.extend([ModelKind::Projection, ModelKind::Follow, ModelKind::Still]);
+    kinds.extend([Projection::KIND, Follow::KIND, ModelKind::Still]);
     kinds.into_iter().map(|kind| Level::new(&kind.into())).collect()
 }
 

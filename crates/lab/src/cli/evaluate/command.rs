@@ -16,6 +16,7 @@ use crate::cli::evaluate::on::On;
 use crate::cli::evaluate::parts::Parts;
 use crate::cli::evaluate::sources::CrowdArgs;
 use crate::report::evaluation_document;
+use crate::trivial;
 
 /// Measure prediction errors on held-out pushes and crowds
 #[derive(Args, Debug)]
@@ -35,9 +36,10 @@ Examples:
   pushplan-lab evaluate runs/full/best.safetensors --on tools")]
 pub struct EvaluateArgs {
     /// The model, the same as --model
-    #[arg(value_name = "MODEL", conflicts_with = "model")]
+    #[arg(value_name = "MODEL", conflicts_with = "model", value_parser = trivial::spec)]
     positional: Option<ModelSpec>,
-    #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]
+    #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP,
+          value_parser = trivial::spec)]
     model: ModelSpec,
     #[command(flatten)]
     pub outside: OutsideArgs,

@@ -8,10 +8,11 @@ use pushplan_command::follow::Following;
 use pushplan_command::form::Form;
 use pushplan_command::model::OutsideArgs;
 use pushplan_command::session::Session;
-use pushplan_command::{model, output};
+use pushplan_command::output;
 
 use crate::bench::{CrowdReport, CrowdSet, HeldOutReport, crowd_baselines};
 use crate::report::{crowd_document, evaluation_document};
+use crate::trivial;
 
 use super::sources::CrowdArgs;
 
@@ -67,16 +68,24 @@ impl Crowds<'_> {
     /// The model that is asked for, the same under other assumptions about joints, and what
     /// it is compared with.
     fn models(&self) -> Result<Vec<Box<dyn EffectModel>>, CliError> {
-        let mut models: Vec<Box<dyn EffectModel>> = vec![Box::new(self.outside.load(self.model)?)];
+        let mut models: Vec<Box<dyn EffectModel>> = vec![self.load(self.model)?];
         if self.args.no_baselines {
             return Ok(models);
         }
         for spec in assumed(self.model) {
-            models.push(Box::new(self.outside.load(&spec)?));
+            models.push(self.load(&spec)?);
         }
         for spec in crowd_baselines(self.model) {
-            models.push(Box::new(model::load(&spec)?));
+            models.push(Box::new(trivial::load(&spec)?));
         }
         Ok(models)
+    }
+
+    /// Builds a model that is used only where it can be trusted.
+    ///
+    /// # Errors
+    /// A model that cannot be read.
+    pub fn load(&self, spec: &ModelSpec) -> Result<Box<dyn EffectModel>, CliError> {
+        Ok(Box::new(trivial::load(spec)?.outside(self.outside.outside())))
     }
 }

@@ -16,6 +16,7 @@ use crate::bench::{
 use crate::cli::evaluate::command::EvaluateArgs;
 use crate::cli::evaluate::crowds::Crowds;
 use crate::report::heldout_document;
+use crate::trivial;
 
 /// Name of the suite in manifests.
 pub const SUITE: &str = "evaluation";
@@ -96,9 +97,9 @@ impl Parts<'_> {
     fn tools(&self, kind: SuiteKind, session: &Session) -> Result<HeldOutReport, CliError> {
         let (args, spec) = (self.args, self.crowds.model);
         let library = args.library.load()?;
-        let mut models: Vec<Box<dyn EffectModel>> = vec![Box::new(args.outside.load(spec)?)];
+        let mut models: Vec<Box<dyn EffectModel>> = vec![self.crowds.load(spec)?];
         for other in push_baselines(spec) {
-            models.push(Box::new(model::load(&other)?));
+            models.push(Box::new(trivial::load(&other)?));
         }
         let spinner = session.spinner(kind.title());
         let report = session.compute(|| {

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::{
+use pushplan::internals::{
     geometry::{ContactPoint, Pose, contact_points},
     outcome::{Contact, Frame, Record, Trajectory},
     scene::{Body, ModelSpec, Physics, Scene, State, TOUCHING, Tool},

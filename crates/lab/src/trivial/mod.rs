@@ -5,10 +5,10 @@
 
 mod bodies;
 mod follow;
+mod named;
 mod play;
 mod projection;
-mod still;
 
 pub use follow::Follow;
+pub use named::{load, spec};
 pub use projection::Projection;
-pub use still::Still;

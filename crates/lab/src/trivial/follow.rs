@@ -1,10 +1,10 @@
 //! What the tool touches sticks to it.
 
-use crate::{
+use pushplan::internals::{
     effect::{EffectModel, Trust},
     geometry::Pose,
     outcome::{Record, Trajectory},
-    scene::{Body, ModelKind, ModelSpec, Physics, Scene},
+    scene::{Body, ModelSpec, Physics, Scene},
     task::Job,
 };
 
@@ -15,7 +15,7 @@ use super::play::{Rule, Table, play_all};
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Follow;
 
-static SPEC: ModelSpec = ModelSpec::of(ModelKind::Follow);
+static SPEC: ModelSpec = ModelSpec::of(Follow::KIND);
 
 struct Sticking {
     held: Vec<bool>,

@@ -1,10 +1,10 @@
 //! Overlaps are removed and joints held, and nothing else happens.
 
-use crate::{
+use pushplan::internals::{
     effect::{EffectModel, Trust},
     geometry::Pose,
     outcome::{Record, Trajectory},
-    scene::{Body, ModelKind, ModelSpec, Physics, Scene},
+    scene::{Body, ModelSpec, Physics, Scene},
     task::Job,
 };
 
@@ -25,7 +25,7 @@ const ROUNDS: usize = 200;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Projection;
 
-static SPEC: ModelSpec = ModelSpec::of(ModelKind::Projection);
+static SPEC: ModelSpec = ModelSpec::of(Projection::KIND);
 
 struct Shifting {
     bodies: Bodies,
@@ -110,7 +110,7 @@ impl EffectModel for Projection {
 mod tests {
     use std::sync::Arc;
 
-    use crate::{
+    use pushplan::internals::{
         effect::{EffectModel, Follow, Job, Projection, Still},
         geometry::{Pose, Vector},
         outcome::{Record, Trajectory},

@@ -6,7 +6,7 @@
 //! of squared travels of all their points is smallest (position based dynamics of rigid bodies,
 //! Macklin et al. 2016, doi:10.1145/2994258.2994272, with areas for masses).
 
-use crate::{
+use pushplan::internals::{
     geometry::{Pose, Vector, cross},
     scene::{JointKind, Physics, RigidGroups, Scene, Separation, Span},
 };

@@ -1,0 +1,47 @@
+//! Trivial models by their names.
+
+use std::sync::Arc;
+
+use pushplan::internals::effect::{Assuming, EffectModel, EffectModels, ModelError, Routed};
+use pushplan::internals::scene::{ModelKind, ModelSpec, SpecError};
+
+use super::{Follow, Projection};
+
+impl Follow {
+    /// Kind of this model.
+    pub const KIND: ModelKind = ModelKind::Custom("follow");
+}
+
+impl Projection {
+    /// Kind of this model.
+    pub const KIND: ModelKind = ModelKind::Custom("projection");
+}
+
+/// Reads the name of a model: one of the library's with its settings, or a trivial one.
+///
+/// # Errors
+/// A text that names no model.
+pub fn spec(text: &str) -> Result<ModelSpec, SpecError> {
+    let trivial = [Projection::KIND, Follow::KIND].map(ModelSpec::of);
+    match trivial.into_iter().find(|spec| spec.to_string() == text.trim()) {
+        Some(spec) => Ok(spec),
+        None => text.parse(),
+    }
+}
+
+/// Builds the model that `spec` names.
+///
+/// # Errors
+/// [`ModelError`] if it needs weights that cannot be used.
+pub fn load(spec: &ModelSpec) -> Result<Routed, ModelError> {
+    let part = spec.first();
+    let model: Arc<dyn EffectModel> = match &part.kind {
+        kind if *kind == Projection::KIND => Arc::new(Projection),
+        kind if *kind == Follow::KIND => Arc::new(Follow),
+        _ => return EffectModels::build(spec),
+    };
+    Ok(match part.assumptions.are_none() {
+        true => Routed::new(model),
+        false => Routed::new(Arc::new(Assuming::new(model, part.assumptions))),
+    })
+}
