@@ -8,7 +8,7 @@ mod effects;
 mod solved;
 mod tools;
 
-pub use cpu_clock::{processor_time, thread_time, timed};
+pub use cpu_clock::thread_time;
 pub use effects::{TimedEffect, timed_effect};
 pub use solved::{End, SolvedTask};
 pub use tools::{

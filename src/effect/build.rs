@@ -13,8 +13,8 @@ use crate::{
 };
 
 use super::{
-    Assuming, EffectModel, LeverModel, LeverNetwork, LeverPrior, Levering, Network, Prior,
-    Routed, Simulated, Still, UpTo,
+    Assuming, EffectModel, LeverModel, LeverNetwork, LeverPrior, Levering, Network, Prior, Routed,
+    Simulated, Still, UpTo,
 };
 
 /// Why a model cannot be made.

@@ -41,7 +41,13 @@ fn standing(job: &Job, record: Record) -> Trajectory {
         for step in (0..stroke.frames()).map(|k| stroke.frame(k)) {
             time += step.duration;
             let state = State::at_rest(job.start.poses.clone());
-            trajectory.frames.push(Frame { time, stroke: index, tool: step.to, state, blade: None });
+            trajectory.frames.push(Frame {
+                time,
+                stroke: index,
+                tool: step.to,
+                state,
+                blade: None,
+            });
         }
     }
     if record == Record::Outcome {

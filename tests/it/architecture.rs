@@ -32,9 +32,10 @@ const HOUSES: [(&str, &str, Rooms); 4] = [
         &[
             ("image", ""),
             ("parts", ""),
-            ("bench", "image parts"),
+            ("trivial", ""),
+            ("bench", "image parts trivial"),
             ("report", "bench"),
-            ("cli", "image parts bench report"),
+            ("cli", "image parts trivial bench report"),
         ],
     ),
 ];
@@ -93,7 +94,7 @@ const DOORS: [(&str, &str); 30] = [
     ("serde_yaml", "asset"),
     ("rapier2d", "sim"),
     ("rapier3d_f64", "sim"),
-    ("nalgebra", "geometry arm contact fit belief plan import"),
+    ("nalgebra", "geometry arm contact fit belief plan import lab/bench"),
     ("roxmltree", "asset import"),
     ("stl_io", "asset"),
     ("tobj", "asset"),

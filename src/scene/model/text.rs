@@ -76,14 +76,8 @@ impl ModelKind {
     }
 
     fn of_word(word: &str) -> Option<Self> {
-        let all = [
-            Self::NETWORK,
-            Self::PRIOR,
-            Self::PLANAR,
-            Self::SPATIAL,
-            Self::UPRIGHT,
-            Self::Still,
-        ];
+        let all =
+            [Self::NETWORK, Self::PRIOR, Self::PLANAR, Self::SPATIAL, Self::UPRIGHT, Self::Still];
         all.into_iter().find(|kind| kind.word() == word)
     }
 

@@ -6,8 +6,7 @@ use pushplan::internals::scene::{ModelKind, ModelSpec};
 use crate::trivial::{Follow, Projection};
 
 /// Models that any model must beat, on any scenes.
-const RIVALS: [ModelKind; 4] =
-    [ModelKind::PRIOR, Projection::KIND, Follow::KIND, ModelKind::Still];
+const RIVALS: [ModelKind; 4] = [ModelKind::PRIOR, Projection::KIND, Follow::KIND, ModelKind::Still];
 
 /// Returns the models that `spec` must beat.
 fn rivals(spec: &ModelSpec) -> impl Iterator<Item = ModelSpec> {

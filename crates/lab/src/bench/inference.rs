@@ -3,7 +3,6 @@
 
 use std::time::Duration;
 
-use pushplan::internals::bench::processor_time;
 use pushplan::internals::contact::{Bodies, FrameProblem, FrameSolver};
 use pushplan::internals::graph::Batch;
 use pushplan::internals::network::{Buffers, Forward, PredictorWeights, matrix_product};
@@ -12,6 +11,7 @@ use pushplan::internals::{outcome::Record, task::Job};
 use pushplan_learn::network::{Inputs, Predictor};
 use serde::{Deserialize, Serialize};
 
+use super::cpu_clock::processor_time;
 use super::suite::Case;
 
 /// Each figure is the best of this many rounds: other work on the machine can only lengthen it.

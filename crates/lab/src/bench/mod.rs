@@ -8,6 +8,7 @@ mod baselines;
 mod belief;
 mod calibration;
 mod closed;
+mod cpu_clock;
 mod crowd;
 mod equations;
 mod evaluation;

@@ -4,13 +4,13 @@
 use std::sync::Arc;
 
 use pushplan::internals::asset::ToolLibrary;
-use pushplan::internals::bench::processor_time;
 use pushplan::internals::effect::{EffectModel, Job, Simulated};
 use pushplan::internals::sim::Simulator;
 use pushplan::internals::solve::{Planner, Settings, SolveError};
 use pushplan::internals::{outcome::Record, scene::Scene, task::Task};
 use serde::{Deserialize, Serialize};
 
+use super::cpu_clock::processor_time;
 use super::suite::{Case, Suite};
 
 /// A search is timed this often and the shortest counts: other work on the machine can only

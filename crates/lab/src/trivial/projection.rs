@@ -111,12 +111,14 @@ mod tests {
     use std::sync::Arc;
 
     use pushplan::internals::{
-        effect::{EffectModel, Follow, Job, Projection, Still},
+        effect::{EffectModel, Job, Still},
         geometry::{Pose, Vector},
         outcome::{Record, Trajectory},
         scene::{Object, Part, Scene, Tool},
         task::{Push, ToolMotion},
     };
+
+    use crate::trivial::{Follow, Projection};
 
     /// A wide bar pushes 0.20 m along x; a can 5 mm before it, and a second one 20 mm further.
     fn roll(model: &dyn EffectModel) -> Trajectory {

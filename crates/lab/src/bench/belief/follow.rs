@@ -3,10 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use pushplan::internals::belief::{
-    Belief, BeliefRegulator, BeliefSettings, JointType, residual_types,
-};
-use pushplan::internals::bench::processor_time;
+use pushplan::internals::belief::{Belief, BeliefRegulator, BeliefSettings, JointType};
 use pushplan::internals::effect::EffectModel;
 use pushplan::internals::geometry::{Pose, Vector};
 use pushplan::internals::judge::mean;
@@ -18,7 +15,9 @@ use pushplan::internals::{
 };
 use pushplan_learn::dataset::true_type;
 
+use super::super::cpu_clock::processor_time;
 use super::record::{BeliefRecord, Checkpoint, JointMethod, Rest, When};
+use super::residual::residual_types;
 
 /// When beliefs are asked, apart from the end, where they always are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -8,6 +8,7 @@
 mod circumstances;
 mod follow;
 mod record;
+mod residual;
 mod suite;
 mod summary;
 

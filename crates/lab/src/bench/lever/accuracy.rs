@@ -1,6 +1,5 @@
 //! Errors of models of lever-ups on those that none was made from.
 
-use pushplan::internals::bench::timed;
 use pushplan::internals::effect::{LeverModel, LeverTrust};
 use pushplan::internals::judge::Summary;
 use pushplan::internals::{
@@ -11,6 +10,7 @@ use pushplan_learn::dataset::{LeverEpisode, LeverPreset};
 use pushplan_learn::judge::{LeverError, lever_error};
 use serde::{Deserialize, Serialize};
 
+use super::super::cpu_clock::timed;
 use super::baselines::LeverBaseline;
 use super::supports::{SupportRow, support_rows};
 

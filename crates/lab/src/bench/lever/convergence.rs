@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use pushplan::internals::bench::timed;
+use super::super::cpu_clock::timed;
 use pushplan::internals::judge::Summary;
 use pushplan::internals::seeded::generator;
 use pushplan::internals::sim::LeverSimulator;

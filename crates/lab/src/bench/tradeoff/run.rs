@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use pushplan::internals::asset::ToolLibrary;
-use pushplan::internals::bench::{SolvedTask, timed};
+use pushplan::internals::bench::SolvedTask;
 use pushplan::internals::solve::{Planner, Solution, SolveError};
 use pushplan::internals::store::{Measured, RunManifest, Seconds};
 use pushplan::internals::verify::{Verifier, VerifySettings};
@@ -15,6 +15,7 @@ use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
+use super::super::cpu_clock::timed;
 use crate::bench::{HeldOut, HeldOutErrors, RandomError, RandomSuite, SuiteKind, TaskKind};
 
 use super::cost::Timed;

@@ -5,15 +5,14 @@
 //! and the one with the smallest Bayesian information criterion k ln n - 2 ln L is taken. What a joint
 //! leaves free, and everything without a joint, is taken to lie anywhere around its mean.
 
-use nalgebra::{DMatrix, DVector, Matrix2, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix2, Rotation2, Vector3};
 
-use crate::{
+use pushplan::internals::{
+    belief::JointType,
     geometry::{Pose, Vector, wrap_angle},
     scene::{Scene, Sight},
     task::{Noise, Observation},
 };
-
-use super::{fit::turn, pair::JointType, relative::relative};
 
 /// Play of joints beside the noise, as standard deviations: metres and radians.
 const PLAY: [f64; 2] = [3e-4, 5e-3];
@@ -52,6 +51,13 @@ pub fn residual_types(
     pairs.iter().map(of).collect()
 }
 
+/// Returns the pose of a second object in the frame of a first: position (metres) and heading (radians).
+fn relative(first: &Pose, second: &Pose) -> Vector3<f64> {
+    let position = first.local_point(second.position);
+    Vector3::new(position.x, position.y, second.heading - first.heading)
+}
+
+/// Returns the type of joint that explains these relative poses best.
 fn likeliest(poses: &[Vector3<f64>], held: [f64; 2]) -> JointType {
     if poses.len() < 2 {
         return JointType::None;
@@ -80,7 +86,7 @@ fn likeliest(poses: &[Vector3<f64>], held: [f64; 2]) -> JointType {
     });
     let anchor = anchors(poses);
     let revolute = sum(&|pose| {
-        let off_anchor = pose.xy() + turn(pose.z) * anchor[1] - anchor[0];
+        let off_anchor = pose.xy() + Rotation2::new(pose.z) * anchor[1] - anchor[0];
         cost(off_anchor.x, held[0]) + cost(off_anchor.y, held[0]) + cost(pose.z - mean.z, free_turn)
     });
     [
@@ -111,7 +117,7 @@ fn anchors(poses: &[Vector3<f64>]) -> [Vector; 2] {
     let mut rows = DMatrix::zeros(2 * poses.len(), 4);
     let mut wanted = DVector::zeros(2 * poses.len());
     for (k, pose) in poses.iter().enumerate() {
-        let turn = turn(pose.z);
+        let turn = Rotation2::new(pose.z);
         for i in 0..2 {
             rows[(2 * k + i, i)] = 1.0;
             rows[(2 * k + i, 2)] = -turn[(i, 0)];
