@@ -7,8 +7,8 @@ use pushplan_command::error::CliError;
 use pushplan_command::follow::Following;
 use pushplan_command::form::Form;
 use pushplan_command::model::OutsideArgs;
-use pushplan_command::session::Session;
 use pushplan_command::output;
+use pushplan_command::session::Session;
 
 use crate::bench::{CrowdReport, CrowdSet, HeldOutReport, crowd_baselines};
 use crate::report::{crowd_document, evaluation_document};

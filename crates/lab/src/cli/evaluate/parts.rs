@@ -6,7 +6,6 @@ use pushplan::internals::watch::Unwatched;
 use pushplan_command::bench::{tools_digest, weights_digest};
 use pushplan_command::error::CliError;
 use pushplan_command::follow::Following;
-use pushplan_command::model;
 use pushplan_command::session::Session;
 use serde_json::json;
 
