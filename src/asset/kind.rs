@@ -6,8 +6,8 @@ use std::path::Path;
 use crate::recording::Recording;
 use crate::scene::Tool;
 
+use super::blade::BLADE_TOOL_KEYS;
 use super::fault::{Fault, Faults};
-use super::lever::{BLADE_TOOL_KEYS, LEVER_TASK_KEYS};
 use super::library::ToolLibrary;
 use super::node::Node;
 use super::recording::RECORDING_KEYS;
@@ -82,7 +82,7 @@ fn recognise(file: &str, text: &str) -> Result<Kind, Faults> {
     let fitting = |keys: &[Key]| keys.iter().filter(|key| root.get(key.name).is_some()).count();
     let kinds = [
         (fitting(tool::TOOL_KEYS).max(fitting(BLADE_TOOL_KEYS)), Kind::Tool),
-        (fitting(task::TASK_KEYS).max(fitting(LEVER_TASK_KEYS)), Kind::Task),
+        (fitting(task::TASK_KEYS), Kind::Task),
         (fitting(RECORDING_KEYS), Kind::Recording),
         (fitting(world::WORLD_KEYS), Kind::World),
     ];

@@ -4,16 +4,16 @@
 //! the YAML crate. A file is read in three steps: its text becomes a tree of nodes that know
 //! their place (`node`, `reader`), the tree is checked against what such a file may hold (`spec`,
 //! `strict`), and the rules that span several keys are applied while the domain's type is
-//! built (`tool`, `task`, `lever`, `saved`). Nothing is simulated here and nothing is drawn.
+//! built (`tool`, `task`, `saved`). Nothing is simulated here and nothing is drawn.
 
 mod arm;
+mod blade;
 mod example;
 mod fault;
 mod folder;
 #[cfg(feature = "formats")]
 pub(crate) mod foreign;
 mod kind;
-mod lever;
 mod library;
 mod node;
 mod printable;

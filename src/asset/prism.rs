@@ -8,21 +8,36 @@ use super::strict::Ledger;
 use super::take::vector;
 
 /// What a file may say of a prism.
-pub(super) const PRISM: Value = Value::Map(&[
-    Key::required(
-        "corners",
-        Value::List { of: &POSITION, items: "corners", min: 3, max: MAX_CORNERS },
-        "Corners of the convex base in order, [x, y] in metres, from any origin along the axes of \
-         the body's own frame.",
-    ),
-    Key::required("height", SIZE, "Height in metres."),
+pub(super) const PRISM: Value = Value::Map(&[CORNERS, HEIGHT, CENTRE]);
+
+/// What a file may say of a prism whose position may be that of another point.
+pub(super) const PLACED_PRISM: Value = Value::Map(&[
+    CORNERS,
+    HEIGHT,
+    CENTRE,
     Key::optional(
-        "centre_of_mass",
+        "origin",
         POSITION,
-        "Centre of mass, [x, y] in metres from the same origin; by default the centroid of the \
-         base. The body's position is where this is.",
+        "The point whose place `position` names, [x, y] in metres from the same origin; by default the \
+         centre of mass.",
     ),
 ]);
+
+const CORNERS: Key = Key::required(
+    "corners",
+    Value::List { of: &POSITION, items: "corners", min: 3, max: MAX_CORNERS },
+    "Corners of the convex base in order, [x, y] in metres, from any origin along the axes of the \
+     body's own frame.",
+);
+
+const HEIGHT: Key = Key::required("height", SIZE, "Height in metres.");
+
+const CENTRE: Key = Key::optional(
+    "centre_of_mass",
+    POSITION,
+    "Centre of mass, [x, y] in metres from the same origin; by default the centroid of the base. The \
+     body's position is where this is.",
+);
 
 /// The prism, if nothing of it is missing or faulty.
 pub(super) fn prism(node: &Node) -> Option<Shape> {
@@ -35,6 +50,15 @@ pub(super) fn prism(node: &Node) -> Option<Shape> {
 pub(super) fn origin(shape: &Node) -> Option<Vector> {
     match shape.get("prism") {
         Some(node) => Some(centre(node)?.unwrap_or(centroid(&corners(node)?))),
+        None => Some(Vector::zeros()),
+    }
+}
+
+/// Where the origin of a body of that `shape` lies from the point that a position names: elsewhere for a
+/// prism that states one.
+pub(super) fn shift(shape: &Node) -> Option<Vector> {
+    match shape.get("prism").and_then(|prism| prism.get("origin")) {
+        Some(named) => Some(origin(shape)? - vector(named)?),
         None => Some(Vector::zeros()),
     }
 }

@@ -21,9 +21,9 @@ centre is within the tolerance, and its heading too where one is asked for; head
 object looks the same count alike unless the goal says otherwise. The position of a body is that of \
 its centre; of a prism, whose corners are written from any origin, that of its centre of mass. A \
 prism turns as heavily as an even plate on its base, about its centre of mass. A task with `levers`, or \
-a goal that speaks of `outside`, `raised` or `flipped`, is one of levering: its objects are flat, on \
-feet or on obstacles, and a blade goes level under an edge, pointing inward, and turns about a level \
-axis; the edge goes up. The blade is held at the other end of its shaft, which stays within the reach. \
+a goal with `outside`, `raised` or `flipped`, allows lever-ups: its objects are flat, on feet or on \
+obstacles, and a blade goes level under an edge, pointing inward, and turns about a level axis; the \
+edge goes up. The blade is held at the other end of its shaft, which stays within the reach. \
 Unknown keys are faults.";
 
 /// What holds for a whole world file.
@@ -40,7 +40,7 @@ pub fn tool_schema() -> Json {
 
 /// The schema of task files.
 pub fn task_schema() -> Json {
-    let mut schema = document("pushplan task", &super::task::TASK_FILE);
+    let mut schema = document("pushplan task", &super::task::TASK);
     schema["description"] = json!(TASK_RULES);
     schema
 }

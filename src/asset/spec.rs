@@ -4,7 +4,7 @@
 //! editors (`schema.rs`) and people, who meet its words in both.
 
 use super::node::Node;
-use super::prism::PRISM;
+use super::prism::{PLACED_PRISM, PRISM};
 
 /// A key of a map.
 pub(super) struct Key {
@@ -95,6 +95,13 @@ pub(super) const SHAPE: Value = Value::Variant(&[
     Key::optional("prism", PRISM, "An upright prism on a convex polygon; no default."),
 ]);
 
+/// A solid standing upright, with the point of it that a position names.
+pub(super) const PLACED_SHAPE: Value = Value::Variant(&[
+    Key::optional("cylinder", CYLINDER, "An upright cylinder; no default."),
+    Key::optional("cuboid", CUBOID, "A cuboid with its faces along its own axes; no default."),
+    Key::optional("prism", PLACED_PRISM, "An upright prism on a convex polygon; no default."),
+]);
+
 /// The extents of a cylinder.
 pub(super) const CYLINDER: Value = Value::Map(&[
     Key::required("radius", SIZE, "Radius in metres."),
@@ -142,10 +149,10 @@ pub(super) const MASS: Value = Value::Number(Range {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::asset::lever::{BLADE_TOOL, LEVER_TASK};
+    use crate::asset::blade::BLADE_TOOL;
     use crate::asset::recording::RECORDING;
     use crate::asset::saved::{PLAN_FILE, TRAJECTORY_FILE};
-    use crate::asset::{task::TASK_FILE, tool::TOOL, world::WORLD};
+    use crate::asset::{task::TASK, tool::TOOL, world::WORLD};
 
     fn walk(value: &Value, visit: &mut impl FnMut(&Value)) {
         visit(value);
@@ -162,9 +169,7 @@ mod tests {
 
     #[test]
     fn every_key_is_explained_and_every_range_holds_something() {
-        let pushes = [&TOOL, &TASK_FILE, &PLAN_FILE, &TRAJECTORY_FILE, &RECORDING, &WORLD];
-        let levers = [&BLADE_TOOL, &LEVER_TASK];
-        for root in pushes.into_iter().chain(levers) {
+        for root in [&TOOL, &BLADE_TOOL, &TASK, &PLAN_FILE, &TRAJECTORY_FILE, &RECORDING, &WORLD] {
             walk(root, &mut |value| match value {
                 Value::Map(keys) | Value::Variant(keys) => {
                     for key in *keys {

@@ -42,6 +42,15 @@ pub(super) fn pose(node: &Node) -> Option<Pose> {
     Some(Pose { position: position(node)?, heading: angle(node, "yaw_deg", 0.0)? })
 }
 
+/// The pose of a body whose `shape` may state the point that its position names.
+pub(super) fn placed(node: &Node) -> Option<Pose> {
+    let pose = pose(node)?;
+    let shift = node.get("shape").map_or(Some(Vector::zeros()), super::prism::shift)?;
+    // Most state none, and adding nothing would still round.
+    let moved = shift != Vector::zeros();
+    Some(if moved { Pose { position: pose.point(shift), ..pose } } else { pose })
+}
+
 /// The three numbers under `key`.
 pub(super) fn triple(node: &Node, key: &str) -> Option<[f64; 3]> {
     match node.get(key)?.items() {

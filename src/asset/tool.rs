@@ -5,8 +5,9 @@ use std::path::Path;
 use crate::geometry::{Pose, Shape};
 use crate::scene::{Part, Tool, ToolError};
 
+use super::blade::{BLADE_TOOL, blade_tool_of, is_blade_tool};
 use super::fault::{Fault, Faults, did_you_mean};
-use super::lever::{BLADE_TOOL, blade_tool_of, is_blade_tool};
+
 use super::node::Node;
 use super::prism;
 use super::spec::{ANGLE, COORDINATE, EXTENTS, FRICTION, Key, POSITION, SHAPE, Value};

@@ -4,8 +4,8 @@ use serde_json::{Value as Json, json};
 
 use super::things;
 use crate::asset::task::{
-    WORLD, area_of, emitted_coverage, emitted_fall, emitted_gap, emitted_obstacle, emitted_tools,
-    name_of_surface,
+    WORLD, area_of, emitted_coverage, emitted_fall, emitted_gap, emitted_levers, emitted_obstacle,
+    emitted_tools, name_of_surface,
 };
 use crate::geometry::{Pose, Shape, Vector};
 use crate::{
@@ -13,7 +13,7 @@ use crate::{
         Blade, DisjointSets, Hand, Joint, JointKind, Mount, Object, Obstacle, PairFriction, Plate,
         Robot, Scene, Slab, Span, Support, TableTop, Tool,
     },
-    task::{Directions, Goal, LeverRules, Offsets, Pivot, PushForm, PushRules, Task},
+    task::{Directions, Goal, Offsets, PushForm, PushRules, Task},
 };
 
 /// The most pairs of parts that a tool file names.
@@ -25,17 +25,11 @@ pub(in crate::asset) fn task(task: &Task) -> Json {
         Some(arm) => json!({"arm": arm}),
         None => json!({"reach": {"min": task.robot.reach_min, "max": task.robot.reach_max}}),
     };
-    // Chained pushes alone begin at home.
-    if task.levers.is_none() && task.arm.is_none() {
-        robot["home"] = json!(vector(task.robot.home));
-    }
     if let Some(force) = task.robot.max_force {
         robot["max_force"] = json!(force);
     }
-    if task.levers.is_some() && task.robot.hand.is_none() {
-        robot["hand"] = json!("none");
-    }
-    if task.levers.is_none() && task.arm.is_none() {
+    if task.arm.is_none() {
+        robot["home"] = json!(vector(task.robot.home));
         robot["hand"] = match task.robot.hand {
             Some(Hand { radius, from: None }) => json!({"radius": radius}),
             Some(Hand { radius, from: Some(from) }) => json!({"radius": radius, "from": from}),
@@ -46,7 +40,7 @@ pub(in crate::asset) fn task(task: &Task) -> Json {
             _ => json!("none"),
         };
     }
-    if task.levers.is_none() && task.robot.travel != Robot::TRAVEL {
+    if task.robot.travel != Robot::TRAVEL {
         robot["travel"] = json!(task.robot.travel);
     }
     let mut fields = json!({
@@ -68,7 +62,7 @@ pub(in crate::asset) fn task(task: &Task) -> Json {
         fields["pushes"] = pushes(&task.pushes);
     }
     if let Some(rules) = &task.levers {
-        fields["levers"] = levers(rules);
+        fields["levers"] = emitted_levers(rules);
     }
     let kept = task.scene.objects.iter().filter(|object| object.keep.is_some());
     let kept: Vec<&Object> = kept.collect();
@@ -257,22 +251,6 @@ fn scene_in_space(scene: &Scene) -> Json {
         "table": {"friction": scene.table_friction},
         "objects": scene.objects.iter().map(object).collect::<Vec<_>>(),
         "obstacles": scene.obstacles.iter().map(emitted_obstacle).collect::<Vec<_>>(),
-    })
-}
-
-/// Allowed lever-ups as in a task file.
-fn levers(rules: &LeverRules) -> Json {
-    let pivot = |pivot: &Pivot| match pivot {
-        Pivot::Auto => json!("auto"),
-        Pivot::At(distance) => json!(distance),
-    };
-    json!({
-        "depth": rules.depth,
-        "angle_deg": rules.angle.map(degrees),
-        "pivot": rules.pivots.iter().map(pivot).collect::<Vec<_>>(),
-        "speed": rules.speed,
-        "hold": rules.hold,
-        "retreat": rules.retreat,
     })
 }
 

@@ -2,7 +2,7 @@
 
 use crate::asset::node::Node;
 use crate::asset::spec::{Key, Range, Value, numbers};
-use crate::asset::task::TASK_FILE;
+use crate::asset::task::TASK_KEYS;
 use crate::asset::tool::TOOL_FILE;
 
 use super::steps::{LIFT, POSE_IN_SPACE, STEPS};
@@ -43,11 +43,7 @@ pub(in crate::asset) static TRAJECTORY_FILE: Value = Value::Map(&[
     Key::required("trajectory", TRAJECTORY, "What happened."),
 ]);
 
-const TASK: Key = Key::required(
-    "task",
-    Value::Told { by: task_of_file, of: &TASKS },
-    "The task, as in a task file.",
-);
+const TASK: Key = Key::required("task", Value::Map(TASK_KEYS), "The task, as in a task file.");
 
 const TOOLS: Key = Key::required(
     "tools",
@@ -56,12 +52,7 @@ const TOOLS: Key = Key::required(
 );
 
 static OF_TOOL_FILE: Value = Value::Told { by: tool_of_file, of: &TOOLS_OF_FILES };
-static TASKS: [&Value; 1] = [&TASK_FILE];
 static TOOLS_OF_FILES: [&Value; 1] = [&TOOL_FILE];
-
-fn task_of_file(_: &Node) -> &'static Value {
-    &TASK_FILE
-}
 
 fn tool_of_file(_: &Node) -> &'static Value {
     &TOOL_FILE

@@ -6,7 +6,7 @@ use crate::arm::{flange, frames};
 use crate::asset::arm::Standing;
 use crate::asset::node::{Content, Node};
 use crate::asset::prism::origin;
-use crate::asset::take::{name_of, number_or, pose, shape, vector};
+use crate::asset::take::{name_of, number_or, placed, shape, vector};
 use crate::asset::text::apart_by_name;
 use crate::geometry::Vector;
 use crate::{
@@ -16,7 +16,7 @@ use crate::{
 
 use super::spec::default;
 use super::tools::{costs, tools};
-use super::{frictions, goals, joints, keep, mounts, obstacles, parts};
+use super::{frictions, goals, joints, keep, levers, mounts, obstacles, parts, plates};
 
 /// The task, or `None` if anything needed is missing or was faulty.
 pub(super) fn task(root: &Node, file: &str, arm: Option<Standing>) -> Option<Task> {
@@ -25,10 +25,15 @@ pub(super) fn task(root: &Node, file: &str, arm: Option<Standing>) -> Option<Tas
     let goals = goals::each(root.get("goal")?).iter().map(|node| goals::goal(node, &scene));
     let goals: Vec<Goal> = goals.collect::<Option<_>>()?;
     goals.first()?;
-    let robot = match &arm {
+    let levers = levers::levers(root)?;
+    let mut robot = match &arm {
         Some(arm) => standing(root.get("robot")?, arm)?,
         None => robot(root.get("robot")?)?,
     };
+    // Lever-ups reach close to the base, and most of their robots state none.
+    if levers.is_some() && root.get("robot")?.get("base").is_none() {
+        robot.base = 0.0;
+    }
     goals.iter().for_each(|goal| scene.let_fall(goal));
     scene.obstacles.extend(robot.column());
     scene.keep_out = keep::regions(root)?;
@@ -50,16 +55,17 @@ pub(super) fn task(root: &Node, file: &str, arm: Option<Standing>) -> Option<Tas
         tool_costs: costs(root.get("tools")?),
         pushes: match root.get("pushes") {
             Some(node) => pushes(node)?,
+            None if levers.is_some() => PushRules::none(),
             None => PushRules::default(),
         },
-        levers: None,
+        levers,
         goals,
         robustness: number_or(root, "robustness", Task::ROBUSTNESS)?,
     })
 }
 
 /// What is unknown.
-pub(in crate::asset) fn unknown(root: &Node) -> Option<Unknowns> {
+fn unknown(root: &Node) -> Option<Unknowns> {
     let words = root.get("unknown").map(Node::items).unwrap_or_default();
     words.iter().try_fold(Unknowns::NONE, |so_far, word| so_far.with(word.text()?))
 }
@@ -118,11 +124,14 @@ pub(super) fn table_top(table: &Node) -> Option<TableTop> {
 
 /// An object without its parts.
 pub(super) fn object(node: &Node) -> Option<Object> {
+    if plates::is_plate(node) {
+        return plates::object(node);
+    }
     Some(Object {
         support: support(node)?,
         mass: node.get("mass")?.number()?,
         friction: node.get("friction")?.number()?,
-        pose: pose(node)?,
+        pose: placed(node)?,
         may_fall: match node.get("may_fall") {
             Some(may_fall) => may_fall.switch()?,
             None => false,
@@ -155,7 +164,7 @@ pub(in crate::asset) fn support(object: &Node) -> Option<Support> {
 }
 
 /// The robot: its reach, and what else is said of it.
-pub(in crate::asset) fn robot(node: &Node) -> Option<Robot> {
+fn robot(node: &Node) -> Option<Robot> {
     let reach = node.get("reach")?;
     let reach_min = number_or(reach, "min", 0.0)?;
     Some(Robot {
@@ -203,7 +212,7 @@ pub(super) fn home(robot: &Node) -> Option<Vector> {
     vector(robot.get("home")?)
 }
 
-pub(in crate::asset) fn pushes(node: &Node) -> Option<PushRules> {
+fn pushes(node: &Node) -> Option<PushRules> {
     let usual = PushRules::default();
     let max_count = number_or(node, "max_count", PushRules::MAX_COUNT as f64)?;
     Some(PushRules {

@@ -15,8 +15,10 @@ use super::coverage::{COVERAGE, covering};
 use super::falls::{OFF_TABLE, check_fall, fall};
 use super::gap::{GAP, check_gap, gap};
 use super::keep::{AREA, AREA_POSITION, AREA_YAW, area, check_area};
+use super::lifting::{self, FLIPPED, OUTSIDE, RAISED, check_lifting, lifted};
 use super::mounts::moving;
 use super::parts::parts;
+use super::plates::is_plate;
 use super::rules::{SLACK, body, known_object, passes};
 use super::spec::default;
 
@@ -47,6 +49,9 @@ pub(super) const GOAL: Value = Value::Map(&[
     GAP,
     COVERAGE,
     OFF_TABLE,
+    OUTSIDE,
+    RAISED,
+    FLIPPED,
     Key::optional("heading_deg", ANGLE, "Wanted heading, degrees; by default any."),
     Key::optional(
         "heading_tolerance_deg",
@@ -149,7 +154,7 @@ pub(super) fn goal(node: &Node, scene: &Scene) -> Option<Goal> {
     };
     let looks = symmetric && goal.heading.is_some();
     let goal = if looks { goal.looking_alike(scene) } else { goal };
-    Some(goal.within_limits(scene))
+    lifted(node, scene, goal.within_limits(scene))
 }
 
 /// Where an object is once its joint has come this far, radians or metres: in the world, or in the frame
@@ -189,6 +194,7 @@ pub(super) fn check(goal: &Node, scene: &Node, ledger: &mut Ledger) {
         check_gap(gap, name, [objects, obstacles], ledger);
     }
     check_fall(goal, name, scene, ledger);
+    check_lifting(goal, [objects, obstacles], ledger);
     let Some(object) = known_object(name, objects, obstacles, ledger) else { return };
     let relative = goal.get("relative_to");
     let other = relative.and_then(|other| known_object(other, objects, obstacles, ledger));
@@ -198,7 +204,8 @@ pub(super) fn check(goal: &Node, scene: &Node, ledger: &mut Ledger) {
     }
     by_joint(goal, name, scene, ledger);
     let solid = object.get("shape").and_then(shape);
-    if let Some(solid) = solid {
+    // A levered object may come to lie on top of something.
+    if let Some(solid) = solid.as_ref().filter(|_| !is_plate(object)) {
         // In the frame of the goal: what does not move, or what it is relative to.
         let fixed = obstacles.iter().filter(|fixed| !passes(object, fixed, SLACK));
         let there: Vec<(&Node, Footprint, Pose)> = match (relative, other) {
@@ -259,14 +266,14 @@ fn demands(goal: &Node, ledger: &mut Ledger) {
             ledger.fault(node, message, advice);
         }
     }
-    if places.is_empty() && turns.is_empty() {
+    if places.is_empty() && turns.is_empty() && !lifting::lifts(goal) {
         // A misspelt key is one fault, not two.
         let strange = goal.pairs().iter().any(|(key, _)| {
             !matches!(&GOAL, Value::Map(keys) if keys.iter().any(|known| key.text() == Some(known.name)))
         });
         if !strange {
             let advice = "add `position: [x, y]` and `tolerance`, `region`, `gap`, `coverage`, `off_table`, \
-                          `heading_deg`, `joint_deg` or `joint`";
+                          `heading_deg`, `joint_deg`, `joint`, `outside`, `raised` or `flipped`";
             ledger.fault(goal, "this goal asks for nothing", advice);
         }
     }

@@ -10,14 +10,14 @@ use crate::{
 
 use crate::asset::arm;
 use crate::asset::fault::{Fault, Faults, did_you_mean};
-use crate::asset::lever::{check_blades, is_lever_task, lever_task_of, unknown_blade};
 use crate::asset::library::ToolLibrary;
 use crate::asset::node::Node;
 use crate::asset::strict::{Ledger, check};
 use crate::asset::text::Source;
 
+use super::blades::{check_blades, unknown_blade};
 use super::tools::tool_name;
-use super::{build, rules, spec::TASK_FILE};
+use super::{build, levers, rules, spec::TASK};
 
 impl Task {
     /// Reads a task file. Whether the named tools exist is for [`Task::tools`] to say.
@@ -134,7 +134,7 @@ pub(in crate::asset) fn parse_with(
     let source = Source::yaml(file, text);
     let mut root = Node::parse(source)?;
     let mut ledger = Ledger::new(source);
-    check(&mut root, &TASK_FILE, &mut ledger);
+    check(&mut root, &TASK, &mut ledger);
     let task = task_of(&root, file, &mut ledger);
     if let Some(library) = library {
         check_tools(&root, library, &mut ledger);
@@ -144,7 +144,7 @@ pub(in crate::asset) fn parse_with(
 
 /// Notes named tools that are not in the library, or of no use to the task.
 fn check_tools(root: &Node, library: &ToolLibrary, ledger: &mut Ledger) {
-    if is_lever_task(root) {
+    if levers::allowed(root) {
         return check_blades(root, library, ledger);
     }
     let pushes = |name: &str| library.get(name).is_some_and(|tool| tool.pushes());
@@ -158,9 +158,6 @@ fn check_tools(root: &Node, library: &ToolLibrary, ledger: &mut Ledger) {
 
 /// Applies the rules that span several keys; `None` if anything needed is missing.
 pub(in crate::asset) fn task_of(root: &Node, file: &str, ledger: &mut Ledger) -> Option<Task> {
-    if is_lever_task(root) {
-        return lever_task_of(root, file, ledger);
-    }
     rules::check(root, ledger);
     let robot = root.get("robot");
     let arm = robot.and_then(|robot| arm::arm(robot, root.get("pushes"), file, ledger));

@@ -31,11 +31,10 @@ const OBSTACLE: Value = Value::Map(&[
 ]);
 
 /// A place seen from above, and a height where there is one.
-pub(in crate::asset) const PLACE: Value =
-    Value::List { of: &COORDINATE, items: "numbers", min: 2, max: 3 };
+pub(super) const PLACE: Value = Value::List { of: &COORDINATE, items: "numbers", min: 2, max: 3 };
 
 /// The third number of a place, or else the `usual` height.
-pub(in crate::asset) fn height(place: &Node, usual: f64) -> Option<f64> {
+pub(super) fn height(place: &Node, usual: f64) -> Option<f64> {
     place.items().get(2).map_or(Some(usual), Node::number)
 }
 

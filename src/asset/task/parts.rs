@@ -4,13 +4,15 @@
 //! [`crate::scene::Whole`].
 
 use crate::asset::node::{Content, Node};
-use crate::asset::spec::{ANGLE, FRICTION, Key, MASS, POSITION, Range, SHAPE, Value};
+use crate::asset::spec::{ANGLE, FRICTION, Key, MASS, PLACED_SHAPE, Range, Value};
 use crate::asset::strict::Ledger;
-use crate::asset::take::{angle, name_of, number_or, position, shape};
+use crate::asset::take::{name_of, number_or, placed, pose, shape};
 use crate::geometry::Pose;
 use crate::scene::{Object, Whole, bearings, hanging};
 
 use super::build::{self, support};
+use super::obstacles::{PLACE, height};
+use super::plates::is_plate;
 use super::spec::OBJECT_SUPPORT;
 
 /// What else belongs to an object.
@@ -34,18 +36,19 @@ const PART: Value = Value::Map(&[
         Value::Name,
         "What messages call it, after the object's name and a slash; by default its number.",
     ),
-    Key::required("shape", SHAPE, "The part's solid, upright."),
+    Key::required("shape", PLACED_SHAPE, "The part's solid, upright."),
     Key::required(
         "position",
-        POSITION,
-        "Its centre in the object's frame, [x, y] in metres; [0, 0] is the object's position.",
+        PLACE,
+        "Its centre in the object's frame, [x, y] in metres; [0, 0] is the object's position. A third \
+         number is `z`. On an object with `clearance` or `z`, from the origin of its corners.",
     ),
     Key::optional("yaw_deg", ANGLE, "Its turn in the object's frame, degrees; default 0."),
     Key::optional(
         "z",
         RISE,
-        "Height of its underside above the object's, metres; default 0. What is higher than 0 carries \
-         no weight, and lower things pass below it.",
+        "Height of its underside above the object's, metres; default 0, or on top of an object with \
+         `clearance` or `z`. What is higher than 0 carries no weight, and lower things pass below it.",
     ),
     Key::optional(
         "mass",
@@ -71,7 +74,15 @@ pub(super) fn part_name(object: &str, part: &Node, number: usize) -> String {
 
 /// Where a part is in its object's frame.
 pub(super) fn place(part: &Node) -> Option<Pose> {
-    Some(Pose { position: position(part)?, heading: angle(part, "yaw_deg", 0.0)? })
+    placed(part)
+}
+
+/// Height of a part's underside above its object's, metres; `usual` where none is stated.
+pub(super) fn rise(part: &Node, usual: f64) -> Option<f64> {
+    match part.get("z") {
+        Some(z) => z.number(),
+        None => height(part.get("position")?, usual),
+    }
 }
 
 /// Objects with all their parts, these after all of those; `None` if anything needed is missing or was
@@ -93,7 +104,7 @@ pub(super) fn objects(
 /// The solids of an object that has number `index` in the scene, the object itself first.
 fn solids(node: &Node, object: Object, index: usize) -> Option<Vec<Object>> {
     let parts = parts(node);
-    if parts.is_empty() {
+    if parts.is_empty() || is_plate(node) {
         return Some(vec![object]);
     }
     let part = |(k, part): (usize, &Node)| {
@@ -103,7 +114,7 @@ fn solids(node: &Node, object: Object, index: usize) -> Option<Vec<Object>> {
             pose: object.pose * place,
             support: support(part)?,
             may_fall: object.may_fall,
-            z: number_or(part, "z", 0.0)?,
+            z: rise(part, 0.0)?,
             whole: Some(Whole { object: index, place }),
             ..Object::new(part_name(&object.name, part, k), shape(part.get("shape")?)?)
         })
@@ -144,6 +155,18 @@ pub(super) fn check(object: &Node, ledger: &mut Ledger) {
             ledger.fault(part.get("name").unwrap_or(part), message, "rename one of them");
         }
         names.push(name);
+        if let (Some(z), Some(_)) =
+            (part.get("z"), part.get("position").and_then(|at| at.items().get(2)))
+        {
+            ledger.fault(
+                z,
+                "the height of this part is given twice",
+                "keep `z`, or the third number",
+            );
+        }
+    }
+    if is_plate(object) {
+        return;
     }
     above(object, ledger);
     let stated = parts.iter().filter_map(|part| part.get("mass").and_then(Node::number));
@@ -197,15 +220,16 @@ pub(super) fn apart(objects: &[Node]) -> Vec<(Node, usize)> {
     let mut all = Vec::new();
     for (k, object) in objects.iter().enumerate() {
         all.push((object.clone(), k));
-        let Some(at) = crate::asset::take::pose(object) else { continue };
+        let Some(at) = placed(object) else { continue };
         let name = name_of(object).unwrap_or("?");
         for (number, part) in parts(object).iter().enumerate() {
-            let (Some(place), Some(shape)) = (place(part), part.get("shape")) else { continue };
-            let pose = at * place;
+            // The point that the position names: whoever takes the pose finds the centre from it.
+            let (Some(named), Some(shape)) = (pose(part), part.get("shape")) else { continue };
+            let pose = at * named;
             let node = |content| Node { id: part.id, content };
             let text = |text: &str| node(Content::Text(text.to_owned()));
             let number_of = |value: f64| node(Content::Number(value));
-            let z = number_or(part, "z", 0.0).unwrap_or(0.0);
+            let z = rise(part, 0.0).unwrap_or(0.0);
             let position = vec![pose.position.x, pose.position.y, z].into_iter().map(number_of);
             let pairs = vec![
                 (text("name"), text(&part_name(name, part, number))),

@@ -5,7 +5,7 @@ use crate::asset::fault::did_you_mean;
 use crate::asset::node::Node;
 use crate::asset::prism;
 use crate::asset::strict::Ledger;
-use crate::asset::take::{name_of, number_or, pose, shape, triple, unique_names, vector};
+use crate::asset::take::{name_of, number_or, placed, shape, triple, unique_names, vector};
 use crate::geometry::{Footprint, Pose, Shape, clearance};
 use crate::{
     scene::{Support, carries},
@@ -13,8 +13,11 @@ use crate::{
 };
 
 use super::spec::REACH_KEY;
-use super::tools::check_tools;
-use super::{build, frictions, goals, joints, keep as regions, obstacles as fixed, parts};
+use super::tools::{check_free, check_tools};
+use super::{
+    build, frictions, goals, joints, keep as regions, levers, obstacles as fixed, parts, plates,
+    refused,
+};
 
 /// Bodies may sink into each other by this much before it is a fault, metres: the rounding of
 /// sizes written in whole millimetres and turned by degrees.
@@ -35,6 +38,11 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
     let (scene, pushes) = (section("scene"), section("pushes"));
     let objects = scene.get("objects").map(Node::items).unwrap_or_default();
     let obstacles = scene.get("obstacles").map(Node::items).unwrap_or_default();
+    let lifted = levers::allowed(root);
+    match lifted {
+        true => refused::check(root, ledger),
+        false => refused::check_heights(objects, ledger),
+    }
     check_scene(scene, SLACK, ledger);
     unknown(section("unknown"), scene, ledger);
     if !arm::check(section("robot"), ledger) {
@@ -42,7 +50,16 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
         robot(section("robot"), pushes, ledger);
     }
     check_tools(section("tools"), ledger);
-    push_rules(pushes, objects, ledger);
+    if lifted {
+        check_free(section("tools"), ledger);
+        levers::check(section("levers"), ledger);
+        push_rules(pushes, &[], ledger);
+    } else {
+        push_rules(pushes, objects, ledger);
+    }
+    if let (true, Some(pushes)) = (lifted, root.get("pushes")) {
+        levers::check_follow_up(pushes, section("goal"), ledger);
+    }
     let goals = goals::each(section("goal"));
     goals.iter().for_each(|one| goals::check(one, scene, ledger));
     one_each(goals, ledger);
@@ -50,10 +67,14 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
     on_table(scene, goals, ledger);
     regions::check(root, &objects.iter().chain(obstacles).collect::<Vec<_>>(), objects, ledger);
     goals.iter().for_each(|one| may_fall(one, objects, ledger));
+    // What lies where means little while something is wrong with the bodies themselves.
+    if lifted && ledger.sound().is_ok() {
+        plates::bodies(objects, obstacles, ledger);
+    }
 }
 
 /// What is unknown is named once, and joints are not stated where they are unknown.
-pub(in crate::asset) fn unknown(unknown: &Node, scene: &Node, ledger: &mut Ledger) {
+fn unknown(unknown: &Node, scene: &Node, ledger: &mut Ledger) {
     let words = unknown.items();
     for (k, word) in words.iter().enumerate().filter(|(_, word)| word.text().is_some()) {
         if words[..k].iter().any(|before| before.text() == word.text()) {
@@ -151,7 +172,10 @@ pub(super) fn check_scene(scene: &Node, slack: f64, ledger: &mut Ledger) {
     let (objects, obstacles) = (items("objects"), items("obstacles"));
     let solids = parts::apart(objects);
     unique_names(solids.iter().map(|(solid, _)| solid).chain(obstacles), "bodies", ledger);
-    overlaps(&solids, obstacles, slack, ledger);
+    objects.iter().for_each(|object| plates::heights(object, ledger));
+    if !objects.iter().any(plates::is_plate) {
+        overlaps(&solids, obstacles, slack, ledger);
+    }
     fixed::check(obstacles, ledger);
     masses(objects, ledger);
     objects.iter().for_each(|object| prism::check(object.get("shape"), ledger));
@@ -209,7 +233,7 @@ pub(super) fn body(node: &Node) -> Option<(Footprint, Pose)> {
         Some(node) => shape(node)?,
         None => Shape::Cuboid { size: triple(node, "size")? },
     };
-    Some((shape.footprint(), pose(node)?))
+    Some((shape.footprint(), placed(node)?))
 }
 
 /// The points under an object must carry it.
@@ -272,7 +296,7 @@ pub(super) fn without_arm(robot: &Node, ledger: &mut Ledger) {
 }
 
 /// The reach must hold something, and home.
-pub(in crate::asset) fn robot(robot: &Node, pushes: &Node, ledger: &mut Ledger) {
+fn robot(robot: &Node, pushes: &Node, ledger: &mut Ledger) {
     let Some(reach) = robot.get("reach") else { return };
     let (Some(min), Some(max)) =
         (number_or(reach, "min", 0.0), reach.get("max").and_then(Node::number))
@@ -309,7 +333,7 @@ fn form(pushes: &Node) -> Option<PushForm> {
 }
 
 /// Rules of allowed pushes, and whether the tool meets any of `objects`.
-pub(in crate::asset) fn push_rules(pushes: &Node, objects: &[Node], ledger: &mut Ledger) {
+fn push_rules(pushes: &Node, objects: &[Node], ledger: &mut Ledger) {
     for (key, turn) in
         [("directions", Some(360.0)), ("grip_yaws_deg", Some(360.0)), ("offsets", None)]
     {

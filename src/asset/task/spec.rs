@@ -1,18 +1,18 @@
 //! What a task file may hold.
 
 use crate::asset::arm::{ARM, BASE, FLANGE, HOME, TOOL_MOUNT, URDF};
-use crate::asset::lever::{LEVER_TASK, is_lever_task};
-use crate::asset::node::Node;
 use crate::asset::spec::{
-    ANGLE, FRICTION, Key, MASS, POSITION, Range, SHAPE, SIZE, Value, numbers,
+    ANGLE, FRICTION, Key, MASS, PLACED_SHAPE, POSITION, Range, SHAPE, SIZE, Value, numbers,
 };
 
 use super::frictions::FRICTIONS;
 use super::goals::GOAL;
 use super::joints::JOINT;
 use super::keep::{KEEP, KEEP_OUT};
+use super::levers::LEVERS;
 use super::obstacles::OBSTACLES;
 use super::parts::PARTS;
+use super::plates::{CLEARANCE, Z};
 use super::tools::TOOLS;
 
 /// Defaults of optional keys; the words of the keys below repeat them.
@@ -26,13 +26,6 @@ pub(in crate::asset) mod default {
 /// What a task file may hold.
 pub(in crate::asset) static TASK: Value = Value::Map(TASK_KEYS);
 
-/// What a file of a task of either kind may hold.
-pub(in crate::asset) static TASK_FILE: Value = Value::Told { by: of, of: &[&TASK, &LEVER_TASK] };
-
-fn of(root: &Node) -> &'static Value {
-    if is_lever_task(root) { &LEVER_TASK } else { &TASK }
-}
-
 /// The keys of a task.
 pub(in crate::asset) const TASK_KEYS: &[Key] = &[
     Key::optional("name", Value::Name, "The task's name; by default the file's."),
@@ -41,7 +34,13 @@ pub(in crate::asset) const TASK_KEYS: &[Key] = &[
     UNKNOWN_KEY,
     Key::required("robot", ROBOT, "Where the end effector can be."),
     TOOLS,
-    Key::optional("pushes", PUSHES, "The pushes a plan may contain; every key has a default."),
+    LEVERS,
+    Key::optional(
+        "pushes",
+        PUSHES,
+        "The pushes a plan may contain; every key has a default. Where lever-ups are allowed they come \
+         before or after one, and there are none without this key.",
+    ),
     Key::required(
         "goal",
         Value::Either(&[GOAL, Value::List { of: &GOAL, items: "goals", min: 1, max: 8 }]),
@@ -53,7 +52,7 @@ pub(in crate::asset) const TASK_KEYS: &[Key] = &[
 ];
 
 /// How often a plan must work.
-pub(in crate::asset) const ROBUSTNESS: Key = Key::optional(
+const ROBUSTNESS: Key = Key::optional(
     "robustness",
     Value::Number(Range {
         what: "a share",
@@ -66,7 +65,7 @@ pub(in crate::asset) const ROBUSTNESS: Key = Key::optional(
 );
 
 /// What of a scene may be unknown.
-pub(in crate::asset) const UNKNOWN_KEY: Key = Key::optional("unknown", UNKNOWN, UNKNOWN_MEANING);
+const UNKNOWN_KEY: Key = Key::optional("unknown", UNKNOWN, UNKNOWN_MEANING);
 
 const UNKNOWN: Value = Value::List {
     of: &Value::Word(&["joints", "masses", "frictions", "support"]),
@@ -134,7 +133,7 @@ pub(in crate::asset) const JOINTS: Value =
 
 const OBJECT: Value = Value::Map(&[
     OBJECT_NAME,
-    OBJECT_SHAPE,
+    Key::required("shape", PLACED_SHAPE, "The object's solid, standing upright."),
     PARTS,
     Key::required("mass", MASS, "Mass in kg, parts included."),
     Key::required(
@@ -154,6 +153,8 @@ const OBJECT: Value = Value::Map(&[
         "Largest force in newtons with which a tool may press on it, parts included, for longer than an \
          impact; by default any.",
     ),
+    CLEARANCE,
+    Z,
     Key::required("position", POSITION, "Centre at the start, [x, y] in metres."),
     Key::optional("yaw_deg", ANGLE, "Heading at the start, degrees; default 0."),
 ]);
@@ -221,7 +222,8 @@ const ROBOT: Value = Value::Map(&[
             ]),
         ]),
         "The hand about the end effector, an upright cylinder that keeps clear of all that is as \
-         high, or `none`; by default a usual gripper.",
+         high, or `none`; by default a usual gripper. Behind a blade it is fingers, which need 2 cm on \
+         both sides of the shaft.",
     ),
     BASE,
     Key::optional(
@@ -233,7 +235,7 @@ const ROBOT: Value = Value::Map(&[
 ]);
 
 /// How hard the arm can press.
-pub(in crate::asset) const MAX_FORCE: Key = Key::optional(
+const MAX_FORCE: Key = Key::optional(
     "max_force",
     FORCE,
     "Largest force in newtons that the arm can keep up; what strikes at first touch is not limited. By \
@@ -248,7 +250,7 @@ const FORCE: Value = Value::Number(Range {
 });
 
 /// Where the end effector can be.
-pub(in crate::asset) const REACH_KEY: Key = Key::required(
+pub(super) const REACH_KEY: Key = Key::required(
     "reach",
     Value::Map(&[
         Key::optional("min", REACH, "Smallest distance from the base, metres; default 0."),
@@ -265,7 +267,7 @@ const REACH: Value = Value::Number(Range {
 });
 
 /// The pushes that a plan may contain.
-pub(in crate::asset) const PUSHES: Value = Value::Map(&[
+const PUSHES: Value = Value::Map(&[
     Key::optional(
         "form",
         Value::Word(&["placed", "chained"]),

@@ -10,7 +10,7 @@ use crate::asset::strict::Ledger;
 use crate::task::{Task, ToolChoice};
 
 /// What tools a task allows.
-pub(in crate::asset) const TOOLS: Key = Key::required(
+pub(super) const TOOLS: Key = Key::required(
     "tools",
     Value::Either(&[
         Value::Word(&["all"]),
@@ -70,7 +70,7 @@ pub(in crate::asset) fn emitted_tools(task: &Task) -> Json {
 }
 
 /// Notes tools that are named twice.
-pub(in crate::asset) fn check_tools(tools: &Node, ledger: &mut Ledger) {
+pub(super) fn check_tools(tools: &Node, ledger: &mut Ledger) {
     for (k, node) in tools.items().iter().enumerate() {
         let name = tool_name(node);
         if name.is_some() && tools.items()[..k].iter().any(|other| tool_name(other) == name) {
@@ -80,7 +80,7 @@ pub(in crate::asset) fn check_tools(tools: &Node, ledger: &mut Ledger) {
 }
 
 /// Notes costs where nothing would come of them.
-pub(in crate::asset) fn check_free(tools: &Node, ledger: &mut Ledger) {
+pub(super) fn check_free(tools: &Node, ledger: &mut Ledger) {
     for tool in tools.items().iter().filter(|node| node.get("name").is_some()) {
         let advice = "write its name alone: only tools of tasks of pushes have costs";
         ledger.fault(tool, "a tool of levering has no cost", advice);

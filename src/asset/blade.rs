@@ -1,16 +1,17 @@
 //! Files of tools with blades.
 
-use crate::asset::node::Node;
-use crate::asset::spec::{FRICTION, Key, Range, SIZE, Value};
-use crate::asset::strict::Ledger;
-use crate::asset::take::{name_of, number_or};
 use crate::scene::{Blade, Tool};
 
+use super::node::Node;
+use super::spec::{FRICTION, Key, Range, SIZE, Value};
+use super::strict::Ledger;
+use super::take::{name_of, number_or};
+
 /// What a file of a tool with a blade may hold.
-pub(in crate::asset) static BLADE_TOOL: Value = Value::Map(BLADE_TOOL_KEYS);
+pub(super) static BLADE_TOOL: Value = Value::Map(BLADE_TOOL_KEYS);
 
 /// The keys of a tool with a blade.
-pub(in crate::asset) const BLADE_TOOL_KEYS: &[Key] = &[
+pub(super) const BLADE_TOOL_KEYS: &[Key] = &[
     Key::required("name", Value::Name, "The tool's name, unique in its folder."),
     Key::optional("description", Value::Text, "One line for people; by default empty."),
     Key::optional(
@@ -43,12 +44,12 @@ pub(in crate::asset) const BLADE_TOOL_KEYS: &[Key] = &[
 ];
 
 /// Whether a tool file is one of a tool with a blade.
-pub(in crate::asset) fn is_blade_tool(root: &Node) -> bool {
+pub(super) fn is_blade_tool(root: &Node) -> bool {
     root.get("blade").is_some()
 }
 
 /// Applies the rules that span several keys; `None` if anything needed is missing.
-pub(in crate::asset) fn blade_tool_of(root: &Node, ledger: &mut Ledger) -> Option<Tool> {
+pub(super) fn blade_tool_of(root: &Node, ledger: &mut Ledger) -> Option<Tool> {
     let node = root.get("blade")?;
     let number = |key| node.get(key)?.number();
     let blade = Blade {

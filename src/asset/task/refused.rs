@@ -1,0 +1,74 @@
+//! Keys that do not go together with lever-ups, each with the reason.
+
+use crate::asset::node::Node;
+use crate::asset::strict::Ledger;
+
+use super::{goals, parts, plates};
+
+/// Reason for keys of a goal that only a task of pushes may have.
+const NOT_PLANNED: &str = "no lever-up is planned for it";
+/// Reason for keys of a scene.
+const FREE: &str = "objects that are levered move freely, with frictions of their own";
+/// Reason for keys of an object.
+const STANDS: &str = "an object that is levered stands on its corners";
+/// Reason for keys of a part.
+const ALIKE: &str = "a blade lifts an object of one density and friction";
+/// Reason for cylinders.
+const EDGES: &str = "a blade goes under a straight edge";
+
+/// Notes what a task that allows lever-ups has and cannot have.
+pub(super) fn check(root: &Node, ledger: &mut Ledger) {
+    let inner = |key| root.get("scene").and_then(|scene| scene.get(key));
+    let arm = "lever-ups are planned for a hand, not for the joints of an arm";
+    refuse(root.get("robot"), &["urdf"], arm, ledger);
+    refuse(Some(root), &["keep"], "nothing watches other objects while one is levered", ledger);
+    refuse(Some(root), &["keep_out"], "nothing watches regions while an object is levered", ledger);
+    refuse(root.get("scene"), &["joints", "frictions", "push_height"], FREE, ledger);
+    refuse(inner("table"), &["size"], "nothing watches the table's end here", ledger);
+    let goals = root.get("goal").map(goals::each).unwrap_or_default();
+    for goal in goals {
+        let places = ["region", "gap", "coverage", "off_table", "joint_deg", "joint"];
+        refuse(Some(goal), &places, NOT_PLANNED, ledger);
+        refuse(Some(goal), &["heading_deg", "relative_to", "weight"], NOT_PLANNED, ledger);
+    }
+    inner("objects").map(Node::items).unwrap_or_default().iter().for_each(|o| object(o, ledger));
+    if let [_, second, ..] = goals {
+        ledger.fault(second, "lever-ups have one goal", "keep one of them");
+    }
+}
+
+fn object(object: &Node, ledger: &mut Ledger) {
+    if !plates::is_plate(object) {
+        let advice = "6 mm of feet are `clearance: 0.006`; `z` alone is a plate on obstacles";
+        ledger.fault(object, "this object has neither `clearance` nor `z`", advice);
+    }
+    refuse(Some(object), &["support", "may_fall", "max_force"], STANDS, ledger);
+    refuse(object.get("shape"), &["cylinder"], EDGES, ledger);
+    for part in parts::parts(object) {
+        refuse(Some(part), &["mass", "friction", "support"], ALIKE, ledger);
+        refuse(part.get("shape"), &["cylinder"], EDGES, ledger);
+    }
+}
+
+/// Notes the keys that a node has and cannot have.
+fn refuse(node: Option<&Node>, keys: &[&str], reason: &str, ledger: &mut Ledger) {
+    for key in keys {
+        if let Some(found) = node.and_then(|node| node.get(key)) {
+            ledger.fault(found, format!("`{key}` does not go together with lever-ups"), reason);
+        }
+    }
+}
+
+/// Notes objects that say how high they are where nothing is levered.
+pub(super) fn check_heights(objects: &[Node], ledger: &mut Ledger) {
+    let advice =
+        "add `levers`, or remove it: pushes alone are planned for what stands on the table";
+    for object in objects {
+        for key in ["clearance", "z"] {
+            if let Some(node) = object.get(key) {
+                let message = format!("`{key}` needs lever-ups, which this task does not allow");
+                ledger.fault(node, message, advice);
+            }
+        }
+    }
+}
