@@ -8,10 +8,10 @@ use mcap::{Attachment, WriteOptions, Writer, records::Metadata};
 use serde_json::{Value as Json, json};
 
 use crate::asset::PlanFile;
-use crate::geometry::{ConvexPolygon, Pose, Shape, centroid};
+use crate::geometry::{Pose, Shape};
 use crate::{
     outcome::{Frame, Outcome, Trajectory},
-    scene::{Blade, Slab},
+    scene::{Blade, Object},
     task::Step,
 };
 
@@ -112,12 +112,15 @@ fn nanoseconds(seconds: f64) -> u64 {
 fn entities(plan: &PlanFile) -> Vec<Json> {
     let scene = &plan.task.scene;
     let mut found = Vec::new();
-    for (index, object) in scene.objects.iter().enumerate() {
+    for (index, object) in drawn(plan) {
         let name = format!("object/{}", object.name);
         let colour = if plan.task.wants(index) { WANTED } else { OBJECT };
         let middle = if in_space(plan) { object.shape.height() / 2.0 } else { 0.0 };
         let mut solids = vec![(object.shape, Pose::default(), middle)];
-        solids.extend(object.parts.iter().filter_map(fixed));
+        if in_space(plan) {
+            let parts = scene.parts_of(index).map(|k| &scene.objects[k]);
+            solids.extend(parts.filter_map(fixed));
+        }
         found.push(entity(&name, &name, &solids, colour));
     }
     for obstacle in &scene.obstacles {
@@ -157,17 +160,16 @@ fn frame_of(tool: usize) -> String {
     if tool == 0 { "tool".to_owned() } else { format!("tool/{tool}") }
 }
 
-/// What is fixed on an object, about its underside.
-fn fixed(slab: &Slab) -> Option<(Shape, Pose, f64)> {
-    let middle = slab.bottom + slab.height / 2.0;
-    if let Some((centre, heading, [x, y])) = slab.rectangle() {
-        let shape = Shape::Cuboid { size: [x, y, slab.height] };
-        return Some((shape, Pose { position: centre, heading }, middle));
-    }
-    let position = centroid(&slab.corners);
-    let base = ConvexPolygon::new(&slab.corners).ok()?;
-    let shape = Shape::Prism { base, height: slab.height };
-    Some((shape, Pose { position, heading: 0.0 }, middle))
+/// Bodies with a frame of their own: of what leaves the plane all solids have one.
+fn drawn(plan: &PlanFile) -> impl Iterator<Item = (usize, &Object)> {
+    let together = in_space(plan);
+    let solids = plan.task.scene.objects.iter().enumerate();
+    solids.filter(move |(_, object)| !(together && object.is_part()))
+}
+
+/// A part about the underside of its object.
+fn fixed(part: &Object) -> Option<(Shape, Pose, f64)> {
+    Some((part.shape, part.whole?.place, part.z + part.shape.height() / 2.0))
 }
 
 fn in_space(plan: &PlanFile) -> bool {
@@ -176,9 +178,8 @@ fn in_space(plan: &PlanFile) -> bool {
 
 /// Where everything is in one frame.
 fn transforms(plan: &PlanFile, frame: &Frame, at: u64) -> Vec<Json> {
-    let scene = &plan.task.scene;
     let mut found: Vec<Json> = Vec::new();
-    for (k, (object, pose)) in scene.objects.iter().zip(&frame.state.poses).enumerate() {
+    for ((k, object), pose) in drawn(plan).zip(&frame.state.poses) {
         let name = format!("object/{}", object.name);
         found.push(match frame.state.space.as_ref().and_then(|space| space.get(k)) {
             Some(pose) => transform_in_space(at, &name, pose),

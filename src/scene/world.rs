@@ -6,8 +6,8 @@ use crate::geometry::{ConvexPolygon, Pose, Shape, Vector};
 
 use super::planar::planar_only;
 use super::{
-    Feet, Joint, JointKind, Mount, Obstacle, PairFriction, REST_SPEED, Region, Slab, State,
-    Support, Surface, Whole, pair_friction,
+    Feet, Joint, JointKind, Mount, Obstacle, PairFriction, REST_SPEED, Region, State, Support,
+    Surface, Whole, pair_friction,
 };
 
 /// A movable body.
@@ -36,15 +36,12 @@ pub struct Object {
     /// default.
     #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
     pub max_force: Option<f64>,
-    /// Solids that are fixed on it, of the same density.
-    #[serde(with = "planar_only", default, skip_serializing_if = "Vec::is_empty")]
-    pub parts: Vec<Slab>,
     /// Free height below its edge, metres: what a blade that goes under it has. An object whose
     /// underside is no higher above the table stands on feet of this height at its corners; a
     /// higher one lies on obstacles.
     #[serde(with = "planar_only", default, skip_serializing_if = "is_zero")]
     pub clearance: f64,
-    /// Height of its underside above the table at the start, metres; of a part above its object's, see
+    /// Height of its underside at the start, metres: above the table, or of a part above its object's, see
     /// [`Self::is_raised`].
     #[serde(with = "planar_only", default, skip_serializing_if = "is_zero")]
     pub z: f64,
@@ -84,7 +81,6 @@ impl Object {
             keep: None,
             may_fall: false,
             max_force: None,
-            parts: Vec::new(),
             clearance: 0.0,
             z: 0.0,
             whole: None,
@@ -143,7 +139,7 @@ impl Object {
     /// Whether it is more than an upright solid on the table.
     pub fn in_space(&self) -> bool {
         let above = self.z != 0.0 && !self.is_part();
-        above || self.clearance != 0.0 || !self.parts.is_empty()
+        above || self.clearance != 0.0
     }
 
     /// The object with its centre at (`x`, `y`), metres, turned by `heading`, radians.

@@ -203,7 +203,7 @@ impl Task {
 
     /// The goal's object with all its solids.
     pub fn plate(&self) -> Plate {
-        Plate::of(&self.scene.objects[self.goals[0].object])
+        Plate::of(&self.scene, self.goals[0].object)
     }
 
     /// The lever-ups that are allowed, or would be.

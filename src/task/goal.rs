@@ -294,9 +294,7 @@ impl Goal {
         let joined = |joint: &Joint| joint.between.contains(&self.object);
         match scene.objects.get(self.object) {
             Some(object)
-                if object.parts.is_empty()
-                    && scene.mount(self.object).is_none()
-                    && !scene.joints.iter().any(joined) =>
+                if scene.mount(self.object).is_none() && !scene.joints.iter().any(joined) =>
             {
                 self.looking_like(&object.shape)
             }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::{Footprint, Pose, Vector, clearance, contact_points};
 
 use super::LeverUp;
-use crate::scene::{Object, Part, Plate, Scene, State, TOUCHING, Tool};
+use crate::scene::{Object, Part, Scene, State, TOUCHING, Tool};
 
 /// How far a tool goes back before it is lifted, metres: off what it pressed against, which would be
 /// taken along where it sticks. As far as it comes before it touches.
@@ -192,9 +192,7 @@ impl Motion {
     /// Whether what it levers is in `scene`, and its tool has a blade; of strokes nothing is asked.
     pub fn fits(&self, scene: &Scene) -> bool {
         let Motion::Lever(motion) = self else { return true };
-        let object = scene.objects.get(motion.lever.plate);
-        let edges = object.map_or(0, |object| Plate::of(object).corners().len());
-        motion.lever.place.edge < edges && motion.tool().blade().is_some()
+        motion.lever.place.edge < scene.edges(motion.lever.plate) && motion.tool().blade().is_some()
     }
 
     /// Whether it leaves the plane.

@@ -91,8 +91,10 @@ pub(super) fn unplayable(scene: &Scene, tools: &[Arc<Tool>], plan: &Plan) -> Opt
 
 /// What of a lever-up makes no sense.
 fn nonsense(scene: &Scene, lever: &LeverUp, expected: Option<Pose>) -> Option<&'static str> {
-    let Some(object) = scene.objects.get(lever.plate) else { return Some("object") };
-    let corners = crate::scene::Plate::of(object).corners().len();
+    let corners = scene.edges(lever.plate);
+    if corners == 0 {
+        return Some("object");
+    }
     let on_edge = (0.0..=1.0).contains(&lever.place.fraction);
     if lever.place.edge >= corners || !on_edge || !expected.is_none_or(|pose| pose.is_finite()) {
         return Some("place");

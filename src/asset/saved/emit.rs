@@ -10,8 +10,8 @@ use crate::asset::task::{
 use crate::geometry::{Pose, Shape, Vector};
 use crate::{
     scene::{
-        Blade, DisjointSets, Hand, Joint, JointKind, Mount, Object, Obstacle, PairFriction, Plate,
-        Robot, Scene, Slab, Span, Support, TableTop, Tool,
+        Blade, DisjointSets, Hand, Joint, JointKind, Mount, Object, Obstacle, PairFriction, Robot,
+        Scene, Span, Support, TableTop, Tool,
     },
     task::{Directions, Goal, Offsets, PushForm, PushRules, Task},
 };
@@ -46,10 +46,7 @@ pub(in crate::asset) fn task(task: &Task) -> Json {
     let mut fields = json!({
         "name": task.name,
         "description": task.description,
-        "scene": match task.levers {
-            Some(_) => scene_in_space(&task.scene),
-            None => scene(&task.scene),
-        },
+        "scene": scene(&task.scene),
         "robot": robot,
         "tools": emitted_tools(task),
         "goal": match &task.goals[..] {
@@ -147,10 +144,15 @@ pub(super) fn support(support: &Support) -> Json {
 pub(in crate::asset) fn scene(scene: &Scene) -> Json {
     let object = |(index, object): (usize, &Object)| {
         let (mass, parts) = things::parts(scene, index);
-        let mut fields = json!({
-            "name": object.name, "shape": shape(&object.shape), "support": support(&object.support),
-            "mass": mass, "friction": object.friction,
-        });
+        let mut fields = json!({"name": object.name, "mass": mass, "friction": object.friction});
+        if object.in_space() {
+            fields["shape"] = things::drawn(&object.shape);
+            fields["clearance"] = json!(object.clearance);
+            fields["z"] = json!(object.z);
+        } else {
+            fields["shape"] = shape(&object.shape);
+            fields["support"] = support(&object.support);
+        }
         if !parts.is_empty() {
             fields["parts"] = json!(parts);
         }
@@ -225,33 +227,6 @@ fn joined(between: [&str; 2], kind: &JointKind) -> Json {
 /// Whether the file says so: the robot's own column it says elsewhere.
 fn is_stated(obstacle: &&Obstacle) -> bool {
     obstacle.name != Robot::BASE
-}
-
-/// The scene of a task of levering: its objects with all their solids, in corners about the origins of
-/// their own frames, so that nothing is shifted when they are read back.
-fn scene_in_space(scene: &Scene) -> Json {
-    let solid = |slab: &Slab| {
-        let corners: Vec<_> = slab.corners.iter().map(|corner| vector(*corner)).collect();
-        json!({"prism": {"corners": corners, "height": slab.height, "origin": [0.0, 0.0]}})
-    };
-    let part = |slab: &Slab| json!({"shape": solid(slab), "position": [0.0, 0.0, slab.bottom]});
-    let object = |object: &Object| {
-        let fields = json!({
-            "name": object.name,
-            "shape": solid(&Plate::of(object).slabs[0]),
-            "parts": object.parts.iter().map(part).collect::<Vec<_>>(),
-            "mass": object.mass,
-            "friction": object.friction,
-            "clearance": object.clearance,
-            "z": object.z,
-        });
-        posed(fields, &object.pose)
-    };
-    json!({
-        "table": {"friction": scene.table_friction},
-        "objects": scene.objects.iter().map(object).collect::<Vec<_>>(),
-        "obstacles": scene.obstacles.iter().map(emitted_obstacle).collect::<Vec<_>>(),
-    })
 }
 
 /// Allowed pushes as in a task file.

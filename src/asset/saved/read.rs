@@ -14,7 +14,7 @@ use crate::asset::text::Source;
 use crate::asset::{task, tool, write_atomic};
 use crate::{
     outcome::Outcome,
-    scene::{JointTrajectory, Plate, State, Tool},
+    scene::{JointTrajectory, State, Tool},
     task::{Plan, Step, Task},
 };
 
@@ -99,9 +99,7 @@ impl<'a> Opened<'a> {
         }
         let Some(task) = &self.task else { return };
         for lever in plan.lever_steps().map(|step| &step.lever) {
-            let object = task.scene.objects.get(lever.plate);
-            let edges = object.map_or(0, |object| Plate::of(object).corners().len());
-            if lever.place.edge >= edges {
+            if lever.place.edge >= task.scene.edges(lever.plate) {
                 let message = "the plan levers an edge that does not exist";
                 self.ledger.fault(node, message, "the file is damaged; make it again");
             }
@@ -123,7 +121,11 @@ impl<'a> Opened<'a> {
     /// Checks that a state has every object of the scene.
     pub fn check_state(&mut self, node: Option<&Node>, state: &State) {
         let (Some(node), Some(task)) = (node, &self.task) else { return };
-        let expected = task.scene.objects.len();
+        // What has left the plane moves as one, with all its solids.
+        let expected = match state.space {
+            Some(_) => task.scene.things().count(),
+            None => task.scene.objects.len(),
+        };
         let space = state.space.as_ref().map_or(expected, Vec::len);
         for (what, found) in [
             ("poses", state.poses.len()),

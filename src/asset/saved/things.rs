@@ -3,6 +3,7 @@
 use serde_json::{Value as Json, json};
 
 use crate::asset::task::shares_of_mass;
+use crate::geometry::Shape;
 use crate::scene::{Object, Scene, Whole};
 
 use super::emit::{posed, shape, support};
@@ -19,23 +20,38 @@ pub(super) fn parts(scene: &Scene, index: usize) -> (f64, Vec<Json>) {
     let whole = by_volume(&solids);
     let part = |(k, part): (usize, &&Object)| {
         let place = part.whole.map_or_else(Default::default, |Whole { place, .. }| place);
-        let mut fields = json!({"shape": shape(&part.shape), "friction": part.friction});
-        match part.is_raised() {
-            true => fields["z"] = json!(part.z),
-            false => fields["support"] = support(&part.support),
+        let mut fields = match own.in_space() {
+            true => json!({"shape": drawn(&part.shape), "z": part.z}),
+            false => json!({"shape": shape(&part.shape), "friction": part.friction}),
+        };
+        match (part.is_raised(), own.in_space()) {
+            (true, _) => fields["z"] = json!(part.z),
+            (false, true) => {}
+            (false, false) => fields["support"] = support(&part.support),
         }
         // A number is what a part without a name is called.
         let name = part.name.strip_prefix(&format!("{}/", own.name)).unwrap_or(&part.name);
         if name != (k + 1).to_string() {
             fields["name"] = json!(name);
         }
-        if whole.is_none() {
+        if whole.is_none() && !own.in_space() {
             fields["mass"] = json!(part.mass);
         }
         posed(fields, &place)
     };
     let all = solids.iter().map(|solid| solid.mass).sum();
     (whole.unwrap_or(all), parts.iter().enumerate().map(part).collect())
+}
+
+/// A solid of an object with room for a blade: its mass lies where its solids do, about the frame of all.
+pub(super) fn drawn(solid: &Shape) -> Json {
+    let mut json = shape(solid);
+    if let Some(prism) = json.get_mut("prism").and_then(Json::as_object_mut)
+        && let Some(origin) = prism.remove("centre_of_mass")
+    {
+        prism.insert("origin".to_owned(), origin);
+    }
+    json
 }
 
 /// The mass of everything, kg, if its shares by volume are those that the solids have, to the bit.

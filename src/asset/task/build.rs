@@ -16,7 +16,7 @@ use crate::{
 
 use super::spec::default;
 use super::tools::{costs, tools};
-use super::{frictions, goals, joints, keep, levers, mounts, obstacles, parts, plates};
+use super::{frictions, goals, joints, keep, levers, mounts, obstacles, parts};
 
 /// The task, or `None` if anything needed is missing or was faulty.
 pub(super) fn task(root: &Node, file: &str, arm: Option<Standing>) -> Option<Task> {
@@ -124,9 +124,6 @@ pub(super) fn table_top(table: &Node) -> Option<TableTop> {
 
 /// An object without its parts.
 pub(super) fn object(node: &Node) -> Option<Object> {
-    if plates::is_plate(node) {
-        return plates::object(node);
-    }
     Some(Object {
         support: support(node)?,
         mass: node.get("mass")?.number()?,

@@ -12,7 +12,7 @@ use crate::scene::{Object, Whole, bearings, hanging};
 
 use super::build::{self, support};
 use super::obstacles::{PLACE, height};
-use super::plates::is_plate;
+use super::plates::{self, is_plate};
 use super::spec::OBJECT_SUPPORT;
 
 /// What else belongs to an object.
@@ -93,7 +93,12 @@ pub(super) fn objects(
 ) -> Option<Vec<Object>> {
     let (mut things, mut parts) = (Vec::new(), Vec::new());
     for node in nodes {
-        let mut solids = solids(node, object(node)?, things.len())?.into_iter();
+        let index = things.len();
+        let mut solids = match is_plate(node) {
+            true => plates::solids(node, index)?,
+            false => solids(node, object(node)?, index)?,
+        }
+        .into_iter();
         things.extend(solids.next());
         parts.extend(solids);
     }
@@ -104,7 +109,7 @@ pub(super) fn objects(
 /// The solids of an object that has number `index` in the scene, the object itself first.
 fn solids(node: &Node, object: Object, index: usize) -> Option<Vec<Object>> {
     let parts = parts(node);
-    if parts.is_empty() || is_plate(node) {
+    if parts.is_empty() {
         return Some(vec![object]);
     }
     let part = |(k, part): (usize, &Node)| {

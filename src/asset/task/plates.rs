@@ -3,12 +3,12 @@
 use crate::asset::node::Node;
 use crate::asset::spec::{Key, Range, Value};
 use crate::asset::strict::Ledger;
-use crate::asset::take::{angle, name_of, pose, triple, vector};
-use crate::geometry::{Pose, Solid, Vector, centroid, common_area, cross};
-use crate::scene::{Object, Obstacle, Plate, Slab, carries};
+use crate::asset::take::{angle, name_of, pose, position, triple, vector};
+use crate::geometry::{ConvexPolygon, Pose, Shape, Solid, Vector, centroid, common_area, cross};
+use crate::scene::{Object, Obstacle, Plate, Scene, Slab, Whole, carries};
 
 use super::obstacles::obstacle;
-use super::parts::rise;
+use super::parts::{part_name, parts, rise, shares};
 
 /// A centre of mass that is nearer to the origin of its frame is there, metres: sums of corners
 /// that were written about it do not come to zero exactly.
@@ -46,51 +46,22 @@ pub(super) fn is_plate(object: &Node) -> bool {
     object.get("clearance").is_some() || object.get("z").is_some()
 }
 
-/// The object as a scene has it.
-pub(super) fn object(node: &Node) -> Option<Object> {
-    plate(node)?.object()
+/// A solid in the frame of its corners, and the point that a position names.
+struct Drawn {
+    corners: Vec<Vector>,
+    height: f64,
+    named: Vector,
 }
 
-/// A plate with its frame below its centre of mass.
-fn plate(node: &Node) -> Option<Plate> {
-    let (base, origin) = solid(node.get("shape")?)?;
-    let top = base.height;
-    let mut slabs = vec![base];
-    for part in node.get("parts").map(Node::items).unwrap_or_default() {
-        let (mut slab, own) = solid(part.get("shape")?)?;
-        let turn = Pose { position: Vector::zeros(), heading: angle(part, "yaw_deg", 0.0)? };
-        let place = part.get("position")?;
-        let shift = vector(place)? - origin;
-        slab.bottom = rise(part, top)?;
-        for corner in &mut slab.corners {
-            *corner = turn.vector(*corner - own) + shift;
-        }
-        slabs.push(slab);
-    }
-    slabs[0].corners.iter_mut().for_each(|corner| *corner -= origin);
-    let stated = |key| node.get(key).map(Node::number);
-    let (clearance, z) = match (stated("clearance"), stated("z")) {
-        (Some(clearance), Some(z)) => (clearance?, z?),
-        (Some(both), None) | (None, Some(both)) => (both?, both?),
-        (None, None) => return None,
-    };
-    let plate = Plate {
-        name: name_of(node)?.into(),
-        slabs,
-        mass: node.get("mass")?.number()?,
-        friction: node.get("friction")?.number()?,
-        clearance,
-        pose: pose(node)?,
-        z,
-    };
-    let off = plate.weight().centre.xy().norm();
-    Some(if off > CENTRED { plate.balanced() } else { plate })
-}
-
-/// A solid in the frame that its corners are written in, and the point of it that a position
-/// speaks of.
-fn solid(shape: &Node) -> Option<(Slab, Vector)> {
-    if let Some(prism) = shape.get("prism") {
+impl Drawn {
+    /// The solid under `shape`, its corners counter-clockwise from the first one.
+    fn read(shape: &Node) -> Option<Self> {
+        let Some(prism) = shape.get("prism") else {
+            let [x, y, height] = triple(shape.get("cuboid")?, "size")?;
+            let (x, y) = (0.5 * x, 0.5 * y);
+            let corners = [[-x, -y], [x, -y], [x, y], [-x, y]].map(|[x, y]| Vector::new(x, y));
+            return Some(Self { corners: corners.to_vec(), height, named: Vector::zeros() });
+        };
         let corners = prism.get("corners")?.items().iter().map(vector);
         let mut corners: Vec<Vector> = corners.collect::<Option<_>>()?;
         if corners.len() < 3 {
@@ -98,21 +69,78 @@ fn solid(shape: &Node) -> Option<(Slab, Vector)> {
         }
         let area: f64 =
             (0..corners.len()).map(|k| cross(corners[k], corners[(k + 1) % corners.len()])).sum();
-        // Counter-clockwise, the first corner staying the first.
         if area < 0.0 {
             corners[1..].reverse();
         }
-        let origin = match prism.get("origin") {
+        let named = match prism.get("origin") {
             Some(origin) => vector(origin)?,
             None => centroid(&corners),
         };
-        let height = prism.get("height")?.number()?;
-        return Some((Slab { corners, bottom: 0.0, height }, origin));
+        Some(Self { corners, height: prism.get("height")?.number()?, named })
     }
-    let [x, y, height] = triple(shape.get("cuboid")?, "size")?;
-    let (x, y) = (0.5 * x, 0.5 * y);
-    let corners = [[-x, -y], [x, -y], [x, y], [-x, y]].map(|[x, y]| Vector::new(x, y));
-    Some((Slab { corners: corners.to_vec(), bottom: 0.0, height }, Vector::zeros()))
+
+    /// The solid about its own centre, and where that is in the frame of its corners.
+    fn solid(&self, shape: &Node) -> Option<(Shape, Vector)> {
+        if shape.get("cuboid").is_some() {
+            return Some((crate::asset::take::shape(shape)?, self.named));
+        }
+        let own = centroid(&self.corners);
+        let centre = if (own - self.named).norm() > CENTRED { own } else { self.named };
+        let base = ConvexPolygon::balanced(&self.corners, centre).ok()?;
+        Some((Shape::Prism { base, height: self.height }, centre))
+    }
+}
+
+/// The solids of an object with number `index` in the scene, its own first. All are in the frame below
+/// their common centre of mass.
+pub(super) fn solids(node: &Node, index: usize) -> Option<Vec<Object>> {
+    let name = name_of(node)?;
+    let Drawn { mut corners, height, named } = Drawn::read(node.get("shape")?)?;
+    corners.iter_mut().for_each(|corner| *corner -= named);
+    let mut slabs = vec![Slab { corners, bottom: 0.0, height }];
+    let mut others = Vec::new();
+    for (k, part) in parts(node).iter().enumerate() {
+        let drawn = Drawn::read(part.get("shape")?)?;
+        let turn = Pose { position: Vector::zeros(), heading: angle(part, "yaw_deg", 0.0)? };
+        let (shift, bottom) = (position(part)? - named, rise(part, height)?);
+        let placed = |at: &Vector| turn.vector(*at - drawn.named) + shift;
+        let corners = drawn.corners.iter().map(placed).collect();
+        let (shape, centre) = drawn.solid(part.get("shape")?)?;
+        let solid = Object::new(part_name(name, part, k), shape).raised(bottom);
+        others.push((solid, Pose { position: placed(&centre), ..turn }));
+        slabs.push(Slab { corners, bottom, height: drawn.height });
+    }
+    let stated = |key| node.get(key).map(Node::number);
+    let (clearance, z) = match (stated("clearance"), stated("z")) {
+        (Some(clearance), Some(z)) => (clearance?, z?),
+        (Some(both), None) | (None, Some(both)) => (both?, both?),
+        (None, None) => (0.0, 0.0),
+    };
+    let (mass, friction) = (node.get("mass")?.number()?, node.get("friction")?.number()?);
+    let plate = Plate { name: name.into(), slabs, mass, friction, clearance, pose: pose(node)?, z };
+    let centre = plate.weight().centre.xy();
+    let (plate, shift) = match centre.norm() > CENTRED {
+        true => (plate.balanced(), centre),
+        false => (plate, Vector::zeros()),
+    };
+    let shape = plate.slabs[0].around_origin()?;
+    let object = Object { friction, pose: plate.pose, clearance, z, ..Object::new(name, shape) };
+    let part = |(solid, at): (Object, Pose)| {
+        let place = Pose { position: at.position - shift, ..at };
+        let whole = Some(Whole { object: index, place });
+        Object { friction, pose: object.pose * place, whole, ..solid }
+    };
+    let mut solids = vec![object.clone()];
+    solids.extend(others.into_iter().map(part));
+    let open = vec![None; solids.len()];
+    let masses = shares(mass, &solids, &open);
+    solids.iter_mut().zip(masses).for_each(|(solid, mass)| solid.mass = mass);
+    Some(solids)
+}
+
+/// The object as one body.
+fn plate(node: &Node) -> Option<Plate> {
+    solids(node, 0).map(|solids| Plate::of(&Scene::new(solids), 0))
 }
 
 /// Notes faults between the heights of an object.

@@ -43,11 +43,18 @@ fn object(object: &Node, ledger: &mut Ledger) {
         ledger.fault(object, "this object has neither `clearance` nor `z`", advice);
     }
     refuse(Some(object), &["support", "may_fall", "max_force"], STANDS, ledger);
-    refuse(object.get("shape"), &["cylinder"], EDGES, ledger);
+    solid(object, ledger);
     for part in parts::parts(object) {
         refuse(Some(part), &["mass", "friction", "support"], ALIKE, ledger);
-        refuse(part.get("shape"), &["cylinder"], EDGES, ledger);
+        solid(part, ledger);
     }
+}
+
+fn solid(body: &Node, ledger: &mut Ledger) {
+    let shape = body.get("shape");
+    refuse(shape, &["cylinder"], EDGES, ledger);
+    let prism = shape.and_then(|shape| shape.get("prism"));
+    refuse(prism, &["centre_of_mass"], ALIKE, ledger);
 }
 
 /// Notes the keys that a node has and cannot have.

@@ -39,8 +39,7 @@ impl Task {
         }
         let mut scene = Scene::new([]).on_table(self.scene.table_friction);
         let mut goal = None;
-        for (k, (object, rest)) in self.scene.objects.iter().zip(rests).enumerate() {
-            let plate = Plate::of(object);
+        for (k, (plate, rest)) in self.scene.plates().zip(rests).enumerate() {
             match lying(&plate, rest).filter(|object| self.is_clear(object)) {
                 Some(object) => {
                     if k == self.goals[0].object {
@@ -80,6 +79,7 @@ impl Task {
             }
             object.pose = rest.from_above();
         }
+        task.scene.place_parts();
         Some(task)
     }
 

@@ -5,7 +5,7 @@ use serde_json::Value as Json;
 use crate::geometry::{Footprint, Pose, Shape, Vector};
 use crate::report::plan_text::goal_line;
 use crate::{
-    scene::{self, Blade, Carried, SHOWN_HAND, Scene, Slab},
+    scene::{self, Blade, Carried, Plate, SHOWN_HAND, Scene, Slab},
     task::{Plan, Task},
 };
 
@@ -48,12 +48,19 @@ pub fn task_stage(task: &Task) -> Json {
 
 /// What stands on a table, with nothing to be done.
 pub fn table(scene: &Scene) -> Stage {
-    let objects = scene.objects.iter().map(|object| Body {
+    // What leaves the plane moves as one, with all its solids; in the plane each has a pose of its own.
+    let in_space = scene.in_space();
+    let solids = scene.objects.iter().enumerate();
+    let objects = solids.filter(|(_, object)| !(in_space && object.is_part()));
+    let objects = objects.map(|(k, object)| Body {
         name: object.name.clone(),
         shape: outline(&object.shape),
         height: length(object.shape.height()),
         under: length(object.span()[0]),
-        more: object.parts.iter().map(slab).collect(),
+        more: match in_space {
+            true => Plate::of(scene, k).slabs[1..].iter().map(slab).collect(),
+            false => Vec::new(),
+        },
         at: pose(&object.pose),
     });
     let obstacles = scene.obstacles.iter().map(|obstacle| Body {

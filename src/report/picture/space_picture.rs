@@ -165,7 +165,7 @@ impl SpacePicture<'_> {
             cuboid(obstacle.size, &pose).iter().for_each(|p| bounds.add(to(p), 0.0));
         }
         for frame in frames {
-            for k in 0..self.scene.objects.len() {
+            for k in 0..self.scene.things().count() {
                 self.slabs(k, frame).iter().flatten().for_each(|p| bounds.add(to(p), 0.0));
             }
             self.tool(frame).iter().flatten().for_each(|p| bounds.add(to(p), 0.0));
@@ -213,8 +213,8 @@ impl SpacePicture<'_> {
                     .collect();
                 svg.moving_polygon(&ways, seconds, tool_style.opacity(0.8));
             }
-            for object in 0..self.scene.objects.len() {
-                let slabs = 1 + self.scene.objects[object].parts.len();
+            for object in 0..self.scene.things().count() {
+                let slabs = 1 + self.scene.parts_of(object).count();
                 for slab in 0..slabs {
                     let ways: Vec<Vec<Vector>> =
                         frames.iter().map(|f| outline(&self.slabs(object, f)[slab])).collect();
@@ -232,7 +232,7 @@ impl SpacePicture<'_> {
                     svg.polygon(&outline(&part), tool_style.opacity(faded + 0.15));
                 }
             }
-            for k in 0..self.scene.objects.len() {
+            for k in 0..self.scene.things().count() {
                 if k != self.goal.object && g != last {
                     continue;
                 }
@@ -286,7 +286,7 @@ impl SpacePicture<'_> {
 
     fn slabs(&self, object: usize, frame: &Frame) -> Vec<Corners> {
         let pose = self.pose(object, frame);
-        let plate = Plate::of(&self.scene.objects[object]);
+        let plate = Plate::of(self.scene, object);
         let solid =
             |slab: &Slab| prism(&slab.corners, [slab.bottom, slab.bottom + slab.height], &pose);
         plate.slabs.iter().map(solid).collect()

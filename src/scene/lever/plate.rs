@@ -2,8 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{ConvexPolygon, Footprint, Pose, Pose3, Shape, Solid, Vector, cross};
-use crate::scene::{Object, Support};
+use crate::geometry::{
+    ConvexPolygon, Footprint, Pose, Pose3, Shape, Solid, Vector, centroid, cross,
+};
+use crate::scene::{Object, Scene};
 
 /// How far from a right angle a rectangle's corners may be: the sine.
 const SQUARE: f64 = 1e-9;
@@ -30,6 +32,50 @@ impl Slab {
         let closed = (c - b - y).norm() <= SQUARE * (length + width);
         (square && closed && cross(x, y) > 0.0)
             .then(|| (0.5 * (a + c), x.y.atan2(x.x), [length, width]))
+    }
+
+    /// The solid about its own centre, and its place in the plate's frame.
+    pub fn solid(&self) -> Option<(Shape, Pose)> {
+        if let Some((position, heading, [x, y])) = self.rectangle() {
+            return Some((Shape::Cuboid { size: [x, y, self.height] }, Pose { position, heading }));
+        }
+        let position = centroid(&self.corners);
+        let base = ConvexPolygon::new(&self.corners).ok()?;
+        Some((Shape::Prism { base, height: self.height }, Pose { position, heading: 0.0 }))
+    }
+
+    /// The solid about the origin of the plate's frame, which is the centre of mass of all solids.
+    pub fn around_origin(&self) -> Option<Shape> {
+        // Exactly, so that the solids of what comes back are these to the bit.
+        let is_centred = |corners: &[Vector; 4]| {
+            let [x, y]: [f64; 2] = corners[2].into();
+            *corners == [[-x, -y], [x, -y], [x, y], [-x, y]].map(|[x, y]| Vector::new(x, y))
+        };
+        let height = self.height;
+        match <&[Vector; 4]>::try_from(&self.corners[..]) {
+            Ok(corners) if is_centred(corners) => {
+                Some(Shape::Cuboid { size: [2.0 * corners[2].x, 2.0 * corners[2].y, height] })
+            }
+            _ => {
+                let base = ConvexPolygon::balanced(&self.corners, Vector::zeros()).ok()?;
+                Some(Shape::Prism { base, height })
+            }
+        }
+    }
+}
+
+/// Corners of a solid's outline, counter-clockwise, metres.
+fn outline(shape: &Shape) -> Vec<Vector> {
+    match shape.footprint() {
+        Footprint::Rectangle { half } => {
+            let [x, y]: [f64; 2] = half.into();
+            [[-x, -y], [x, -y], [x, y], [-x, y]].map(|[x, y]| Vector::new(x, y)).to_vec()
+        }
+        Footprint::Polygon(polygon) => polygon.corners().to_vec(),
+        Footprint::Disc { radius } => (0..ROUND)
+            .map(|k| std::f64::consts::TAU * k as f64 / ROUND as f64)
+            .map(|angle| radius * Vector::new(angle.cos(), angle.sin()))
+            .collect(),
     }
 }
 
@@ -59,24 +105,21 @@ pub struct Plate {
 }
 
 impl Plate {
-    /// All solids of an object.
-    pub fn of(object: &Object) -> Self {
-        let corners = match object.shape.footprint() {
-            Footprint::Rectangle { half } => {
-                let [x, y]: [f64; 2] = half.into();
-                [[-x, -y], [x, -y], [x, y], [-x, y]].map(|[x, y]| Vector::new(x, y)).to_vec()
-            }
-            Footprint::Polygon(polygon) => polygon.corners().to_vec(),
-            Footprint::Disc { radius } => (0..ROUND)
-                .map(|k| std::f64::consts::TAU * k as f64 / ROUND as f64)
-                .map(|angle| radius * Vector::new(angle.cos(), angle.sin()))
-                .collect(),
+    /// Object `index` of a scene with all its solids, as one body.
+    pub fn of(scene: &Scene, index: usize) -> Self {
+        let object = &scene.objects[index];
+        let part = |k: usize| {
+            let part = &scene.objects[k];
+            let place = part.whole.map_or_else(Pose::default, |whole| whole.place);
+            let corners = outline(&part.shape).into_iter().map(|corner| place.point(corner));
+            Slab { corners: corners.collect(), bottom: part.z, height: part.shape.height() }
         };
-        let base = Slab { corners, bottom: 0.0, height: object.shape.height() };
+        let base = outline(&object.shape);
+        let base = Slab { corners: base, bottom: 0.0, height: object.shape.height() };
         Self {
             name: object.name.clone(),
-            slabs: std::iter::once(base).chain(object.parts.iter().cloned()).collect(),
-            mass: object.mass,
+            slabs: std::iter::once(base).chain(scene.parts_of(index).map(part)).collect(),
+            mass: scene.mass(index),
             friction: object.friction,
             clearance: object.clearance,
             pose: object.pose,
@@ -84,41 +127,29 @@ impl Plate {
         }
     }
 
-    /// The object that has these solids; none where the first is not a convex prism of at most
-    /// [`MAX_CORNERS`](crate::geometry::MAX_CORNERS) corners around the centre of mass.
-    pub fn object(self) -> Option<Object> {
-        let mut slabs = self.slabs.into_iter();
-        let base = slabs.next()?;
-        // Exactly, so that the solids of what comes back are these to the bit.
-        let is_centred = |corners: &[Vector; 4]| {
-            let [x, y]: [f64; 2] = corners[2].into();
-            *corners == [[-x, -y], [x, -y], [x, y], [-x, y]].map(|[x, y]| Vector::new(x, y))
-        };
-        let height = base.height;
-        let shape = match <&[Vector; 4]>::try_from(&base.corners[..]) {
-            Ok(corners) if is_centred(corners) => {
-                Shape::Cuboid { size: [2.0 * corners[2].x, 2.0 * corners[2].y, height] }
-            }
-            _ => {
-                let base = ConvexPolygon::balanced(&base.corners, Vector::zeros()).ok()?;
-                Shape::Prism { base, height }
-            }
-        };
-        Some(Object {
-            name: self.name,
-            shape,
-            support: Support::Even,
-            mass: self.mass,
+    /// The object of its first solid, and its other solids with their places in its frame; `None` if the
+    /// first is no convex prism of at most [`MAX_CORNERS`](crate::geometry::MAX_CORNERS) corners around
+    /// the centre of mass, or another is none.
+    pub fn solids_of_object(self) -> Option<(Object, Vec<(Object, Pose)>)> {
+        let volume: f64 = self.slabs.iter().map(Slab::volume).sum();
+        let share = |slab: &Slab| self.mass * (slab.volume() / volume);
+        let (base, parts) = self.slabs.split_first()?;
+        let object = Object {
+            mass: share(base),
             friction: self.friction,
-            keep: None,
-            may_fall: false,
-            max_force: None,
             pose: self.pose,
-            parts: slabs.collect(),
             clearance: self.clearance,
             z: self.z,
-            whole: None,
-        })
+            ..Object::new(&self.name, base.around_origin()?)
+        };
+        let part = |(k, slab): (usize, &Slab)| {
+            let (shape, place) = slab.solid()?;
+            let name = format!("{}/{}", self.name, k + 1);
+            let part = Object::new(name, shape).mass(share(slab)).friction(self.friction);
+            Some((part.raised(slab.bottom), place))
+        };
+        let parts = parts.iter().enumerate().map(part).collect::<Option<_>>()?;
+        Some((object, parts))
     }
 
     /// The corners of the outline that can be levered, counter-clockwise, plate frame, metres.

@@ -33,6 +33,29 @@ impl Blade {
     }
 }
 
+impl Scene {
+    /// The objects, each with all its solids as one body.
+    pub fn plates(&self) -> impl Iterator<Item = Plate> {
+        self.things().map(|(index, _)| Plate::of(self, index))
+    }
+
+    /// Number of edges of object `index` that a blade can go under; 0 for a part or what does not exist.
+    pub fn edges(&self, index: usize) -> usize {
+        let is_there = self.objects.get(index).is_some_and(|object| !object.is_part());
+        if is_there { Plate::of(self, index).corners().len() } else { 0 }
+    }
+
+    /// The scene of these bodies; `None` if one of them is no object, see [`Plate::solids_of_object`].
+    pub fn of_plates(plates: impl IntoIterator<Item = Plate>) -> Option<Self> {
+        let objects =
+            plates.into_iter().map(Plate::solids_of_object).collect::<Option<Vec<_>>>()?;
+        let scene = Self::new(objects.iter().map(|(object, _)| object.clone()));
+        let parts = objects.into_iter().enumerate();
+        let parts = parts.flat_map(|(k, (_, parts))| parts.into_iter().map(move |part| (k, part)));
+        Some(parts.fold(scene, |scene, (k, (part, place))| scene.with_part(k, part, place)))
+    }
+}
+
 /// Objects with all their solids, what is fixed around them, and the blade.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeverScene {
@@ -55,7 +78,7 @@ impl LeverScene {
     /// A scene with a blade in it.
     pub fn new(scene: &Scene, blade: Blade) -> Self {
         Self {
-            plates: scene.objects.iter().map(Plate::of).collect(),
+            plates: scene.plates().collect(),
             blocks: scene.obstacles.clone(),
             table_friction: scene.table_friction,
             blade,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::solve::SolveError;
 use crate::{
-    scene::{Plate, Situation, Tool},
+    scene::{Situation, Tool},
     task::Task,
 };
 
@@ -35,11 +35,14 @@ pub(in crate::solve) fn check(
     if !place || !goal.raised.is_none_or(f64::is_finite) || goal.heading.is_some() {
         return fault("the goal must be finite, its tolerance positive, without a heading".into());
     }
-    if !scene.joints.is_empty() || !scene.frictions.is_empty() || scene.table_top.is_some() {
+    if scene.joints.iter().any(|joint| !scene.is_seam(joint))
+        || !scene.frictions.is_empty()
+        || scene.table_top.is_some()
+    {
         let what = "joints, frictions of pairs and a table that ends are for tasks of pushes";
         return fault(what.into());
     }
-    for plate in scene.objects.iter().map(Plate::of) {
+    for plate in scene.plates() {
         let slabs = plate.slabs.iter().all(|slab| {
             slab.corners.len() >= 3
                 && slab.corners.iter().all(|c| c.iter().all(|v| v.is_finite()))

@@ -15,7 +15,7 @@ use crate::verify::{Verifier, VerifySettings};
 use crate::watch::{Until, Unwatched, Watch};
 use crate::{
     outcome::{Outcome, Record, Trajectory, Verdict},
-    scene::{LeverScene, Models, Obstacle, Plate, Scene, Situation, Tool},
+    scene::{LeverScene, Models, Obstacle, Scene, Situation, Tool},
     task::{Goal, Plan, Task, ToolChoice},
 };
 
@@ -162,8 +162,7 @@ impl<'a> Steps<'a> {
     /// pushes alone.
     fn with_pushes(&mut self) -> Result<Vec<RankedPlan>, SolveError> {
         if self.task.levers.is_none() {
-            let start = self.task.scene.objects.iter().map(|object| Plate::of(object).start());
-            let rests: Vec<Pose3> = start.collect();
+            let rests: Vec<Pose3> = self.task.scene.plates().map(|plate| plate.start()).collect();
             return Ok(self.pushed(&Made::default(), &rests)?.into_iter().collect());
         }
         self.followed(self.task, &Made::default())
@@ -202,8 +201,7 @@ impl<'a> Steps<'a> {
 
     /// Plans that first push the object to where it can be levered.
     fn after_pushes(&mut self) -> Result<Vec<RankedPlan>, SolveError> {
-        let start: Vec<Pose3> =
-            self.task.scene.objects.iter().map(|object| Plate::of(object).start()).collect();
+        let start: Vec<Pose3> = self.task.scene.plates().map(|plate| plate.start()).collect();
         let (goal, at) =
             (self.task.goals[0].clone(), self.task.scene.objects[self.task.goals[0].object].pose);
         let mut plans = Vec::new();
@@ -219,6 +217,7 @@ impl<'a> Steps<'a> {
             let mut there = self.task.clone();
             there.goals[0].tolerance = f64::INFINITY;
             there.scene.objects[goal.object].pose.position = place;
+            there.scene.place_parts();
             if !self.is_free(&there) || self.promising(&there, self.blades) == 0 {
                 continue;
             }
@@ -252,8 +251,8 @@ impl<'a> Steps<'a> {
     /// Whether the goal's object has room where it is put.
     fn is_free(&self, task: &Task) -> bool {
         let (scene, own) = (&task.scene, task.plate());
-        let others = scene.objects.iter().enumerate().filter(|(k, _)| *k != task.goals[0].object);
-        let others = others.flat_map(|(_, object)| Plate::of(object).solids());
+        let others = scene.plates().enumerate().filter(|(k, _)| *k != task.goals[0].object);
+        let others = others.flat_map(|(_, plate)| plate.solids());
         let others: Vec<Solid> =
             others.chain(scene.obstacles.iter().map(Obstacle::solid)).collect();
         let clear = |solid: &Solid| others.iter().all(|other| solid.depth(other) <= 0.0);

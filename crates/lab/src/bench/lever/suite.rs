@@ -71,8 +71,8 @@ impl LeverSuite {
         let mut obstacles = scene.blocks.clone();
         let goal = Goal { outside: Some(obstacles.len()), ..Goal::of(lever.plate) };
         obstacles.push(pocket(&scene.blocks));
-        let objects = scene.plates.iter().cloned().filter_map(Plate::object);
-        let table = Scene::new(objects).on_table(scene.table_friction);
+        let table = Scene::of_plates(scene.plates.iter().cloned()).unwrap_or_default();
+        let table = table.on_table(scene.table_friction);
         let scene = Scene { obstacles, ..table };
         Task::new(format!("board-{}", index + 1), scene, Robot::reaching(0.0, 2.0), goal)
             .choosing([TOOL])
