@@ -13,7 +13,7 @@ use pushplan::internals::verify::{Verifier, VerifySettings};
 use pushplan::internals::watch::Unwatched;
 use pushplan::internals::{
     outcome::{Outcome, Record},
-    scene::{Obstacle, Plate, Robot, Scene, Situation, Tool},
+    scene::{Obstacle, Robot, Scene, Situation, Tool},
     task::{Goal, LeverJob, LeverMotion, LeverRules, Motion, PushRules, Task},
 };
 use pushplan_learn::dataset::{LEVERS_PER_SHAPE, LeverConfig, LeverPreset, lever_job};
