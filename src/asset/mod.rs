@@ -10,6 +10,7 @@ mod arm;
 mod blade;
 mod example;
 mod fault;
+mod field;
 mod folder;
 #[cfg(feature = "formats")]
 pub(crate) mod foreign;

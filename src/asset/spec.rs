@@ -7,6 +7,7 @@ use super::node::Node;
 use super::prism::{PLACED_PRISM, PRISM};
 
 /// A key of a map.
+#[derive(Clone, Copy)]
 pub(super) struct Key {
     pub name: &'static str,
     pub required: bool,
@@ -26,6 +27,7 @@ impl Key {
 }
 
 /// A kind of value.
+#[derive(Clone, Copy)]
 pub(super) enum Value {
     /// Anything; the type that it is read into decides what it must be.
     Anything,

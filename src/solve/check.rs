@@ -43,11 +43,8 @@ pub(super) fn check(
     if task.robustness > 1.0 {
         return fault(format!("the robustness is {}, but must be a share", task.robustness));
     }
-    let forces = scene.objects.iter().map(|object| object.max_force).chain([robot.max_force]);
-    if forces.flatten().any(|force| !(force.is_finite() && force > 0.0)) {
-        return fault(
-            "the largest force of the robot, or on an object, must be a positive number".into(),
-        );
+    if robot.max_force.is_some_and(|force| !(force.is_finite() && force > 0.0)) {
+        return fault("the largest force of the robot must be a positive number".into());
     }
     if task.tool_costs.values().any(|cost| !(cost.is_finite() && *cost >= 0.0)) {
         return fault("the cost of a tool must not be negative".into());
@@ -116,19 +113,14 @@ pub(super) fn check(
     if !start.is_finite() {
         return fault("the start must be finite".into());
     }
+    if let Some(what) = scene.object_fault() {
+        return fault(what);
+    }
     for (k, object) in scene.objects.iter().enumerate() {
-        let sound = object.pose.is_finite()
-            && physics.masses[k].is_finite()
-            && physics.masses[k] > 0.0
-            && is_friction(physics.frictions[k])
-            && object.shape.footprint().area() > 0.0
-            && object.shape.height() > 0.0
-            && object.shape.footprint().bounding_radius().is_finite();
-        if !sound {
-            return fault(format!(
-                "object `{}` needs a positive finite size and mass, a finite place and friction",
-                object.name
-            ));
+        let mass = physics.masses[k];
+        if !(mass.is_finite() && mass > 0.0 && is_friction(physics.frictions[k])) {
+            let name = &object.name;
+            return fault(format!("the mass and friction of `{name}` must be positive and finite"));
         }
     }
     for joint in &physics.joints {

@@ -4,8 +4,8 @@ use serde_json::{Value as Json, json};
 
 use super::things;
 use crate::asset::task::{
-    WORLD, area_of, emitted_coverage, emitted_fall, emitted_gap, emitted_levers, emitted_obstacle,
-    emitted_tools, name_of_surface,
+    WORLD, area_of, emitted_coverage, emitted_fall, emitted_gap, emitted_levers, emitted_object,
+    emitted_obstacle, emitted_tools, name_of_surface,
 };
 use crate::geometry::{Pose, Shape, Vector};
 use crate::{
@@ -116,7 +116,7 @@ pub(in crate::asset) fn tool(tool: &Tool) -> Json {
     })
 }
 
-pub(super) fn shape(shape: &Shape) -> Json {
+pub(in crate::asset) fn shape(shape: &Shape) -> Json {
     match *shape {
         Shape::Cylinder { radius, height } => {
             json!({"cylinder": {"radius": radius, "height": height}})
@@ -129,7 +129,7 @@ pub(super) fn shape(shape: &Shape) -> Json {
     }
 }
 
-pub(super) fn support(support: &Support) -> Json {
+pub(in crate::asset) fn support(support: &Support) -> Json {
     match support {
         Support::Even => json!("even"),
         Support::Corners => json!("corners"),
@@ -144,25 +144,12 @@ pub(super) fn support(support: &Support) -> Json {
 pub(in crate::asset) fn scene(scene: &Scene) -> Json {
     let object = |(index, object): (usize, &Object)| {
         let (mass, parts) = things::parts(scene, index);
-        let mut fields = json!({"name": object.name, "mass": mass, "friction": object.friction});
-        if object.in_space() {
-            fields["shape"] = things::drawn(&object.shape);
-            fields["clearance"] = json!(object.clearance);
-            fields["z"] = json!(object.z);
-        } else {
-            fields["shape"] = shape(&object.shape);
-            fields["support"] = support(&object.support);
-        }
+        let mut fields = emitted_object(object);
+        fields["mass"] = json!(mass);
         if !parts.is_empty() {
             fields["parts"] = json!(parts);
         }
-        if let Some(force) = object.max_force {
-            fields["max_force"] = json!(force);
-        }
-        if object.may_fall {
-            fields["may_fall"] = json!(true);
-        }
-        posed(fields, &object.pose)
+        fields
     };
     let joint = |joint: &Joint| {
         let mut fields = joined(joint.between.map(|k| scene.objects[k].name.as_str()), &joint.kind);

@@ -8,7 +8,7 @@ mod plan;
 mod read;
 mod spec;
 mod steps;
-mod things;
+pub(super) mod things;
 mod trajectory;
 mod verdict;
 

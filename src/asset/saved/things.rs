@@ -44,7 +44,7 @@ pub(super) fn parts(scene: &Scene, index: usize) -> (f64, Vec<Json>) {
 }
 
 /// A solid of an object with room for a blade: its mass lies where its solids do, about the frame of all.
-pub(super) fn drawn(solid: &Shape) -> Json {
+pub(in crate::asset) fn drawn(solid: &Shape) -> Json {
     let mut json = shape(solid);
     if let Some(prism) = json.get_mut("prism").and_then(Json::as_object_mut)
         && let Some(origin) = prism.remove("centre_of_mass")

@@ -6,11 +6,11 @@ use crate::arm::{flange, frames};
 use crate::asset::arm::Standing;
 use crate::asset::node::{Content, Node};
 use crate::asset::prism::origin;
-use crate::asset::take::{name_of, number_or, placed, shape, vector};
+use crate::asset::take::{name_of, number_or, vector};
 use crate::asset::text::apart_by_name;
 use crate::geometry::Vector;
 use crate::{
-    scene::{Hand, Joint, Object, Obstacle, Robot, Scene, Support, TableTop, Unknowns},
+    scene::{Hand, Joint, Obstacle, Robot, Scene, Support, TableTop, Unknowns},
     task::{Directions, Goal, Offsets, PushForm, PushRules, Task},
 };
 
@@ -74,7 +74,7 @@ fn unknown(root: &Node) -> Option<Unknowns> {
 pub(super) fn scene(node: &Node) -> Option<Scene> {
     let items = |key| node.get(key).map(Node::items).unwrap_or_default().iter();
     let nodes = node.get("objects").map(Node::items).unwrap_or_default();
-    let objects = parts::objects(nodes, object)?;
+    let objects = parts::objects(nodes)?;
     let obstacles: Vec<Obstacle> =
         items("obstacles").map(obstacles::obstacle).collect::<Option<_>>()?;
     let fixed = node.get("obstacles").map(Node::items).unwrap_or_default();
@@ -120,22 +120,6 @@ pub(super) fn table_top(table: &Node) -> Option<TableTop> {
         None => Vector::zeros(),
     };
     Some(TableTop { size: [size.x, size.y], middle })
-}
-
-/// An object without its parts.
-pub(super) fn object(node: &Node) -> Option<Object> {
-    Some(Object {
-        support: support(node)?,
-        mass: node.get("mass")?.number()?,
-        friction: node.get("friction")?.number()?,
-        pose: placed(node)?,
-        may_fall: match node.get("may_fall") {
-            Some(may_fall) => may_fall.switch()?,
-            None => false,
-        },
-        max_force: max_force(node)?,
-        ..Object::new(name_of(node)?, shape(node.get("shape")?)?)
-    })
 }
 
 /// The largest force of an arm, or on an object, newtons; any where none is stated.

@@ -14,6 +14,7 @@ mod levers;
 mod lifting;
 mod load;
 mod mounts;
+mod object;
 mod obstacles;
 mod parts;
 mod plates;
@@ -33,6 +34,7 @@ pub(super) use levers::emitted_levers;
 pub use load::{load_task, parse_task};
 pub(super) use load::{parse_with, scene_of, task_of};
 pub(super) use mounts::WORLD;
+pub(super) use object::emitted_object;
 pub(super) use obstacles::{OBSTACLES, emitted as emitted_obstacle};
 pub(super) use parts::shares as shares_of_mass;
 pub(super) use spec::{

@@ -10,7 +10,8 @@ use crate::asset::take::{name_of, number_or, placed, pose, shape};
 use crate::geometry::Pose;
 use crate::scene::{Object, Whole, bearings, hanging};
 
-use super::build::{self, support};
+use super::build::support;
+use super::object;
 use super::obstacles::{PLACE, height};
 use super::plates::{self, is_plate};
 use super::spec::OBJECT_SUPPORT;
@@ -87,16 +88,14 @@ pub(super) fn rise(part: &Node, usual: f64) -> Option<f64> {
 
 /// Objects with all their parts, these after all of those; `None` if anything needed is missing or was
 /// faulty.
-pub(super) fn objects(
-    nodes: &[Node],
-    object: impl Fn(&Node) -> Option<Object>,
-) -> Option<Vec<Object>> {
+pub(super) fn objects(nodes: &[Node]) -> Option<Vec<Object>> {
     let (mut things, mut parts) = (Vec::new(), Vec::new());
     for node in nodes {
         let index = things.len();
+        let own = object::object(node)?;
         let mut solids = match is_plate(node) {
-            true => plates::solids(node, index)?,
-            false => solids(node, object(node)?, index)?,
+            true => plates::solids(node, own, index)?,
+            false => solids(node, own, index)?,
         }
         .into_iter();
         things.extend(solids.next());
@@ -192,7 +191,9 @@ pub(super) fn check(object: &Node, ledger: &mut Ledger) {
 /// What is above the table is held by what stands there, and does not bring it down.
 fn above(object: &Node, ledger: &mut Ledger) {
     let parts = parts(object);
-    let Some(solids) = build::object(object).and_then(|own| solids(object, own, 0)) else { return };
+    let Some(solids) = object::object(object).and_then(|own| solids(object, own, 0)) else {
+        return;
+    };
     if !solids.iter().any(Object::is_raised) {
         return;
     }

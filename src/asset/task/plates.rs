@@ -3,10 +3,11 @@
 use crate::asset::node::Node;
 use crate::asset::spec::{Key, Range, Value};
 use crate::asset::strict::Ledger;
-use crate::asset::take::{angle, name_of, pose, position, triple, vector};
+use crate::asset::take::{angle, pose, position, triple, vector};
 use crate::geometry::{ConvexPolygon, Pose, Shape, Solid, Vector, centroid, common_area, cross};
 use crate::scene::{Object, Obstacle, Plate, Scene, Slab, Whole, carries};
 
+use super::object::object;
 use super::obstacles::obstacle;
 use super::parts::{part_name, parts, rise, shares};
 
@@ -93,8 +94,8 @@ impl Drawn {
 
 /// The solids of an object with number `index` in the scene, its own first. All are in the frame below
 /// their common centre of mass.
-pub(super) fn solids(node: &Node, index: usize) -> Option<Vec<Object>> {
-    let name = name_of(node)?;
+pub(super) fn solids(node: &Node, object: Object, index: usize) -> Option<Vec<Object>> {
+    let name = &object.name;
     let Drawn { mut corners, height, named } = Drawn::read(node.get("shape")?)?;
     corners.iter_mut().for_each(|corner| *corner -= named);
     let mut slabs = vec![Slab { corners, bottom: 0.0, height }];
@@ -116,15 +117,16 @@ pub(super) fn solids(node: &Node, index: usize) -> Option<Vec<Object>> {
         (Some(both), None) | (None, Some(both)) => (both?, both?),
         (None, None) => (0.0, 0.0),
     };
-    let (mass, friction) = (node.get("mass")?.number()?, node.get("friction")?.number()?);
-    let plate = Plate { name: name.into(), slabs, mass, friction, clearance, pose: pose(node)?, z };
+    let Object { mass, friction, .. } = object;
+    let name = object.name.clone();
+    let plate = Plate { name, slabs, mass, friction, clearance, pose: pose(node)?, z };
     let centre = plate.weight().centre.xy();
     let (plate, shift) = match centre.norm() > CENTRED {
         true => (plate.balanced(), centre),
         false => (plate, Vector::zeros()),
     };
     let shape = plate.slabs[0].around_origin()?;
-    let object = Object { friction, pose: plate.pose, clearance, z, ..Object::new(name, shape) };
+    let object = Object { shape, pose: plate.pose, clearance, z, ..object };
     let part = |(solid, at): (Object, Pose)| {
         let place = Pose { position: at.position - shift, ..at };
         let whole = Some(Whole { object: index, place });
@@ -140,7 +142,8 @@ pub(super) fn solids(node: &Node, index: usize) -> Option<Vec<Object>> {
 
 /// The object as one body.
 fn plate(node: &Node) -> Option<Plate> {
-    solids(node, 0).map(|solids| Plate::of(&Scene::new(solids), 0))
+    let solids = solids(node, object(node)?, 0)?;
+    Some(Plate::of(&Scene::new(solids), 0))
 }
 
 /// Notes faults between the heights of an object.

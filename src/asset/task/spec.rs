@@ -1,18 +1,15 @@
 //! What a task file may hold.
 
 use crate::asset::arm::{ARM, BASE, FLANGE, HOME, TOOL_MOUNT, URDF};
-use crate::asset::spec::{
-    ANGLE, FRICTION, Key, MASS, PLACED_SHAPE, POSITION, Range, SHAPE, SIZE, Value, numbers,
-};
+use crate::asset::spec::{ANGLE, FRICTION, Key, POSITION, Range, SHAPE, SIZE, Value, numbers};
 
 use super::frictions::FRICTIONS;
 use super::goals::GOAL;
 use super::joints::JOINT;
 use super::keep::{KEEP, KEEP_OUT};
 use super::levers::LEVERS;
+use super::object::OBJECT;
 use super::obstacles::OBSTACLES;
-use super::parts::PARTS;
-use super::plates::{CLEARANCE, Z};
 use super::tools::TOOLS;
 
 /// Defaults of optional keys; the words of the keys below repeat them.
@@ -131,34 +128,6 @@ pub(in crate::asset) const TABLE: Key = Key::optional(
 pub(in crate::asset) const JOINTS: Value =
     Value::List { of: &JOINT, items: "joints", min: 0, max: 64 };
 
-const OBJECT: Value = Value::Map(&[
-    OBJECT_NAME,
-    Key::required("shape", PLACED_SHAPE, "The object's solid, standing upright."),
-    PARTS,
-    Key::required("mass", MASS, "Mass in kg, parts included."),
-    Key::required(
-        "friction",
-        FRICTION,
-        "Friction value; the coefficient of a pair is the mean of the two values.",
-    ),
-    OBJECT_SUPPORT,
-    Key::optional(
-        "may_fall",
-        Value::Switch,
-        "Whether it may topple or be pushed off the table; default false.",
-    ),
-    Key::optional(
-        "max_force",
-        FORCE,
-        "Largest force in newtons with which a tool may press on it, parts included, for longer than an \
-         impact; by default any.",
-    ),
-    CLEARANCE,
-    Z,
-    Key::required("position", POSITION, "Centre at the start, [x, y] in metres."),
-    Key::optional("yaw_deg", ANGLE, "Heading at the start, degrees; default 0."),
-]);
-
 /// How an object's weight is spread over its underside.
 const SUPPORT: Value = Value::Either(&[
     Value::Word(&["even", "corners"]),
@@ -242,7 +211,7 @@ const MAX_FORCE: Key = Key::optional(
      default any, with a warning above 150.",
 );
 
-const FORCE: Value = Value::Number(Range {
+pub(super) const FORCE: Value = Value::Number(Range {
     what: "a force in newtons",
     low: 0.1,
     high: 1e6,

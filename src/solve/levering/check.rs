@@ -42,25 +42,8 @@ pub(in crate::solve) fn check(
         let what = "joints, frictions of pairs and a table that ends are for tasks of pushes";
         return fault(what.into());
     }
-    for plate in scene.plates() {
-        let slabs = plate.slabs.iter().all(|slab| {
-            slab.corners.len() >= 3
-                && slab.corners.iter().all(|c| c.iter().all(|v| v.is_finite()))
-                && positive(slab.volume())
-                && from_zero(slab.bottom)
-        });
-        let sound = slabs
-            && positive(plate.mass)
-            && from_zero(plate.friction)
-            && from_zero(plate.clearance)
-            && from_zero(plate.z)
-            && plate.pose.is_finite();
-        if !sound {
-            return fault(format!(
-                "object `{}` needs solids of positive size, a mass and a finite place",
-                plate.name
-            ));
-        }
+    if let Some(what) = scene.object_fault() {
+        return fault(what);
     }
     for obstacle in &scene.obstacles {
         let sound = obstacle.size.iter().all(|size| positive(*size))

@@ -1,0 +1,153 @@
+//! The keys of an object, one entry each. A new property of objects is an entry here, a field of
+//! [`Object`], and whatever uses it.
+
+use serde_json::json;
+
+use crate::asset::field::{Field, fault, keys, read, write};
+use crate::asset::node::Node;
+use crate::asset::saved::emit;
+use crate::asset::saved::things::drawn;
+use crate::asset::spec::{ANGLE, FRICTION, Key, MASS, PLACED_SHAPE, POSITION, Value};
+use crate::asset::take::{name_of, placed, shape};
+use crate::geometry::Shape;
+use crate::scene::{Object, Scene, Whole};
+
+use super::build::support;
+use super::parts::PARTS;
+use super::plates::{CLEARANCE, Z};
+use super::spec::{FORCE, OBJECT_NAME, OBJECT_SUPPORT};
+
+/// An object in a task file.
+pub(super) const OBJECT: Value = Value::Map(&KEYS);
+
+static KEYS: [Key; FIELDS.len()] = keys(&FIELDS);
+
+const FIELDS: [Field<Object>; 12] = [
+    Field {
+        key: OBJECT_NAME,
+        read: |_, node, object| Some(object.name = node.text()?.to_owned()),
+        write: |object| Some(json!(object.name)),
+        fault: |_| None,
+    },
+    Field {
+        key: Key::required("shape", PLACED_SHAPE, "The object's solid, standing upright."),
+        read: |_, node, object| Some(object.shape = shape(node)?),
+        write: |object| {
+            Some(if object.in_space() { drawn(&object.shape) } else { emit::shape(&object.shape) })
+        },
+        fault: |object| {
+            let footprint = object.shape.footprint();
+            let sound = footprint.area() > 0.0
+                && object.shape.height() > 0.0
+                && footprint.bounding_radius().is_finite();
+            (!sound).then_some("needs a positive finite size")
+        },
+    },
+    // Parts are objects of the scene, which reads and writes them.
+    Field { key: PARTS, read: |_, _, _| Some(()), write: |_| None, fault: |_| None },
+    Field {
+        key: Key::required("mass", MASS, "Mass in kg, parts included."),
+        read: |_, node, object| Some(object.mass = node.number()?),
+        write: |object| Some(json!(object.mass)),
+        fault: |object| positive(object.mass),
+    },
+    Field {
+        key: Key::required(
+            "friction",
+            FRICTION,
+            "Friction value; the coefficient of a pair is the mean of the two values.",
+        ),
+        read: |_, node, object| Some(object.friction = node.number()?),
+        write: |object| Some(json!(object.friction)),
+        fault: |object| from_zero(object.friction),
+    },
+    Field {
+        key: OBJECT_SUPPORT,
+        // Points are written in the frame of the solid's corners.
+        read: |map, _, object| Some(object.support = support(map)?),
+        write: |object| (!object.in_space()).then(|| emit::support(&object.support)),
+        fault: |_| None,
+    },
+    Field {
+        key: Key::optional(
+            "may_fall",
+            Value::Switch,
+            "Whether it may topple or be pushed off the table; default false.",
+        ),
+        read: |_, node, object| Some(object.may_fall = node.switch()?),
+        write: |object| object.may_fall.then(|| json!(true)),
+        fault: |_| None,
+    },
+    Field {
+        key: Key::optional(
+            "max_force",
+            FORCE,
+            "Largest force in newtons with which a tool may press on it, parts included, for longer than an \
+             impact; by default any.",
+        ),
+        read: |_, node, object| Some(object.max_force = Some(node.number()?)),
+        write: |object| object.max_force.map(|force| json!(force)),
+        fault: |object| object.max_force.and_then(positive),
+    },
+    Field {
+        key: CLEARANCE,
+        read: |_, node, object| Some(object.clearance = node.number()?),
+        write: |object| object.in_space().then(|| json!(object.clearance)),
+        fault: |object| from_zero(object.clearance),
+    },
+    Field {
+        key: Z,
+        read: |_, node, object| Some(object.z = node.number()?),
+        write: |object| object.in_space().then(|| json!(object.z)),
+        fault: |object| from_zero(object.z),
+    },
+    Field {
+        key: Key::required("position", POSITION, "Centre at the start, [x, y] in metres."),
+        read: |map, _, object| Some(object.pose = placed(map)?),
+        write: |object| Some(json!([object.pose.position.x, object.pose.position.y])),
+        fault: |object| (!object.pose.is_finite()).then_some("must be finite"),
+    },
+    Field {
+        key: Key::optional("yaw_deg", ANGLE, "Heading at the start, degrees; default 0."),
+        // Read with the position: the point that this names is turned.
+        read: |_, _, _| Some(()),
+        write: |object| Some(json!(emit::degrees(object.pose.heading))),
+        fault: |_| None,
+    },
+];
+
+/// Reads an object without its parts.
+pub(super) fn object(node: &Node) -> Option<Object> {
+    read(&FIELDS, node, Object::new(name_of(node)?, Shape::Cuboid { size: [0.0; 3] }))
+}
+
+/// Returns an object without its parts as in a task file.
+pub(in crate::asset) fn emitted_object(object: &Object) -> serde_json::Value {
+    write(&FIELDS, object)
+}
+
+impl Scene {
+    /// Message on the first value of an object that no computation can use, set in code, with its key in a
+    /// task file; `None` where all are sound.
+    pub fn object_fault(&self) -> Option<String> {
+        let path = |index: usize| match self.objects[index].whole {
+            Some(Whole { object, .. }) => {
+                let before = self.parts_of(object).take_while(|part| *part < index).count();
+                format!("scene.objects[{object}].parts[{before}]")
+            }
+            None => format!("scene.objects[{index}]"),
+        };
+        self.objects.iter().enumerate().find_map(|(index, object)| {
+            let (key, message) = fault(&FIELDS, object)?;
+            Some(format!("{}.{key} {message}", path(index)))
+        })
+    }
+}
+
+fn positive(value: f64) -> Option<&'static str> {
+    (!(value.is_finite() && value > 0.0)).then_some("must be a positive finite number")
+}
+
+fn from_zero(value: f64) -> Option<&'static str> {
+    (!(value.is_finite() && value >= 0.0)).then_some("must be finite and not negative")
+}
