@@ -160,15 +160,15 @@ fn faults_of_files_say_what_and_where() {
       help: 2 cm is 0.02
     ");
     insta::assert_snapshot!(faults(&[("flipped: true", "position: [0.4, 0]")]), @r"
-    task.yaml:8:33: error: a position without a tolerance
-      help: add `tolerance`, in metres
+    task.yaml:8:33: error: `position` needs a `tolerance`
+      help: add `tolerance: 0.02`, in metres
     ");
     insta::assert_snapshot!(faults(&[(", flipped: true", ", outside: tray")]), @r"
     task.yaml:8:32: error: no obstacle is called `tray`
     ");
     insta::assert_snapshot!(faults(&[(", flipped: true", "")]), @r"
-    task.yaml:8:7: error: the goal asks for nothing
-      help: add `outside`, `raised`, `flipped`, or `position` with `tolerance`
+    task.yaml:8:7: error: this goal asks for nothing
+      help: add `position: [x, y]` and `tolerance`, `region`, `gap`, `coverage`, `off_table`, `heading_deg`, `joint_deg`, `joint`, `outside`, `raised` or `flipped`
     ");
     insta::assert_snapshot!(faults(&[("levers: {pivot: auto}", "levers: {pivot: front, depth: [0.02, 0.01]}")]), @r#"
     task.yaml:7:17: error: expected `auto`, a distance in metres from -0.2 to 1 or a list of 1 to 8 pivots, found the text "front"

@@ -20,7 +20,7 @@ else:
 __all__ = [
     "AreaKeys", "BladeKeys", "CircleKeys", "CostedToolKeys", "CuboidKeys", "CylinderKeys", "EdgeKeys",
     "FrictionKeys", "GoalKeys", "GoalRegionKeys", "GripKeys", "HandKeys", "JointKeys",
-    "KeepKeys", "LeverGoalKeys", "LeversKeys", "Numbers", "ObjectKeys", "ObjectPartKeys",
+    "KeepKeys", "LeversKeys", "Numbers", "ObjectKeys", "ObjectPartKeys",
     "ObjectPrismKeys", "ObjectShapeKeys", "ObstacleKeys", "PartKeys", "PolygonKeys",
     "PrismKeys", "PushKeys", "ReachKeys", "RectangleKeys", "RegionKeys", "RobotKeys",
     "SceneKeys", "ShapeKeys", "StandKeys", "SupportKeys", "TableKeys", "TaskFile", "ToolFile",
@@ -91,7 +91,7 @@ class TableKeys(TypedDict, total=False):
 
 class ObjectPartKeys(TypedDict):
     """A part of an object; mass in kilograms, position [x, y] in the object's frame and z, the height of
-    its underside above the object's, in metres; in a task of levering the position's third number is that."""
+    its underside above the object's, in metres; a third number of the position is z."""
 
     shape: ObjectShapeKeys
     position: Numbers
@@ -281,6 +281,9 @@ class GoalKeys(TypedDict):
     gap: NotRequired[GapKeys]
     coverage: NotRequired[CoverageKeys]
     off_table: NotRequired[Union[Literal["any", "far", "near", "left", "right"], EdgeKeys]]
+    outside: NotRequired[str]
+    raised: NotRequired[float]
+    flipped: NotRequired[bool]
     heading_deg: NotRequired[float]
     heading_tolerance_deg: NotRequired[float]
     symmetric: NotRequired[bool]
@@ -288,17 +291,6 @@ class GoalKeys(TypedDict):
     joint_deg: NotRequired[float]
     joint: NotRequired[float]
     weight: NotRequired[float]
-
-
-class LeverGoalKeys(TypedDict):
-    """How an object that is levered must come to rest; position [x, y] and lengths in metres."""
-
-    object: str
-    position: NotRequired[Numbers]
-    tolerance: NotRequired[float]
-    outside: NotRequired[str]
-    raised: NotRequired[float]
-    flipped: NotRequired[bool]
 
 
 class LeversKeys(TypedDict, total=False):
@@ -344,7 +336,7 @@ class TaskFile(TypedDict):
     scene: SceneKeys
     robot: RobotKeys
     tools: Union[Literal["all"], Sequence[Union[str, CostedToolKeys]]]
-    goal: Union[GoalKeys, Sequence[GoalKeys], LeverGoalKeys]
+    goal: Union[GoalKeys, Sequence[GoalKeys]]
     name: NotRequired[str]
     description: NotRequired[str]
     pushes: NotRequired[PushKeys]
