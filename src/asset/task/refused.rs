@@ -1,6 +1,6 @@
 //! Keys that do not go together with lever-ups, each with the reason.
 
-use crate::asset::node::Node;
+use crate::asset::node::{Content, Node};
 use crate::asset::strict::Ledger;
 
 use super::{goals, parts, plates};
@@ -60,7 +60,10 @@ fn solid(body: &Node, ledger: &mut Ledger) {
 /// Notes the keys that a node has and cannot have.
 fn refuse(node: Option<&Node>, keys: &[&str], reason: &str, ledger: &mut Ledger) {
     for key in keys {
-        if let Some(found) = node.and_then(|node| node.get(key)) {
+        // What is written back may name none of something.
+        let none = Content::List(Vec::new());
+        let found = node.and_then(|node| node.get(key)).filter(|found| found.content != none);
+        if let Some(found) = found {
             ledger.fault(found, format!("`{key}` does not go together with lever-ups"), reason);
         }
     }
