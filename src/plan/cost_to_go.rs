@@ -4,11 +4,9 @@
 //! Where the straight way to the goal is free the distance is Euclidean and exact; elsewhere it
 //! comes from Dijkstra's algorithm on a grid with sixteen neighbours.
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
 use std::sync::Arc;
 
-use crate::geometry::{Footprint, Pose, Vector, clearance, swept_clearance};
+use crate::geometry::{Footprint, Frontier, Grid, Pose, Vector, clearance, swept_clearance};
 use crate::{
     scene::{Obstacle, State},
     task::{Goal, Task},
@@ -18,6 +16,26 @@ use super::SweptRegion;
 
 /// Grid spacing where the scene is small enough, metres: finer than any object that is pushed.
 const SPACING: f64 = 0.02;
+
+/// Steps from a cell to its neighbours, in columns and rows.
+const STEPS: [[i32; 2]; 16] = [
+    [1, 0],
+    [-1, 0],
+    [0, 1],
+    [0, -1],
+    [1, 1],
+    [1, -1],
+    [-1, 1],
+    [-1, -1],
+    [2, 1],
+    [2, -1],
+    [-2, 1],
+    [-2, -1],
+    [1, 2],
+    [1, -2],
+    [-1, 2],
+    [-1, -2],
+];
 
 /// At most this many cells along a side; a larger scene gets coarser cells.
 const MOST_CELLS: usize = 128;
@@ -46,7 +64,7 @@ pub struct CostToGo<'a> {
     /// The goals in the world, as things stand at the start.
     goals: Arc<[Goal]>,
     /// One for every goal, if there are obstacles.
-    grids: Arc<[Option<Grid>]>,
+    grids: Arc<[Option<Ways>]>,
     /// What has to be free before the goal's object is pushed.
     corridor: Option<SweptRegion>,
 }
@@ -59,7 +77,7 @@ impl<'a> CostToGo<'a> {
         let grid = |goal: &Goal| {
             // Of a relation no single place is the right one.
             let met = if goal.is_relation() { Vec::new() } else { in_the_way(task, goal) };
-            (!met.is_empty()).then(|| Grid::new(task, goal, &met))
+            (!met.is_empty()).then(|| Ways::new(task, goal, &met))
         };
         Self { task, grids: goals.iter().map(grid).collect(), goals: goals.into(), corridor: None }
     }
@@ -114,7 +132,7 @@ impl<'a> CostToGo<'a> {
     /// The way left and the turn left, in units of the tolerances, the larger of both, of all goals
     /// together; and how far what stands in the way has to go.
     pub fn cost(&self, state: &State) -> f64 {
-        let cost = |(goal, grid): (&Goal, &Option<Grid>)| {
+        let cost = |(goal, grid): (&Goal, &Option<Ways>)| {
             let way = distance(goal, grid, state) / goal.tolerance;
             match (goal.heading, goal.heading_error(state)) {
                 (Some((_, tolerance)), Some(error)) => way.max(HEADING_WEIGHT * error / tolerance),
@@ -132,7 +150,7 @@ impl<'a> CostToGo<'a> {
 }
 
 /// Length of the way of a goal's object to it, metres.
-fn distance(goal: &Goal, grid: &Option<Grid>, state: &State) -> f64 {
+fn distance(goal: &Goal, grid: &Option<Ways>, state: &State) -> f64 {
     if !goal.has_place() || goal.is_relation() {
         return goal.error(state);
     }
@@ -155,16 +173,14 @@ fn in_the_way<'a>(task: &'a Task, goal: &Goal) -> Vec<&'a Obstacle> {
     scene.obstacles.iter().filter(met).collect()
 }
 
-struct Grid {
-    origin: Vector,
-    spacing: f64,
-    columns: usize,
-    rows: usize,
-    /// Per cell: length of the way, and whether the straight way is free.
+/// Ways to a goal from the cells of a grid.
+struct Ways {
+    grid: Grid,
+    /// Length of the way, metres, and whether the straight way is free, for every cell.
     cells: Vec<(f64, bool)>,
 }
 
-impl Grid {
+impl Ways {
     fn new(task: &Task, wanted: &Goal, obstacles: &[&Obstacle]) -> Self {
         let object = &task.scene.objects[wanted.object];
         let radius = object.shape.footprint().inner_radius();
@@ -186,10 +202,10 @@ impl Grid {
         let spacing = SPACING.max(size.max() / (MOST_CELLS - 1) as f64);
         let columns = ((size.x / spacing).ceil() as usize + 1).min(MOST_CELLS);
         let rows = ((size.y / spacing).ceil() as usize + 1).min(MOST_CELLS);
-        let mut grid = Self { origin: low, spacing, columns, rows, cells: Vec::new() };
-        let free: Vec<bool> = (0..columns * rows)
+        let grid = Grid::new(low, spacing, [columns, rows]);
+        let free: Vec<bool> = (0..grid.count())
             .map(|cell| {
-                let at = Pose { position: grid.centre(cell), heading: 0.0 };
+                let at = Pose { position: grid.position(cell), heading: 0.0 };
                 obstacles.iter().all(|o| {
                     clearance((&disc, &at), (&o.shape().footprint(), &o.pose), spacing) > 0.0
                 })
@@ -204,87 +220,48 @@ impl Grid {
             })
         };
         // Every cell that sees the goal is a source with its exact distance.
-        grid.cells = free
+        let cells = free
             .iter()
             .enumerate()
             .map(|(cell, &free)| {
-                let centre = grid.centre(cell);
+                let centre = grid.position(cell);
                 let visible = free && seen(centre);
                 let way = (wanted.position - centre).norm();
                 (if visible { way } else { f64::INFINITY }, visible)
             })
             .collect();
-        grid.spread(&free);
-        grid
+        let mut ways = Self { grid, cells };
+        ways.spread(&free);
+        ways
     }
 
-    /// Dijkstra from all cells that see the goal. Lengths are compared as bits, which order
-    /// like the numbers because none is negative.
+    /// Dijkstra from all cells that see the goal.
     fn spread(&mut self, free: &[bool]) {
-        const STEPS: [(isize, isize); 16] = [
-            (1, 0),
-            (-1, 0),
-            (0, 1),
-            (0, -1),
-            (1, 1),
-            (1, -1),
-            (-1, 1),
-            (-1, -1),
-            (2, 1),
-            (2, -1),
-            (-2, 1),
-            (-2, -1),
-            (1, 2),
-            (1, -2),
-            (-1, 2),
-            (-1, -2),
-        ];
-        let mut queue: BinaryHeap<Reverse<(u64, usize)>> = self
-            .cells
-            .iter()
-            .enumerate()
-            .filter(|(_, (way, _))| way.is_finite())
-            .map(|(cell, (way, _))| Reverse((way.to_bits(), cell)))
-            .collect();
-        while let Some(Reverse((bits, cell))) = queue.pop() {
-            let way = f64::from_bits(bits);
+        let mut frontier = Frontier::default();
+        let seen = self.cells.iter().enumerate().filter(|(_, (way, _))| way.is_finite());
+        seen.for_each(|(cell, (way, _))| frontier.push(*way, cell));
+        while let Some((way, cell)) = frontier.pop() {
             if way > self.cells[cell].0 {
                 continue;
             }
-            let (column, row) = (cell % self.columns, cell / self.columns);
-            for (dx, dy) in STEPS {
-                let Some(next) = self.index(column as isize + dx, row as isize + dy) else {
-                    continue;
-                };
-                let longer = way + self.spacing * (dx as f64).hypot(dy as f64);
+            for step in STEPS {
+                let Some(next) = self.grid.next(cell, step) else { continue };
+                let [x, y] = step.map(f64::from);
+                let longer = way + self.grid.spacing * x.hypot(y);
                 if free[next] && longer < self.cells[next].0 {
                     self.cells[next].0 = longer;
-                    queue.push(Reverse((longer.to_bits(), next)));
+                    frontier.push(longer, next);
                 }
             }
         }
     }
 
     fn distance(&self, position: Vector, straight: f64) -> f64 {
-        let local = (position - self.origin) / self.spacing;
-        let nearest = |v: f64, n: usize| v.round().clamp(0.0, (n - 1) as f64) as isize;
-        let cell = self.index(nearest(local.x, self.columns), nearest(local.y, self.rows));
-        match cell.map(|cell| self.cells[cell]) {
-            Some((_, true)) | None => straight,
-            Some((way, false)) if way.is_finite() => way.max(straight),
-            Some(_) => straight + CUT_OFF,
+        match self.cells[self.grid.nearest(position)] {
+            (_, true) => straight,
+            (way, false) if way.is_finite() => way.max(straight),
+            _ => straight + CUT_OFF,
         }
-    }
-
-    fn index(&self, column: isize, row: isize) -> Option<usize> {
-        let inside =
-            (0..self.columns as isize).contains(&column) && (0..self.rows as isize).contains(&row);
-        inside.then(|| row as usize * self.columns + column as usize)
-    }
-
-    fn centre(&self, cell: usize) -> Vector {
-        let (column, row) = (cell % self.columns, cell / self.columns);
-        self.origin + Vector::new(column as f64, row as f64) * self.spacing
     }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use crate::geometry::{Footprint, Pose, Vector, clearance, swept_clearance};
+use crate::geometry::{Footprint, Grid, Pose, Vector, clearance, swept_clearance};
 
 use super::{PushForm, PushStep, Task, ToolMotion};
 use crate::scene::{Fixed, Robot, Scene, Tool};
@@ -129,20 +129,18 @@ impl Room<'_> {
         let reach = self.robot.reach_max;
         let spacing = SPACING.max(2.0 * reach / (CELLS - 1) as f64);
         let count = (2.0 * reach / spacing).ceil() as usize + 1;
-        let place = |cell: usize| {
-            Vector::new((cell % count) as f64, (cell / count) as f64) * spacing
-                - Vector::repeat(reach)
-        };
+        let grid = Grid::new(Vector::repeat(-reach), spacing, [count, count]);
+        let place = |cell: usize| grid.position(cell);
         // Neighbours on a grid are at most 1.5 spacings apart: what keeps half of that clear between
         // two free cells meets nothing.
         let free: Vec<bool> =
-            (0..count * count).map(|cell| self.is_free(place(cell), 0.75 * spacing)).collect();
+            (0..grid.count()).map(|cell| self.is_free(place(cell), 0.75 * spacing)).collect();
         let sees = |end: Vector, cell: usize| {
             (place(cell) - end).norm() < 4.0 * spacing && self.met([end, place(cell)]).is_none()
         };
-        let mut before = vec![None; count * count];
+        let mut before = vec![None; grid.count()];
         let mut queue = VecDeque::new();
-        for cell in (0..count * count).filter(|&cell| free[cell] && sees(ends[0], cell)) {
+        for cell in (0..grid.count()).filter(|&cell| free[cell] && sees(ends[0], cell)) {
             before[cell] = Some(cell);
             queue.push_back(cell);
         }
@@ -151,11 +149,8 @@ impl Room<'_> {
             if sees(ends[1], cell) {
                 break cell;
             }
-            let (column, row) = (cell % count, cell / count);
-            for (dx, dy) in NEIGHBOURS {
-                let (x, y) = (column.wrapping_add_signed(dx), row.wrapping_add_signed(dy));
-                let next = y.saturating_mul(count).saturating_add(x);
-                if x < count && y < count && free[next] && before[next].is_none() {
+            for next in NEIGHBOURS.into_iter().filter_map(|step| grid.next(cell, step)) {
+                if free[next] && before[next].is_none() {
                     before[next] = Some(cell);
                     queue.push_back(next);
                 }
@@ -188,8 +183,8 @@ impl Room<'_> {
     }
 }
 
-const NEIGHBOURS: [(isize, isize); 8] =
-    [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)];
+const NEIGHBOURS: [[i32; 2]; 8] =
+    [[1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [1, -1], [-1, 1], [-1, -1]];
 
 #[cfg(test)]
 mod tests {

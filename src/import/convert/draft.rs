@@ -2,15 +2,16 @@
 
 use nalgebra::Point3;
 
-use crate::geometry::{ConvexPolygon, MAX_CORNERS, PolygonError, Pose, Shape, Vector, cross};
+use crate::geometry::{
+    ConvexPolygon, MAX_CORNERS, PolygonError, Pose, Shape, Vector, cross, planar_hull,
+};
 use crate::import::fault::Ledger;
 use crate::import::model::{Outline, Solid};
 use crate::scene::{Object, Support};
 
 use super::feet::support;
-use super::hull::hull;
 use super::shadow::{area, fewer};
-use super::upright::{Base, Rough, Upright};
+use super::upright::{Base, Rough, STRAIGHT, Upright};
 use super::weighed::Weighed;
 
 /// A centre of mass nearer to the middle than this is in the middle, metres; of rough outlines, too, if
@@ -243,7 +244,7 @@ fn standing_on(
     if rough.stands.is_empty() || area(&rough.stands) > NARROW * upright.area() {
         return Support::Even;
     }
-    let corners = fewer(&hull(&rough.stands));
+    let corners = fewer(&planar_hull(&rough.stands, STRAIGHT));
     let inside = |corners: &[Vector]| {
         let next = corners.iter().cycle().skip(1);
         corners.len() > 2

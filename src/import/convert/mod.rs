@@ -4,7 +4,6 @@ mod draft;
 mod feet;
 mod frictions;
 mod groups;
-mod hull;
 mod joints;
 mod names;
 mod objects;

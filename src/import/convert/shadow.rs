@@ -2,9 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::geometry::{MAX_CORNERS, Vector, centroid, cross};
+use crate::geometry::{MAX_CORNERS, Vector, centroid, cross, planar_hull};
 
-use super::hull::whole_hull;
 use super::upright::Base;
 
 /// A corner that stands out by less is not worth it, metres.
@@ -27,7 +26,7 @@ pub(super) fn area(corners: &[Vector]) -> f64 {
 /// The disc or polygon that is nearest to the convex hull of points, where it is, and how far its outline
 /// is off at most, metres; none where they lie in a line.
 pub(super) fn shadow(points: &[Vector]) -> Option<(Base, Vector, f64)> {
-    let outline = whole_hull(points);
+    let outline = planar_hull(points, 0.0);
     let size = area(&outline);
     if outline.len() < 3 || size < 1e-7 {
         return None;

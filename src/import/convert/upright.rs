@@ -4,11 +4,10 @@ use std::f64::consts::PI;
 
 use nalgebra::{Isometry3, Point3, Vector3};
 
-use crate::geometry::{MAX_CORNERS, Pose, Vector, centroid, cross};
+use crate::geometry::{MAX_CORNERS, Pose, Vector, centroid, cross, planar_hull};
 use crate::import::fault::Ledger;
 use crate::import::model::{Outline, Solid};
 
-use super::hull::{hull, whole_hull};
 use super::shadow::{area, shadow};
 
 /// A solid that leans less than this is upright, radians: files round their turns.
@@ -22,6 +21,9 @@ const THIN: f64 = 1e-3;
 
 /// What is so near to the lowest point of a mesh, metres, or within a hundredth of its height, stands.
 const LEVEL: f64 = 3e-4;
+
+/// Corners nearer than this to the line between their neighbours are left out, metres.
+pub(super) const STRAIGHT: f64 = 1e-6;
 
 /// Points around a circle that stand for it.
 const AROUND: usize = 48;
@@ -151,8 +153,8 @@ impl Upright {
         let pose = Pose { position: at, heading: 0.0 };
         let mut found = Self { base, pose, low, height, rough: None };
         let fill = volume.map_or(1.0, |volume| volume / (found.area() * height)).min(1.0);
-        let stands = if rests { hull(&under) } else { Vec::new() };
-        let outline = whole_hull(&seen);
+        let stands = if rests { planar_hull(&under, STRAIGHT) } else { Vec::new() };
+        let outline = planar_hull(&seen, 0.0);
         found.rough = Some(Rough { off, fill, stands, outline });
         Some(found)
     }
@@ -312,7 +314,7 @@ fn prism(pose: &Isometry3<f64>, points: &[Point3<f64>]) -> Result<Upright, Strin
     let low = heights().fold(f64::INFINITY, f64::min);
     let high = heights().fold(f64::NEG_INFINITY, f64::max);
     let seen = |point: &Point3<f64>| frame.local_point(Vector::new(point.x, point.y));
-    let corners = hull(&placed.iter().map(seen).collect::<Vec<_>>());
+    let corners = planar_hull(&placed.iter().map(seen).collect::<Vec<_>>(), STRAIGHT);
     if corners.len() < 3 || high - low < PRISM {
         return Err("it is flat".to_owned());
     }

@@ -1,12 +1,12 @@
 //! The things that are carried, and how a tool holds on to them.
 
-use crate::geometry::{Footprint, Pose, Vector, perpendicular};
+use crate::geometry::{Footprint, Grid, Pose, Vector, perpendicular};
 use crate::{
     scene::{Mover, Region, Scene, Situation, State},
     task::Goal,
 };
 
-use super::lattice::{Extent, Lattice, Solid};
+use super::lattice::{Extent, Solid};
 use crate::plan::workspace::{HAND_CLEARANCE, OBSTACLE_CLEARANCE};
 use crate::plan::{CandidatePush, SET_DOWN_CLEARANCE, Start, Workspace};
 
@@ -42,7 +42,7 @@ const BESIDE: f64 = 0.25;
 pub(super) struct Group {
     pub thing: usize,
     pub solids: Vec<Solid>,
-    pub lattice: Lattice,
+    pub lattice: Grid,
     /// Where it is to come to, and the place next to that.
     pub goal: Option<(Vector, usize)>,
     /// For every place the gap to what stands still, at most [`ROOMY`]; negative where it cannot be.
@@ -109,7 +109,7 @@ pub(super) fn groups(workspace: &Workspace, situation: &Situation) -> Option<Vec
     let group = |&thing: &usize| {
         let at = state.poses[thing].position;
         let solids = solids_of(scene, state, thing);
-        let lattice = Lattice::new(at, &extent, spacing);
+        let lattice = extent.grid(at, spacing);
         let own = goals.iter().find(|goal| goal.object == thing);
         let goal = own.map(|goal| {
             let at = if goal.reached(state) { at } else { goal.place(state) };
@@ -141,7 +141,7 @@ fn clear(
     scene: &Scene,
     (state, loose): (&State, &[usize]),
     (thing, solids): (usize, &[Solid]),
-    lattice: &Lattice,
+    lattice: &Grid,
 ) -> Vec<f32> {
     let mut clear = vec![ROOMY as f32; lattice.count()];
     let here = lattice.position(lattice.nearest(state.poses[thing].position));
@@ -150,7 +150,7 @@ fn clear(
             let still = (&footprint, &pose);
             // What stands nearer already may slide along.
             let apart = apart.min(solid.gap(here, still, ROOMY) - SLACK);
-            lattice.near(solid, still, ROOMY, |place, gap| {
+            solid.near(lattice, still, ROOMY, |place, gap| {
                 let gap = if gap < apart { -1.0 } else { gap.max(0.0) };
                 clear[place] = clear[place].min(gap as f32);
             });
@@ -281,7 +281,7 @@ fn free(
     for solid in solids {
         let mover = if solid.span[0] <= parts { Mover::Tool } else { Mover::Hand };
         let mut keep = |footprint: &Footprint, pose: &Pose| {
-            lattice.near(solid, (footprint, pose), solid.apart, |place, _| free[place] = false);
+            solid.near(lattice, (footprint, pose), solid.apart, |place, _| free[place] = false);
         };
         for fixed in scene.fixed(mover, solid.span) {
             keep(&fixed.footprint, &fixed.pose);

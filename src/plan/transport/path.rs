@@ -1,7 +1,6 @@
 //! The cheapest way of one thing to all places: by the fewest pushes, then the shortest and roomiest.
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use crate::geometry::Frontier;
 
 use super::group::{Group, Hold, ROOMY};
 
@@ -49,12 +48,11 @@ impl Paths {
         let (lattice, count) = (&group.lattice, group.lattice.count());
         let mut ways = Self { cost: vec![f64::INFINITY; count], last: vec![None; count] };
         let mut passed = vec![vec![f64::INFINITY; count]; holds.len()];
-        let mut queue = BinaryHeap::new();
+        let mut frontier = Frontier::default();
         ways.cost[start] = 0.0;
-        queue.push(Reverse((0.0f64.to_bits(), start)));
+        frontier.push(0.0, start);
         let narrow = |place: usize| 1.0 - f64::from(group.clear[place]) / ROOMY;
-        while let Some(Reverse((bits, place))) = queue.pop() {
-            let cost = f64::from_bits(bits);
+        while let Some((cost, place)) = frontier.pop() {
             if cost > ways.cost[place] {
                 continue;
             }
@@ -83,7 +81,7 @@ impl Paths {
                     if length >= SHORTEST && end < ways.cost[at] {
                         ways.cost[at] = end;
                         ways.last[at] = Some((place, k));
-                        queue.push(Reverse((end.to_bits(), at)));
+                        frontier.push(end, at);
                     }
                 }
             }

@@ -95,10 +95,7 @@ impl<'a> Transport<'a> {
 
     /// Where everything is at first.
     pub(super) fn start(&self) -> Vec<usize> {
-        self.groups
-            .iter()
-            .map(|group| group.lattice.nearest(group.lattice.position_of_origin()))
-            .collect()
+        self.groups.iter().map(|group| group.lattice.nearest(group.lattice.origin)).collect()
     }
 
     /// How the tool holds on to a thing.
@@ -228,8 +225,8 @@ impl<'a> Transport<'a> {
         }
         let (group, still) = (&self.groups[k], &self.groups[other]);
         let (lattice, at) = (&group.lattice, still.lattice.position(place));
-        let here = lattice.position_of_origin();
-        let stood = place == still.lattice.nearest(still.lattice.position_of_origin());
+        let here = lattice.origin;
+        let stood = place == still.lattice.nearest(still.lattice.origin);
         let mark = |solids: &[Solid], own: bool| {
             let mut marked = Vec::new();
             for solid in solids {
@@ -241,7 +238,7 @@ impl<'a> Transport<'a> {
                         true => BESIDE.min(solid.gap(here, other, BESIDE) - 1e-6),
                         false => BESIDE,
                     };
-                    lattice.near(solid, other, BESIDE, |place, gap| {
+                    solid.near(lattice, other, BESIDE, |place, gap| {
                         if gap < apart {
                             marked.push(place);
                         }

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use crate::geometry::{Footprint, Pose3, Vector, Vector3, cross};
+use crate::geometry::{Footprint, Pose3, Vector, Vector3, planar_hull};
 use crate::report::svg::{Font, Style, Svg};
 use crate::{
     outcome::{Frame, Trajectory},
@@ -191,7 +191,7 @@ impl SpacePicture<'_> {
         }
         let outline = |corners: &Corners| -> Vec<Vector> {
             let points: Vec<Vector> = corners.iter().map(to).collect();
-            hull(points).into_iter().map(|p| view.map(p)).collect()
+            planar_hull(&points, 0.0).into_iter().map(|p| view.map(p)).collect()
         };
         for obstacle in &self.scene.obstacles {
             let pose = Pose3::upright(obstacle.pose, obstacle.z + 0.5 * obstacle.size[2]);
@@ -341,42 +341,4 @@ fn cuboid([x, y, z]: [f64; 3], pose: &Pose3) -> Corners {
         pose.point(Vector3::new(sign(k, 1) * half.x, sign(k, 2) * half.y, sign(k, 4) * half.z))
     };
     (0..8).map(corner).collect()
-}
-
-/// The corners of the convex hull of points, in order (Andrew's monotone chain).
-fn hull(mut points: Vec<Vector>) -> Vec<Vector> {
-    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    let mut around: Vec<Vector> = Vec::new();
-    for pass in 0..2 {
-        let kept = around.len();
-        let mut add = |p: Vector| {
-            while around.len() >= kept + 2 {
-                let [a, b] = [around[around.len() - 2], around[around.len() - 1]];
-                if cross(b - a, p - b) > 0.0 {
-                    break;
-                }
-                around.pop();
-            }
-            around.push(p);
-        };
-        match pass {
-            0 => points.iter().for_each(|p| add(*p)),
-            _ => points.iter().rev().for_each(|p| add(*p)),
-        }
-        around.pop();
-    }
-    around
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_hull_leaves_out_what_is_inside() {
-        let point = |[x, y]: [f64; 2]| Vector::new(x, y);
-        let points = [[0.0, 0.0], [2.0, 0.0], [1.0, 0.5], [2.0, 2.0], [0.0, 2.0], [1.0, 0.0]];
-        let around = hull(points.map(point).to_vec());
-        assert_eq!(around, [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]].map(point));
-    }
 }

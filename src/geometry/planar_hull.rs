@@ -1,23 +1,11 @@
 //! The convex polygon around points of a plane.
 
-use crate::geometry::{Vector, cross};
+use super::{Vector, cross};
 
-/// Corners nearer than this to the line between their neighbours are left out, metres.
-const STRAIGHT: f64 = 1e-6;
-
-/// Corners of the hull without those that hardly stand out, counter-clockwise.
-pub(super) fn hull(points: &[Vector]) -> Vec<Vector> {
-    around(points, STRAIGHT)
-}
-
-/// All corners of the hull, counter-clockwise: along a fine curve those that hardly stand out add up.
-pub(super) fn whole_hull(points: &[Vector]) -> Vec<Vector> {
-    around(points, 0.0)
-}
-
-/// Corners of the hull that stand out by more, counter-clockwise (Andrew 1979, "Another efficient algorithm for convex
-/// hulls in two dimensions").
-fn around(points: &[Vector], straight: f64) -> Vec<Vector> {
+/// Returns the corners of the convex hull that stand out of the line between their neighbours by more than
+/// `straight`, metres, counter-clockwise (Andrew 1979, "Another efficient algorithm for convex hulls in two
+/// dimensions"). Along a fine curve corners that hardly stand out add up: zero keeps all of them.
+pub fn planar_hull(points: &[Vector], straight: f64) -> Vec<Vector> {
     let mut sorted = points.to_vec();
     sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let mut corners: Vec<Vector> = Vec::new();
@@ -49,6 +37,7 @@ mod tests {
     #[test]
     fn points_inside_and_on_sides_are_no_corners() {
         let grid = (0..25).map(|k| Vector::new(f64::from(k % 5), f64::from(k / 5)) * 0.01);
+        let hull = |points: &[Vector]| planar_hull(points, 1e-6);
         let corners = hull(&grid.collect::<Vec<_>>());
         assert_eq!(corners, [[0.0, 0.0], [0.04, 0.0], [0.04, 0.04], [0.0, 0.04]].map(Vector::from));
         assert!(hull(&[Vector::zeros(); 3]).len() < 3);
@@ -56,7 +45,7 @@ mod tests {
         let fine = |k: u32| f64::from(k) * std::f64::consts::TAU / 40_000.0;
         let ring: Vec<Vector> =
             (0..40_000).map(|k| 0.1 * Vector::new(fine(k).cos(), fine(k).sin())).collect();
-        assert!(whole_hull(&ring).len() > 30_000);
+        assert!(planar_hull(&ring, 0.0).len() > 30_000);
         let line: Vec<Vector> = (0..4).map(|k| Vector::new(f64::from(k), f64::from(k))).collect();
         assert!(hull(&line).len() < 3);
     }
