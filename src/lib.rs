@@ -59,7 +59,7 @@
 //!
 //! | feature | what it adds |
 //! |---|---|
-//! | `formats` | MJCF and URDF in, MCAP out |
+//! | `formats` | arms of URDF files |
 //!
 //! # Internals
 //!
@@ -90,16 +90,11 @@ pub mod design;
 #[doc(hidden)]
 pub mod effect;
 #[doc(hidden)]
-pub mod export;
-#[doc(hidden)]
 pub mod fit;
 #[doc(hidden)]
 pub mod geometry;
 #[doc(hidden)]
 pub mod graph;
-#[cfg(feature = "formats")]
-#[doc(hidden)]
-pub mod import;
 #[doc(hidden)]
 pub mod judge;
 #[doc(hidden)]

@@ -13,7 +13,7 @@ mod fault;
 mod field;
 mod folder;
 #[cfg(feature = "formats")]
-pub(crate) mod foreign;
+pub mod foreign;
 mod kind;
 mod library;
 mod node;

@@ -11,8 +11,10 @@ use crate::ROOT;
 type Rooms = &'static [(&'static str, &'static str)];
 
 /// The folder of a crate, the prefix of its rooms in [`DOORS`], and the rooms; one without rooms is a room itself.
-const HOUSES: [(&str, &str, Rooms); 4] = [
+const HOUSES: [(&str, &str, Rooms); 6] = [
     ("src", "", &ROOMS),
+    ("crates/import/src", "import", &[]),
+    ("crates/export/src", "export", &[]),
     ("crates/command/src", "command", &[]),
     (
         "crates/learn/src",
@@ -40,7 +42,7 @@ const HOUSES: [(&str, &str, Rooms); 4] = [
     ),
 ];
 
-const ROOMS: [(&str, &str); 26] = [
+const ROOMS: [(&str, &str); 24] = [
     ("geometry", ""),
     ("scene", "geometry"),
     ("task", "geometry scene"),
@@ -69,17 +71,20 @@ const ROOMS: [(&str, &str); 26] = [
         "report",
         "geometry scene task outcome recording asset store graph judge fit belief plan solve design act bench",
     ),
-    ("export", "geometry scene task outcome arm asset"),
-    ("import", "geometry scene task asset"),
 ];
 
 /// Crates that carry the core outward, each with those of them and the rooms of the core that it imports
 /// from: extras stand before what imports them, so none of them imports the command.
-const EXTRAS: [(&str, &str, &str); 1] = [(
-    "command",
-    "",
-    "geometry scene task outcome recording asset store sim network effect judge fit belief verify solve design act bench report export import",
-)];
+const EXTRAS: [(&str, &str, &str); 3] = [
+    ("import", "", "geometry scene task asset"),
+    ("export", "", "geometry scene task outcome arm asset"),
+    (
+        "command",
+        "export import",
+        "geometry scene task outcome recording asset store sim network effect judge fit \
+         belief verify solve design act bench report",
+    ),
+];
 
 /// Crates that only these rooms may name: whatever is behind such a door can be replaced without
 /// touching anything else.
@@ -87,7 +92,7 @@ const DOORS: [(&str, &str); 30] = [
     ("parry2d_f64", "geometry"),
     ("parry3d_f64", "geometry"),
     ("pushplan_models", "effect belief"),
-    ("pushplan_page", "export report"),
+    ("pushplan_page", "report export"),
     ("pushplan_three", "report"),
     ("pushplan_learn", "lab/bench lab/cli lab/image lab/parts"),
     ("pushplan_lab", ""),

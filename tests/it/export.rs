@@ -9,12 +9,12 @@ use std::sync::Arc;
 
 use insta::assert_snapshot;
 use pushplan::asset::PlanFile;
-use pushplan::export::{REPLAY_SCRIPT, mjcf};
 use pushplan::geometry::Vector;
 use pushplan::{
     scene::Tool,
     task::{Plan, Push, PushForm, Task},
 };
+use pushplan_export::{REPLAY_SCRIPT, mjcf};
 use tempfile::TempDir;
 
 /// A plan for a task and a tool given as text: pushes of these starts (metres), directions

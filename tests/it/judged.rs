@@ -3,9 +3,9 @@
 use std::process::Command;
 
 use pushplan::asset::{PlanFile, ToolLibrary};
-use pushplan::export::{REPLAY_SCRIPT, mjcf};
 use pushplan::solve::{Effort, Planner, Solution};
 use pushplan::task::Task;
+use pushplan_export::{REPLAY_SCRIPT, mjcf};
 
 use crate::mujoco_python::python;
 

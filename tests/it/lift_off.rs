@@ -5,7 +5,6 @@ use std::process::Command;
 use std::sync::Arc;
 
 use pushplan::asset::{PlanFile, ToolLibrary};
-use pushplan::export::{REPLAY_SCRIPT, mjcf};
 use pushplan::geometry::{Pose, Vector};
 use pushplan::sim::Simulator;
 use pushplan::solve::{Effort, PlanStatus, Planner};
@@ -14,6 +13,7 @@ use pushplan::{
     scene::{Body, Object, Obstacle, Part, Scene, Tool},
     task::{Job, Push, RETREAT, Stroke, Task, ToolMotion},
 };
+use pushplan_export::{REPLAY_SCRIPT, mjcf};
 use serde_json::Value as Json;
 use tempfile::TempDir;
 

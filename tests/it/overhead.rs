@@ -5,7 +5,6 @@ use std::process::Command;
 use std::sync::Arc;
 
 use pushplan::asset::{PlanFile, ToolLibrary};
-use pushplan::export::{REPLAY_SCRIPT, mjcf};
 use pushplan::geometry::Vector;
 use pushplan::sim::Simulator;
 use pushplan::solve::{Effort, PlanStatus, Planner, Solution};
@@ -15,6 +14,7 @@ use pushplan::{
     scene::{Situation, Tool},
     task::{Job, Plan, Push, PushForm, Task, ToolMotion},
 };
+use pushplan_export::{REPLAY_SCRIPT, mjcf};
 use serde_json::Value as Json;
 use tempfile::TempDir;
 

@@ -5,14 +5,14 @@ use std::process::Command;
 use std::sync::Arc;
 
 use pushplan::asset::{PlanFile, ToolLibrary};
-use pushplan::export::{REPLAY_SCRIPT, mjcf};
 use pushplan::geometry::{Pose, Vector};
-use pushplan::import::{Wanted, objects, parse};
 use pushplan::solve::{Effort, PlanStatus, Planner};
 use pushplan::{
     scene::{Object, Obstacle, Part, Physics, Scene, Support, Tool},
     task::{Plan, Push, PushForm, Stroke, Task, ToolMotion},
 };
+use pushplan_export::{REPLAY_SCRIPT, mjcf};
+use pushplan_import::{Wanted, objects, parse};
 use serde_json::Value as Json;
 use tempfile::TempDir;
 

@@ -6,10 +6,10 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use pushplan::asset::{self, Fault, Faults, Kind, PlanFile, SCHEMA_VERSION, TrajectoryFile};
-use pushplan::export::{
+use pushplan::{outcome::Trajectory, scene::ModelSpec};
+use pushplan_export::{
     ExportError, LEVER_SCRIPT, REPLAY_SCRIPT, joint_table, joint_trajectory, mjcf,
 };
-use pushplan::{outcome::Trajectory, scene::ModelSpec};
 
 use super::{error::CliError, exit_code, model, output, session::Session};
 
@@ -104,7 +104,7 @@ pub fn run(args: &ExportArgs, session: &Session) -> Result<u8, CliError> {
                     Some(trajectory) => trajectory,
                     None => carried_out(&plan, &args.model, session)?,
                 };
-                pushplan::export::mcap(&plan, &trajectory).map_err(refused)?
+                pushplan_export::mcap(&plan, &trajectory).map_err(refused)?
             }
         };
         if args.format == Format::Trajectory {

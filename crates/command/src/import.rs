@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 
 use pushplan::asset::write_atomic;
 use pushplan::geometry::Vector;
-use pushplan::import::{Imported, ImportedScene, Language, Reading, Wanted, objects, read, tool};
+use pushplan_import::{Imported, ImportedScene, Language, Reading, Wanted, objects, read, tool};
 
 use super::{error::CliError, exit_code, session::Session};
 

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use clap::ValueEnum;
 use pushplan::asset::{Faults, PlanFile, TrajectoryFile, check};
-use pushplan::import::{Wanted, objects, parse, tool};
 use pushplan::network::{PredictorWeights, WeightsError};
 use pushplan::recording::Recording;
 use pushplan::{scene::Tool, task::Task};
+use pushplan_import::{Wanted, objects, parse, tool};
 
 use crate::{levers, survive};
 

@@ -6,8 +6,7 @@ use std::sync::Arc;
 
 use pushplan::Vector;
 use pushplan::asset::{Faults, write_atomic};
-use pushplan::export;
-use pushplan::import::{self, Imported, Model, Reading, Wanted};
+use pushplan_import::{Imported, Model, Reading, Wanted};
 use pyo3::exceptions::{PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 
@@ -41,7 +40,7 @@ pub fn import_tool(
 ) -> PyResult<PyTool> {
     let bodies = body.into_iter().collect();
     let wanted = Wanted { bodies, name, friction, ..Wanted::default() };
-    let tool = imported(py, path, &reading(root, unit)?, &wanted, import::tool)?;
+    let tool = imported(py, path, &reading(root, unit)?, &wanted, pushplan_import::tool)?;
     Ok(PyTool(Arc::new(tool)))
 }
 
@@ -76,7 +75,7 @@ pub fn import_task(
     }
     let free = free.unwrap_or_default();
     let wanted = Wanted { bodies, free, density, name, friction, shift };
-    let scene = imported(py, path, &reading(root, unit)?, &wanted, import::objects)?;
+    let scene = imported(py, path, &reading(root, unit)?, &wanted, pushplan_import::objects)?;
     Ok(PyTask { task: Arc::new(scene.task), source: None })
 }
 
@@ -96,7 +95,7 @@ fn imported<T>(
     way: fn(&Model, &str, &Wanted) -> Result<Imported<T>, Faults>,
 ) -> PyResult<T> {
     let faults = |faults: Faults| errors::files(py, &faults, None);
-    let (model, _, mut notes) = import::read(&path, reading).map_err(faults)?;
+    let (model, _, mut notes) = pushplan_import::read(&path, reading).map_err(faults)?;
     let made = way(&model, &path.display().to_string(), wanted).map_err(faults)?;
     notes.extend(made.notes);
     for note in notes {
@@ -142,7 +141,7 @@ pub fn export_mcap(
         let message = format!("`trajectory` is of another task: the plan's has {objects} objects");
         return Err(PyValueError::new_err(message));
     }
-    let bytes = export::mcap(&plan.file, &trajectory)
+    let bytes = pushplan_export::mcap(&plan.file, &trajectory)
         .map_err(|error| PyValueError::new_err(error.to_string()))?;
     write_atomic(path, &bytes).map_err(|faults| errors::files(py, &faults, None))
 }

@@ -7,12 +7,12 @@ use std::path::Path;
 use std::process::Command;
 
 use pushplan::asset::{PlanFile, ToolLibrary, load_task};
-use pushplan::export::{LEVER_SCRIPT, REPLAY_SCRIPT, mjcf};
 use pushplan::solve::{Effort, Planner};
 use pushplan::{
     scene::GRAVITY,
     task::{PushForm, Task},
 };
+use pushplan_export::{LEVER_SCRIPT, REPLAY_SCRIPT, mjcf};
 use serde_json::Value as Json;
 use tempfile::TempDir;
 

@@ -8,7 +8,7 @@ mod numbers;
 
 use std::process::Command;
 
-use pushplan::import::{Wanted, objects, parse, tool};
+use pushplan_import::{Wanted, objects, parse, tool};
 
 use crate::mujoco_python::python;
 

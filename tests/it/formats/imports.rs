@@ -1,12 +1,12 @@
 //! Files that others might have written.
 
 use insta::assert_snapshot;
-use pushplan::import::{Wanted, objects, parse, tool};
 use pushplan::{Shape, Vector};
 use pushplan::{
     scene::{JointKind, Surface},
     task::Task,
 };
+use pushplan_import::{Wanted, objects, parse, tool};
 
 const KITCHEN: &str = include_str!("../../cmd/import.in/kitchen.xml");
 

@@ -1,11 +1,11 @@
 //! Files of kinds that others have: each is read, or refused with advice that helps when it is followed.
 
-use pushplan::import::{Wanted, objects, parse, tool};
 use pushplan::{Shape, Vector};
 use pushplan::{
     scene::{JointKind, Tool},
     task::Task,
 };
+use pushplan_import::{Wanted, objects, parse, tool};
 
 pub(super) type Taken = Result<(Task, String), String>;
 

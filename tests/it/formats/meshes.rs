@@ -4,8 +4,8 @@ use std::fs;
 use std::path::Path;
 
 use pushplan::Vector;
-use pushplan::import::{Reading, Wanted, objects, read};
 use pushplan::scene::Support;
+use pushplan_import::{Reading, Wanted, objects, read};
 
 use super::kinds::{Taken, all};
 

@@ -25,8 +25,8 @@ fn a_recording_holds_every_frame_and_the_whole_plan_and_is_always_the_same() {
     let model = Simulated::new(Simulator::planar());
     let trajectory = model.rollout(&task.scene, &[job], Record::Frames).remove(0);
     let file = PlanFile::new(task, vec![tool], plan);
-    let bytes = pushplan::export::mcap(&file, &trajectory).unwrap();
-    assert!(bytes == pushplan::export::mcap(&file, &trajectory).unwrap());
+    let bytes = pushplan_export::mcap(&file, &trajectory).unwrap();
+    assert!(bytes == pushplan_export::mcap(&file, &trajectory).unwrap());
     let messages: Vec<_> = MessageStream::new(&bytes).unwrap().map(Result::unwrap).collect();
     let of = |topic: &str| -> Vec<(u64, Json)> {
         let on = messages.iter().filter(|message| message.channel.topic == topic);

@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use pushplan::asset::PlanFile;
-use pushplan::export::mjcf;
-use pushplan::import::{Imported, ImportedScene, Wanted, objects, parse, tool};
 use pushplan::{JointKind, Pose, Shape, ToolLibrary, Vector};
 use pushplan::{
     scene::{Robot, Scene, Tool},
     task::{Goal, Plan, Push, PushForm, Task},
 };
+use pushplan_export::mjcf;
+use pushplan_import::{Imported, ImportedScene, Wanted, objects, parse, tool};
 
 /// A plan of one push with a shipped tool.
 fn plan(task: Task, tool: &Tool) -> PlanFile {

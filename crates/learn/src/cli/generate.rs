@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use pushplan::internals::asset::write_atomic;
-use pushplan::internals::export::{LEVER_SCRIPT, lever_mjcf};
 use pushplan::internals::geometry::Pose3;
 use pushplan::internals::outcome::LeverTrajectory;
 use pushplan::internals::store::{Shard, StoreError};
@@ -14,6 +13,7 @@ use pushplan_command::follow::Following;
 use pushplan_command::session::Session;
 use pushplan_command::words::words;
 use pushplan_command::{exit_code, interrupt};
+use pushplan_export::{LEVER_SCRIPT, lever_mjcf};
 use serde_json::json;
 
 use crate::cli::words::{DATA, Data, JOINTS, SOLIDS, TRUTHS};

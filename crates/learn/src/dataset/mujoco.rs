@@ -12,13 +12,13 @@ use std::path::Path;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::sync::OnceLock;
 
-use pushplan::internals::export::{FRAMES_SCRIPT, REPLAY_SCRIPT, motion_mjcf};
 use pushplan::internals::geometry::{Pose, Vector};
 use pushplan::internals::{
     outcome::Frame,
     scene::{Scene, State, Velocity},
     task::ToolMotion,
 };
+use pushplan_export::{FRAMES_SCRIPT, REPLAY_SCRIPT, motion_mjcf};
 use serde::Deserialize;
 use serde_json::json;
 use tempfile::TempDir;

@@ -206,7 +206,7 @@ fn lever_ups_are_written_as_scenes_with_what_comes_of_them() {
     assert_eq!(generate("dense").status.code(), Some(2));
     assert!(generate("hdd").status.success());
     let read = |name: &str| fs::read_to_string(folder.path().join("scenes").join(name));
-    assert_eq!(read("lever.py").expect("a script"), pushplan::export::LEVER_SCRIPT);
+    assert_eq!(read("lever.py").expect("a script"), pushplan_export::LEVER_SCRIPT);
     let ours = read("ours.jsonl").expect("lines");
     let set = LeverDataset::in_memory(&config(LeverPreset::Drive, 3), &Unwatched);
     let set = set.expect("lever-ups");
@@ -214,7 +214,7 @@ fn lever_ups_are_written_as_scenes_with_what_comes_of_them() {
     for (line, episode) in ours.lines().zip(set.episodes()) {
         let line: serde_json::Value = serde_json::from_str(line).expect("JSON");
         let scene = read(line["scene"].as_str().expect("a name")).expect("a scene");
-        assert_eq!(scene, pushplan::export::lever_mjcf(&episode.job()));
+        assert_eq!(scene, pushplan_export::lever_mjcf(&episode.job()));
         // The solver must not see the blade fall with the plate.
         assert!(scene.contains(r#"<body name="blade/0" gravcomp="1""#));
         let (rest, told) = (episode.trajectory.rest, &line["rest"]);

@@ -5,9 +5,9 @@
 use std::fs;
 use std::process::Command;
 
-use pushplan::export::{LEVER_SCRIPT, lever_mjcf};
 use pushplan::geometry::{Pose3, Vector3};
 use pushplan::sim::LeverSimulator;
+use pushplan_export::{LEVER_SCRIPT, lever_mjcf};
 use pushplan_learn::dataset::{LEVERS_PER_SHAPE, LeverConfig, LeverPreset, lever_job};
 use serde_json::Value as Json;
 

@@ -1,6 +1,6 @@
 //! Files that a file names.
 
-use pushplan::import::Reading;
+use pushplan_import::Reading;
 
 use super::super::kinds::all;
 use super::super::meshes::{cube, taken_of};

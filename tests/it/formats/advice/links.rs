@@ -1,6 +1,6 @@
 //! Links and joints of ROS.
 
-use pushplan::import::Wanted;
+use pushplan_import::Wanted;
 
 use super::{As::Objects as O, Row, edited, helped, import, jointed, link, urdf};
 

@@ -1,0 +1,347 @@
+//! A plan as a scene of MuJoCo (MJCF), pushes and goal included.
+//!
+//! What our 3-D engine has, the scene has: gravity, the table, obstacles, objects with their
+//! masses, joints and the points that they stand on, friction of every pair as the mean of two
+//! values, and a tool that nothing stops. It is held by two sliding joints (and a hinge where it turns), whose positions *and*
+//! velocities the script sets before every step: a `mocap` body has no velocity, so an object that
+//! it pushes rubs against it as if it stood still (a box pushed 10 degrees aside then slips by 35
+//! mm of 200 instead of sticking).
+//!
+//! MuJoCo's friction is convex: an object that slides at v is pushed off the surface by mu b v,
+//! b = 2 / (d timeconst) of the friction's constraint, against (1 - d) / d of the load that holds
+//! it there, shared by its points. With the default impedance (d = 0.9) every slide is a row of
+//! hops, and what should stick to the tool slips; [`CONTACT`] keeps the second above the first up
+//! to 0.5 m/s. Free slides then end within 0.1 mm of v^2 / (2 mu g), and 20 cm pushes within 0.6 mm
+//! of Coulomb's law, flush or aside (`tests/it/export/mujoco.rs`). Half the step moved the ends of
+//! eight shipped plans by at most 0.3 mm.
+
+use pushplan::asset::PlanFile;
+use pushplan::geometry::{Pose, Shape};
+use pushplan::{
+    scene::{Arm, Feet, GRAVITY, JointTrajectory, Object, Robot, Scene, TableTop, Tool},
+    task::ToolMotion,
+};
+
+use super::ExportError;
+use super::arm;
+use super::forest::{Node, forest};
+use super::hinges;
+use super::mesh;
+use super::pairs;
+use super::regions;
+use super::seamless::seamless;
+use super::space::plan_mjcf;
+use super::strokes::{numeric, retreats, strokes, turns};
+use super::tool::{Taken, taken, tool};
+use super::wanted::wanted;
+use super::xml::{Xml, numbers};
+
+/// Carries out any number of scenes that [`mjcf()`] wrote and says how they end: Python 3.11 with
+/// the package `mujoco`, of which 3.3 and 4.0 were tried.
+pub const REPLAY_SCRIPT: &str = pushplan_page::REPLAY;
+
+/// Plays scenes that [`motion_mjcf()`] wrote, one after another, and says where everything is at the
+/// end of every frame; it imports [`REPLAY_SCRIPT`] as `replay.py` beside it.
+pub const FRAMES_SCRIPT: &str = pushplan_page::FRAMES;
+
+/// Of a step, seconds.
+const STEP: f64 = 2.5e-4;
+
+/// How much harder friction is than the load; what sticks then creeps by micrometres a second.
+const FRICTION_HARDNESS: f64 = 1e5;
+
+/// How contacts give way; see above. Time constants are 4 ms of the load (16 steps: several points
+/// of a body add up, and with 4 steps some explode) and 200 ms of friction (with d = 0.03, b = 333/s).
+const CONTACT: [(&str, &str); 4] = [
+    ("condim", "3"),
+    ("solref", "0.004 1"),
+    ("solimp", "0.03 0.03 0.001"),
+    ("solreffriction", "0.2 1"),
+];
+
+/// Radius of the points that an object stands on, metres. It never stands on its solid, which MuJoCo
+/// would rest on corners.
+const FOOT: f64 = 1e-3;
+
+/// How deep a table that ends is, metres: nothing gets below it.
+const TABLE_DEPTH: f64 = 0.5;
+
+/// How far a cuboid or prism hangs above the table, metres; it meets it when it tips beyond its feet. A
+/// cylinder never does: MuJoCo's contact of a cylinder and a plane throws standing ones over.
+const CLEAR: f64 = 5e-4;
+
+/// The scene of `file`'s task with its tool and the plan's pushes, as MJCF; of a plan with an arm that, and
+/// how its joints move.
+///
+/// Names are `object/NAME`, `obstacle/NAME`, `region/NAME`, `arm/LINK` and `tool/PARTS`, flush parts being one solid. The pushes, the goal, our rules and
+/// the end of our own 3-D replay (where the file has one) stand under `custom`.
+///
+/// # Errors
+/// [`ExportError::JointLoop`], [`ExportError::Tools`].
+pub fn mjcf(file: &PlanFile) -> Result<String, ExportError> {
+    if file.task.in_space() || file.plan.levers() {
+        return plan_mjcf(file);
+    }
+    let motions = file.plan.slides(&file.tools).ok_or(ExportError::Tools)?;
+    let holder = match (file.task.arm.as_deref(), &file.joints) {
+        (Some(arm), Some(path)) => Holder::Arm(arm, path),
+        _ => Holder::Lifting(&file.task.robot),
+    };
+    written(&file.task.name, &file.task.scene, (&motions, holder), |xml| wanted(xml, file))
+}
+
+/// The scene with the tool and its strokes, as MJCF, without a goal: for learning from what happens.
+/// Here the tool may turn on its way.
+///
+/// # Errors
+/// [`ExportError::JointLoop`].
+pub fn motion_mjcf(name: &str, scene: &Scene, motion: &ToolMotion) -> Result<String, ExportError> {
+    written(name, scene, (std::slice::from_ref(motion), Holder::Table), |_| ())
+}
+
+/// What holds the tools.
+#[derive(Clone, Copy)]
+enum Holder<'a> {
+    /// Something that never leaves the table.
+    Table,
+    /// A hand that lifts them off as a robot would.
+    Lifting(&'a Robot),
+    /// An arm that moves like this; it has one tool.
+    Arm(&'a Arm, &'a JointTrajectory),
+}
+
+/// The scene, with what `wanted` says of it.
+fn written(
+    name: &str,
+    scene: &Scene,
+    (motions, holder): (&[ToolMotion], Holder<'_>),
+    wanted: impl FnOnce(&mut Xml),
+) -> Result<String, ExportError> {
+    let trees = forest(scene)?;
+    let mut xml = Xml::default();
+    xml.open("mujoco", &[("model", name.to_owned())]);
+    xml.comment(
+        "Written by pushplan. Metres, kilograms, seconds, radians. Play it with replay.py.",
+    );
+    let tools = taken(motions);
+    let solids = solids(scene, &tools);
+    settings(&mut xml, mesh::are_among(&solids));
+    xml.open("custom", &[]);
+    wanted(&mut xml);
+    strokes(&mut xml, motions);
+    if tools.len() > 1 {
+        let number = |motion: &ToolMotion| {
+            let own = |one: &Taken| one.motion.tool.name == motion.tool.name;
+            vec![tools.iter().position(own).unwrap_or(0) as f64 + 1.0; motion.strokes.len()]
+        };
+        xml.comment("Which tool makes each push.");
+        numeric(&mut xml, "tools", &motions.iter().flat_map(number).collect::<Vec<_>>());
+    }
+    match holder {
+        Holder::Table => (),
+        Holder::Lifting(_) => retreats(&mut xml, scene, motions),
+        Holder::Arm(_, path) => arm::way(&mut xml, path),
+    }
+    xml.close();
+    mesh::meshes(&mut xml, &solids);
+    if let Holder::Arm(arm, _) = holder {
+        arm::meshes(&mut xml, arm);
+    }
+    xml.open("worldbody", &[]);
+    let friction = numbers(&[scene.table_friction]);
+    let mut table = vec![("name", "table".into())];
+    match scene.brink() {
+        None => table.extend([("type", "plane".into()), ("size", "0 0 1".into())]),
+        Some(TableTop { size: [x, y], middle }) => table.extend([
+            ("type", "box".into()),
+            ("size", numbers(&[0.5 * x, 0.5 * y, 0.5 * TABLE_DEPTH])),
+            ("pos", numbers(&[middle.x, middle.y, -0.5 * TABLE_DEPTH])),
+        ]),
+    }
+    table.push(("friction", friction));
+    xml.leaf("geom", &table);
+    for obstacle in &scene.obstacles {
+        let name = format!("obstacle/{}", obstacle.name);
+        let height = obstacle.z + obstacle.size[2] / 2.0;
+        let material = (0.0, obstacle.friction);
+        solid(&mut xml, name, &obstacle.shape(), &obstacle.pose, height, material);
+    }
+    regions::geoms(&mut xml, scene);
+    for tree in &trees {
+        body(&mut xml, scene, tree);
+    }
+    let turns = turns(motions);
+    for (k, one) in tools.iter().enumerate() {
+        match holder {
+            Holder::Arm(arm, _) if k == 0 => arm::bodies(&mut xml, arm, &one.motion.tool),
+            Holder::Arm(..) => {}
+            Holder::Lifting(robot) => {
+                let hand = robot.carried(&one.motion.tool, one.motion.lift)[0];
+                tool(&mut xml, one, turns, hand, true);
+            }
+            Holder::Table => tool(&mut xml, one, turns, None, false),
+        }
+    }
+    xml.close();
+    xml.comment("Friction is the mean of the two values; nothing else touches.");
+    xml.open("contact", &[]);
+    let named: Vec<(&str, &Tool)> =
+        tools.iter().map(|one| (one.prefix.as_str(), &*one.motion.tool)).collect();
+    for pair in pairs::pairs(scene, &named) {
+        pair.write(&mut xml);
+    }
+    if let (Holder::Arm(arm, _), Some(one)) = (holder, tools.first()) {
+        for pair in arm::pairs(arm, scene, &one.motion.tool) {
+            pair.write(&mut xml);
+        }
+        xml.close();
+        arm::servos(&mut xml, arm);
+    }
+    Ok(xml.finish())
+}
+
+pub(super) fn object_name(object: &Object) -> String {
+    format!("object/{}", object.name)
+}
+
+/// Name of foot `index` of an object.
+pub(super) fn foot_name(object: &Object, index: usize) -> String {
+    format!("object/{}/foot-{}", object.name, index + 1)
+}
+
+fn settings(xml: &mut Xml, meshes: bool) {
+    xml.leaf("compiler", &[("angle", "radian".into()), ("autolimits", "true".into())]);
+    let option = [
+        ("timestep", numbers(&[STEP])),
+        ("gravity", numbers(&[0.0, 0.0, -GRAVITY])),
+        ("cone", "elliptic".into()),
+        ("impratio", numbers(&[FRICTION_HARDNESS])),
+    ];
+    xml.open("option", &option);
+    if meshes {
+        xml.comment("On a single point a prism that is pushed flush would slip aside, by 3 %.");
+        xml.leaf("flag", &[("multiccd", "enable".into())]);
+    } else {
+        xml.comment(
+            "Several points of a cylinder at a tool's corner would take the next face's normal.",
+        );
+        xml.leaf("flag", &[("multiccd", "disable".into())]);
+    }
+    xml.close();
+    xml.open("default", &[]);
+    xml.comment(
+        "Only the pairs at the end touch: elsewhere the larger friction of two would count.",
+    );
+    xml.leaf("geom", &[("contype", "0".into()), ("conaffinity", "0".into())]);
+    xml.leaf("pair", &CONTACT.map(|(key, value)| (key, value.to_owned())));
+    xml.leaf("joint", &[("solreflimit", "0.004 1".into())]);
+    xml.open("default", &[("class", "foot".into())]);
+    let foot = [("type", "sphere".into()), ("size", numbers(&[FOOT])), ("mass", "0".into())];
+    xml.leaf("geom", &foot);
+    xml.close();
+    xml.close();
+}
+
+/// An object and everything attached to it.
+fn body(xml: &mut Xml, scene: &Scene, node: &Node<'_>) {
+    let object = &scene.objects[node.object];
+    let middle = object.middle();
+    let (pose, height) = match node.parent {
+        None => (object.pose, middle),
+        Some((parent, _)) => {
+            let parent = &scene.objects[parent];
+            (parent.pose.inverse() * object.pose, middle - parent.middle())
+        }
+    };
+    let name = object_name(object);
+    let mut attributes = vec![("name", name.clone())];
+    attributes.extend(placed(&pose, height));
+    xml.open("body", &attributes);
+    match node.parent {
+        None => match scene.mounts.iter().find(|mount| mount.object == node.object) {
+            Some(mount) => hinges::mount(xml, scene, mount),
+            None => xml.leaf("freejoint", &[]),
+        },
+        Some((_, link)) => hinges::joint(xml, scene, node.object, link),
+    }
+    let (shape, rise) = clear(object);
+    if let Shape::Prism { base, height } = &shape {
+        mesh::inertial(xml, base, *height, rise, object.mass);
+    }
+    solid(xml, name, &shape, &Pose::default(), rise, (object.mass, object.friction));
+    let feet = feet(scene, node.object);
+    let stands = scene.mount(node.object).is_none();
+    for (index, (at, _)) in feet.each().enumerate().filter(|_| stands) {
+        let at = numbers(&[at.x, at.y, FOOT - middle]);
+        let name = foot_name(object, index);
+        xml.leaf("geom", &[("class", "foot".into()), ("name", name), ("pos", at)]);
+    }
+    for child in &node.children {
+        body(xml, scene, child);
+    }
+    xml.close();
+}
+
+/// The points that an object stands on: all contacts of a body are loaded alike, so of a thing of several
+/// solids as many as are right for each.
+pub(super) fn feet(scene: &Scene, index: usize) -> Feet {
+    let feet = scene.feet(index, &scene.objects[index].support);
+    if !scene.is_compound(index) {
+        return feet;
+    }
+    let masses: Vec<f64> = scene.objects.iter().map(|object| object.mass).collect();
+    scene.contacts(index, &feet, &masses)
+}
+
+/// The part of an object that is clear of the table, and how far that moves its middle up, metres.
+fn clear(object: &Object) -> (Shape, f64) {
+    match object.shape {
+        above if object.is_raised() => (above, 0.0),
+        Shape::Cuboid { size: [x, y, z] } => {
+            (Shape::Cuboid { size: [x, y, z - CLEAR] }, CLEAR / 2.0)
+        }
+        Shape::Prism { base, height } => {
+            (Shape::Prism { base, height: height - CLEAR }, CLEAR / 2.0)
+        }
+        round => (round, 0.0),
+    }
+}
+
+/// The solids that objects and tools are made of, by their names.
+fn solids(scene: &Scene, tools: &[Taken]) -> Vec<(String, Shape)> {
+    let objects = scene.objects.iter();
+    let objects = objects.map(|object| (object_name(object), clear(object).0));
+    let tools = tools.iter().flat_map(|Taken { motion, prefix, .. }| {
+        let tool = seamless(motion.tool.outline()).into_iter();
+        tool.map(move |(name, shape, _)| (format!("{prefix}{name}"), shape))
+    });
+    objects.chain(tools).chain(regions::solids(scene)).collect()
+}
+
+/// A solid of a mass and a friction value. Only pairs rub; the value is for readers of the file.
+pub(super) fn solid(
+    xml: &mut Xml,
+    name: String,
+    shape: &Shape,
+    pose: &Pose,
+    height: f64,
+    (mass, friction): (f64, f64),
+) {
+    let (kind, (key, value)) = match *shape {
+        Shape::Cylinder { radius, height } => {
+            ("cylinder", ("size", numbers(&[radius, height / 2.0])))
+        }
+        Shape::Cuboid { size } => ("box", ("size", numbers(&size.map(|extent| extent / 2.0)))),
+        Shape::Prism { .. } => ("mesh", ("mesh", name.clone())),
+    };
+    let mut attributes = vec![("name", name), ("type", kind.into()), (key, value)];
+    attributes.extend(placed(pose, height));
+    attributes.push(("mass", numbers(&[mass])));
+    attributes.push(("friction", numbers(&[friction])));
+    xml.leaf("geom", &attributes);
+}
+
+fn placed(pose: &Pose, height: f64) -> [(&'static str, String); 2] {
+    let position = numbers(&[pose.position.x, pose.position.y, height]);
+    [("pos", position), ("euler", numbers(&[0.0, 0.0, pose.heading]))]
+}

@@ -1,0 +1,360 @@
+//! What leaves the plane as a scene of MuJoCo (MJCF): lever-ups, and pushes before or after them.
+//!
+//! Objects are bodies of meshes and boxes on the same feet as in our engine; the table is a cuboid.
+//! Blades and tools are heavy free bodies without weight whose pose *and* velocity the script sets
+//! before every step: a `mocap` body has no velocity. Until their step they wait far away. Friction is
+//! the mean of the two values, pair by pair.
+
+use std::sync::Arc;
+
+use pushplan::asset::PlanFile;
+use pushplan::geometry::{Footprint, Pose, Pose3, Shape, Vector, Vector3};
+use pushplan::{
+    outcome::LEVER_FRAMES,
+    scene::{Blade, GRAVITY, LeverScene, Part, Plate, Slab, Tool},
+    task::{Goal, LeverJob, LeverMotion, Motion},
+};
+
+use super::error::ExportError;
+use super::xml::{Xml, numbers};
+
+/// Plays scenes that [`lever_mjcf()`] wrote, or [`mjcf()`](super::mjcf()) of plans in space, and says
+/// what comes of them.
+pub const LEVER_SCRIPT: &str = pushplan_page::LEVER;
+
+/// Of a step, seconds. What slides in MuJoCo is pushed off a little, less in finer and harder steps: with
+/// twice this and softer contacts plates slide 3 mm where they hardly do in ours, with this 1.5 mm.
+const STEP: f64 = 2.5e-4;
+
+/// How contacts give way. On the pairs themselves: defaults of geometries do not reach them.
+const CONTACT: [(&str, &str); 3] =
+    [("condim", "3"), ("solref", "0.002 1"), ("solimp", "0.9 0.95 0.001")];
+
+/// How much harder friction is than the load.
+const FRICTION_HARDNESS: f64 = 10.0;
+
+/// So heavy that nothing moves it, kg.
+const HAND_MASS: f64 = 1e4;
+
+/// Largest radius of an object's feet, metres.
+const FOOT: f64 = 1e-3;
+
+/// Where a blade or a tool waits for its step: beyond the table, metres.
+const AWAY: f64 = 50.0;
+
+/// A solid that others can meet, and its friction value.
+type Meets = (String, f64);
+
+/// The scene of a lever-up, as MJCF. Names are `plate/NAME`, `block/NAME`, `blade/0` and `table`; what the
+/// blade does stands under `custom`.
+pub fn lever_mjcf(job: &LeverJob) -> String {
+    let tool = Arc::new(Tool::with_blade("blade", job.scene.blade));
+    let motion = Motion::Lever(LeverMotion::new(tool, job.lever, None));
+    written("lever-up", &job.scene, &[motion], (job.lever.plate, None))
+}
+
+/// The scene of a plan in which something leaves the plane, its steps and goal included.
+///
+/// # Errors
+/// [`ExportError::Tools`].
+pub(super) fn plan_mjcf(file: &PlanFile) -> Result<String, ExportError> {
+    let motions = file.plan.motions(&file.tools).ok_or(ExportError::Tools)?;
+    let first = motions.iter().find(|motion| motion.is_lever());
+    let blade = first.and_then(|motion| motion.tool().blade()).unwrap_or_default();
+    let scene = LeverScene::new(&file.task.scene, blade);
+    let goal = &file.task.goals[0];
+    Ok(written(&file.task.name, &scene, &motions, (goal.object, Some(goal))))
+}
+
+fn written(
+    name: &str,
+    scene: &LeverScene,
+    motions: &[Motion],
+    (watched, goal): (usize, Option<&Goal>),
+) -> String {
+    let mut xml = Xml::default();
+    xml.open("mujoco", &[("model", name.into())]);
+    xml.comment("Written by pushplan. Metres, kilograms, seconds, radians. Play it with lever.py.");
+    xml.leaf("compiler", &[("angle", "radian".into()), ("autolimits", "true".into())]);
+    let option = [
+        ("timestep", numbers(&[STEP])),
+        ("gravity", numbers(&[0.0, 0.0, -GRAVITY])),
+        ("cone", "elliptic".into()),
+        ("impratio", numbers(&[FRICTION_HARDNESS])),
+    ];
+    xml.open("option", &option);
+    xml.leaf("flag", &[("multiccd", "enable".into())]);
+    xml.close();
+    xml.open("default", &[]);
+    xml.comment("Only the pairs at the end touch.");
+    xml.leaf("geom", &[("contype", "0".into()), ("conaffinity", "0".into())]);
+    xml.leaf("pair", &CONTACT.map(|(key, value)| (key, value.to_owned())));
+    xml.close();
+    xml.open("custom", &[]);
+    for (k, motion) in motions.iter().enumerate() {
+        step(&mut xml, scene, k, motion);
+    }
+    numeric(&mut xml, &format!("levered plate/{}", scene.plates[watched].name), &[1.0]);
+    if let Some(goal) = goal {
+        wanted(&mut xml, scene, goal);
+    }
+    xml.close();
+    xml.open("asset", &[]);
+    meshes(&mut xml, &scene.plates);
+    for (k, motion) in motions.iter().enumerate() {
+        tool_meshes(&mut xml, k, motion);
+    }
+    xml.close();
+    xml.open("worldbody", &[]);
+    let mut others: Vec<Meets> = vec![("table".to_owned(), scene.table_friction)];
+    let lying = Pose3 { position: Vector3::new(0.0, 0.0, -0.25), ..Pose3::default() };
+    cuboid(&mut xml, "table", [4.0, 4.0, 0.5], &lying);
+    for block in &scene.blocks {
+        let name = format!("block/{}", block.name);
+        let middle = Pose3::upright(block.pose, block.z + 0.5 * block.size[2]);
+        cuboid(&mut xml, &name, block.size, &middle);
+        others.push((name, block.friction));
+    }
+    let mut plates: Vec<Vec<Meets>> = Vec::new();
+    for plate in &scene.plates {
+        plates.push(body(&mut xml, plate));
+    }
+    for (k, motion) in motions.iter().enumerate() {
+        others.extend(hand(&mut xml, k, motion));
+    }
+    xml.close();
+    xml.open("contact", &[]);
+    for (k, solids) in plates.iter().enumerate() {
+        for one in solids {
+            for other in others.iter().chain(plates[k + 1..].iter().flatten()) {
+                pair(&mut xml, one, other);
+            }
+        }
+    }
+    xml.finish()
+}
+
+/// What is done in step `k`.
+fn step(xml: &mut Xml, scene: &LeverScene, k: usize, motion: &Motion) {
+    match motion {
+        Motion::Lever(motion) => {
+            let (lever, mut seen) = (&motion.lever, scene.clone());
+            if let Some(expected) = motion.expected {
+                seen.plates[lever.plate].pose = expected;
+            }
+            let frame = lever.frame(&seen);
+            let [x, y, z, w] = frame.quaternion();
+            let at = frame.position;
+            let blade = motion.tool().blade().unwrap_or_default();
+            numeric(xml, &format!("frame {k}"), &[at.x, at.y, at.z, w, x, y, z]);
+            numeric(xml, &format!("blade {k}"), &[blade.length, blade.thickness]);
+            let values = [
+                lever.depth,
+                lever.pivot,
+                lever.angle,
+                lever.turn_time(),
+                lever.hold,
+                lever.retreat,
+                lever.speed,
+                LEVER_FRAMES as f64,
+            ];
+            numeric(xml, &format!("lever {k}"), &values);
+        }
+        Motion::Slide(motion) => {
+            let mut values = vec![motion.lift];
+            for stroke in &motion.strokes {
+                let of = |pose: &Pose| [pose.position.x, pose.position.y, pose.heading];
+                values.extend(of(&stroke.from));
+                values.extend(of(&stroke.to));
+                values.extend([stroke.duration, f64::from(u8::from(stroke.settle))]);
+            }
+            numeric(xml, &format!("pushes {k}"), &values);
+        }
+    }
+}
+
+/// What must come of it.
+fn wanted(xml: &mut Xml, scene: &LeverScene, goal: &Goal) {
+    if goal.has_place() {
+        let at = goal.position;
+        numeric(xml, "goal place", &[at.x, at.y, goal.tolerance]);
+    }
+    if let Some(block) = goal.outside.and_then(|k| scene.blocks.get(k)) {
+        let (at, [x, y, _]) = (block.pose, block.size);
+        numeric(xml, "goal outside", &[at.position.x, at.position.y, at.heading, x, y]);
+    }
+    if let Some(height) = goal.raised {
+        numeric(xml, "goal raised", &[height]);
+    }
+    if let Some(flipped) = goal.flipped {
+        numeric(xml, "goal flipped", &[f64::from(u8::from(flipped))]);
+    }
+}
+
+/// The blade or the tool of step `k`, and its solids.
+fn hand(xml: &mut Xml, k: usize, motion: &Motion) -> Vec<Meets> {
+    let tool = motion.tool();
+    let what = if motion.is_lever() { "blade" } else { "tool" };
+    let name = format!("{what}/{k}");
+    // Without gravity: the solver would see blade and plate fall together, and let the plate creep down
+    // the blade at some millimetres a second.
+    let mut attributes = vec![("name", name.clone()), ("gravcomp", "1".to_owned())];
+    let away = Vector3::new(AWAY + k as f64, 0.0, 0.0);
+    attributes.extend(placed(&Pose3 { position: away, ..Pose3::default() }));
+    xml.open("body", &attributes);
+    xml.leaf("freejoint", &[]);
+    let inertia = numbers(&[HAND_MASS; 3]);
+    let mass = numbers(&[HAND_MASS]);
+    xml.leaf("inertial", &[("pos", "0 0 0".into()), ("mass", mass), ("diaginertia", inertia)]);
+    let mut solids = Vec::new();
+    if let (true, Some(Blade { length, width, thickness, .. })) = (motion.is_lever(), tool.blade())
+    {
+        cuboid(xml, &name, [length, width, thickness], &Pose3::default());
+        solids.push((name, tool.friction));
+    } else {
+        for (p, part) in tool.parts().iter().enumerate() {
+            let name = format!("{name}/part-{}", p + 1);
+            tool_part(xml, &name, part);
+            solids.push((name, tool.friction));
+        }
+    }
+    xml.close();
+    solids
+}
+
+/// A part of a tool in the tool frame, standing on it.
+fn tool_part(xml: &mut Xml, name: &str, part: &Part) {
+    let height = part.shape.height();
+    let middle = Pose3::upright(part.pose, 0.5 * height);
+    let (kind, size) = match part.shape {
+        Shape::Cuboid { size } => return cuboid(xml, name, size, &middle),
+        Shape::Cylinder { radius, .. } => ("cylinder", numbers(&[radius, 0.5 * height])),
+        Shape::Prism { .. } => ("mesh", String::new()),
+    };
+    let mut attributes =
+        vec![("name", name.to_owned()), ("type", kind.to_owned()), ("mass", "0".to_owned())];
+    match kind {
+        "mesh" => attributes.push(("mesh", name.to_owned())),
+        _ => attributes.push(("size", size)),
+    }
+    attributes.extend(placed(&middle));
+    xml.leaf("geom", &attributes);
+}
+
+/// The outlines of a tool's prisms, about their middles.
+fn tool_meshes(xml: &mut Xml, k: usize, motion: &Motion) {
+    for (p, part) in motion.tool().parts().iter().enumerate() {
+        if let Footprint::Polygon(polygon) = part.footprint() {
+            let name = format!("tool/{k}/part-{}", p + 1);
+            let half = 0.5 * part.shape.height();
+            mesh(xml, name, polygon.corners(), [-half, half]);
+        }
+    }
+}
+
+fn mesh(xml: &mut Xml, name: String, corners: &[Vector], span: [f64; 2]) {
+    let ring = |z: f64| corners.iter().flat_map(move |corner| [corner.x, corner.y, z]);
+    let vertices: Vec<f64> = span.into_iter().flat_map(ring).collect();
+    xml.leaf("mesh", &[("name", name), ("vertex", numbers(&vertices))]);
+}
+
+fn pair(xml: &mut Xml, (a, one): &Meets, (b, other): &Meets) {
+    let mean = 0.5 * (one + other);
+    let friction = numbers(&[mean, mean]);
+    xml.leaf("pair", &[("geom1", a.clone()), ("geom2", b.clone()), ("friction", friction)]);
+}
+
+/// The outlines of slabs.
+fn meshes(xml: &mut Xml, plates: &[Plate]) {
+    for plate in plates {
+        for (k, slab) in plate.slabs.iter().enumerate() {
+            let span = [slab.bottom, slab.bottom + slab.height];
+            mesh(xml, slab_name(plate, k), &slab.corners, span);
+        }
+    }
+}
+
+/// A plate; its solids.
+fn body(xml: &mut Xml, plate: &Plate) -> Vec<Meets> {
+    let name = format!("plate/{}", plate.name);
+    let mut attributes = vec![("name", name.clone())];
+    attributes.extend(placed(&plate.start()));
+    xml.open("body", &attributes);
+    xml.leaf("freejoint", &[]);
+    let weight = plate.weight();
+    let [x, y, z] = weight.centre.into();
+    let attributes = [
+        ("pos", numbers(&[x, y, z])),
+        ("mass", numbers(&[weight.mass])),
+        ("fullinertia", numbers(&weight.inertia)),
+    ];
+    xml.leaf("inertial", &attributes);
+    let mut solids = Vec::new();
+    for (k, slab) in plate.slabs.iter().enumerate() {
+        let name = slab_name(plate, k);
+        let Slab { corners, bottom, height } = slab;
+        // MuJoCo's boxes meet on more points than its meshes.
+        if let Some((middle, size)) = upright_rectangle(corners) {
+            let position = Vector3::new(middle.x, middle.y, bottom + 0.5 * height);
+            let pose = Pose3 { position, ..Pose3::default() };
+            cuboid(xml, &name, [size[0], size[1], *height], &pose);
+        } else {
+            let mesh = [
+                ("name", name.clone()),
+                ("type", "mesh".into()),
+                ("mesh", name.clone()),
+                ("mass", "0".into()),
+            ];
+            xml.leaf("geom", &mesh);
+        }
+        solids.push((name, plate.friction));
+    }
+    let height = if plate.has_feet() { plate.z } else { 0.0 };
+    let radius = FOOT.min(0.5 * height);
+    for (k, corner) in plate.corners().iter().enumerate().filter(|_| height > 0.0) {
+        let name = format!("plate/{}/foot-{}", plate.name, k + 1);
+        let foot = [
+            ("name", name.clone()),
+            ("type", "sphere".into()),
+            ("size", numbers(&[radius])),
+            ("mass", "0".into()),
+            ("pos", numbers(&[corner.x, corner.y, radius - height])),
+        ];
+        xml.leaf("geom", &foot);
+        solids.push((name, plate.friction));
+    }
+    xml.close();
+    solids
+}
+
+/// Middle and extents of a rectangle along the axes.
+fn upright_rectangle(corners: &[Vector]) -> Option<(Vector, [f64; 2])> {
+    let [a, b, c, d] = *corners else { return None };
+    let along = |one: f64, other: f64| (one - other).abs() < 1e-12;
+    let is_upright = along(a.y, b.y) && along(b.x, c.x) && along(c.y, d.y) && along(d.x, a.x);
+    is_upright.then(|| (0.5 * (a + c), [b.x - a.x, d.y - a.y]))
+}
+
+fn slab_name(plate: &Plate, index: usize) -> String {
+    format!("plate/{}/slab-{}", plate.name, index + 1)
+}
+
+fn cuboid(xml: &mut Xml, name: &str, size: [f64; 3], pose: &Pose3) {
+    let mut attributes = vec![
+        ("name", name.to_owned()),
+        ("type", "box".into()),
+        ("size", numbers(&size.map(|extent| 0.5 * extent))),
+        ("mass", "0".into()),
+    ];
+    attributes.extend(placed(pose));
+    xml.leaf("geom", &attributes);
+}
+
+pub(super) fn placed(pose: &Pose3) -> [(&'static str, String); 2] {
+    let [x, y, z, w] = pose.quaternion();
+    [("pos", numbers(pose.position.as_slice())), ("quat", numbers(&[w, x, y, z]))]
+}
+
+fn numeric(xml: &mut Xml, name: &str, values: &[f64]) {
+    xml.leaf("numeric", &[("name", name.into()), ("data", numbers(values))]);
+}

@@ -1,0 +1,66 @@
+//! What a tool does, as numbers that a script reads.
+
+use pushplan::{
+    scene::{Object, REST_SPEED, Scene},
+    task::{COAST_FRAME, MAX_COAST_FRAMES, ToolMotion},
+};
+
+use super::xml::{Xml, numbers};
+
+/// How far a tool that is lifted is above the tallest object, metres.
+const ABOVE: f64 = 0.01;
+
+/// What the tool does.
+pub(super) fn strokes(xml: &mut Xml, motions: &[ToolMotion]) {
+    xml.comment(
+        "Where the tool begins and ends (x, y, x, y), how long it takes, whether it then waits; \
+         where it turns, its headings there.",
+    );
+    let turns = turns(motions);
+    let strokes = motions.iter().flat_map(|motion| &motion.strokes);
+    for (index, stroke) in strokes.enumerate() {
+        let (from, to) = (stroke.from.position, stroke.to.position);
+        let settle = if stroke.settle { 1.0 } else { 0.0 };
+        let mut values = vec![from.x, from.y, to.x, to.y, stroke.duration, settle];
+        if turns {
+            values.extend([stroke.from.heading, stroke.to.heading]);
+        }
+        numeric(xml, &format!("push {}", index + 1), &values);
+    }
+    xml.comment("Rest is slower than this; it is looked for this often, and this many times.");
+    numeric(xml, "rest", &[REST_SPEED, COAST_FRAME, MAX_COAST_FRAMES as f64]);
+}
+
+/// How far the tool goes back before it is lifted, and how high it then goes.
+pub(super) fn retreats(xml: &mut Xml, scene: &Scene, motions: &[ToolMotion]) {
+    xml.comment("How far it goes back then, the way it came, before it is lifted, and how high.");
+    let each = motions.iter().flat_map(|motion| {
+        (0..motion.strokes.len()).map(move |stroke| motion.retreat(scene, stroke))
+    });
+    for (index, back) in each.enumerate() {
+        if let Some(back) = back {
+            numeric(
+                xml,
+                &format!("retreat {}", index + 1),
+                &[1e-9 * (1e9 * back.travel()).round()],
+            );
+        }
+    }
+    let heights = scene.objects.iter().map(Object::top);
+    numeric(xml, "rise", &[heights.fold(0.0, f64::max) + ABOVE]);
+}
+
+/// Whether a tool has more than one heading.
+pub(super) fn turns(motions: &[ToolMotion]) -> bool {
+    motions.iter().any(|motion| {
+        let heading = motion.strokes.first().map_or(0.0, |stroke| stroke.from.heading);
+        let all = motions.iter().filter(|other| other.tool.name == motion.tool.name);
+        let mut strokes = all.flat_map(|motion| &motion.strokes);
+        strokes.any(|s| s.from.heading != heading || s.to.heading != heading)
+    })
+}
+
+/// Named numbers.
+pub(super) fn numeric(xml: &mut Xml, name: &str, values: &[f64]) {
+    xml.leaf("numeric", &[("name", name.into()), ("data", numbers(values))]);
+}

@@ -1,0 +1,269 @@
+//! An object of one solid, and what it stands on.
+
+use nalgebra::Point3;
+
+use pushplan::geometry::{
+    ConvexPolygon, MAX_CORNERS, PolygonError, Pose, Shape, Vector, cross, planar_hull,
+};
+use crate::fault::Ledger;
+use crate::model::{Outline, Solid};
+use pushplan::scene::{Object, Support};
+
+use super::feet::support;
+use super::shadow::{area, fewer};
+use super::upright::{Base, Rough, STRAIGHT, Upright};
+use super::weighed::Weighed;
+
+/// A centre of mass nearer to the middle than this is in the middle, metres; of rough outlines, too, if
+/// it is nearer than this share of their size.
+const OFF_CENTRE: f64 = 1e-6;
+const ROUGHLY: f64 = 0.02;
+
+/// Differences from what pushplan assumes that are worth a note: a centre of mass above or below
+/// the middle, as a share of the height, and a moment of inertia, as a share of itself.
+const WORTH_A_NOTE: f64 = 0.1;
+
+/// A mesh that fills more of the prism around it is as good as that.
+const FULL: f64 = 0.9;
+
+/// What lies on less than this share of what it covers may be round there: a can on its side lies on an
+/// eighth.
+const STRIP: f64 = 0.25;
+
+/// What stands on less than this share of what it covers does not stand on all of it.
+const NARROW: f64 = 0.9;
+
+/// The longest thing on a table, metres.
+const LONGEST: f64 = 2.0;
+
+/// A solid, or several as one, with what else belongs to it.
+pub(super) struct Standing<'a> {
+    /// What it covers.
+    pub upright: Upright,
+    /// What it is in the file; of several the first.
+    pub solid: &'a Solid,
+    /// The points that it stands on.
+    pub feet: Vec<&'a Solid>,
+    /// Whether it is a thing by itself, whose centre of mass decides whether it stands.
+    pub alone: bool,
+}
+
+/// An object of a solid and what it stands on; gives its lowest point, too.
+pub(super) fn draft(
+    name: &str,
+    standing: &Standing<'_>,
+    (mass, centre, moment): Weighed,
+    friction: f64,
+    ledger: &mut Ledger,
+) -> Option<(Object, f64)> {
+    let Standing { upright, solid, feet, alone } = standing;
+    let radius = |foot: &Solid| match foot.outline {
+        Outline::Sphere(radius) => radius,
+        _ => 0.0,
+    };
+    let reach = |foot: &&Solid| foot.pose.translation.z - radius(foot);
+    let low = feet.iter().map(reach).fold(upright.low, f64::min);
+    if let Some(foot) = feet.iter().find(|foot| reach(foot) > low + 1e-6) {
+        let message = format!("a sphere of `{name}` does not reach as low as it does");
+        ledger.fault(foot.place, message, "spheres are the points that a body stands on");
+        return None;
+    }
+    // An object on feet is as high as the feet and it together; any other keeps its digits.
+    let height = if low < upright.low { upright.top() - low } else { upright.height };
+    let middle = upright.middle();
+    let seen = |point: Point3<f64>| upright.pose.local_point(Vector::new(point.x, point.y));
+    let centre = centre.map(|centre| (seen(centre), centre.z));
+    let off = centre.map_or(Vector::zeros(), |(centre, _)| centre - middle);
+    let at = if off.norm() > OFF_CENTRE { middle + off } else { middle };
+    let outline = upright.outline();
+    let reach = outline.iter().map(|corner| (corner - outline[0]).norm()).fold(0.0, f64::max);
+    let longest = reach.max(height);
+    if longest > LONGEST && matches!(solid.outline, Outline::Mesh(_)) {
+        let message = format!("`{name}` is {longest:.1} m long, which is no thing on a table");
+        let advice = if longest > 100.0 * LONGEST {
+            "its mesh is in millimetres: give it `scale` 0.001 0.001 0.001"
+        } else {
+            "give its mesh a smaller `scale`, such as 0.01 0.01 0.01; lengths are metres"
+        };
+        ledger.fault(solid.place, message, advice);
+        return None;
+    }
+    let shape = shape(name, standing, (middle, at), height, ledger)?;
+    let footprint = shape.footprint();
+    if let Some((_, z)) = centre {
+        let above = z - (low + height / 2.0);
+        if above.abs() > WORTH_A_NOTE * height {
+            let side = if above > 0.0 { "above" } else { "below" };
+            let by = 1e3 * above.abs();
+            let note = format!(
+                "the centre of mass of `{name}` is {by:.1} mm {side} the middle, where pushplan has it"
+            );
+            ledger.note(solid.place, note);
+        }
+    }
+    if let Some(stated) = moment {
+        let ours = mass * footprint.gyration_radius().powi(2);
+        if (stated - ours).abs() > WORTH_A_NOTE * ours {
+            let note = format!(
+                "`{name}` states a moment of inertia about the vertical of {:.2} times that of an \
+                 even solid, which pushplan takes",
+                stated / ours
+            );
+            ledger.note(solid.place, note);
+        }
+    }
+    let pose = Pose { position: upright.pose.point(at), heading: upright.pose.heading };
+    let points = feet.iter().map(|foot| {
+        let at = foot.pose.translation;
+        pose.local_point(Vector::new(at.x, at.y))
+    });
+    let points: Vec<Vector> = points.collect();
+    let support = match &upright.rough {
+        Some(rough) if points.is_empty() => {
+            roughly(name, standing, rough, height, ledger);
+            match alone {
+                true => standing_on(name, standing, rough, at, ledger),
+                false => Support::Even,
+            }
+        }
+        _ => {
+            let Some(support) = support(&points, &footprint) else {
+                let message = format!("`{name}` stands on {} spheres", feet.len());
+                ledger.fault(solid.place, message, "three to eight points can be stated");
+                return None;
+            };
+            support
+        }
+    };
+    Some((Object { support, mass, friction, pose, ..Object::new(name, shape) }, low))
+}
+
+/// The shape of a solid whose centre of mass is `at`; none, with a fault, if it has none.
+fn shape(
+    name: &str,
+    Standing { upright, solid, .. }: &Standing<'_>,
+    (middle, at): (Vector, Vector),
+    height: f64,
+    ledger: &mut Ledger,
+) -> Option<Shape> {
+    let off = (at - middle).norm();
+    let polygon = |corners: &[Vector], ledger: &mut Ledger| {
+        let made = ConvexPolygon::balanced(corners, at);
+        match &made {
+            Err(PolygonError::Unbalanced) => {
+                let by = 1e3 * off;
+                let message = format!(
+                    "the centre of mass of `{name}` is {by:.1} mm off the middle, outside of what it \
+                     covers"
+                );
+                let advice = "correct where its <inertial> has it (`origin` in URDF, `pos` in MJCF), \
+                              or take <inertial> out and say --density";
+                ledger.fault(solid.place, message, advice);
+            }
+            Err(error) => {
+                let message = format!("`{name}` is not a prism that pushplan knows: {error}");
+                ledger.fault(solid.place, message, "put a box or a cylinder in its place");
+            }
+            Ok(_) => {}
+        }
+        made.ok().map(|base| Shape::Prism { base, height })
+    };
+    match &upright.base {
+        Base::Rectangle([x, y]) if at == middle => Some(Shape::Cuboid { size: [*x, *y, height] }),
+        Base::Rectangle([x, y]) => {
+            let ends = [[-x, -y], [*x, -y], [*x, *y], [-x, *y]];
+            polygon(&ends.map(|end| Vector::from(end) / 2.0), ledger)
+        }
+        Base::Disc(radius) if off <= OFF_CENTRE.max(ROUGHLY * radius) => {
+            if off > OFF_CENTRE && upright.rough.is_none() {
+                let by = 1e3 * off;
+                let note = format!(
+                    "the centre of mass of `{name}` is {by:.2} mm off its axis, here on it"
+                );
+                ledger.note(solid.place, note);
+            }
+            Some(Shape::Cylinder { radius: *radius, height })
+        }
+        Base::Disc(radius) => {
+            // Of the same area; its corners stand out, its sides lie within.
+            let corners = MAX_CORNERS as f64;
+            let half = std::f64::consts::PI / corners;
+            let reach = radius * (half / (half.sin() * half.cos())).sqrt();
+            let ring = (0..MAX_CORNERS).map(|k| {
+                let angle = (2.0 * k as f64 + 1.0) * half;
+                reach * Vector::new(angle.cos(), angle.sin())
+            });
+            let note = format!(
+                "the centre of mass of `{name}` is {:.1} mm off its axis: it is a prism of {corners} \
+                 corners, by up to {:.1} mm off the cylinder",
+                1e3 * off,
+                1e3 * (radius - reach * half.cos()).max(reach - radius)
+            );
+            ledger.note(solid.place, note);
+            polygon(&ring.collect::<Vec<_>>(), ledger)
+        }
+        Base::Polygon(corners) => polygon(corners, ledger),
+    }
+}
+
+/// Says how far a mesh is from what stands for it.
+fn roughly(
+    name: &str,
+    Standing { upright, solid, alone, .. }: &Standing<'_>,
+    rough: &Rough,
+    height: f64,
+    ledger: &mut Ledger,
+) {
+    // Of many parts only what is worth it.
+    if !alone && rough.off < 1e-4 {
+        return;
+    }
+    let what = match &upright.base {
+        Base::Polygon(corners) => format!("a prism of {} corners", corners.len()),
+        _ => "an upright cylinder".to_owned(),
+    };
+    let mut note = format!(
+        "`{name}` is {what} over all that it covers, {:.0} mm high, whose outline is up to {:.1} mm off",
+        1e3 * height,
+        1e3 * rough.off
+    );
+    if rough.fill < FULL && *alone {
+        note += &format!("; it fills {:.0} % of it", 100.0 * rough.fill);
+    }
+    ledger.note(solid.place, note);
+}
+
+/// What a mesh stands on, if that is less than it covers.
+fn standing_on(
+    name: &str,
+    Standing { upright, solid, .. }: &Standing<'_>,
+    rough: &Rough,
+    at: Vector,
+    ledger: &mut Ledger,
+) -> Support {
+    if rough.stands.is_empty() || area(&rough.stands) > NARROW * upright.area() {
+        return Support::Even;
+    }
+    let corners = fewer(&planar_hull(&rough.stands, STRAIGHT));
+    let inside = |corners: &[Vector]| {
+        let next = corners.iter().cycle().skip(1);
+        corners.len() > 2
+            && corners.iter().zip(next).all(|(a, b)| cross(b - a, at - a) > 1e-3 * (b - a).norm())
+    };
+    if !inside(&corners) {
+        let note = format!(
+            "`{name}` would not stand as the file has it: its centre of mass is not over what is \
+             lowest. It is taken as lying on all that it covers"
+        );
+        ledger.note(solid.place, note);
+        return Support::Even;
+    }
+    if area(&corners) < STRIP * upright.area() {
+        let share = 100.0 * area(&corners) / upright.area();
+        let note =
+            format!("`{name}` lies on {share:.0} % of what it covers, and is taken not to roll");
+        ledger.note(solid.place, note);
+    }
+    // Seen from the centre of mass; a little inside, so that all points are under it.
+    Support::Points(corners.into_iter().map(|corner| 0.995 * (corner - at)).collect())
+}

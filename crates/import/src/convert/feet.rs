@@ -1,0 +1,47 @@
+//! Small spheres under a solid: the points that it stands on.
+
+use pushplan::geometry::{Footprint, Vector};
+use pushplan::scene::{Feet, Support};
+
+/// Points that differ by less are the same, metres.
+const SAME: f64 = 1e-6;
+
+/// Most points that a task file can name.
+const MOST: usize = 8;
+
+/// How an object of this footprint rests on `points` of its own frame, metres; none if there are too
+/// many to say.
+pub(super) fn support(points: &[Vector], footprint: &Footprint) -> Option<Support> {
+    let like = |support: &Support| {
+        let feet = Feet::new(support, footprint);
+        let near = |foot: Vector| points.iter().any(|point| (point - foot).norm() <= SAME);
+        feet.count == points.len() && feet.each().all(|(foot, _)| near(foot))
+    };
+    match points {
+        [] => Some(Support::Even),
+        _ if like(&Support::Even) => Some(Support::Even),
+        _ if like(&Support::Corners) => Some(Support::Corners),
+        _ if (3..=MOST).contains(&points.len()) => Some(Support::Points(points.to_vec())),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_that_stand_for_a_word_become_it() {
+        let footprint = Footprint::Rectangle { half: Vector::new(0.04, 0.03) };
+        for word in [Support::Even, Support::Corners] {
+            let points: Vec<Vector> =
+                Feet::new(&word, &footprint).each().map(|(point, _)| point).collect();
+            assert_eq!(support(&points, &footprint), Some(word));
+        }
+        let three = [[0.02, 0.0], [-0.01, 0.02], [-0.01, -0.02]].map(Vector::from);
+        assert_eq!(support(&three, &footprint), Some(Support::Points(three.to_vec())));
+        assert_eq!(support(&three[..2], &footprint), None);
+        let many: Vec<Vector> = (0..9).map(|k| Vector::new(0.001 * f64::from(k), 0.0)).collect();
+        assert_eq!(support(&many, &footprint), None);
+    }
+}

@@ -1,0 +1,115 @@
+//! Joints between objects, and those that hold objects in the world.
+
+use std::f64::consts::PI;
+
+use crate::fault::Ledger;
+use crate::model::{Body, Model, Motion, Place};
+use pushplan::geometry::Vector;
+use pushplan::scene::{Joint, JointKind, Mount, Span};
+
+use super::groups::held_by;
+use super::objects::Draft;
+
+/// Farthest that limits of turns may be apart, radians.
+const WIDEST: f64 = 340.0 * PI / 180.0;
+
+/// Joints of everything that is attached to an object by one that is not fixed.
+pub(super) fn joints(
+    model: &Model,
+    drafts: &[Draft<'_>],
+    hung: &[(usize, Motion)],
+    ledger: &mut Ledger,
+) -> Vec<Joint> {
+    let mut found = Vec::new();
+    // What our own files fix together are objects of their own.
+    for (index, draft) in drafts.iter().enumerate() {
+        let first = drafts[..index].iter().position(|other| other.group == draft.group);
+        found.extend(first.map(|first| Joint::new([first, index], JointKind::Fixed)));
+    }
+    for (body, motion) in hung {
+        let Body { name, place, parent, .. } = &model.bodies[*body];
+        let of = |body: usize| drafts.iter().position(|draft| draft.body == body);
+        let group = |body: usize| {
+            let same = |draft: &Draft<'_>| model.rigid(draft.group).contains(&body);
+            drafts.iter().position(same)
+        };
+        let Some(parent) = parent.and_then(|parent| of(parent).or_else(|| group(parent))) else {
+            continue;
+        };
+        let Some(child) = of(*body).or_else(|| group(*body)) else { continue };
+        match kind(motion, name, *place, ledger) {
+            Some(kind) => found.push(Joint::new([parent, child], kind)),
+            None => {
+                let message =
+                    format!("`{name}` is attached to another body by {}", held_by(motion));
+                let advice = "joints between objects are fixed, turn about the vertical, or slide \
+                              along the table";
+                ledger.fault(*place, message, advice);
+            }
+        }
+    }
+    found
+}
+
+/// Joints of objects to the world.
+pub(super) fn mounts(model: &Model, drafts: &[Draft<'_>], ledger: &mut Ledger) -> Vec<Mount> {
+    let mut found = Vec::new();
+    for (object, draft) in drafts.iter().enumerate() {
+        let Body { name, place, motion, .. } = &model.bodies[draft.group];
+        let hangs = model.is_fixed(model.bodies[draft.group].parent);
+        if !hangs || *motion == Motion::Free || motion.is_planar() {
+            continue;
+        }
+        found.extend(kind(motion, name, *place, ledger).map(|kind| Mount { object, kind }));
+    }
+    found
+}
+
+/// Whether a joint may join an object to the world.
+pub(super) fn may_mount(motion: &Motion) -> bool {
+    match motion {
+        Motion::Hinge { axis, .. } => axis.xy().norm() < 1e-3,
+        Motion::Slide { axis, .. } => axis.z.abs() < 1e-3,
+        _ => false,
+    }
+}
+
+/// What a joint allows; none if pushplan has no word for it.
+fn kind(motion: &Motion, name: &str, place: Place, ledger: &mut Ledger) -> Option<JointKind> {
+    match motion {
+        Motion::Hinge { axis, at, limits } if may_mount(motion) => {
+            let limits = limits.map(|[low, high]| match axis.z < 0.0 {
+                false => Span { low, high },
+                true => Span { low: -high, high: -low },
+            });
+            let limits = limits.and_then(|limits| turns(limits, name, place, ledger));
+            Some(JointKind::Revolute { at: Vector::new(at.x, at.y), limits })
+        }
+        Motion::Slide { axis, limits } if may_mount(motion) => {
+            let limits = limits.map(|[low, high]| Span { low, high });
+            Some(JointKind::Prismatic { axis: axis.xy().normalize(), limits })
+        }
+        _ => None,
+    }
+}
+
+/// Limits of turns as a task can say them: at most 340 degrees apart, or none.
+fn turns(limits: Span, name: &str, place: Place, ledger: &mut Ledger) -> Option<Span> {
+    let Span { low, high } = limits;
+    let degrees = |angle: f64| (angle.to_degrees() * 10.0).round() / 10.0;
+    let stated = format!("{} to {} degrees", degrees(low), degrees(high));
+    if high - low >= 2.0 * PI {
+        let note = format!("`{name}` may turn by more than a turn ({stated}): here by any angle");
+        ledger.note(place, note);
+        return None;
+    }
+    // The start stays within them.
+    let low = low.max(-(WIDEST - high).max(0.5 * WIDEST));
+    let kept = Span { low, high: high.min(low + WIDEST) };
+    if kept != limits {
+        let [low, high] = [kept.low, kept.high].map(degrees);
+        let note = format!("`{name}` may turn by {stated}: here by {low} to {high} degrees");
+        ledger.note(place, note);
+    }
+    Some(kept)
+}

@@ -1,0 +1,161 @@
+//! A scene, with what the file says of a goal.
+
+use crate::fault::Ledger;
+use crate::model::Model;
+use pushplan::asset::Faults;
+use pushplan::geometry::Vector;
+use pushplan::{
+    scene::{Joint, JointKind, Mount, Robot, Scene},
+    task::{Goal, Task},
+};
+
+use super::frictions::frictions;
+use super::groups::{beyond, free, freed, judged, listed, solid_bodies};
+use super::joints::{joints, mounts};
+use super::names::{Names, same};
+use super::objects::{drafts, placed};
+use super::statics::{empty, statics};
+use super::wanted::{Imported, Wanted};
+
+/// Nearest and farthest that the robot of a task reaches whose file knows none, metres; farther where
+/// an object is.
+const REACH: [f64; 2] = [0.1, 0.9];
+
+/// Tolerance of a goal that is not stated, metres.
+const TOLERANCE: f64 = 0.02;
+
+/// A scene and a task around it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImportedScene {
+    /// A task with this scene; robot and tools, and mostly the goal, stand for yours.
+    pub task: Task,
+    /// Whether the goal is that of the file; otherwise it is where the first object is.
+    pub has_goal: bool,
+}
+
+/// The objects and obstacles of a model on a table.
+///
+/// # Errors
+/// Everything that pushplan cannot express, each with its place in `file`.
+pub fn objects(
+    model: &Model,
+    file: &str,
+    wanted: &Wanted,
+) -> Result<Imported<ImportedScene>, Faults> {
+    let mut ledger = Ledger::new(file, &model.files);
+    let freed = freed(model, wanted, &mut ledger);
+    let model = &freed;
+    beyond(model, wanted, &mut ledger);
+    let roots = free(model, wanted, &mut ledger);
+    judged(model, &roots, wanted, &mut ledger);
+    if roots.is_empty() && wanted.bodies.is_empty() && ledger.count() == 0 {
+        let advice = match &solid_bodies(model)[..] {
+            [] => "objects stand freely (<freejoint/>, or a floating joint of the world); \
+                   `--as tool` imports a tool"
+                .to_owned(),
+            names => format!(
+                "--free {} lets it stand freely (bodies with solids: {}); `--as tool` imports a tool",
+                names[0],
+                listed(names)
+            ),
+        };
+        ledger.fault_of_file("no body of the file moves freely", advice);
+    }
+    let mut ledger = ledger.sound()?;
+    let mut names = Names::default();
+    let (mut found, mut hung) = (Vec::new(), Vec::new());
+    for root in roots {
+        let (bodies, joints) = drafts(model, root, wanted, &mut names, &mut ledger);
+        found.extend(bodies);
+        hung.extend(joints);
+    }
+    found.sort_by_key(|draft| draft.body);
+    let joints = joints(model, &found, &hung, &mut ledger);
+    let mounts = mounts(model, &found, &mut ledger);
+    let mut ledger = ledger.sound()?;
+    let statics = statics(model, &found, wanted, &mut names, &mut ledger);
+    let Some(statics) = statics else {
+        return Err(ledger.finish(None::<()>).err().unwrap_or_default());
+    };
+    let frictions = frictions(model, &found, &statics, &mut ledger);
+    let moved = |mut object: pushplan::scene::Object| {
+        object.pose.position += wanted.shift;
+        object
+    };
+    let scene = Scene {
+        objects: found.iter().map(|draft| moved(draft.object.clone())).collect(),
+        joints: joints
+            .into_iter()
+            .map(|joint| Joint { kind: shifted(joint.kind, wanted.shift), ..joint })
+            .collect(),
+        mounts: mounts
+            .into_iter()
+            .map(|mount| Mount { kind: shifted(mount.kind, wanted.shift), ..mount })
+            .collect(),
+        frictions,
+        ..empty(&statics, wanted.shift)
+    };
+    let scene = placed(scene, &found);
+    let goals = model.goals.iter().filter_map(|(body, numbers)| {
+        let object = found.iter().position(|draft| same(body, model.name_of(draft.body)))?;
+        goal(&scene, object, numbers, wanted.shift)
+    });
+    let mut goals: std::collections::VecDeque<Goal> = goals.collect();
+    let has_goal = !goals.is_empty();
+    let first = scene.objects.first().map_or(Vector::zeros(), |object| object.pose.position);
+    let goal = goals.pop_front();
+    let goal = goal.unwrap_or_else(|| Goal::new(0, [first.x, first.y], TOLERANCE));
+    let farthest =
+        scene.objects.iter().map(|object| object.pose.position.norm()).fold(0.0, f64::max);
+    let most = REACH[1].max(((farthest + 0.3) * 10.0).ceil() / 10.0);
+    let name = wanted.name.clone().unwrap_or_else(|| super::tool::name(model, file));
+    let task = Task::new(name, scene, Robot::reaching(REACH[0], most), goal);
+    let task = goals.into_iter().fold(task, Task::and);
+    // What spans several bodies, such as overlaps, is judged where every task is.
+    let read = task.to_yaml().and_then(|text| Task::parse(&text, file));
+    let task = match read {
+        Ok(task) => Some(task),
+        Err(mut faults) => {
+            // A goal that the file does not have is where the object is.
+            for fault in faults.0.iter_mut().filter(|_| !has_goal) {
+                if let Some((name, within)) = fault.message.split_once(" would be inside ") {
+                    let name = name.trim_start_matches("at the goal ");
+                    fault.message = format!("{name} stands inside {within}");
+                    fault.advice = "move one of them, or name others with --body".to_owned();
+                }
+            }
+            ledger.adopt("task", faults);
+            None
+        }
+    };
+    let (value, notes) = ledger.finish(task.map(|task| ImportedScene { task, has_goal }))?;
+    Ok(Imported { value, notes })
+}
+
+fn shifted(kind: JointKind, shift: Vector) -> JointKind {
+    match kind {
+        JointKind::Revolute { at, limits } => JointKind::Revolute { at: at + shift, limits },
+        kind => kind,
+    }
+}
+
+/// What is written there as the tolerance of a goal that asks for no place, metres.
+const ANYWHERE: f64 = 1e6;
+
+/// The goal as `pushplan export` writes it: x, y, tolerance; heading, its tolerance, headings alike.
+fn goal(scene: &Scene, object: usize, numbers: &[f64], shift: Vector) -> Option<Goal> {
+    let [x, y, tolerance, heading @ ..] = numbers else { return None };
+    let goal = match *tolerance < ANYWHERE {
+        true => Goal::new(object, [x + shift.x, y + shift.y], *tolerance),
+        false if heading.is_empty() => return None,
+        false => Goal::of(object),
+    };
+    let goal = match heading {
+        [heading, within, alike, ..] => {
+            Goal { alike: (*alike as usize).max(1), ..goal.facing(*heading, *within) }
+        }
+        [heading, within] => goal.facing(*heading, *within).looking_alike(scene),
+        _ => goal,
+    };
+    Some(goal.within_limits(scene))
+}

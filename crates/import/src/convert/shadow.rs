@@ -1,0 +1,148 @@
+//! What a body of any form covers on the table, as a disc or a polygon of few corners.
+
+use std::f64::consts::{PI, TAU};
+
+use pushplan::geometry::{MAX_CORNERS, Vector, centroid, cross, planar_hull};
+
+use super::upright::Base;
+
+/// A corner that stands out by less is not worth it, metres.
+const WORTH: f64 = 2e-4;
+
+/// Corners nearer to each other than this, and those at which the outline turns by less, are left out:
+/// a little more than polygons need, metres and radians.
+const NEAREST: f64 = 1.1e-3;
+const STRAIGHTEST: f64 = 0.018;
+
+/// Directions in which outlines are compared.
+const DIRECTIONS: usize = 360;
+
+/// Area of a polygon, square metres.
+pub(super) fn area(corners: &[Vector]) -> f64 {
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().zip(next).map(|(a, b)| cross(*a, *b)).sum::<f64>() / 2.0
+}
+
+/// The disc or polygon that is nearest to the convex hull of points, where it is, and how far its outline
+/// is off at most, metres; none where they lie in a line.
+pub(super) fn shadow(points: &[Vector]) -> Option<(Base, Vector, f64)> {
+    let outline = planar_hull(points, 0.0);
+    let size = area(&outline);
+    if outline.len() < 3 || size < 1e-7 {
+        return None;
+    }
+    let corners = fewer(&outline);
+    if corners.len() < 3 {
+        return None;
+    }
+    let polygon = apart(&outline, |direction| reach(&corners, direction));
+    let (middle, radius) = (centroid(&outline), (size / PI).sqrt());
+    let disc = apart(&outline, |direction| middle.dot(&direction) + radius);
+    if polygon > WORTH && disc < polygon {
+        return Some((Base::Disc(radius), middle, disc));
+    }
+    Some((Base::Polygon(corners), Vector::zeros(), polygon))
+}
+
+/// At most as many corners as a polygon may have, and only those that are worth it, around the same area.
+pub(super) fn fewer(outline: &[Vector]) -> Vec<Vector> {
+    // Of thousands those that are farthest in one of some hundred directions: what follows takes the
+    // square of their number.
+    let mut corners = match outline.len() > 2 * DIRECTIONS {
+        false => outline.to_vec(),
+        true => {
+            let mut kept: Vec<usize> =
+                directions().filter_map(|towards| farthest(outline, towards)).collect();
+            kept.sort_unstable();
+            kept.dedup();
+            kept.into_iter().map(|k| outline[k]).collect()
+        }
+    };
+    loop {
+        let count = corners.len();
+        if count <= 3 {
+            break;
+        }
+        let at = |k: usize| corners[k % count];
+        // How far a corner stands out of the line between its neighbours.
+        let height = |k: usize| {
+            let (before, own, after) = (at(k + count - 1), at(k), at(k + 1));
+            let base = after - before;
+            cross(base, own - before).abs() / base.norm().max(1e-12)
+        };
+        let flat = |k: usize| {
+            let (before, after) = (at(k) - at(k + count - 1), at(k + 1) - at(k));
+            let turn = cross(before, after).atan2(before.dot(&after));
+            after.norm() < NEAREST || before.norm() < NEAREST || turn < STRAIGHTEST
+        };
+        let least = |a: &usize, b: &usize| height(*a).total_cmp(&height(*b));
+        let Some(lowest) = (0..count).min_by(least) else { break };
+        let bad = (0..count).filter(|k| flat(*k)).min_by(least);
+        match bad {
+            Some(bad) => corners.remove(bad),
+            None if count > MAX_CORNERS || height(lowest) < WORTH => corners.remove(lowest),
+            None => break,
+        };
+    }
+    if corners.len() < outline.len() {
+        let middle = centroid(&corners);
+        let share = (area(outline) / area(&corners)).sqrt();
+        if share.is_finite() {
+            corners.iter_mut().for_each(|corner| *corner = middle + (*corner - middle) * share);
+        }
+    }
+    corners
+}
+
+fn reach(corners: &[Vector], direction: Vector) -> f64 {
+    corners.iter().map(|corner| corner.dot(&direction)).fold(f64::NEG_INFINITY, f64::max)
+}
+
+fn directions() -> impl Iterator<Item = Vector> {
+    (0..DIRECTIONS).map(|k| {
+        let angle = TAU * k as f64 / DIRECTIONS as f64;
+        Vector::new(angle.cos(), angle.sin())
+    })
+}
+
+/// The corner that is farthest in a direction.
+fn farthest(corners: &[Vector], towards: Vector) -> Option<usize> {
+    let reach = |k: &usize| corners[*k].dot(&towards);
+    (0..corners.len()).max_by(|a, b| reach(a).total_cmp(&reach(b)))
+}
+
+/// How far two convex outlines are apart: the largest difference of how far they reach.
+pub(super) fn apart(outline: &[Vector], other: impl Fn(Vector) -> f64) -> f64 {
+    directions().map(|towards| (reach(outline, towards) - other(towards)).abs()).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ring(count: usize, radius: f64, stretched: f64) -> Vec<Vector> {
+        let at = |k: usize| {
+            let angle = TAU * k as f64 / count as f64;
+            Vector::new(stretched * radius * angle.cos(), radius * angle.sin())
+        };
+        (0..count).map(at).collect()
+    }
+
+    #[test]
+    fn rings_become_discs_and_ovals_polygons_of_eight_corners() {
+        let (base, at, off) = shadow(&ring(48, 0.04, 1.0)).expect("a shadow");
+        let Base::Disc(radius) = base else { panic!("{base:?}") };
+        assert!((radius - 0.04).abs() < 2e-4 && at.norm() < 1e-9 && off < 2e-4);
+        let (base, _, off) = shadow(&ring(48, 0.04, 1.5)).expect("a shadow");
+        let Base::Polygon(corners) = base else { panic!("{base:?}") };
+        assert!(corners.len() == MAX_CORNERS && (1e-4..5e-3).contains(&off), "{off}");
+        assert!((area(&corners) / area(&ring(48, 0.04, 1.5)) - 1.0).abs() < 1e-9);
+        assert_eq!(shadow(&[Vector::zeros(), Vector::new(0.1, 0.1), Vector::new(0.2, 0.2)]), None);
+    }
+
+    #[test]
+    fn few_corners_stay_where_they_are() {
+        let square = [[0.0, 0.0], [0.1, 0.0], [0.1, 0.05], [0.0, 0.05]].map(Vector::from);
+        assert_eq!(shadow(&square), Some((Base::Polygon(square.to_vec()), Vector::zeros(), 0.0)));
+    }
+}

@@ -1,0 +1,287 @@
+//! What does not move: the table and the obstacles on it.
+
+use crate::fault::Ledger;
+use crate::model::{Model, Outline, Solid};
+use pushplan::geometry::{Pose, Vector, clearance};
+use pushplan::scene::{Object, Obstacle, Robot, Scene, TableTop};
+
+use super::names::Names;
+use super::objects::Draft;
+use super::shadow::area;
+use super::upright::{Base, Upright};
+use super::wanted::Wanted;
+
+/// Objects stand on what is within this of their undersides, metres: scenes drop them a little.
+const STAND: f64 = 5e-3;
+
+/// What is no deeper in the table than this stands on it, metres: programs move it before they begin.
+const SUNK: f64 = 0.05;
+
+/// What is no more above the table than this is set down on it, metres.
+const DROP: f64 = 0.25;
+
+/// What the objects stand on, and what stands in their way.
+pub(super) struct Statics<'a> {
+    /// What the table is in the file, if it is there at all.
+    pub table: Option<&'a Solid>,
+    /// Friction value of the table.
+    pub table_friction: f64,
+    /// Where it ends, if it does.
+    pub table_top: Option<TableTop>,
+    /// Obstacles, each with what it is in the file.
+    pub obstacles: Vec<(Obstacle, &'a Solid)>,
+}
+
+/// Finds table and obstacles around objects; none, with faults, if the objects stand on no table.
+pub(super) fn statics<'a>(
+    model: &'a Model,
+    drafts: &[Draft<'_>],
+    wanted: &Wanted,
+    names: &mut Names,
+    ledger: &mut Ledger,
+) -> Option<Statics<'a>> {
+    let fixed: Vec<(&str, &Solid)> = model
+        .rigid(0)
+        .into_iter()
+        .flat_map(|body| model.bodies[body].solids.iter().map(move |s| (model.name_of(body), s)))
+        .filter(|(_, solid)| solid.touches)
+        .collect();
+    let floor = floor(&fixed, drafts, ledger);
+    let mut level = true;
+    for draft in drafts.iter().filter(|draft| draft.low < floor - STAND) {
+        let (name, below) = (&draft.object.name, 1e3 * (floor - draft.low));
+        let note =
+            format!("`{name}` is {below:.0} mm inside the table in the file: it is set on it");
+        ledger.note(draft.place, note);
+    }
+    for draft in drafts.iter().filter(|draft| draft.low > floor + STAND) {
+        let (name, above) = (&draft.object.name, 1e3 * (draft.low - floor));
+        if draft.low <= floor + DROP {
+            let note =
+                format!("`{name}` is {above:.0} mm above the table in the file: it is set down");
+            ledger.note(draft.place, note);
+            continue;
+        }
+        let message = format!("`{name}` is {above:.1} mm above where the lowest object stands");
+        let advice = "all objects stand on one table: set it down, or name others with --body";
+        ledger.fault(draft.place, message, advice);
+        level = false;
+    }
+    if !level {
+        return None;
+    }
+    let mut found = Statics {
+        table: None,
+        table_friction: wanted.friction,
+        table_top: None,
+        obstacles: Vec::new(),
+    };
+    let mut plane = None;
+    for (body, solid) in fixed {
+        let what = match (solid.name.is_empty(), body) {
+            (false, _) => solid.name.as_str(),
+            (true, "world") => "obstacle",
+            (true, body) => body,
+        };
+        // The task says where its robot stands.
+        if what.trim_start_matches("obstacle/") == Robot::BASE {
+            continue;
+        }
+        if let Outline::Plane(_) = solid.outline {
+            plane = Some((solid, flat_at(solid, what, ledger)?));
+            continue;
+        }
+        // Only what was chosen, and the table, may refuse.
+        let before = ledger.count();
+        let upright = Upright::any(solid, &format!("`{what}`"), ledger);
+        if !wanted.bodies.is_empty() {
+            let faults = ledger.since(before);
+            ledger.pass_over(&faults, &format!("`{what}`"));
+        }
+        let Some(upright) = upright else { continue };
+        if upright.top() <= floor + STAND {
+            let over = |draft: &Draft<'_>| upright.covers(draft.object.pose.position);
+            if upright.top() >= floor - STAND && drafts.iter().any(over) {
+                found.stand_on(solid, &upright, drafts, ledger)?;
+            } else {
+                ledger.note(solid.place, format!("`{what}` lies below the table and is left out"));
+            }
+            continue;
+        }
+        let other = (drafts, wanted);
+        found.obstacles.extend(obstacle(solid, what, &upright, floor, other, names, ledger));
+    }
+    if found.table.is_none()
+        && let Some((solid, z)) = plane
+    {
+        if (z - floor).abs() > STAND {
+            let (side, by) = if z < floor { ("above", floor - z) } else { ("below", z - floor) };
+            let by = 1e3 * by;
+            let message = format!("the objects are {by:.1} mm {side} this plane, and on no table");
+            ledger.fault(solid.place, message, "set them down on it");
+            return None;
+        }
+        found.table = Some(solid);
+    }
+    match found.table {
+        Some(table) => found.table_friction = table.material.friction.unwrap_or(wanted.friction),
+        None => ledger.note(
+            model.bodies[0].place,
+            format!("there is no table: the objects stand on one of friction {}", wanted.friction),
+        ),
+    }
+    Some(found)
+}
+
+impl<'a> Statics<'a> {
+    /// Takes the top of a box as the table.
+    fn stand_on(
+        &mut self,
+        solid: &'a Solid,
+        upright: &Upright,
+        drafts: &[Draft<'_>],
+        ledger: &mut Ledger,
+    ) -> Option<()> {
+        if self.table.is_some() {
+            let message = "the objects stand on several boxes";
+            ledger.fault(solid.place, message, "make the table one box, or a plane");
+            return None;
+        }
+        let off = |draft: &&Draft<'_>| !upright.covers(draft.object.pose.position);
+        if let Some(draft) = drafts.iter().find(off) {
+            let message = format!("`{}` does not stand on the table", draft.object.name);
+            ledger.fault(draft.place, message, "set it down on the box that the others stand on");
+            return None;
+        }
+        self.table = Some(solid);
+        let quarters = upright.pose.heading / std::f64::consts::FRAC_PI_2;
+        let straight = (quarters - quarters.round()).abs() < 1e-6;
+        match upright.base {
+            Base::Rectangle([x, y]) if straight => {
+                let size = if quarters.round() as i64 % 2 == 0 { [x, y] } else { [y, x] };
+                self.table_top = Some(TableTop { size, middle: upright.pose.position });
+            }
+            _ => {
+                ledger.note(solid.place, "the table is turned or round: where it ends is left out")
+            }
+        }
+        Some(())
+    }
+}
+
+/// Height of a level plane, metres.
+fn flat_at(solid: &Solid, what: &str, ledger: &mut Ledger) -> Option<f64> {
+    let normal = solid.pose.rotation * nalgebra::Vector3::z();
+    if normal.xy().norm() > 1e-3 || normal.z < 0.0 {
+        let advice = "put a box in its place: obstacles are cuboids";
+        ledger.fault(solid.place, format!("the plane `{what}` is not level"), advice);
+        return None;
+    }
+    Some(solid.pose.translation.z)
+}
+
+/// Height of what the objects stand on, or are dropped on, metres: the highest plane or top of a box that
+/// is under all of them; where none is, that of the lowest object.
+fn floor(fixed: &[(&str, &Solid)], drafts: &[Draft<'_>], ledger: &mut Ledger) -> f64 {
+    let lowest = drafts.iter().map(|draft| draft.low).fold(f64::INFINITY, f64::min);
+    let before = ledger.count();
+    let tops = fixed.iter().filter_map(|(_, solid)| match solid.outline {
+        Outline::Plane(_) => Some(solid.pose.translation.z),
+        Outline::Box(_) => {
+            let upright = Upright::any(solid, "", ledger)?;
+            let covers = |draft: &Draft<'_>| upright.covers(draft.object.pose.position);
+            (upright.rough.is_none() && drafts.iter().all(covers)).then(|| upright.top())
+        }
+        _ => None,
+    });
+    // Sunk in by less than half of its height it is meant to stand on it.
+    let half = drafts.iter().map(|draft| draft.object.shape.height() / 2.0);
+    let sunk = half.fold(SUNK, f64::min).max(STAND);
+    let under = |top: &f64| *top <= lowest + sunk && *top >= lowest - DROP;
+    let floor = tops.filter(under).fold(f64::NEG_INFINITY, f64::max);
+    // They are judged later.
+    ledger.since(before);
+    // A little above, or sunk in, it stands there.
+    match (floor - lowest).abs() {
+        off if off > STAND && floor.is_finite() => floor,
+        _ => lowest,
+    }
+}
+
+fn obstacle<'a>(
+    solid: &'a Solid,
+    what: &str,
+    upright: &Upright,
+    floor: f64,
+    (drafts, wanted): (&[Draft<'_>], &Wanted),
+    names: &mut Names,
+    ledger: &mut Ledger,
+) -> Option<(Obstacle, &'a Solid)> {
+    // No object meets the part of it that is below the table, or passes a little above.
+    let z = if upright.low > floor + STAND { upright.low - floor } else { 0.0 };
+    let tall = upright.top() - floor - z;
+    let friction = solid.material.friction.unwrap_or(wanted.friction);
+    if let (Base::Rectangle([x, y]), None) = (&upright.base, &upright.rough) {
+        let size = [*x, *y, tall];
+        let pose = Pose { position: upright.pose.position, ..upright.pose };
+        return Some((Obstacle { name: names.take(what), size, pose, z, friction }, solid));
+    }
+    // The least box around it.
+    let outline = upright.outline();
+    let (size, pose) = around(&outline);
+    let obstacle =
+        Obstacle { name: names.take(what), size: [size[0], size[1], tall], pose, z, friction };
+    let own = obstacle.shape().footprint();
+    let touches = |object: &Object, pose: &Pose| {
+        obstacle.meets(object.span())
+            && clearance((&own, &obstacle.pose), (&object.shape.footprint(), pose), 1.0) <= 0.0
+    };
+    let within = drafts.iter().find(|draft| {
+        let parts = draft.parts.iter();
+        touches(&draft.object, &draft.object.pose)
+            || parts.clone().any(|(part, place)| touches(part, &(draft.object.pose * *place)))
+    });
+    if let Some(draft) = within {
+        let name = &draft.object.name;
+        if wanted.bodies.is_empty() {
+            let message = format!("`{what}` is no box, and the box around it holds `{name}`");
+            let advice = "put several boxes in its place; with --body it is left out";
+            ledger.fault(solid.place, message, advice);
+        } else {
+            let note = format!("`{what}` is left out: the box around it holds `{name}`");
+            ledger.note(solid.place, note);
+        }
+        return None;
+    }
+    let more = 1e2 * (size[0] * size[1] / area(&outline) - 1.0);
+    let note = format!("the obstacle `{what}` is the box around it, which covers {more:.0} % more");
+    ledger.note(solid.place, note);
+    Some((obstacle, solid))
+}
+
+/// Sides (metres) and pose of the least rectangle around convex corners: one of its sides is one of theirs.
+fn around(corners: &[Vector]) -> ([f64; 2], Pose) {
+    let boxed = |heading: f64| {
+        let frame = Pose { position: Vector::zeros(), heading };
+        let local = || corners.iter().map(|corner| frame.local_point(*corner));
+        let low = local().fold(Vector::repeat(f64::INFINITY), |least, point| least.inf(&point));
+        let high = local().fold(Vector::repeat(f64::NEG_INFINITY), |most, point| most.sup(&point));
+        let position = frame.point((low + high) / 2.0);
+        ([high.x - low.x, high.y - low.y], Pose { position, heading })
+    };
+    let sides = corners.iter().zip(corners.iter().cycle().skip(1));
+    let all = sides.map(|(a, b)| boxed((b.y - a.y).atan2(b.x - a.x)));
+    all.min_by(|(a, _), (b, _)| (a[0] * a[1]).total_cmp(&(b[0] * b[1])))
+        .unwrap_or_else(|| boxed(0.0))
+}
+
+/// The scene without objects.
+pub(super) fn empty(statics: &Statics<'_>, shift: Vector) -> Scene {
+    let mut scene = Scene { table_friction: statics.table_friction, ..Scene::default() };
+    scene.table_top = statics.table_top.map(|top| TableTop { middle: top.middle + shift, ..top });
+    scene.obstacles = statics.obstacles.iter().map(|(obstacle, _)| obstacle.clone()).collect();
+    for obstacle in &mut scene.obstacles {
+        obstacle.pose.position += shift;
+    }
+    scene
+}

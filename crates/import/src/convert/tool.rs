@@ -1,0 +1,194 @@
+//! A tool.
+
+use std::path::Path;
+
+use crate::fault::Ledger;
+use crate::model::{Model, Motion};
+use pushplan::asset::{Faults, MAX_PARTS, named_after};
+use pushplan::geometry::{ConvexPolygon, Shape};
+use pushplan::scene::{Part, Tool, ToolError};
+
+use super::groups::{held_by, solid_bodies};
+use super::names::{Names, bare, same};
+use super::upright::{Base, Upright, flat};
+use super::wanted::{Imported, Wanted};
+
+/// Undersides of parts that differ by less are level, metres.
+const LEVEL: f64 = 1e-3;
+
+/// The tool that one body of a model is, with everything that is fixed to it. Its frame, and its
+/// grip, are those of the body; what it weighs and what holds or moves it does not matter.
+///
+/// # Errors
+/// Everything that pushplan cannot express, each with its place in `file`.
+pub fn tool(model: &Model, file: &str, wanted: &Wanted) -> Result<Imported<Tool>, Faults> {
+    let mut ledger = Ledger::new(file, &model.files);
+    let body = chosen(model, wanted, &mut ledger);
+    // Only what was chosen may refuse, and the world if nothing was named.
+    let kept: Vec<usize> = body.map_or_else(Vec::new, |body| model.below(body));
+    for (index, other) in model.bodies.iter().enumerate() {
+        if kept.contains(&index) {
+            ledger.note_all(&other.notes);
+        }
+        let unnamed = wanted.bodies.is_empty() && (body.is_none() || index == 0);
+        match unnamed || kept.contains(&index) {
+            true => ledger.take(&other.faults),
+            false => ledger.pass_over(&other.faults, &format!("`{}`", other.name)),
+        }
+    }
+    let made = body.and_then(|body| assemble(model, file, body, wanted, &mut ledger));
+    if let Some(tool) = &made
+        && let Err(faults) = Tool::parse(&tool.to_json().to_string(), file)
+    {
+        ledger.adopt("tool", faults);
+    }
+    let (value, notes) = ledger.finish(made)?;
+    Ok(Imported { value, notes })
+}
+
+/// The name of what is imported, if nobody says another: the file's own, or that of the file.
+pub(super) fn name(model: &Model, file: &str) -> String {
+    let stem = || Path::new(file).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    named_after(&if model.name.is_empty() { stem() } else { model.name.clone() })
+}
+
+/// The body that is the tool.
+fn chosen(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Option<usize> {
+    let solid = |body: &usize| {
+        model.rigid(*body).iter().any(|body| model.bodies[*body].solids.iter().any(|s| s.touches))
+    };
+    let candidates: Vec<usize> = match &wanted.bodies[..] {
+        // One that says so, which an arm may hold, or the only one.
+        [] => {
+            let said = |body: &usize| model.name_of(*body) == Model::TOOL && solid(body);
+            match (1..model.bodies.len()).find(said) {
+                Some(tool) => vec![tool],
+                None => model.children(0).filter(solid).collect(),
+            }
+        }
+        asked => (1..model.bodies.len())
+            .filter(|body| asked.iter().any(|name| same(name, model.name_of(*body))))
+            .collect(),
+    };
+    match candidates[..] {
+        [body] if solid(&body) => return Some(body),
+        [body] => {
+            let message = format!("nothing of `{}` touches anything", model.name_of(body));
+            ledger.fault(model.bodies[body].place, message, names_them(model));
+        }
+        [] => {
+            let message = match wanted.bodies.first() {
+                Some(asked) => format!("no body is called `{asked}`"),
+                None => "no body of the file touches anything".to_owned(),
+            };
+            ledger.fault_of_file(message, names_them(model));
+        }
+        _ => {
+            let message = format!("there are {} bodies, and a tool is one", candidates.len());
+            ledger.fault_of_file(message, names_them(model));
+        }
+    }
+    None
+}
+
+/// Which bodies could be the tool, or a piece of it.
+fn names_them(model: &Model) -> String {
+    match &solid_bodies(model)[..] {
+        [] => "pushplan's tools are solids that touch: <geom>, <collision>, or a mesh".to_owned(),
+        names => format!("choose with --body: {}", names.join(", ")),
+    }
+}
+
+fn assemble(
+    model: &Model,
+    file: &str,
+    body: usize,
+    wanted: &Wanted,
+    ledger: &mut Ledger,
+) -> Option<Tool> {
+    let bodies = model.rigid(body);
+    for child in (body + 1)..model.bodies.len() {
+        let other = &model.bodies[child];
+        let moves = other.parent.is_some_and(|parent| bodies.contains(&parent))
+            && other.motion != Motion::Fixed;
+        if moves {
+            let how = held_by(&other.motion);
+            let message = format!("`{}` moves against the tool, by {how}", other.name);
+            let advice =
+                "a tool is one rigid piece: fix it, take it out, or name a piece with --body";
+            ledger.fault(other.place, message, advice);
+        }
+    }
+    let frame = flat(&model.bodies[body].pose).inverse();
+    let (mut parts, mut names) = (Vec::new(), Names::default());
+    let (mut frictions, mut lows) = (Vec::new(), Vec::new());
+    let solids = bodies.iter().flat_map(|body| {
+        let of = &model.bodies[*body];
+        of.solids.iter().filter(|solid| solid.touches).map(|solid| (of.name.as_str(), solid))
+    });
+    // Thousands of parts would be compared with each other first.
+    let count = solids.clone().count();
+    if count > MAX_PARTS {
+        let message =
+            format!("it has {count} solids that touch; a tool has at most {MAX_PARTS} parts");
+        ledger.fault(model.bodies[body].place, message, "leave out those that meet no object");
+        return None;
+    }
+    for (of, solid) in solids {
+        let name = names.take(if solid.name.is_empty() { of } else { &solid.name });
+        let Some(upright) = Upright::of(solid, &format!("`{name}`"), ledger) else { continue };
+        let height = upright.height;
+        let mut pose = frame * upright.pose;
+        let shape = match &upright.base {
+            Base::Rectangle([x, y]) => Shape::Cuboid { size: [*x, *y, height] },
+            Base::Disc(radius) => Shape::Cylinder { radius: *radius, height },
+            Base::Polygon(corners) => match ConvexPolygon::new(corners) {
+                Ok(base) => {
+                    pose.position = pose.point(upright.middle());
+                    Shape::Prism { base, height }
+                }
+                Err(error) => {
+                    let message = format!("`{name}` is not a prism that pushplan knows: {error}");
+                    ledger.fault(solid.place, message, "put a box or a cylinder in its place");
+                    continue;
+                }
+            },
+        };
+        frictions.push((solid.place, solid.material.friction.unwrap_or(wanted.friction)));
+        lows.push((solid.place, name.clone(), upright.low));
+        parts.push(Part { name, shape, pose });
+    }
+    let low = lows.iter().map(|(.., low)| *low).fold(f64::INFINITY, f64::min);
+    for (place, name, own) in lows.iter().filter(|(.., own)| own - low > LEVEL) {
+        let message = format!("`{name}` begins {:.1} mm above the lowest part", 1e3 * (own - low));
+        let advice = "parts of a tool stand side by side: let it reach down, or let it touch \
+                      nothing if it meets no object";
+        ledger.fault(*place, message, advice);
+    }
+    let (_, friction) = *frictions.first()?;
+    if let Some((place, other)) = frictions.iter().find(|(_, other)| *other != friction) {
+        let message = format!("parts have different frictions, {friction} and {other}");
+        ledger.fault(*place, message, "a tool has one friction value: make them alike");
+    }
+    let name = match &wanted.name {
+        Some(name) => name.clone(),
+        // A scene's name says nothing of one of its bodies.
+        None if wanted.bodies.is_empty() && !model.ours => self::name(model, file),
+        None => named_after(bare(model.name_of(body))),
+    };
+    // Parts that do not touch are rigid all the same, as the file says.
+    let joined = match Tool::new(name.clone(), parts.clone()) {
+        Err(ToolError::Apart { .. }) => {
+            let pairs: Vec<[usize; 2]> = (1..parts.len()).map(|part| [0, part]).collect();
+            Tool::joined(name, parts, &pairs)
+        }
+        made => made,
+    };
+    match joined {
+        Ok(tool) => Some(tool.friction(friction)),
+        Err(error) => {
+            ledger.fault(model.bodies[body].place, error.to_string(), "");
+            None
+        }
+    }
+}

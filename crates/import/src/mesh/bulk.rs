@@ -1,0 +1,168 @@
+//! A mesh, and how much it holds.
+
+use std::collections::HashMap;
+
+use nalgebra::Point3;
+
+use pushplan::geometry::convex_hull;
+
+/// A mesh in the frame of its solid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh {
+    /// Corners, metres.
+    pub points: Vec<Point3<f64>>,
+    /// Triangles of corners, by index, outside counter-clockwise.
+    pub faces: Vec<[u32; 3]>,
+    /// Volume, cubic metres.
+    pub volume: f64,
+    /// Area of its surface, square metres.
+    pub surface: f64,
+    /// Its centre of mass, metres.
+    pub middle: Point3<f64>,
+}
+
+/// How the volume of a mesh is counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Counted {
+    /// Every triangle with its centre counts for as much as it holds, on whichever side: MuJoCo's
+    /// `legacy`.
+    Unsigned,
+    /// What it encloses.
+    Enclosed,
+    /// What its convex hull holds.
+    Hull,
+    /// Nothing: it is as heavy as its surface.
+    Shell,
+}
+
+/// The faces of a mesh and the numbers that follow from them.
+type Bulk = (f64, f64, Point3<f64>);
+
+impl Mesh {
+    /// The mesh of these corners and triangles, of which there may be none: then it is their hull. None if
+    /// it holds nothing, or if a number is none.
+    pub fn new(points: Vec<Point3<f64>>, faces: Vec<[u32; 3]>, counted: Counted) -> Option<Self> {
+        let finite = |point: &Point3<f64>| point.iter().all(|number| number.abs() < 1e9);
+        if !points.iter().all(finite) {
+            return None;
+        }
+        let known = |face: &[u32; 3]| face.iter().all(|corner| (*corner as usize) < points.len());
+        let faces: Vec<[u32; 3]> = faces.into_iter().filter(known).collect();
+        let hull = || hull(&points);
+        let (volume, surface, middle) = if faces.is_empty() || counted == Counted::Hull {
+            let (corners, faces) = hull()?;
+            bulk(&corners, &faces, Counted::Enclosed)
+        } else {
+            bulk(&points, &faces, counted)
+        };
+        let sound = volume.is_finite() && middle.iter().all(|number| number.is_finite());
+        (sound && (volume > 0.0 || surface > 0.0)).then_some(Self {
+            points,
+            faces,
+            volume,
+            surface,
+            middle,
+        })
+    }
+
+    /// Volume of its convex hull, cubic metres; zero if it is flat.
+    pub fn hull_volume(&self) -> f64 {
+        hull(&self.points)
+            .map_or(0.0, |(corners, faces)| bulk(&corners, &faces, Counted::Enclosed).0)
+    }
+
+    /// Whether every side of a triangle is that of one other triangle, the other way round.
+    pub fn is_closed(&self) -> bool {
+        let mut numbers = HashMap::new();
+        let place = |point: &Point3<f64>| point.coords.map(|x| (x * 1e7).round() as i64);
+        let number: Vec<usize> = self
+            .points
+            .iter()
+            .map(|point| {
+                let next = numbers.len();
+                *numbers.entry(<[i64; 3]>::from(place(point))).or_insert(next)
+            })
+            .collect();
+        let mut sides: HashMap<[usize; 2], i32> = HashMap::new();
+        for face in &self.faces {
+            let [a, b, c] = face.map(|corner| number[corner as usize]);
+            if a == b || b == c || c == a {
+                continue;
+            }
+            for [from, to] in [[a, b], [b, c], [c, a]] {
+                *sides.entry([from.min(to), from.max(to)]).or_default() +=
+                    if from < to { 1 } else { -1 };
+            }
+        }
+        !self.faces.is_empty() && sides.values().all(|sum| *sum == 0)
+    }
+}
+
+type Faces = (Vec<Point3<f64>>, Vec<[u32; 3]>);
+
+fn hull(points: &[Point3<f64>]) -> Option<Faces> {
+    let plain: Vec<[f64; 3]> = points.iter().map(|point| point.coords.into()).collect();
+    let (corners, faces) = convex_hull(&plain)?;
+    Some((corners.into_iter().map(Point3::from).collect(), faces))
+}
+
+/// Volume, surface and centre of mass, by tetrahedra of the triangles and the middle of the surface.
+fn bulk(points: &[Point3<f64>], faces: &[[u32; 3]], counted: Counted) -> Bulk {
+    let triangles = || faces.iter().map(|face| face.map(|corner| points[corner as usize].coords));
+    let (mut surface, mut weighted) = (0.0, nalgebra::Vector3::zeros());
+    for [a, b, c] in triangles() {
+        let area = (b - a).cross(&(c - a)).norm() / 2.0;
+        surface += area;
+        weighted += area * (a + b + c) / 3.0;
+    }
+    let origin = weighted / surface;
+    if counted == Counted::Shell {
+        return (0.0, surface, origin.into());
+    }
+    let held = |origin: nalgebra::Vector3<f64>| {
+        let (mut volume, mut moment) = (0.0, nalgebra::Vector3::zeros());
+        for [a, b, c] in triangles() {
+            let signed = (a - origin).dot(&(b - origin).cross(&(c - origin))) / 6.0;
+            let held = if counted == Counted::Unsigned { signed.abs() } else { signed };
+            volume += held;
+            moment += held * (a + b + c + origin) / 4.0;
+        }
+        (volume, moment / volume)
+    };
+    let (volume, middle) = held(origin);
+    // MuJoCo moves a mesh to its centre of mass and counts again from there.
+    let volume = if counted == Counted::Unsigned { held(middle).0 } else { volume };
+    // Turned inside out it encloses as much.
+    (volume.abs(), surface, middle.into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cube() -> (Vec<Point3<f64>>, Vec<[u32; 3]>) {
+        let corner = |k: u32| Point3::from([k & 1, k >> 1 & 1, k >> 2].map(f64::from));
+        let sides =
+            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let faces = sides.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]);
+        ((0..8).map(corner).collect(), faces.collect())
+    }
+
+    #[test]
+    fn a_cube_holds_a_cube_however_it_is_counted() {
+        let (points, faces) = cube();
+        for counted in [Counted::Unsigned, Counted::Enclosed, Counted::Hull] {
+            let mesh = Mesh::new(points.clone(), faces.clone(), counted).expect("a mesh");
+            assert!((mesh.volume - 1.0).abs() < 1e-12 && mesh.is_closed(), "{counted:?}");
+            assert!((mesh.middle - Point3::new(0.5, 0.5, 0.5)).norm() < 1e-12);
+        }
+        let shell = Mesh::new(points.clone(), faces.clone(), Counted::Shell).expect("a mesh");
+        assert_eq!((shell.volume, shell.surface), (0.0, 6.0));
+        let open = Mesh::new(points.clone(), faces[1..].to_vec(), Counted::Unsigned);
+        assert!(!open.expect("a mesh").is_closed());
+        assert!(Mesh::new(points[..3].to_vec(), Vec::new(), Counted::Hull).is_none());
+        assert!(
+            Mesh::new(vec![Point3::new(f64::NAN, 0.0, 0.0); 4], faces, Counted::Shell).is_none()
+        );
+    }
+}

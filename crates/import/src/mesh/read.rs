@@ -1,0 +1,16 @@
+//! Meshes of files as points.
+
+use std::path::Path;
+
+use nalgebra::Point3;
+
+use pushplan::asset::foreign::{self, Refused};
+
+/// Corners, in the unit of the file, and triangles that name them.
+type Triangles = (Vec<Point3<f64>>, Vec<[u32; 3]>);
+
+/// The triangles of a mesh file.
+pub(crate) fn load(path: &Path) -> Result<Triangles, Refused> {
+    let (corners, faces) = foreign::load(path)?;
+    Ok((corners.into_iter().map(Point3::from).collect(), faces))
+}

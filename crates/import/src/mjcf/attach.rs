@@ -1,0 +1,159 @@
+//! Bodies of other models that a file attaches to its own.
+
+use std::collections::HashMap;
+
+use nalgebra::Isometry3;
+use roxmltree::Node;
+
+use crate::model::{Model, Motion, Place};
+use crate::read::parsed;
+use crate::xml::Source;
+use pushplan::asset::Fault;
+use pushplan::asset::foreign::Files;
+
+/// The most bodies that a model has with those that it attaches.
+const MOST: usize = 5000;
+
+/// The models that a file names, or what is wrong with them.
+#[derive(Default)]
+pub(super) struct Models(HashMap<String, Result<Model, Vec<Fault>>>);
+
+impl Models {
+    /// Reads the file that an element `model` names; what is wrong with it matters where it is attached.
+    pub fn add<'a>(&mut self, source: &mut Source<'a>, node: Node<'a, 'a>, files: &Files) {
+        let Some(file) = node.attribute("file") else {
+            source.fault(node, "this model names no file", "name its `file`");
+            return;
+        };
+        let read = files.find("", file).and_then(|path| Ok((Files::bytes(&path)?, path)));
+        let (bytes, path) = match read {
+            Ok(found) => found,
+            Err(refused) => return source.fault(node, refused.message, refused.advice),
+        };
+        let Some(inner) = files.within(&path) else {
+            let message = "these models attach each other, or far too many";
+            return source.fault(node, message, "break the circle");
+        };
+        let Ok(text) = String::from_utf8(bytes) else {
+            let message = format!("{file} is not UTF-8 text");
+            return source.fault(node, message, "is this the right file?");
+        };
+        let shown = path.display().to_string();
+        let found = parsed(&text, &shown, &inner);
+        let found = found.map(|(mut model, _, notes)| {
+            // Of those of the file itself, which no body has.
+            model.bodies[0].notes.extend(notes);
+            let first = source.ledger.more_files(&model.files);
+            let moved = |place: &mut Place| place.file += first;
+            model.bodies.iter_mut().for_each(|body| {
+                moved(&mut body.place);
+                body.solids.iter_mut().for_each(|solid| moved(&mut solid.place));
+            });
+            model.beyond.iter_mut().for_each(|(place, _)| moved(place));
+            model.excluded.iter_mut().for_each(|(place, _)| moved(place));
+            model
+        });
+        let name = node.attribute("name").map(str::to_owned);
+        let name = name.or_else(|| found.as_ref().ok().map(|model| model.name.clone()));
+        self.0.insert(name.unwrap_or_default(), found.map_err(|faults| faults.0));
+    }
+
+    /// Takes the bodies that an element `attach` names into `model`, below its body `onto` and at `pose`.
+    pub fn attach<'a>(
+        &self,
+        source: &mut Source<'a>,
+        node: Node<'a, 'a>,
+        (onto, pose): (usize, &Isometry3<f64>),
+        model: &mut Model,
+    ) {
+        source.only(node, &[&["model", "body", "prefix"]]);
+        let named = node.attribute("model").unwrap_or_default();
+        let other = match self.0.get(named) {
+            Some(Ok(other)) => other,
+            Some(Err(faults)) => return source.ledger.take(faults),
+            None => {
+                let message = format!("there is no model `{named}`");
+                return source.fault(node, message, "name one of those under <asset>");
+            }
+        };
+        let top = match node.attribute("body") {
+            None => 0,
+            Some(name) => match other.bodies.iter().position(|body| body.name == name) {
+                Some(top) => top,
+                None => {
+                    let message = format!("the model `{named}` has no body `{name}`");
+                    return source.fault(node, message, "correct its name");
+                }
+            },
+        };
+        let below = other.below(top);
+        if model.bodies.len() + below.len() > MOST {
+            let message = format!("with these bodies there are more than {MOST}");
+            return source.fault(node, message, "attach fewer");
+        }
+        let prefix = node.attribute("prefix").unwrap_or_default();
+        // It hangs here as it hangs there.
+        let there = other.bodies[top]
+            .parent
+            .map_or_else(Isometry3::identity, |parent| other.bodies[parent].pose);
+        let moved = pose * there.inverse();
+        source.ledger.note_all(&other.bodies[0].notes);
+        let mut bodies = HashMap::new();
+        let mut solids = Vec::new();
+        for index in below {
+            let mut body = other.bodies[index].clone();
+            for solid in &mut body.solids {
+                solid.pose = moved * solid.pose;
+                solids.push(solid.name.clone());
+                if !solid.name.is_empty() {
+                    solid.name.insert_str(0, prefix);
+                }
+            }
+            if index == 0 {
+                model.bodies[onto].solids.extend(body.solids);
+                bodies.insert(index, onto);
+                continue;
+            }
+            body.parent =
+                Some(bodies.get(&body.parent.unwrap_or_default()).copied().unwrap_or(onto));
+            body.name.insert_str(0, prefix);
+            body.pose = moved * body.pose;
+            body.motion = turned(body.motion, &moved);
+            if let Some((_, middle, _)) = &mut body.inertial {
+                *middle = moved * *middle;
+            }
+            if let Some((_, middle)) = &mut body.weighs {
+                *middle = moved * *middle;
+            }
+            bodies.insert(index, model.bodies.len());
+            model.bodies.push(body);
+        }
+        let prefixed = |names: &[String; 2]| names.clone().map(|name| format!("{prefix}{name}"));
+        for (names, friction) in &other.pairs {
+            if names.iter().all(|name| solids.contains(name)) {
+                model.pairs.push((prefixed(names), *friction));
+            }
+        }
+        for (place, names) in &other.excluded {
+            let is_here =
+                |name: &String| bodies.keys().any(|index| other.bodies[*index].name == *name);
+            if names.iter().all(is_here) {
+                model.excluded.push((*place, prefixed(names)));
+            }
+        }
+        model.beyond.extend(other.beyond.iter().cloned());
+    }
+}
+
+fn turned(motion: Motion, moved: &Isometry3<f64>) -> Motion {
+    match motion {
+        Motion::Hinge { axis, at, limits } => {
+            Motion::Hinge { axis: moved * axis, at: moved * at, limits }
+        }
+        Motion::Slide { axis, limits } => Motion::Slide { axis: moved * axis, limits },
+        Motion::Several(all) => {
+            Motion::Several(all.into_iter().map(|motion| turned(motion, moved)).collect())
+        }
+        other => other,
+    }
+}

@@ -1,0 +1,275 @@
+//! The tree of bodies.
+
+use nalgebra::{Isometry3, Point3, Vector3};
+use roxmltree::Node;
+
+use crate::model::{Body, Model, Motion};
+use crate::xml::{Source, elements};
+
+use super::defaults::Lookup;
+use super::geoms::Context;
+
+const TURNS: [&str; 6] = ["axisangle", "euler", "pos", "quat", "xyaxes", "zaxis"];
+
+/// Elements of a body that nothing touches or moves.
+const UNSEEN: [&str; 3] = ["site", "camera", "light"];
+
+/// Where something is read: below which body, at which pose, with which class.
+#[derive(Clone, Copy)]
+struct Within<'a> {
+    body: usize,
+    pose: Isometry3<f64>,
+    class: Option<&'a str>,
+    /// Bodies and frames around it.
+    depth: usize,
+}
+
+/// Bodies and frames in each other: more than any robot has joints, and less than a stack holds.
+const DEEPEST: usize = 200;
+
+/// Takes in an element `worldbody`.
+pub(super) fn world<'a>(
+    source: &mut Source<'a>,
+    context: &Context<'a>,
+    node: Node<'a, 'a>,
+    model: &mut Model,
+) {
+    let class = node.attribute("childclass");
+    inside(
+        source,
+        context,
+        node,
+        Within { body: 0, pose: Isometry3::identity(), class, depth: 0 },
+        model,
+    );
+}
+
+/// Reads what is in a body or frame.
+fn inside<'a>(
+    source: &mut Source<'a>,
+    context: &Context<'a>,
+    node: Node<'a, 'a>,
+    within: Within<'a>,
+    model: &mut Model,
+) {
+    if within.depth > DEEPEST {
+        let message = format!("more than {DEEPEST} levels of bodies and frames");
+        source.fault(node, message, "is this the right file?");
+        return;
+    }
+    for child in elements(node) {
+        let (before, noted) = (source.ledger.count(), source.ledger.notes());
+        let tag = child.tag_name().name();
+        let element = Lookup { node: child, class: within.class };
+        match tag {
+            "geom" => {
+                let solid = context.solid(source, element, &within.pose);
+                model.bodies[within.body].solids.extend(solid);
+            }
+            "body" => body(source, context, child, within, model),
+            "frame" => {
+                source.only(child, &[&TURNS, &["name", "childclass"]]);
+                context.defaults.check(source, child, "childclass");
+                let Some(pose) = context.pose(source, element) else { continue };
+                model.bodies[within.body].faults.extend(source.ledger.since(before));
+                let class = child.attribute("childclass").or(within.class);
+                let (pose, depth) = (within.pose * pose, within.depth + 1);
+                inside(source, context, child, Within { pose, class, depth, ..within }, model);
+            }
+            "inertial" => inertial(source, context, element, within, model),
+            "joint" | "freejoint" => {
+                let motion = joint(source, context, element, within);
+                let body = &mut model.bodies[within.body];
+                if let (Some(motion), Some(_)) = (motion, body.parent) {
+                    body.motion = body.motion.clone().and(motion);
+                }
+            }
+            "attach" => context.models.attach(source, child, (within.body, &within.pose), model),
+            tag if UNSEEN.contains(&tag) => {}
+            _ => {
+                let message = format!("<{tag}> is not read");
+                source.fault(child, message, FLATTEN);
+            }
+        }
+        // What is wrong with a body matters to those who want it.
+        model.bodies[within.body].faults.extend(source.ledger.since(before));
+        model.bodies[within.body].notes.extend(source.ledger.notes_since(noted));
+    }
+}
+
+/// How to get rid of what MuJoCo's compiler computes.
+pub(super) const FLATTEN: &str = "have MuJoCo write it out: `python3 -c \"import mujoco; \
+    mujoco.mj_saveLastXML('flat.xml', mujoco.MjModel.from_xml_path('FILE'))\"`, or take it out";
+
+fn body<'a>(
+    source: &mut Source<'a>,
+    context: &Context<'a>,
+    node: Node<'a, 'a>,
+    within: Within<'a>,
+    model: &mut Model,
+) {
+    // The arm of an exported plan.
+    if model.ours && node.attribute("name").is_some_and(|name| name.starts_with("arm/")) {
+        source.ledger.note(source.place(node), "the arm, which holds the tool, is left out");
+        let is_tool = |node: &Node<'_, '_>| node.attribute("name") == Some(Model::TOOL);
+        if let Some(tool) = node.descendants().find(is_tool) {
+            held(source, context, tool, within, model);
+        }
+        return;
+    }
+    let before = source.ledger.count();
+    source.only(node, &[&TURNS, &["childclass", "gravcomp", "mocap", "name", "sleep", "user"]]);
+    context.defaults.check(source, node, "childclass");
+    let class = node.attribute("childclass").or(within.class);
+    let Some(pose) = context.pose(source, Lookup { node, class }) else {
+        model.bodies[within.body].faults.extend(source.ledger.since(before));
+        return;
+    };
+    if let Some(lifted) = node.attribute_node("gravcomp").filter(|value| value.value() != "0") {
+        source.fault_of(lifted, "this body does not weigh what it should", "leave `gravcomp` out");
+    }
+    let index = model.bodies.len();
+    let name = node.attribute("name").map_or_else(|| format!("body-{index}"), str::to_owned);
+    let mocap = node.attribute("mocap") == Some("true");
+    model.bodies.push(Body {
+        name,
+        place: source.place(node),
+        parent: Some(within.body),
+        motion: match mocap {
+            true => Motion::Other("a program (`mocap`)".to_owned()),
+            false => Motion::Fixed,
+        },
+        pose: within.pose * pose,
+        faults: source.ledger.since(before),
+        ..Body::world()
+    });
+    let pose = within.pose * pose;
+    let depth = within.depth + 1;
+    inside(source, context, node, Within { body: index, pose, class, depth }, model);
+    // What is stated counts only where the compiler says so.
+    match (context.compiler.from_geoms, &model.bodies[index].inertial) {
+        (Some(true), _) => model.bodies[index].inertial = None,
+        (Some(false), None) => {
+            source.fault(node, "this body states no mass", "add <inertial>");
+            model.bodies[index].faults.extend(source.ledger.since(before));
+        }
+        _ => {}
+    }
+}
+
+/// The tool that the arm of an exported plan holds, wherever: upright in its own frame.
+fn held<'a>(
+    source: &mut Source<'a>,
+    context: &Context<'a>,
+    node: Node<'a, 'a>,
+    within: Within<'a>,
+    model: &mut Model,
+) {
+    let index = model.bodies.len();
+    model.bodies.push(Body {
+        name: Model::TOOL.to_owned(),
+        place: source.place(node),
+        parent: Some(0),
+        motion: Motion::Other("an arm".to_owned()),
+        ..Body::world()
+    });
+    let within = Within { body: index, pose: Isometry3::identity(), ..within };
+    inside(source, context, node, within, model);
+}
+
+fn inertial<'a>(
+    source: &mut Source<'a>,
+    context: &Context<'a>,
+    element: Lookup<'a, '_>,
+    within: Within<'a>,
+    model: &mut Model,
+) {
+    let node = element.node;
+    source.only(node, &[&TURNS, &["mass", "diaginertia", "fullinertia"]]);
+    let Some(mass) = source.attribute(node, "mass") else {
+        source.fault(node, "<inertial> states no mass", "add `mass`");
+        return;
+    };
+    let moments = match ["diaginertia", "fullinertia"].map(|name| node.attribute_node(name)) {
+        [Some(three), _] => source.numbers(three).map(|[x, y, z]| [x, y, z, 0.0, 0.0, 0.0]),
+        [None, Some(six)] => source.numbers(six),
+        [None, None] => Some([0.0; 6]),
+    };
+    let pose = context.pose(source, element);
+    if let (Some(mass), Some(moments), Some(pose)) = (source.number(mass), moments, pose) {
+        let pose = within.pose * pose;
+        let [xx, yy, zz, xy, xz, yz] = moments;
+        let up = pose.rotation.inverse() * Vector3::z();
+        let tensor = nalgebra::Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+        let about = Some(up.dot(&(tensor * up))).filter(|moment| *moment > 0.0);
+        let middle = Point3::from(pose.translation.vector);
+        model.bodies[within.body].inertial = Some((mass, middle, about));
+    }
+}
+
+/// How a joint lets its body move.
+fn joint<'a>(
+    source: &mut Source<'a>,
+    context: &Context<'a>,
+    element: Lookup<'a, '_>,
+    within: Within<'a>,
+) -> Option<Motion> {
+    let node = element.node;
+    if node.tag_name().name() == "freejoint" {
+        return Some(Motion::Free);
+    }
+    context.defaults.check(source, node, "class");
+    let find = |name: &str| context.defaults.find(element, name);
+    let number = |source: &mut Source<'a>, name: &str| match find(name) {
+        Some(value) => source.list(value).map(|list| list.first().copied().unwrap_or_default()),
+        None => Some(0.0),
+    };
+    let kind = find("type").map_or("hinge", |kind| kind.value());
+    if kind == "free" {
+        return Some(Motion::Free);
+    }
+    let named = node.attribute("name").unwrap_or("without a name");
+    if number(source, "stiffness")? != 0.0 || find("springdamper").is_some() {
+        let message = format!("the joint {named} has a spring");
+        source.fault(node, message, "pushplan's joints have none: leave it out");
+    }
+    for loss in ["damping", "frictionloss"] {
+        if number(source, loss)? != 0.0 {
+            let place = source.place(node);
+            source.ledger.note(place, format!("`{loss}` of the joint {named} is left out"));
+        }
+    }
+    let (start, at) = (number(source, "ref")?, find("pos"));
+    let axis = match find("axis") {
+        Some(axis) => source.numbers::<3>(axis)?,
+        None => [0.0, 0.0, 1.0],
+    };
+    let Some(axis) = Vector3::from(axis).try_normalize(1e-12) else {
+        source.fault(node, "the axis of this joint has no length", "write one such as `0 0 1`");
+        return None;
+    };
+    let axis = within.pose * axis;
+    let limited = match find("limited").map_or("auto", |limited| limited.value()) {
+        "auto" => find("range").is_some(),
+        limited => limited == "true",
+    };
+    let range = match find("range").filter(|_| limited) {
+        Some(range) => Some(source.numbers::<2>(range)?),
+        None => None,
+    };
+    match kind {
+        "hinge" => {
+            let at = match at {
+                Some(at) => source.numbers::<3>(at)?,
+                None => [0.0; 3],
+            };
+            let limits = range.map(|range| range.map(|end| context.compiler.angle(end - start)));
+            let at = within.pose * Point3::from(at);
+            Some(Motion::Hinge { axis, at, limits })
+        }
+        "slide" => {
+            Some(Motion::Slide { axis, limits: range.map(|ends| ends.map(|end| end - start)) })
+        }
+        _ => Some(Motion::Other(format!("a {kind} joint"))),
+    }
+}

@@ -1,0 +1,148 @@
+//! What the compiler and the options of a file say.
+
+use nalgebra::UnitQuaternion;
+use roxmltree::Node;
+
+use crate::turns;
+use crate::xml::Source;
+
+use super::defaults::{Defaults, Lookup};
+
+/// How numbers of a file are meant.
+#[derive(Clone, Debug)]
+pub(super) struct Compiler {
+    /// Whether angles are degrees.
+    pub degrees: bool,
+    /// The axes of Euler angles.
+    pub letters: [char; 3],
+    /// Whether masses follow from geoms even where a body states one; none: only where it does not.
+    pub from_geoms: Option<bool>,
+    /// The groups of geoms that have mass, where a body states none.
+    pub groups: [f64; 2],
+    /// The folder of meshes.
+    pub meshes: String,
+    /// Whether names of files lose their folders.
+    pub strip: bool,
+    /// Whether meshes count for what they enclose, as an old attribute has it.
+    pub exact: bool,
+}
+
+/// Attributes of the compiler that change nothing that is read here.
+const HARMLESS: [&str; 14] = [
+    "alignfree",
+    "autolimits",
+    "balanceinertia",
+    "boundinertia",
+    "conflict",
+    "convexhull",
+    "discardvisual",
+    "fitaabb",
+    "fusestatic",
+    "lengthrange",
+    "saveinertial",
+    "texturedir",
+    "usethread",
+    "meshfiles",
+];
+
+impl Default for Compiler {
+    fn default() -> Self {
+        Self {
+            degrees: true,
+            letters: ['x', 'y', 'z'],
+            from_geoms: None,
+            groups: [0.0, 5.0],
+            meshes: String::new(),
+            strip: false,
+            exact: false,
+        }
+    }
+}
+
+impl Compiler {
+    /// Takes in an element `compiler`.
+    pub fn read<'a>(&mut self, source: &mut Source<'a>, node: Node<'a, 'a>) {
+        for attribute in node.attributes() {
+            let (name, value) = (attribute.name(), attribute.value());
+            let mut refuse = |advice: &str| {
+                let message = format!("the compiler's {name}=\"{value}\" is not supported");
+                source.fault_of(attribute, message, advice);
+            };
+            match (name, value) {
+                ("angle", "degree") => self.degrees = true,
+                ("angle", "radian") => self.degrees = false,
+                ("eulerseq", _) => match letters(value) {
+                    Some(letters) => self.letters = letters,
+                    None => refuse("write three of the letters x, y, z, X, Y, Z"),
+                },
+                ("inertiafromgeom", "true") => self.from_geoms = Some(true),
+                ("inertiafromgeom", "false") => self.from_geoms = Some(false),
+                ("inertiafromgeom", "auto") => self.from_geoms = None,
+                ("coordinate", "local") => {}
+                ("boundmass" | "settotalmass", _) => {
+                    if value.trim().parse().is_ok_and(|bound: f64| bound <= 0.0) {
+                        continue;
+                    }
+                    refuse("write the masses themselves");
+                }
+                ("inertiagrouprange", _) => {
+                    if let Some(groups) = source.numbers(attribute) {
+                        self.groups = groups;
+                    }
+                }
+                ("assetdir" | "meshdir", folder) => folder.clone_into(&mut self.meshes),
+                ("strippath", word) => self.strip = word == "true",
+                ("exactmeshinertia", word) => self.exact = word == "true",
+                (name, _) if HARMLESS.contains(&name) => {}
+                _ => refuse("correct it, or take it out"),
+            }
+        }
+    }
+
+    /// An angle of the file in radians.
+    pub fn angle(&self, value: f64) -> f64 {
+        if self.degrees { value.to_radians() } else { value }
+    }
+
+    /// The turn that an element states; none, with a fault, if it cannot be one.
+    pub fn turn<'a>(
+        &self,
+        source: &mut Source<'a>,
+        defaults: &Defaults<'a>,
+        element: Lookup<'a, '_>,
+    ) -> Option<UnitQuaternion<f64>> {
+        let mut turn = UnitQuaternion::identity();
+        for name in ["quat", "axisangle", "euler", "xyaxes", "zaxis"] {
+            let Some(attribute) = defaults.find(element, name) else { continue };
+            let found = match name {
+                "quat" => turns::quaternion(source.numbers(attribute)?),
+                "axisangle" => {
+                    let [x, y, z, angle] = source.numbers(attribute)?;
+                    turns::about([x, y, z], self.angle(angle))
+                }
+                "euler" => {
+                    let angles: [f64; 3] = source.numbers(attribute)?;
+                    Some(turns::euler(angles.map(|angle| self.angle(angle)), self.letters))
+                }
+                "xyaxes" => turns::axes(source.numbers(attribute)?),
+                _ => turns::z_axis(source.numbers(attribute)?),
+            };
+            let Some(found) = found else {
+                let message = format!("`{name}` states no turn: an axis has no length");
+                source.fault_of(attribute, message, "correct its numbers");
+                return None;
+            };
+            turn = found;
+            // An element's own turn goes before one of its class, of whatever kind.
+            if element.node.attribute_node(name).is_some() {
+                break;
+            }
+        }
+        Some(turn)
+    }
+}
+
+fn letters(value: &str) -> Option<[char; 3]> {
+    let letters: [char; 3] = value.chars().collect::<Vec<_>>().try_into().ok()?;
+    letters.iter().all(|letter| "xyzXYZ".contains(*letter)).then_some(letters)
+}

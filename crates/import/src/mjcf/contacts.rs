@@ -1,0 +1,37 @@
+//! Pairs of geoms that touch by their own rules.
+
+use roxmltree::Node;
+
+use crate::model::Model;
+use crate::xml::{Source, elements};
+
+use super::defaults::Lookup;
+use super::geoms::Context;
+
+/// Takes in an element `contact`.
+pub(super) fn pairs<'a>(
+    source: &mut Source<'a>,
+    context: &Context<'a>,
+    node: Node<'a, 'a>,
+    model: &mut Model,
+) {
+    for pair in elements(node) {
+        let tag = pair.tag_name().name();
+        if tag == "exclude" {
+            let names = ["body1", "body2"].map(|name| pair.attribute(name).unwrap_or_default());
+            model.excluded.push((source.place(pair), names.map(str::to_owned)));
+            continue;
+        }
+        if tag != "pair" {
+            let message = format!("<{tag}> is not read: in pushplan everything touches everything");
+            source.fault(pair, message, "take it out");
+            continue;
+        }
+        let names = ["geom1", "geom2"].map(|name| pair.attribute(name).unwrap_or_default());
+        let element = Lookup { node: pair, class: None };
+        let Some(friction) = context.defaults.find(element, "friction") else { continue };
+        if let Some([first, ..]) = source.list(friction).as_deref() {
+            model.pairs.push((names.map(str::to_owned), *first));
+        }
+    }
+}

@@ -1,0 +1,227 @@
+//! Geoms: one solid each.
+
+use std::collections::HashSet;
+
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+
+use crate::model::{Material, Outline, Solid, Weight};
+use crate::turns;
+use crate::xml::Source;
+
+use super::attach::Models;
+use super::compiler::Compiler;
+use super::defaults::{Defaults, Lookup};
+use super::meshes::Meshes;
+
+/// Density of a geom that states neither mass nor density, kg/m^3: MuJoCo's, that of water.
+const DENSITY: f64 = 1000.0;
+
+/// Friction value of a geom that states none: MuJoCo's.
+const FRICTION: f64 = 1.0;
+
+/// Attributes that are read.
+const READ: [&str; 22] = [
+    "axisangle",
+    "class",
+    "condim",
+    "conaffinity",
+    "contype",
+    "density",
+    "euler",
+    "friction",
+    "fromto",
+    "group",
+    "mass",
+    "mesh",
+    "name",
+    "pos",
+    "priority",
+    "quat",
+    "shellinertia",
+    "size",
+    "type",
+    "xyaxes",
+    "zaxis",
+    "hfield",
+];
+
+/// Attributes that change only how contacts give way, or what is seen.
+const HARMLESS: [&str; 11] = [
+    "fitscale",
+    "fluidcoef",
+    "fluidshape",
+    "gap",
+    "margin",
+    "material",
+    "rgba",
+    "solimp",
+    "solmix",
+    "solref",
+    "user",
+];
+
+/// What is needed besides a geom's element to read it.
+pub(super) struct Context<'a> {
+    pub compiler: Compiler,
+    pub defaults: Defaults<'a>,
+    /// Those that geoms name.
+    pub meshes: Meshes<'a>,
+    /// Those that are attached.
+    pub models: Models,
+    /// Names of geoms that touch what a pair says.
+    pub paired: HashSet<&'a str>,
+}
+
+impl<'a> Context<'a> {
+    /// The pose of an element in its parent's frame; none, with a fault, if it cannot be one.
+    pub fn pose(&self, source: &mut Source<'a>, element: Lookup<'a, '_>) -> Option<Isometry3<f64>> {
+        let position = match self.defaults.find(element, "pos") {
+            Some(position) => source.numbers::<3>(position)?,
+            None => [0.0; 3],
+        };
+        let turn = self.compiler.turn(source, &self.defaults, element)?;
+        Some(Isometry3::from_parts(Translation3::from(position), turn))
+    }
+
+    /// The solid of a geom whose parent stands at `parent`; none, with faults, if it has none.
+    pub fn solid(
+        &self,
+        source: &mut Source<'a>,
+        element: Lookup<'a, '_>,
+        parent: &Isometry3<f64>,
+    ) -> Option<Solid> {
+        let node = element.node;
+        source.only(node, &[&READ, &HARMLESS]);
+        self.defaults.check(source, node, "class");
+        let find = |name: &str| self.defaults.find(element, name);
+        let kind = find("type").map_or("sphere", |kind| kind.value());
+        let sizes = match find("size") {
+            Some(sizes) => source.list(sizes)?,
+            None => Vec::new(),
+        };
+        let mut pose = self.pose(source, element)?;
+        let mut halves = sizes.clone();
+        if let Some(ends) = find("fromto") {
+            let [a, b, c, d, e, f] = source.numbers(ends)?;
+            let (from, to) = (Vector3::new(a, b, c), Vector3::new(d, e, f));
+            // MuJoCo's z axis points back, from the second point to the first.
+            let along = from - to;
+            let turn = turns::z_axis(along.into()).unwrap_or_else(UnitQuaternion::identity);
+            pose = Isometry3::from_parts(Translation3::from((from + to) / 2.0), turn);
+            let width = sizes.first().copied().unwrap_or_default();
+            halves = match kind {
+                "box" => vec![width, width, along.norm() / 2.0],
+                "ellipsoid" => vec![width, width, along.norm() / 2.0],
+                _ => vec![width, along.norm() / 2.0],
+            };
+        }
+        let outline = self.outline(source, element, kind, &halves)?;
+        let flag = |source: &mut Source<'a>, name: &str| match find(name) {
+            Some(bits) => source.number(bits),
+            None => Some(1.0),
+        };
+        let (kinds, with) = (flag(source, "contype")?, flag(source, "conaffinity")?);
+        let name = node.attribute("name").unwrap_or_default();
+        if [(1.0, 1.0), (0.0, 0.0)].iter().all(|usual| *usual != (kinds, with)) {
+            let place = source.place(node);
+            let note = "`contype` and `conaffinity` are left out: everything touches everything";
+            source.ledger.note(place, note);
+        }
+        let touches = kinds != 0.0 || with != 0.0 || self.paired.contains(name);
+        if let Some(condim) = find("condim").filter(|condim| condim.value() == "1" && touches) {
+            let place = source.place_of(condim);
+            let note = "`condim` 1 is left out: the geom rubs as its `friction` says";
+            source.ledger.note(place, note);
+        }
+        Some(Solid {
+            name: name.to_owned(),
+            place: source.place(node),
+            pose: parent * pose,
+            material: self.material(source, element, &outline)?,
+            outline,
+            touches,
+        })
+    }
+
+    fn material(
+        &self,
+        source: &mut Source<'a>,
+        element: Lookup<'a, '_>,
+        outline: &Outline,
+    ) -> Option<Material> {
+        let find = |name: &str| self.defaults.find(element, name);
+        let group = match find("group") {
+            Some(group) => source.number(group)?,
+            None => 0.0,
+        };
+        let [first, last] = self.compiler.groups;
+        let hollow = find("shellinertia").filter(|shell| shell.value() == "true");
+        if let Some(shell) = hollow {
+            let place = source.place_of(shell);
+            source.ledger.note(place, "this geom is hollow: here its mass is spread evenly");
+        }
+        let weight = match (find("mass"), find("density")) {
+            _ if group < first || group > last => Weight::Mass(0.0),
+            (Some(mass), _) => Weight::Mass(source.number(mass)?),
+            (None, Some(density)) => Weight::Density(source.number(density)?),
+            (None, None) => Weight::Density(DENSITY),
+        };
+        // What is hollow weighs as its surface does.
+        let is_shell =
+            hollow.is_some() || matches!(outline, Outline::Mesh(mesh) if mesh.volume == 0.0);
+        let weight = match weight {
+            Weight::Density(density) if is_shell => Weight::Surface(density),
+            weight => weight,
+        };
+        let friction = match find("friction") {
+            Some(values) => source.list(values)?.first().copied().unwrap_or(FRICTION),
+            None => FRICTION,
+        };
+        let rank = match find("priority") {
+            Some(rank) => source.number(rank)? as i64,
+            None => 0,
+        };
+        Some(Material { weight, friction: Some(friction), rank })
+    }
+
+    fn outline(
+        &self,
+        source: &mut Source<'a>,
+        element: Lookup<'a, '_>,
+        kind: &str,
+        sizes: &[f64],
+    ) -> Option<Outline> {
+        let node = element.node;
+        Some(match (kind, sizes) {
+            ("box", [x, y, z]) => Outline::Box([*x, *y, *z]),
+            ("cylinder", [radius, half] | [radius, half, _]) => {
+                Outline::Cylinder { radius: *radius, half: *half }
+            }
+            ("sphere", [radius, ..]) => Outline::Sphere(*radius),
+            ("plane", [x, y, ..]) => Outline::Plane([*x, *y]),
+            ("mesh", _) => {
+                let Some(named) = self.defaults.find(element, "mesh") else {
+                    source.fault(node, "this geom is a mesh but names none", "add `mesh`");
+                    return None;
+                };
+                self.meshes.outline(source, self, named)?
+            }
+            ("capsule", [radius, half] | [radius, half, _]) => {
+                Outline::Capsule { radius: *radius, half: *half }
+            }
+            ("ellipsoid", [x, y, z]) => Outline::Ellipsoid([*x, *y, *z]),
+            ("box" | "cylinder" | "sphere" | "plane" | "capsule" | "ellipsoid", _) => {
+                let message = format!("this {kind} has {} sizes", sizes.len());
+                let advice = "a box has three half extents, a cylinder radius and half its length";
+                source.fault(node, message, advice);
+                return None;
+            }
+            ("hfield" | "sdf", _) => Outline::Other(format!("a {kind}")),
+            _ => {
+                let message = format!("`{kind}` is not a type of geom");
+                source.fault(node, message, "write box, cylinder or mesh");
+                return None;
+            }
+        })
+    }
+}

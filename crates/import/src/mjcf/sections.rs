@@ -1,0 +1,163 @@
+//! The sections of a file.
+
+use std::collections::HashSet;
+
+use roxmltree::Node;
+
+use crate::model::{Body, Model};
+use crate::xml::{Source, elements};
+use pushplan::asset::foreign::Files;
+use pushplan::scene::GRAVITY;
+
+use super::attach::Models;
+use super::bodies::{FLATTEN, world};
+use super::compiler::Compiler;
+use super::contacts::pairs;
+use super::defaults::Defaults;
+use super::geoms::Context;
+use super::meshes::Meshes;
+
+/// Sections that do not affect how pushes end.
+const HARMLESS: [&str; 4] = ["visual", "statistic", "size", "sensor"];
+
+/// What goals ask for besides a place and a heading in the world, as `pushplan export` names it.
+const ASKED: [&str; 5] = ["gap", "region", "coverage", "fall", "frame"];
+
+/// Sections that move or hold bodies in ways that pushplan cannot express.
+const BEYOND: [&str; 5] = ["actuator", "equality", "tendon", "deformable", "extension"];
+
+/// The model of an element `mujoco`; none, with faults, if it cannot be read.
+pub(crate) fn model<'a>(
+    source: &mut Source<'a>,
+    root: Node<'a, 'a>,
+    files: &'a Files,
+) -> Option<Model> {
+    let name = root.attribute("model").unwrap_or_default().to_owned();
+    let mut model =
+        Model { name, bodies: vec![Body::world()], larger_friction: true, ..Model::default() };
+    let mut context = Context {
+        compiler: Compiler::default(),
+        defaults: Defaults::default(),
+        meshes: Meshes::of(files),
+        models: Models::default(),
+        paired: HashSet::new(),
+    };
+    // Sections that others depend on come first, wherever they are.
+    for section in elements(root) {
+        match section.tag_name().name() {
+            "compiler" => context.compiler.read(source, section),
+            "default" => context.defaults.read(source, section, None),
+            "asset" => {
+                meshes(section, &mut context);
+                for model in elements(section).filter(|asset| asset.has_tag_name("model")) {
+                    context.models.add(source, model, files);
+                }
+            }
+            "contact" => {
+                let ends = elements(section).filter(|pair| pair.has_tag_name("pair"));
+                let names = ends.flat_map(|pair| ["geom1", "geom2"].map(|end| pair.attribute(end)));
+                context.paired.extend(names.flatten());
+            }
+            // Whether there is an arm of ours; MuJoCo writes it last.
+            "custom" => custom(source, section, &mut model),
+            _ => {}
+        }
+    }
+    for section in elements(root) {
+        match section.tag_name().name() {
+            "compiler" | "default" | "asset" | "custom" => {}
+            "worldbody" => world(source, &context, section, &mut model),
+            "contact" => pairs(source, &context, section, &mut model),
+            "option" => option(source, section),
+            "keyframe" => {
+                if elements(section).any(|key| key.has_attribute("qpos")) {
+                    let note = "keyframes are left out: everything is where bodies and joints say";
+                    let place = source.place(section);
+                    source.ledger.note(place, note);
+                }
+            }
+            tag if HARMLESS.contains(&tag) => {}
+            tag if BEYOND.contains(&tag) => {
+                let of_arm = model.ours && tag == "actuator";
+                if elements(section).next().is_some() && !of_arm {
+                    model.beyond.push((source.place(section), format!("<{tag}>")));
+                }
+            }
+            tag => source.fault(section, format!("<{tag}> is not read"), FLATTEN),
+        }
+    }
+    Some(model)
+}
+
+fn meshes<'a>(section: Node<'a, 'a>, context: &mut Context<'a>) {
+    for mesh in elements(section).filter(|asset| asset.has_tag_name("mesh")) {
+        // A mesh without a name is called like its file.
+        let stem = || std::path::Path::new(mesh.attribute("file")?).file_stem()?.to_str();
+        if let Some(name) = mesh.attribute("name").or_else(stem) {
+            context.meshes.add(name, mesh);
+        }
+    }
+}
+
+/// Options that change how things move.
+fn option<'a>(source: &mut Source<'a>, option: Node<'a, 'a>) {
+    gravity(source, option);
+    for (name, what) in [("density", "the medium"), ("viscosity", "the medium"), ("wind", "wind")] {
+        let stated = option.attribute(name).unwrap_or_default();
+        if stated.split_whitespace().any(|word| word.parse().is_ok_and(|value: f64| value != 0.0)) {
+            let place = source.place(option);
+            source.ledger.note(place, format!("`{name}` is left out: {what} does not push here"));
+        }
+    }
+    for flag in elements(option).filter(|node| node.has_tag_name("flag")) {
+        for name in ["gravity", "contact", "constraint", "limit"] {
+            if let Some(off) = flag.attribute_node(name).filter(|flag| flag.value() == "disable") {
+                let message = format!("{name} is switched off; pushplan's tables have it");
+                source.fault_of(off, message, "take the flag out");
+            }
+        }
+    }
+}
+
+/// Pushes are planned on a level table on earth.
+fn gravity<'a>(source: &mut Source<'a>, option: Node<'a, 'a>) {
+    let Some(stated) = option.attribute_node("gravity") else { return };
+    let Some([x, y, z]) = source.numbers(stated) else { return };
+    if x.hypot(y) > 1e-3 * GRAVITY || (z + GRAVITY).abs() > 0.02 * GRAVITY {
+        let message =
+            format!("gravity is {x} {y} {z} m/s^2; pushplan's tables stand level on earth");
+        let none = x.hypot(y).hypot(z) < 1e-3 * GRAVITY;
+        let advice = match none {
+            true => "write `0 0 -9.81`: without weight nothing rubs",
+            false => "turn the scene, so that gravity is `0 0 -9.81`",
+        };
+        source.fault_of(stated, message, advice);
+    }
+}
+
+/// What `pushplan export` says there. Of goals places and headings are taken over.
+fn custom<'a>(source: &mut Source<'a>, section: Node<'a, 'a>, model: &mut Model) {
+    let asks = |body: &str| {
+        elements(section).find_map(|node| {
+            let (what, of) = node.attribute("name")?.split_once(" of ")?;
+            (of == body && ASKED.contains(&what)).then(|| what.to_owned())
+        })
+    };
+    for numeric in elements(section).filter(|node| node.has_tag_name("numeric")) {
+        let name = numeric.attribute("name").unwrap_or_default();
+        model.ours |= name == "push 1";
+        let goal = name.strip_prefix("goal of ");
+        if let (Some(body), Some(data)) = (goal, numeric.attribute_node("data"))
+            && let Some(numbers) = source.list(data)
+        {
+            match asks(body) {
+                None => model.goals.push((body.to_owned(), numbers)),
+                Some(what) => {
+                    let note =
+                        format!("the goal of `{body}` is left out: its {what} has no place here");
+                    source.ledger.note(source.place(numeric), note);
+                }
+            }
+        }
+    }
+}

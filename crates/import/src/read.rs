@@ -1,0 +1,108 @@
+//! Recognising and reading a file.
+
+use std::path::{Path, PathBuf};
+
+use pushplan::asset::{Faults, read_text};
+
+use super::fault::Ledger;
+use super::model::Model;
+use super::spliced::{Spliced, document};
+use super::xml::Source;
+use super::{mesh, mjcf, urdf};
+use pushplan::asset::foreign::Files;
+
+/// The language of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Language {
+    /// MuJoCo's.
+    Mjcf,
+    /// That of ROS.
+    Urdf,
+    /// A mesh in STL.
+    Stl,
+    /// A mesh in OBJ.
+    Obj,
+}
+
+impl Language {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Language::Mjcf => "MJCF",
+            Language::Urdf => "URDF",
+            Language::Stl => "STL",
+            Language::Obj => "OBJ",
+        }
+    }
+}
+
+/// How files are read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reading {
+    /// The folder in and below which a file may name others; by default its own.
+    pub root: Option<PathBuf>,
+    /// The unit of a mesh that is imported by itself, metres.
+    pub unit: f64,
+}
+
+impl Default for Reading {
+    fn default() -> Self {
+        Self { root: None, unit: 1.0 }
+    }
+}
+
+/// Reads a file of MJCF or URDF, as its root element says, or a mesh, as its name ends. Gives the model
+/// and notes of what is left out of it.
+///
+/// # Errors
+/// All faults of the file, each with its place.
+pub fn read(
+    path: impl AsRef<Path>,
+    reading: &Reading,
+) -> Result<(Model, Language, Vec<String>), Faults> {
+    let path = path.as_ref();
+    if let Some(language) = mesh::language(path) {
+        let (model, notes) = mesh::model(path, language, reading.unit)?;
+        return Ok((model, language, notes));
+    }
+    let (file, text) = read_text(path)?;
+    parsed(&text, &file, &Files::of(path, reading.root.as_deref()))
+}
+
+/// Reads a text of MJCF or URDF, which names no other files; `file` names it in faults.
+///
+/// # Errors
+/// All faults of the text, each with its place.
+pub fn parse(text: &str, file: &str) -> Result<(Model, Language, Vec<String>), Faults> {
+    parsed(text, file, &Files::default())
+}
+
+/// Reads a text that names `files`.
+pub(super) fn parsed(
+    text: &str,
+    file: &str,
+    files: &Files,
+) -> Result<(Model, Language, Vec<String>), Faults> {
+    let spliced = Spliced::read(text, file, files)?;
+    let document = document(&spliced.text, file)?;
+    let mut source = Source::new(&spliced, Ledger::new(file, &spliced.names()));
+    let root = document.root_element();
+    let (model, language) = match root.tag_name().name() {
+        "mujoco" => (mjcf::model(&mut source, root, files), Language::Mjcf),
+        "robot" => (urdf::model(&mut source, root, files), Language::Urdf),
+        other => {
+            let message = format!("<{other}> is neither <mujoco> (MJCF) nor <robot> (URDF)");
+            let advice = match other {
+                "sdf" => "convert SDF to URDF or MJCF first",
+                "mujocoinclude" => "name the file that includes this one",
+                _ => "is this the right file?",
+            };
+            source.fault(root, message, advice);
+            (None, Language::Mjcf)
+        }
+    };
+    let names = source.ledger.files().to_vec();
+    let (mut model, notes) = source.ledger.finish(model)?;
+    model.files = names;
+    Ok((model, language, notes))
+}

@@ -1,0 +1,94 @@
+//! How links of a URDF file rub, which URDF itself does not say: what simulators look for.
+
+use std::collections::HashMap;
+
+use roxmltree::Node;
+
+use pushplan::asset::Fault;
+
+use super::xml::{Source, element, elements};
+
+/// What `<gazebo reference="...">` says of a link.
+#[derive(Default)]
+pub(super) struct Gazebo {
+    /// Friction value.
+    pub friction: Option<f64>,
+    /// What is wrong with it.
+    pub faults: Vec<Fault>,
+}
+
+/// The friction of a link as Bullet has it; the inner none, with a fault, if it is not a number.
+pub(super) fn friction<'a>(source: &mut Source<'a>, link: Node<'a, 'a>) -> Option<Option<f64>> {
+    let contact = element(link, "contact")?;
+    for (name, what) in [
+        ("rolling_friction", "rolls as if it had none"),
+        ("spinning_friction", "spins on its support as wide as that is"),
+    ] {
+        let stated = element(contact, name).and_then(|node| node.attribute("value"));
+        if stated.is_some_and(|value| value.trim().parse() != Ok(0.0)) {
+            let place = source.place(contact);
+            source.ledger.note(place, format!("<{name}> is left out: the link {what}"));
+        }
+    }
+    let value = element(contact, "lateral_friction")?.attribute_node("value")?;
+    Some(source.number(value))
+}
+
+/// The friction of a collision as Drake has it: that of what slides.
+pub(super) fn drake<'a>(source: &mut Source<'a>, collision: Node<'a, 'a>) -> Option<f64> {
+    let find = |name: &str| {
+        collision
+            .descendants()
+            .find(|node| node.tag_name().name() == name)
+            .and_then(|node| node.attribute_node("value"))
+    };
+    let [slides, sticks] = ["mu_dynamic", "mu_static"].map(find);
+    let friction = source.number(slides.or(sticks)?)?;
+    if let Some(sticks) = sticks {
+        let place = source.place_of(sticks);
+        if source.number(sticks)? != friction {
+            let note = "of two values of friction that of sliding is taken";
+            source.ledger.note(place, note);
+        }
+    }
+    Some(friction)
+}
+
+/// What links are like for Gazebo, by their names.
+pub(super) fn gazebo<'a>(source: &mut Source<'a>, root: Node<'a, 'a>) -> HashMap<String, Gazebo> {
+    let mut found: HashMap<String, Gazebo> = HashMap::new();
+    for node in elements(root).filter(|node| node.has_tag_name("gazebo")) {
+        let Some(link) = node.attribute("reference") else { continue };
+        let before = source.ledger.count();
+        let stated = ["mu1", "mu"].into_iter().find_map(|name| {
+            let nested = || node.descendants().find(|inner| inner.has_tag_name(name));
+            element(node, name).or_else(nested)
+        });
+        let friction = stated.and_then(|stated| {
+            // As text, or as the attribute of old files.
+            let text = stated.text().unwrap_or_default().trim();
+            let text = if text.is_empty() { stated.attribute("value").unwrap_or("") } else { text };
+            let number = text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+            if number.is_none() {
+                source.fault(stated, "this friction is not a number", "write one such as 0.4");
+            }
+            number
+        });
+        for (name, bad, what) in [
+            ("turnGravityOff", ["true", "1"], "does not weigh what it should"),
+            ("gravity", ["false", "0"], "does not weigh what it should"),
+            ("static", ["true", "1"], "does not move"),
+            ("kinematic", ["true", "1"], "is moved by a program"),
+        ] {
+            let word = element(node, name).and_then(|node| node.text()).unwrap_or_default();
+            if bad.contains(&word.trim()) {
+                let message = format!("<{name}> says that this link {what}");
+                source.fault(node, message, "take it out");
+            }
+        }
+        let known = found.entry(link.to_owned()).or_default();
+        known.friction = friction.or(known.friction);
+        known.faults.extend(source.ledger.since(before));
+    }
+    found
+}

@@ -1,0 +1,371 @@
+//! URDF, the files of ROS.
+//!
+//! Collision shapes count, shapes that are only seen do not. The links below `world`, or one
+//! without a parent, stand in the world as their joints say, all joints at zero. URDF itself has no
+//! friction: it is read where simulators look for it, `<contact><lateral_friction>` of a link
+//! (Bullet), under `<gazebo reference="...">` and in Drake's properties of a collision.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use nalgebra::{Isometry3, Matrix3, Point3, Translation3, Vector3};
+use roxmltree::Node;
+
+use super::mesh::{Counted, Mesh, load};
+use super::model::{Body, Material, Model, Motion, Outline, Solid, Weight};
+use super::rubbing::{Gazebo, drake, friction, gazebo};
+use super::turns;
+use super::xml::{Source, element, elements};
+use pushplan::asset::foreign::Files;
+
+/// The link that stands for the world.
+const WORLD: &str = Body::WORLD;
+
+/// Parts of a file that do not affect how pushes end.
+const HARMLESS: [&str; 2] = ["material", "gazebo"];
+
+/// A link, and the joint that attaches it.
+struct Link<'a> {
+    node: Node<'a, 'a>,
+    joint: Option<Node<'a, 'a>>,
+}
+
+/// The model of an element `robot`; none, with faults, if it cannot be read.
+pub(super) fn model<'a>(
+    source: &mut Source<'a>,
+    root: Node<'a, 'a>,
+    files: &Files,
+) -> Option<Model> {
+    let name = root.attribute("name").unwrap_or_default().to_owned();
+    let mut model = Model { name, bodies: vec![Body::world()], ..Model::default() };
+    let mut links: Vec<(&str, Link<'a>)> = Vec::new();
+    for node in elements(root).filter(|node| node.has_tag_name("link")) {
+        let name = node.attribute("name").unwrap_or_default();
+        if name.is_empty() || links.iter().any(|(other, _)| *other == name) {
+            let message = format!("two links are called `{name}`, or one has no name");
+            source.fault(node, message, "give each link a name of its own");
+            return None;
+        }
+        links.push((name, Link { node, joint: None }));
+    }
+    for node in elements(root) {
+        let own = node.tag_name().namespace().is_none();
+        match node.tag_name().name() {
+            "link" if own => {}
+            "joint" if own => hang(source, node, &mut links)?,
+            "transmission" | "ros2_control" => {
+                model.beyond.push((source.place(node), format!("<{}>", node.tag_name().name())));
+            }
+            tag if HARMLESS.contains(&tag) => {}
+            _ if node.tag_name().namespace().is_some_and(|space| space.contains("xacro")) => {
+                source.fault(node, "this is a xacro macro", "expand it: `xacro FILE > robot.urdf`");
+            }
+            tag if node.tag_name().namespace().is_some() => {
+                let place = source.place(node);
+                source.ledger.note(place, format!("<{tag}> of another program is left out"));
+            }
+            tag => source.fault(node, format!("<{tag}> is not read"), "take it out"),
+        }
+    }
+    let gazebo = gazebo(source, root);
+    // Parents before children; what is left when nothing more is attached to anything goes in
+    // circles.
+    let mut indices: HashMap<&str, usize> = HashMap::from([(WORLD, 0)]);
+    let mut waiting: Vec<usize> = (0..links.len()).collect();
+    loop {
+        let before = waiting.len();
+        waiting.retain(|index| {
+            let (name, link) = &links[*index];
+            let parent = match link.joint {
+                Some(joint) => match indices.get(end(joint, "parent")) {
+                    Some(parent) => *parent,
+                    None => return true,
+                },
+                None => 0,
+            };
+            let body = take(source, &mut model, (name, link), parent, (&gazebo, files));
+            if let Some(body) = body {
+                indices.insert(name, model.bodies.len());
+                model.bodies.push(body);
+            }
+            false
+        });
+        if waiting.len() == before {
+            break;
+        }
+    }
+    if let Some(index) = waiting.first() {
+        source.fault(links[*index].1.node, "the joints of this link go in a circle", "break it");
+    }
+    Some(model)
+}
+
+/// Notes which joint attaches a link; `None`, with a fault, if the joint is not sound.
+fn hang<'a>(
+    source: &mut Source<'a>,
+    joint: Node<'a, 'a>,
+    links: &mut [(&'a str, Link<'a>)],
+) -> Option<()> {
+    let (parent, child) = (end(joint, "parent"), end(joint, "child"));
+    let known = |name: &str| name == WORLD || links.iter().any(|(known, _)| *known == name);
+    for name in [parent, child] {
+        if !known(name) {
+            let message = format!("there is no link `{name}`");
+            source.fault(joint, message, "`<parent link>` and `<child link>` name links");
+            return None;
+        }
+    }
+    let found = links.iter_mut().find(|(name, _)| *name == child);
+    match found {
+        Some((_, link)) if link.joint.is_none() && child != WORLD => link.joint = Some(joint),
+        _ => {
+            let message = format!("the link `{child}` is attached by two joints");
+            source.fault(joint, message, "a link has one parent, and `world` has none");
+            return None;
+        }
+    }
+    Some(())
+}
+
+/// The name of the link at an end of a joint.
+fn end<'a>(joint: Node<'a, 'a>, side: &str) -> &'a str {
+    element(joint, side).and_then(|node| node.attribute("link")).unwrap_or_default()
+}
+
+/// A link as a body; what is wrong with it goes with it. The world is none.
+fn take<'a>(
+    source: &mut Source<'a>,
+    model: &mut Model,
+    (name, link): (&str, &Link<'a>),
+    parent: usize,
+    (gazebo, files): (&HashMap<String, Gazebo>, &Files),
+) -> Option<Body> {
+    let (before, noted) = (source.ledger.count(), source.ledger.notes());
+    let above = model.bodies[parent].pose;
+    let (pose, motion) = match link.joint {
+        Some(node) => {
+            let pose = above * origin(source, node).unwrap_or_default();
+            let unknown = || Motion::Other("a joint that cannot be read".to_owned());
+            (pose, motion(source, node, pose).unwrap_or_else(unknown))
+        }
+        // A link that is attached to nothing stands freely, as in Bullet and MuJoCo.
+        None => (above, Motion::Free),
+    };
+    let own = gazebo.get(name);
+    if let Some(own) = own {
+        source.ledger.take(&own.faults);
+    }
+    let friction = match friction(source, link.node) {
+        Some(stated) => stated,
+        None => own.and_then(|own| own.friction),
+    };
+    let solids = solids(source, link.node, &pose, friction, files);
+    if name == WORLD {
+        model.bodies[0].solids.extend(solids);
+        return None;
+    }
+    Some(Body {
+        name: name.to_owned(),
+        place: source.place(link.node),
+        parent: Some(parent),
+        motion,
+        pose,
+        solids,
+        inertial: inertial(source, link.node, &pose),
+        faults: source.ledger.since(before),
+        notes: source.ledger.notes_since(noted),
+        ..Body::world()
+    })
+}
+
+fn motion<'a>(
+    source: &mut Source<'a>,
+    joint: Node<'a, 'a>,
+    pose: Isometry3<f64>,
+) -> Option<Motion> {
+    // What is fixed or floats has neither axis nor limits, whatever stands there.
+    match joint.attribute("type").unwrap_or_default() {
+        "fixed" => return Some(Motion::Fixed),
+        "floating" => return Some(Motion::Free),
+        _ => {}
+    }
+    let axis = match element(joint, "axis").and_then(|axis| axis.attribute_node("xyz")) {
+        Some(axis) => source.numbers::<3>(axis)?,
+        None => [1.0, 0.0, 0.0],
+    };
+    let Some(axis) = Vector3::from(axis).try_normalize(1e-12) else {
+        source.fault(joint, "the axis of this joint has no length", "write one such as `0 0 1`");
+        return None;
+    };
+    let axis = pose * axis;
+    let mut limit = |name: &str| {
+        let stated = element(joint, "limit").and_then(|limit| limit.attribute_node(name));
+        stated.map_or(Some(0.0), |stated| source.number(stated))
+    };
+    let limits = [limit("lower")?, limit("upper")?];
+    if let Some(mimic) = element(joint, "mimic") {
+        let leader = mimic.attribute("joint").unwrap_or_default();
+        let message = format!("this joint follows `{leader}` (<mimic>), which none here does");
+        source.fault(mimic, message, "take <mimic> out if the joint may move by itself");
+    }
+    let loss = |dynamics: &Node<'a, 'a>| {
+        let stated = |name: &str| dynamics.attribute(name).unwrap_or("0").parse() != Ok(0.0);
+        stated("damping") || stated("friction")
+    };
+    if let Some(dynamics) = element(joint, "dynamics").filter(loss) {
+        let place = source.place(dynamics);
+        source.ledger.note(place, "damping and friction of joints are left out");
+    }
+    Some(match joint.attribute("type").unwrap_or_default() {
+        "revolute" => {
+            Motion::Hinge { axis, at: pose.translation.vector.into(), limits: Some(limits) }
+        }
+        "continuous" => Motion::Hinge { axis, at: pose.translation.vector.into(), limits: None },
+        "prismatic" => Motion::Slide { axis, limits: Some(limits) },
+        // It moves in the plane that the axis stands on.
+        "planar" if axis.xy().norm() < 1e-3 => Motion::Free,
+        "planar" => Motion::Other("a planar joint that is not level".to_owned()),
+        other => {
+            let message = format!("`{other}` is not a type of joint");
+            let advice = "write fixed, floating, revolute, continuous or prismatic";
+            source.fault(joint, message, advice);
+            return None;
+        }
+    })
+}
+
+/// The pose that the `origin` of an element states.
+fn origin<'a>(source: &mut Source<'a>, node: Node<'a, 'a>) -> Option<Isometry3<f64>> {
+    let Some(origin) = element(node, "origin") else { return Some(Isometry3::identity()) };
+    source.only(origin, &[&["xyz", "rpy"]]);
+    let mut three = |name: &str| match origin.attribute_node(name) {
+        Some(numbers) => source.numbers::<3>(numbers),
+        None => Some([0.0; 3]),
+    };
+    let (position, angles) = (three("xyz")?, three("rpy")?);
+    let turn = turns::euler(angles, ['X', 'Y', 'Z']);
+    Some(Isometry3::from_parts(Translation3::from(position), turn))
+}
+
+fn solids<'a>(
+    source: &mut Source<'a>,
+    link: Node<'a, 'a>,
+    pose: &Isometry3<f64>,
+    friction: Option<f64>,
+    files: &Files,
+) -> Vec<Solid> {
+    let mut found = Vec::new();
+    let shapes = |kind: &'static str| elements(link).filter(move |node| node.has_tag_name(kind));
+    for collision in shapes("collision") {
+        let own = origin(source, collision);
+        let (Some(own), Some(outline)) = (own, outline(source, collision, files)) else { continue };
+        let friction = drake(source, collision).or(friction);
+        found.push(Solid {
+            name: collision.attribute("name").unwrap_or_default().to_owned(),
+            place: source.place(collision),
+            outline,
+            pose: pose * own,
+            material: Material { weight: Weight::OfBody, friction, rank: 0 },
+            touches: true,
+        });
+    }
+    if found.is_empty()
+        && let Some(seen) = shapes("visual").next()
+    {
+        let message = "this link is only seen: it has <visual> but no <collision>";
+        source.fault(seen, message, "add a <collision> with its box, cylinder or prism");
+    }
+    found
+}
+
+fn outline<'a>(source: &mut Source<'a>, collision: Node<'a, 'a>, files: &Files) -> Option<Outline> {
+    let shape = element(collision, "geometry").and_then(|geometry| elements(geometry).next());
+    let Some(shape) = shape else {
+        source.fault(collision, "this collision has no geometry", "add <geometry>");
+        return None;
+    };
+    let tag = shape.tag_name().name();
+    let mut need = |name: &str| {
+        let found = shape.attribute_node(name);
+        if found.is_none() {
+            source.fault(shape, format!("this {tag} has no `{name}`"), format!("add `{name}`"));
+        }
+        found
+    };
+    Some(match tag {
+        "box" => {
+            let size = need("size")?;
+            Outline::Box(source.numbers::<3>(size)?.map(|extent| extent / 2.0))
+        }
+        "cylinder" => {
+            let (radius, length) = (need("radius")?, need("length")?);
+            let half = source.number(length)? / 2.0;
+            Outline::Cylinder { radius: source.number(radius)?, half }
+        }
+        "sphere" => {
+            let radius = need("radius")?;
+            Outline::Sphere(source.number(radius)?)
+        }
+        "capsule" => {
+            let (radius, length) = (need("radius")?, need("length")?);
+            let half = source.number(length)? / 2.0;
+            Outline::Capsule { radius: source.number(radius)?, half }
+        }
+        "mesh" => {
+            let file = need("filename")?;
+            let scale = match shape.attribute_node("scale") {
+                Some(scale) => source.numbers::<3>(scale)?,
+                None => [1.0; 3],
+            };
+            mesh(file.value(), scale, files)
+        }
+        tag => Outline::Other(format!("a {tag}")),
+    })
+}
+
+/// The outline of a mesh file.
+fn mesh(file: &str, scale: [f64; 3], files: &Files) -> Outline {
+    let (points, mut faces) = match files.find("", file).and_then(|path| load(&path)) {
+        Ok(raw) => raw,
+        Err(refused) => {
+            let what = format!("{} ({})", refused.message, refused.advice);
+            return Outline::Other(format!("a mesh that cannot be read: {what}"));
+        }
+    };
+    // A mirrored mesh is inside out.
+    if scale.iter().product::<f64>() < 0.0 {
+        faces.iter_mut().for_each(|face| face.swap(1, 2));
+    }
+    let point = |point: &Point3<f64>| Point3::from([0, 1, 2].map(|k| point[k] * scale[k]));
+    let points: Vec<Point3<f64>> = points.iter().map(point).collect();
+    let enclosed = Mesh::new(points.clone(), faces.clone(), Counted::Enclosed);
+    let closed = enclosed.filter(|mesh| mesh.is_closed() && mesh.volume > 0.0);
+    match closed.or_else(|| Mesh::new(points, faces, Counted::Hull)) {
+        Some(mesh) => Outline::Mesh(Arc::new(mesh)),
+        None => Outline::Other("a mesh that is flat, or whose numbers are none".to_owned()),
+    }
+}
+
+/// Mass, centre of mass in the world and moment of inertia about the vertical.
+fn inertial<'a>(
+    source: &mut Source<'a>,
+    link: Node<'a, 'a>,
+    pose: &Isometry3<f64>,
+) -> Option<(f64, Point3<f64>, Option<f64>)> {
+    let node = element(link, "inertial")?;
+    let Some(mass) = element(node, "mass").and_then(|mass| mass.attribute_node("value")) else {
+        source.fault(node, "<inertial> states no mass", "add `<mass value=\"...\"/>` in kilograms");
+        return None;
+    };
+    let mass = source.number(mass)?;
+    let frame = pose * origin(source, node)?;
+    let mut moment = |name: &str| {
+        let stated = element(node, "inertia").and_then(|inertia| inertia.attribute_node(name));
+        stated.map_or(Some(0.0), |stated| source.number(stated))
+    };
+    let [xx, xy, xz, yy, yz, zz] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"].map(&mut moment);
+    let tensor = Matrix3::new(xx?, xy?, xz?, xy?, yy?, yz?, xz?, yz?, zz?);
+    let up = frame.rotation.inverse() * Vector3::z();
+    let about = Some(up.dot(&(tensor * up))).filter(|moment| *moment > 0.0);
+    Some((mass, frame.translation.vector.into(), about))
+}
