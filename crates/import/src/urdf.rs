@@ -17,6 +17,7 @@ use super::rubbing::{Gazebo, drake, friction, gazebo};
 use super::turns;
 use super::xml::{Source, element, elements};
 use pushplan::asset::foreign::Files;
+use pushplan::asset::foreign::urdf::{self as foreign, Geometry, Origin, end, limit};
 
 /// The link that stands for the world.
 const WORLD: &str = Body::WORLD;
@@ -127,11 +128,6 @@ fn hang<'a>(
     Some(())
 }
 
-/// The name of the link at an end of a joint.
-fn end<'a>(joint: Node<'a, 'a>, side: &str) -> &'a str {
-    element(joint, side).and_then(|node| node.attribute("link")).unwrap_or_default()
-}
-
 /// A link as a body; what is wrong with it goes with it. The world is none.
 fn take<'a>(
     source: &mut Source<'a>,
@@ -189,19 +185,8 @@ fn motion<'a>(
         "floating" => return Some(Motion::Free),
         _ => {}
     }
-    let axis = match element(joint, "axis").and_then(|axis| axis.attribute_node("xyz")) {
-        Some(axis) => source.numbers::<3>(axis)?,
-        None => [1.0, 0.0, 0.0],
-    };
-    let Some(axis) = Vector3::from(axis).try_normalize(1e-12) else {
-        source.fault(joint, "the axis of this joint has no length", "write one such as `0 0 1`");
-        return None;
-    };
-    let axis = pose * axis;
-    let mut limit = |name: &str| {
-        let stated = element(joint, "limit").and_then(|limit| limit.attribute_node(name));
-        stated.map_or(Some(0.0), |stated| source.number(stated))
-    };
+    let axis = pose * source.sound(foreign::axis(joint))?;
+    let mut limit = |name: &str| source.sound(limit(joint, name)).map(Option::unwrap_or_default);
     let limits = [limit("lower")?, limit("upper")?];
     if let Some(mimic) = element(joint, "mimic") {
         let leader = mimic.attribute("joint").unwrap_or_default();
@@ -236,15 +221,12 @@ fn motion<'a>(
 
 /// The pose that the `origin` of an element states.
 fn origin<'a>(source: &mut Source<'a>, node: Node<'a, 'a>) -> Option<Isometry3<f64>> {
-    let Some(origin) = element(node, "origin") else { return Some(Isometry3::identity()) };
-    source.only(origin, &[&["xyz", "rpy"]]);
-    let mut three = |name: &str| match origin.attribute_node(name) {
-        Some(numbers) => source.numbers::<3>(numbers),
-        None => Some([0.0; 3]),
-    };
-    let (position, angles) = (three("xyz")?, three("rpy")?);
-    let turn = turns::euler(angles, ['X', 'Y', 'Z']);
-    Some(Isometry3::from_parts(Translation3::from(position), turn))
+    if let Some(origin) = element(node, "origin") {
+        source.only(origin, &[&["xyz", "rpy"]]);
+    }
+    let Origin { xyz, rpy } = source.sound(foreign::origin(node))?;
+    let turn = turns::euler(rpy, ['X', 'Y', 'Z']);
+    Some(Isometry3::from_parts(Translation3::from(xyz), turn))
 }
 
 fn solids<'a>(
@@ -279,47 +261,13 @@ fn solids<'a>(
 }
 
 fn outline<'a>(source: &mut Source<'a>, collision: Node<'a, 'a>, files: &Files) -> Option<Outline> {
-    let shape = element(collision, "geometry").and_then(|geometry| elements(geometry).next());
-    let Some(shape) = shape else {
-        source.fault(collision, "this collision has no geometry", "add <geometry>");
-        return None;
-    };
-    let tag = shape.tag_name().name();
-    let mut need = |name: &str| {
-        let found = shape.attribute_node(name);
-        if found.is_none() {
-            source.fault(shape, format!("this {tag} has no `{name}`"), format!("add `{name}`"));
-        }
-        found
-    };
-    Some(match tag {
-        "box" => {
-            let size = need("size")?;
-            Outline::Box(source.numbers::<3>(size)?.map(|extent| extent / 2.0))
-        }
-        "cylinder" => {
-            let (radius, length) = (need("radius")?, need("length")?);
-            let half = source.number(length)? / 2.0;
-            Outline::Cylinder { radius: source.number(radius)?, half }
-        }
-        "sphere" => {
-            let radius = need("radius")?;
-            Outline::Sphere(source.number(radius)?)
-        }
-        "capsule" => {
-            let (radius, length) = (need("radius")?, need("length")?);
-            let half = source.number(length)? / 2.0;
-            Outline::Capsule { radius: source.number(radius)?, half }
-        }
-        "mesh" => {
-            let file = need("filename")?;
-            let scale = match shape.attribute_node("scale") {
-                Some(scale) => source.numbers::<3>(scale)?,
-                None => [1.0; 3],
-            };
-            mesh(file.value(), scale, files)
-        }
-        tag => Outline::Other(format!("a {tag}")),
+    Some(match source.sound(foreign::geometry(collision))? {
+        Geometry::Box(half) => Outline::Box(half),
+        Geometry::Cylinder { radius, half } => Outline::Cylinder { radius, half },
+        Geometry::Sphere(radius) => Outline::Sphere(radius),
+        Geometry::Capsule { radius, half } => Outline::Capsule { radius, half },
+        Geometry::Mesh { file, scale } => mesh(&file, scale, files),
+        Geometry::Other(tag) => Outline::Other(format!("a {tag}")),
     })
 }
 

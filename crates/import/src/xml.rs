@@ -5,6 +5,8 @@ use roxmltree::{Attribute, Node};
 use super::fault::Ledger;
 use super::model::Place;
 use super::spliced::Spliced;
+use pushplan::asset::foreign::xml::{self, Flaw};
+pub(super) use pushplan::asset::foreign::xml::{element, elements};
 
 /// A file that is being read.
 pub(super) struct Source<'a> {
@@ -64,52 +66,32 @@ impl<'a> Source<'a> {
         }
     }
 
+    /// What was read; `None`, with its fault, if that failed.
+    pub fn sound<T>(&mut self, read: Result<T, Flaw>) -> Option<T> {
+        let note = |Flaw { at, message, advice }: Flaw| {
+            let place = self.text.place(at);
+            self.ledger.fault(place, message, advice);
+        };
+        read.map_err(note).ok()
+    }
+
     /// All numbers of an attribute; `None`, with a fault, if one is not a number or not finite.
     pub fn list(&mut self, attribute: Attribute<'a, 'a>) -> Option<Vec<f64>> {
-        let mut found = Vec::new();
-        for word in attribute.value().split_whitespace() {
-            match word.parse::<f64>() {
-                Ok(number) if number.is_finite() => found.push(number),
-                _ => {
-                    let message = format!("`{}` has `{word}`, not a number", attribute.name());
-                    self.fault_of(attribute, message, "write numbers with spaces between them");
-                    return None;
-                }
-            }
-        }
-        Some(found)
+        self.sound(xml::list(attribute))
     }
 
     /// Exactly `N` numbers of an attribute.
     pub fn numbers<const N: usize>(&mut self, attribute: Attribute<'a, 'a>) -> Option<[f64; N]> {
-        let found = self.list(attribute)?;
-        let count = found.len();
-        let numbers = <[f64; N]>::try_from(found).ok();
-        if numbers.is_none() {
-            let many = if N == 1 { "one number".to_owned() } else { format!("{N} numbers") };
-            let message = format!("`{}` has {count} numbers instead of {many}", attribute.name());
-            self.fault_of(attribute, message, format!("write {many}"));
-        }
-        numbers
+        self.sound(xml::numbers(attribute))
     }
 
     /// One number of an attribute.
     pub fn number(&mut self, attribute: Attribute<'a, 'a>) -> Option<f64> {
-        self.numbers::<1>(attribute).map(|[number]| number)
+        self.sound(xml::number(attribute))
     }
 
     /// The attribute of that name, if the element has it.
     pub fn attribute(&self, node: Node<'a, 'a>, name: &str) -> Option<Attribute<'a, 'a>> {
         node.attribute_node(name)
     }
-}
-
-/// Elements below `node`, in order.
-pub(super) fn elements<'a>(node: Node<'a, 'a>) -> impl Iterator<Item = Node<'a, 'a>> {
-    node.children().filter(Node::is_element)
-}
-
-/// The first element of that name below `node`.
-pub(super) fn element<'a>(node: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
-    elements(node).find(|child| child.tag_name().name() == name)
 }

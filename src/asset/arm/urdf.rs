@@ -5,6 +5,8 @@ use std::path::Path;
 
 use roxmltree::{Document, Node};
 
+use crate::asset::foreign::urdf::{Geometry, Origin, axis, end, geometry, limit, origin};
+use crate::asset::foreign::xml::{Flaw, element, elements};
 use crate::asset::foreign::{Files, load};
 use crate::asset::text::read_text;
 use crate::geometry::{Footprint, Hull, Pose3, Turn3, Vector3};
@@ -12,7 +14,7 @@ use crate::scene::{Arm, ArmBody, ArmJoint, Places, ToolMount};
 
 use super::build::Wrong;
 
-/// No corner of a mesh is farther from its origin, in the mesh's own unit.
+/// No length and no corner of a mesh is larger, in metres or the mesh's own unit.
 const FARTHEST: f64 = 1e5;
 
 /// A file that is being read.
@@ -45,10 +47,13 @@ pub(super) fn chain(path: &Path, flange: &str) -> Result<Arm, Wrong> {
 
 impl<'a> File<'a> {
     fn wrong(&self, node: Node, message: impl Into<String>, advice: impl Into<String>) -> Wrong {
-        let place = self.document.text_pos_at(node.range().start);
-        let message: String = message.into();
+        self.flawed(Flaw::of(node, message, advice))
+    }
+
+    fn flawed(&self, Flaw { at, message, advice }: Flaw) -> Wrong {
+        let place = self.document.text_pos_at(at);
         let (path, row, column) = (self.path.display(), place.row, place.col);
-        (format!("{path}:{row}:{column}: {message}"), advice.into())
+        (format!("{path}:{row}:{column}: {message}"), advice)
     }
 
     fn arm(&self, root: Node<'a, 'a>, flange: &str) -> Result<Arm, Wrong> {
@@ -150,26 +155,15 @@ impl<'a> File<'a> {
 
     fn joint(&self, joint: Node<'a, 'a>, origin: Pose3) -> Result<ArmJoint, Wrong> {
         let name = joint.attribute("name").unwrap_or_default().to_owned();
-        let axis = match element(joint, "axis") {
-            Some(axis) => self.three(axis, "xyz", [1.0, 0.0, 0.0])?,
-            None => Vector3::x(),
-        };
-        let Some(axis) = axis.try_normalize(1e-9) else {
-            return Err(self.wrong(joint, "the axis of this joint has no length", "write `0 0 1`"));
-        };
+        let axis = axis(joint).map_err(|flaw| self.flawed(flaw))?;
         if element(joint, "mimic").is_some() {
             let message = format!("joint `{name}` follows another one, which arms here do not");
             return Err(self.wrong(joint, message, "name a `flange` before it"));
         }
         let kind = joint.attribute("type").unwrap_or_default();
         let slides = kind == "prismatic";
-        let limit = element(joint, "limit");
-        let number = |name: &str| match limit {
-            Some(limit) => self.numbers(limit, name),
-            None => Ok(Vec::new()),
-        };
-        let [lower, upper, speed] = [number("lower")?, number("upper")?, number("velocity")?]
-            .map(|list| list.first().copied());
+        let number = |name: &str| limit(joint, name).map_err(|flaw| self.flawed(flaw));
+        let [lower, upper, speed] = [number("lower")?, number("upper")?, number("velocity")?];
         let limits = match kind {
             "continuous" => None,
             "revolute" | "prismatic" => {
@@ -199,91 +193,66 @@ impl<'a> File<'a> {
 
     fn solid(&self, collision: Node<'a, 'a>, pose: &Pose3) -> Result<Hull, Wrong> {
         let own = *pose * self.origin(collision)?;
-        let shape = element(collision, "geometry").and_then(|node| elements(node).next());
-        let Some(shape) = shape else {
-            return Err(self.wrong(collision, "this collision has no geometry", "add <geometry>"));
-        };
-        let size = |name: &str| -> Result<f64, Wrong> {
-            let found = self.numbers(shape, name)?.first().copied().filter(|size| *size > 0.0);
-            found.ok_or_else(|| {
-                self.wrong(shape, format!("its `{name}` must be positive"), "lengths are in metres")
-            })
-        };
-        match shape.tag_name().name() {
-            "box" => {
-                let size = self.three(shape, "size", [0.0; 3])?;
-                Ok(Hull::cuboid(0.5 * size, &own))
+        let shape = geometry(collision).map_err(|flaw| self.flawed(flaw))?;
+        let positive = |name: &str, size: f64| match size > 0.0 && size < FARTHEST {
+            true => Ok(size),
+            false => {
+                let message = format!("its `{name}` must be positive and less than {FARTHEST}");
+                Err(self.wrong(collision, message, "lengths are in metres"))
             }
-            "sphere" => Ok(Hull { points: vec![own.position], radius: size("radius")? }),
-            "cylinder" => {
-                let (radius, half) = (size("radius")?, 0.5 * size("length")?);
+        };
+        match shape {
+            Geometry::Box(half) => Ok(Hull::cuboid(half.into(), &own)),
+            Geometry::Sphere(radius) => {
+                Ok(Hull { points: vec![own.position], radius: positive("radius", radius)? })
+            }
+            Geometry::Cylinder { radius, half } => {
+                let (radius, half) = (positive("radius", radius)?, positive("length", half)?);
                 Ok(Hull::prism(&Footprint::Disc { radius }, [-half, half], &own))
             }
-            "capsule" => {
-                let (radius, half) = (size("radius")?, 0.5 * size("length")?);
+            Geometry::Capsule { radius, half } => {
+                let (radius, half) = (positive("radius", radius)?, positive("length", half)?);
                 let points = [half, -half].map(|z| own.point(Vector3::z() * z)).to_vec();
                 Ok(Hull { points, radius })
             }
-            "mesh" => {
-                let scale = self.three(shape, "scale", [1.0; 3])?;
-                let name = shape.attribute("filename").unwrap_or_default();
-                let advice =
-                    "put it where the URDF says, or write boxes and cylinders instead of meshes";
-                let path = self.files.find("", name);
-                let path = path
-                    .map_err(|_| self.wrong(shape, format!("there is no mesh `{name}`"), advice))?;
-                let (corners, _) = load(&path)
-                    .map_err(|refused| self.wrong(shape, refused.message, refused.advice))?;
-                if corners
-                    .iter()
-                    .flatten()
-                    .any(|number| number.is_nan() || number.abs() >= FARTHEST)
-                {
-                    return Err(self.wrong(shape, "this mesh is damaged", "export it again"));
-                }
-                let corners: Vec<Vector3> =
-                    corners.iter().map(|corner| own.point(corner.component_mul(&scale))).collect();
-                Hull::around(&corners)
-                    .ok_or_else(|| self.wrong(shape, "this mesh has no corners", "export it again"))
+            Geometry::Mesh { file, scale } => self.mesh(collision, (&file, scale), &own),
+            Geometry::Other(tag) => {
+                let message = format!("a {tag} is not read");
+                Err(self.wrong(collision, message, "use a box, cylinder or mesh"))
             }
-            tag => Err(self.wrong(
-                shape,
-                format!("a {tag} is not read"),
-                "use a box, cylinder or mesh",
-            )),
         }
+    }
+
+    fn mesh(
+        &self,
+        collision: Node,
+        (name, scale): (&str, [f64; 3]),
+        own: &Pose3,
+    ) -> Result<Hull, Wrong> {
+        let path = self.files.find("", name).map_err(|_| {
+            let advice =
+                "put it where the URDF says, or write boxes and cylinders instead of meshes";
+            self.wrong(collision, format!("there is no mesh `{name}`"), advice)
+        })?;
+        let (corners, _) = load(&path)
+            .map_err(|refused| self.wrong(collision, refused.message, refused.advice))?;
+        if corners.iter().flatten().any(|number| number.is_nan() || number.abs() >= FARTHEST) {
+            return Err(self.wrong(collision, "this mesh is damaged", "export it again"));
+        }
+        let scale = Vector3::from(scale);
+        let corners: Vec<Vector3> =
+            corners.iter().map(|corner| own.point(corner.component_mul(&scale))).collect();
+        Hull::around(&corners)
+            .ok_or_else(|| self.wrong(collision, "this mesh has no corners", "export it again"))
     }
 
     fn origin(&self, node: Node<'a, 'a>) -> Result<Pose3, Wrong> {
-        let Some(origin) = element(node, "origin") else { return Ok(Pose3::default()) };
-        let turn = self.three(origin, "rpy", [0.0; 3])?;
-        Ok(Pose3 {
-            position: self.three(origin, "xyz", [0.0; 3])?,
-            rotation: Turn3::from_euler_angles(turn.x, turn.y, turn.z),
-        })
-    }
-
-    fn three(&self, node: Node, name: &str, default: [f64; 3]) -> Result<Vector3, Wrong> {
-        match self.numbers(node, name)?[..] {
-            [] => Ok(Vector3::from(default)),
-            [x, y, z] => Ok(Vector3::new(x, y, z)),
-            _ => {
-                Err(self.wrong(node, format!("`{name}` must be three numbers"), "such as `0 0 1`"))
-            }
+        let Origin { xyz, rpy: [x, y, z] } = origin(node).map_err(|flaw| self.flawed(flaw))?;
+        if xyz.iter().chain(&[x, y, z]).any(|number| number.abs() >= FARTHEST) {
+            let advice = "lengths are in metres, angles in radians";
+            return Err(self.wrong(node, "the origin of this element is too far away", advice));
         }
-    }
-
-    /// The numbers of an attribute; none where it is missing.
-    fn numbers(&self, node: Node, name: &str) -> Result<Vec<f64>, Wrong> {
-        let words = node.attribute(name).unwrap_or_default().split_whitespace();
-        let number = |word: &str| match word.parse::<f64>() {
-            Ok(number) if number.is_finite() && number.abs() < 1e4 => Ok(number),
-            _ => {
-                let message = format!("`{name}` has `{word}`, which is no number to go by");
-                Err(self.wrong(node, message, "expand macros first: `xacro FILE > robot.urdf`"))
-            }
-        };
-        words.map(number).collect()
+        Ok(Pose3 { position: xyz.into(), rotation: Turn3::from_euler_angles(x, y, z) })
     }
 }
 
@@ -292,17 +261,4 @@ struct Branches<'b, 'a> {
     links: &'b HashMap<&'a str, Node<'a, 'a>>,
     joints: &'b HashMap<&'a str, Node<'a, 'a>>,
     flange: &'b str,
-}
-
-/// The name of the link at an end of a joint.
-fn end<'a>(joint: Node<'a, 'a>, side: &str) -> &'a str {
-    element(joint, side).and_then(|node| node.attribute("link")).unwrap_or_default()
-}
-
-fn elements<'a>(node: Node<'a, 'a>) -> impl Iterator<Item = Node<'a, 'a>> {
-    node.children().filter(Node::is_element)
-}
-
-fn element<'a>(node: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
-    elements(node).find(|child| child.has_tag_name(name))
 }

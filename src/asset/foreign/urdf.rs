@@ -1,0 +1,123 @@
+//! Elements of URDF that every reader of it needs: origins, shapes, axes and limits of joints.
+
+use roxmltree::Node;
+
+use crate::geometry::Vector3;
+
+use super::xml::{Flaw, element, elements, number, numbers};
+
+/// The pose that an `origin` states.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Origin {
+    /// Position, metres.
+    pub xyz: [f64; 3],
+    /// Roll, pitch and yaw about the fixed axes x, y and z, radians.
+    pub rpy: [f64; 3],
+}
+
+/// The shape of a collision element about its middle, metres; cylinders and capsules are along z.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Geometry {
+    /// A box of these half extents.
+    Box([f64; 3]),
+    /// A cylinder.
+    Cylinder {
+        /// Radius.
+        radius: f64,
+        /// Half of its length.
+        half: f64,
+    },
+    /// A sphere of this radius.
+    Sphere(f64),
+    /// A capsule.
+    Capsule {
+        /// Radius.
+        radius: f64,
+        /// Half of its length without the caps.
+        half: f64,
+    },
+    /// A mesh in a file.
+    Mesh {
+        /// Name of the file.
+        file: String,
+        /// Scale along each axis.
+        scale: [f64; 3],
+    },
+    /// An element of another name.
+    Other(String),
+}
+
+/// Reads the `origin` of an element; the default where there is none.
+///
+/// # Errors
+/// Numbers that are none, or too few or too many.
+pub fn origin<'a>(node: Node<'a, 'a>) -> Result<Origin, Flaw> {
+    let Some(origin) = element(node, "origin") else { return Ok(Origin::default()) };
+    let three = |name: &str| origin.attribute_node(name).map_or(Ok([0.0; 3]), numbers::<3>);
+    Ok(Origin { xyz: three("xyz")?, rpy: three("rpy")? })
+}
+
+/// Reads the shape of a collision element.
+///
+/// # Errors
+/// No shape, or one without its sizes.
+pub fn geometry<'a>(collision: Node<'a, 'a>) -> Result<Geometry, Flaw> {
+    let shape = element(collision, "geometry").and_then(|geometry| elements(geometry).next());
+    let missing = || Flaw::of(collision, "this collision has no geometry", "add <geometry>");
+    let shape = shape.ok_or_else(missing)?;
+    let tag = shape.tag_name().name();
+    let need = |name: &str| {
+        let missing =
+            || Flaw::of(shape, format!("this {tag} has no `{name}`"), format!("add `{name}`"));
+        shape.attribute_node(name).ok_or_else(missing)
+    };
+    let round = || {
+        let (radius, length) = (need("radius")?, need("length")?);
+        let half = number(length)? / 2.0;
+        Ok((number(radius)?, half))
+    };
+    Ok(match tag {
+        "box" => Geometry::Box(numbers::<3>(need("size")?)?.map(|extent| extent / 2.0)),
+        "cylinder" => {
+            let (radius, half) = round()?;
+            Geometry::Cylinder { radius, half }
+        }
+        "sphere" => Geometry::Sphere(number(need("radius")?)?),
+        "capsule" => {
+            let (radius, half) = round()?;
+            Geometry::Capsule { radius, half }
+        }
+        "mesh" => {
+            let file = need("filename")?.value().to_owned();
+            let scale = shape.attribute_node("scale").map_or(Ok([1.0; 3]), numbers::<3>)?;
+            Geometry::Mesh { file, scale }
+        }
+        tag => Geometry::Other(tag.to_owned()),
+    })
+}
+
+/// Reads the axis of a joint in its own frame, a unit vector; x where the joint has none.
+///
+/// # Errors
+/// An axis without length.
+pub fn axis<'a>(joint: Node<'a, 'a>) -> Result<Vector3, Flaw> {
+    let stated = element(joint, "axis").and_then(|axis| axis.attribute_node("xyz"));
+    let axis = Vector3::from(stated.map_or(Ok([1.0, 0.0, 0.0]), numbers::<3>)?);
+    axis.try_normalize(1e-12).ok_or_else(|| {
+        Flaw::of(joint, "the axis of this joint has no length", "write one such as `0 0 1`")
+    })
+}
+
+/// Reads a number of the `limit` of a joint, if it is stated.
+///
+/// # Errors
+/// Anything but one number.
+pub fn limit<'a>(joint: Node<'a, 'a>, name: &str) -> Result<Option<f64>, Flaw> {
+    let stated = element(joint, "limit").and_then(|limit| limit.attribute_node(name));
+    stated.map(number).transpose()
+}
+
+/// The name of the link at an end of a joint, `parent` or `child`; empty where it is missing.
+pub fn end<'a>(joint: Node<'a, 'a>, side: &str) -> &'a str {
+    element(joint, side).and_then(|node| node.attribute("link")).unwrap_or_default()
+}

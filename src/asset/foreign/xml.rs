@@ -1,0 +1,72 @@
+//! Elements of XML, and numbers in their attributes.
+
+use roxmltree::{Attribute, Node};
+
+/// A fault of an element or attribute.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Flaw {
+    /// Byte of the text at which it begins.
+    pub at: usize,
+    /// What is wrong.
+    pub message: String,
+    /// What to do.
+    pub advice: String,
+}
+
+impl Flaw {
+    /// A fault of an element.
+    pub fn of(node: Node, message: impl Into<String>, advice: impl Into<String>) -> Self {
+        Self { at: node.range().start, message: message.into(), advice: advice.into() }
+    }
+
+    fn of_attribute(attribute: Attribute, message: String, advice: impl Into<String>) -> Self {
+        Self { at: attribute.range().start, message, advice: advice.into() }
+    }
+}
+
+/// Elements below `node`, in order.
+pub fn elements<'a>(node: Node<'a, 'a>) -> impl Iterator<Item = Node<'a, 'a>> {
+    node.children().filter(Node::is_element)
+}
+
+/// The first element of that name below `node`.
+pub fn element<'a>(node: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
+    elements(node).find(|child| child.tag_name().name() == name)
+}
+
+/// Reads all numbers of an attribute.
+///
+/// # Errors
+/// A word that is not a number, or not a finite one.
+pub fn list(attribute: Attribute) -> Result<Vec<f64>, Flaw> {
+    let number = |word: &str| match word.parse::<f64>() {
+        Ok(number) if number.is_finite() => Ok(number),
+        _ => {
+            let message = format!("`{}` has `{word}`, not a number", attribute.name());
+            Err(Flaw::of_attribute(attribute, message, "write numbers with spaces between them"))
+        }
+    };
+    attribute.value().split_whitespace().map(number).collect()
+}
+
+/// Reads exactly `N` numbers of an attribute.
+///
+/// # Errors
+/// Another count of numbers, and those of [`list`].
+pub fn numbers<const N: usize>(attribute: Attribute) -> Result<[f64; N], Flaw> {
+    let found = list(attribute)?;
+    let count = found.len();
+    <[f64; N]>::try_from(found).map_err(|_| {
+        let many = if N == 1 { "one number".to_owned() } else { format!("{N} numbers") };
+        let message = format!("`{}` has {count} numbers instead of {many}", attribute.name());
+        Flaw::of_attribute(attribute, message, format!("write {many}"))
+    })
+}
+
+/// Reads one number of an attribute.
+///
+/// # Errors
+/// Those of [`numbers`].
+pub fn number(attribute: Attribute) -> Result<f64, Flaw> {
+    numbers::<1>(attribute).map(|[number]| number)
+}
