@@ -2,11 +2,11 @@
 
 use nalgebra::Point3;
 
+use crate::fault::Ledger;
+use crate::model::{Outline, Solid};
 use pushplan::geometry::{
     ConvexPolygon, MAX_CORNERS, PolygonError, Pose, Shape, Vector, cross, planar_hull,
 };
-use crate::fault::Ledger;
-use crate::model::{Outline, Solid};
 use pushplan::scene::{Object, Support};
 
 use super::feet::support;

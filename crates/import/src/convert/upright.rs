@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 
 use nalgebra::{Isometry3, Point3, Vector3};
 
-use pushplan::geometry::{MAX_CORNERS, Pose, Vector, centroid, cross, planar_hull};
 use crate::fault::Ledger;
 use crate::model::{Outline, Solid};
+use pushplan::geometry::{MAX_CORNERS, Pose, Vector, centroid, cross, planar_hull};
 
 use super::shadow::{area, shadow};
 
