@@ -4,7 +4,6 @@ use std::fmt;
 
 use thiserror::Error;
 
-use crate::act::ActError;
 use crate::asset::Faults;
 use crate::effect::ModelError;
 use crate::geometry::PolygonError;
@@ -36,9 +35,9 @@ pub enum Error {
     /// A task that cannot even be tried.
     #[error(transparent)]
     Task(#[from] SolveError),
-    /// A run that cannot go on.
+    /// An error of a crate that builds on this one.
     #[error(transparent)]
-    Act(#[from] ActError),
+    Other(#[from] Box<dyn std::error::Error + Send + Sync>),
 }
 
 impl fmt::Debug for Error {

@@ -2,12 +2,11 @@
 //!
 //! Each imports only from rooms before it, in this order:
 //!
-//! geometry, scene, task, outcome, arm, recording, asset, store, sim, contact, graph, network, rollout, effect, judge,
-//! fit, belief, plan, verify, solve, design, act, bench, report
+//! geometry, scene, task, outcome, arm, recording, asset, sim, contact, graph, network, rollout, effect,
+//! plan, verify, solve, design
 
 #[doc(inline)]
 pub use crate::{
-    act, arm, asset, belief, bench, contact, design, effect, fit, geometry, graph, judge, network,
-    outcome, plan, recording, report, rollout, scene, seeded, sim, solve, store, task, verify,
-    watch,
+    arm, asset, contact, design, effect, geometry, graph, network, outcome, plan, recording,
+    rollout, scene, seeded, sim, solve, task, verify, watch,
 };

@@ -61,6 +61,22 @@
 //! |---|---|
 //! | `formats` | arms of URDF files |
 //!
+//! # Crates that build on it
+//!
+//! This crate plans and verifies; it reads and writes the files of tasks, tools, plans and recordings.
+//! These crates carry that outward, and it knows none of them:
+//!
+//! | crate | what it adds |
+//! |---|---|
+//! | `pushplan-act` | the closed loop, beliefs about objects, fits from recordings |
+//! | `pushplan-bench` | tool selection and task suites, kept and resumed |
+//! | `pushplan-report` | pages, pictures, tables |
+//! | `pushplan-import` | MJCF, URDF and meshes in |
+//! | `pushplan-export` | MJCF, MCAP and joint trajectories out |
+//! | `pushplan-command` | the command `pushplan` |
+//!
+//! Only what this page lists of this crate is meant to stay stable.
+//!
 //! # Internals
 //!
 //! What planning is made of is in [`internals`]: one module for each step, open to read and to
@@ -72,15 +88,9 @@ mod error;
 pub mod internals;
 
 #[doc(hidden)]
-pub mod act;
-#[doc(hidden)]
 pub mod arm;
 #[doc(hidden)]
 pub mod asset;
-#[doc(hidden)]
-pub mod belief;
-#[doc(hidden)]
-pub mod bench;
 #[doc(hidden)]
 pub mod checksum;
 #[doc(hidden)]
@@ -90,13 +100,9 @@ pub mod design;
 #[doc(hidden)]
 pub mod effect;
 #[doc(hidden)]
-pub mod fit;
-#[doc(hidden)]
 pub mod geometry;
 #[doc(hidden)]
 pub mod graph;
-#[doc(hidden)]
-pub mod judge;
 #[doc(hidden)]
 pub mod network;
 #[doc(hidden)]
@@ -105,8 +111,6 @@ pub mod outcome;
 pub mod plan;
 #[doc(hidden)]
 pub mod recording;
-#[doc(hidden)]
-pub mod report;
 #[doc(hidden)]
 pub mod rollout;
 #[doc(hidden)]
@@ -118,17 +122,12 @@ pub mod sim;
 #[doc(hidden)]
 pub mod solve;
 #[doc(hidden)]
-pub mod store;
-#[doc(hidden)]
 pub mod task;
 #[doc(hidden)]
 pub mod verify;
 #[doc(hidden)]
 pub mod watch;
 
-pub use act::{
-    ActError, Look, RunSettings, Runner, SimulatedWorld, Trace, World, WorldError, hidden,
-};
 pub use asset::ToolLibrary;
 pub use design::{Design, DesignSettings};
 pub use effect::{EffectModel, Simulated, Trust};

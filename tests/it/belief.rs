@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use pushplan::belief::{Belief, BeliefSettings, JointType};
 use pushplan::effect::Prior;
 use pushplan::geometry::{Pose, Shape, Vector};
 use pushplan::recording::Recording;
@@ -12,6 +11,7 @@ use pushplan::{
     scene::{Engine, Joint, JointKind, Object, Part, Rate, Scene, Span, Tool},
     task::{Job, Noise, Push, ToolMotion},
 };
+use pushplan_act::belief::{Belief, BeliefSettings, JointType};
 
 use crate::believing::{EXACT, believed};
 use crate::program::{run, stderr};

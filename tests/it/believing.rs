@@ -1,10 +1,10 @@
 //! What is believed of a recording that is seen with noise.
 
-use pushplan::belief::{Belief, BeliefSettings};
 use pushplan::effect::Prior;
 use pushplan::geometry::Vector;
 use pushplan::recording::Recording;
 use pushplan::task::{Noise, Observation};
+use pushplan_act::belief::{Belief, BeliefSettings};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 

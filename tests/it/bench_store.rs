@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use pushplan::store::{Form, Measured, RunManifest, Seconds, Store, StoreError, line_index};
 use pushplan::watch::{Unwatched, Watch};
+use pushplan_bench::store::{Form, Measured, RunManifest, Seconds, Store, StoreError, line_index};
 use serde_json::json;
 use tempfile::TempDir;
 
@@ -273,7 +273,7 @@ fn manifest() -> RunManifest {
 }
 
 fn merge_runs(out: &Path, shards: &[PathBuf]) -> Result<RunManifest, StoreError> {
-    pushplan::store::merge_runs(out, shards, Form::Lines, &mut line_index)
+    pushplan_bench::store::merge_runs(out, shards, Form::Lines, &mut line_index)
 }
 
 /// A result that depends on the index alone.
@@ -284,7 +284,7 @@ fn task(index: usize) -> Result<Measured<Record>, StoreError> {
     Ok(Measured { record, seconds: Seconds::from([("total".to_owned(), value)]) })
 }
 
-type Tasks = Vec<pushplan::store::Finished<Record>>;
+type Tasks = Vec<pushplan_bench::store::Finished<Record>>;
 
 fn measure(dir: &Path, manifest: RunManifest, watch: &dyn Watch) -> Result<Tasks, StoreError> {
     let mut store = Store::open(dir, manifest, watch)?;

@@ -1,7 +1,6 @@
 //! Plans of many pushes: things are carried along legs, one after another, and a run goes on from push to
 //! push.
 
-use pushplan::act::{End, RunSettings, Runner, SimulatedWorld, Trace, Why, hidden};
 use pushplan::asset::ToolLibrary;
 use pushplan::watch::Unwatched;
 use pushplan::{Effort, PlanStatus, Planner, Pose, Shape};
@@ -9,6 +8,7 @@ use pushplan::{
     scene::{Part, Tool},
     task::Task,
 };
+use pushplan_act::act::{End, RunSettings, Runner, SimulatedWorld, Trace, Why, hidden};
 
 const SLALOM: &str = "
 description: A can is pushed around the ends of three walls in a closed yard.

@@ -6,8 +6,8 @@ use std::process::Stdio;
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
-use pushplan::store::FolderLock;
 use pushplan::watch::Unwatched;
+use pushplan_bench::store::FolderLock;
 
 use crate::ROOT;
 use crate::program::{command, run, stderr};

@@ -2,12 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use pushplan::act::{
-    ActError, End, Look, Note, RunSettings, Runner, SimulatedWorld, Step, Trace, Why, World,
-    WorldError, WorldState, hidden,
-};
 use pushplan::asset::{Faults, ToolLibrary, load_task, load_world};
-use pushplan::belief::{Belief, BeliefSettings};
 use pushplan::geometry::Vector;
 use pushplan::seeded::generator;
 use pushplan::solve::{Effort, Planner};
@@ -17,6 +12,11 @@ use pushplan::{
     scene::{Engine, JointKind, Physics, Sight, Support, Unknowns},
     task::{Noise, Task, ToolMotion, Truth},
 };
+use pushplan_act::act::{
+    ActError, End, Look, Note, RunSettings, Runner, SimulatedWorld, Step, Trace, Why, World,
+    WorldError, WorldState, hidden,
+};
+use pushplan_act::belief::{Belief, BeliefSettings};
 
 pub fn library() -> ToolLibrary {
     ToolLibrary::embedded().expect("the shipped tools")

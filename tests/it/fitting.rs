@@ -4,9 +4,7 @@
 use std::f64::consts::TAU;
 
 use pushplan::effect::{EffectModel, Job, Prior, Simulated};
-use pushplan::fit::{Fit, FitSettings, fit};
 use pushplan::geometry::{Pose, Shape, Vector};
-use pushplan::judge::Trial;
 use pushplan::recording::Recording;
 use pushplan::sim::Simulator;
 use pushplan::watch::Unwatched;
@@ -15,6 +13,8 @@ use pushplan::{
     scene::{Object, Part, Scene, Support, Surface, Tool},
     task::{Push, ToolMotion},
 };
+use pushplan_act::fit::{Fit, FitSettings, fit};
+use pushplan_act::judge::Trial;
 
 /// A finger of 4 mm radius pushes from `start` at `speed`, m/s, by `length` metres.
 fn finger_push(start: Vector, direction: f64, length: f64, speed: f64) -> ToolMotion {

@@ -1,12 +1,12 @@
 //! What is foreseen of joints: that they stop where they stopped before, and where they may lead.
 
-use pushplan::belief::{Belief, BeliefSettings, NO_STOP};
 use pushplan::effect::Prior;
 use pushplan::geometry::{Pose, Vector};
 use pushplan::{
     scene::{Engine, JointKind, Span},
     task::{Noise, Push, ToolMotion},
 };
+use pushplan_act::belief::{Belief, BeliefSettings, NO_STOP};
 
 use crate::belief::{cylinders, pair, recorded};
 use crate::believing::{EXACT, believed};

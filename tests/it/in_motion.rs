@@ -1,11 +1,8 @@
 //! Recordings that are cut out of a push that goes on: bodies move in their first frame, and the file says
 //! how.
 
-use pushplan::belief::{Belief, BeliefSettings};
 use pushplan::effect::{EffectModel, EffectModels, Job, Network, Prior};
-use pushplan::fit::{FitSettings, fit};
 use pushplan::geometry::{Pose, Vector};
-use pushplan::judge::{Comparison, Trial};
 use pushplan::recording::Recording;
 use pushplan::watch::Unwatched;
 use pushplan::{
@@ -13,6 +10,9 @@ use pushplan::{
     scene::{JointKind, Object, Scene, Span, State, Velocity},
     task::{Push, Stroke, ToolMotion},
 };
+use pushplan_act::belief::{Belief, BeliefSettings};
+use pushplan_act::fit::{FitSettings, fit};
+use pushplan_act::judge::{Comparison, Trial};
 
 use crate::believing::EXACT;
 use crate::fixtures::{hand, models};

@@ -199,11 +199,11 @@ fn a_plan_pushes_levers_and_pushes_again() {
     let text = serde_json::to_string(&file).expect("numbers");
     assert_eq!(PlanFile::parse(&text, "again.json").expect("sound").plan, file.plan);
     let (recipe, view) = Default::default();
-    let page = pushplan::report::verdict_page(&file, None, &verdict, recipe, view);
+    let page = pushplan_report::verdict_page(&file, None, &verdict, recipe, view);
     assert!(
         page.contains("paddle, grip yaw 0\u{b0}, 1 push, then screwdriver, lifting by 34.4\u{b0}")
     );
-    let figures = pushplan::report::space_figures(
+    let figures = pushplan_report::space_figures(
         &task,
         (&file.plan, &file.tools),
         trajectory,

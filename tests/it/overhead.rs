@@ -155,7 +155,7 @@ fn a_shelf_and_a_region_are_written_read_and_drawn() {
     assert_eq!(again, task);
     let solution = solved(&task);
     assert_eq!(solution.status, PlanStatus::Solved);
-    let document = pushplan::report::solution_document(&task, &solution);
+    let document = pushplan_report::solution_document(&task, &solution);
     let text = document.to_text();
     assert!(!text.contains("obstacle above"), "{text}");
     let scene = mjcf(&file(&task, &solution)).expect("no loops");

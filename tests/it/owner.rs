@@ -3,10 +3,8 @@
 
 use std::sync::Arc;
 
-use pushplan::act::{End, Note, RunSettings, Runner, SimulatedWorld, Trace};
 use pushplan::asset::ToolLibrary;
 use pushplan::geometry::{Pose, Vector, wrap_angle};
-use pushplan::report::solution_document;
 use pushplan::sim::Simulator;
 use pushplan::solve::{Cause, Effort, PlanStatus, Planner, RankedPlan, Solution};
 use pushplan::verify::{Verifier, VerifySettings};
@@ -16,6 +14,8 @@ use pushplan::{
     scene::{Object, Scene, Situation, Tool},
     task::{Job, Plan, Push, PushForm, Task, ToolMotion, Truth},
 };
+use pushplan_act::act::{End, Note, RunSettings, Runner, SimulatedWorld, Trace};
+use pushplan_report::solution_document;
 
 fn library() -> ToolLibrary {
     ToolLibrary::embedded().expect("the shipped tools")

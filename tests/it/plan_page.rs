@@ -10,7 +10,6 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use pushplan::asset::{PlanFile, load_task};
-use pushplan::report::{Origin, PageView, TaskSource, solution_page};
 use pushplan::solve::RankedPlan;
 use pushplan::{
     Effort, Goal, Object, Planner, PushRules, Robot, Scene, Solution, Task, ToolLibrary,
@@ -19,6 +18,7 @@ use pushplan::{
     outcome::Trajectory,
     scene::{Engine, Situation},
 };
+use pushplan_report::{Origin, PageView, TaskSource, solution_page};
 use serde_json::{Value as Json, json};
 use tempfile::TempDir;
 

@@ -4,8 +4,8 @@
 use std::path::Path;
 
 use pushplan::asset::load_task;
-use pushplan::report::seconds;
 use pushplan::{Effort, PlanStatus, Planner, Task, Tool, ToolLibrary};
+use pushplan_report::seconds;
 use serde_json::Value as Json;
 use tempfile::TempDir;
 

@@ -2,11 +2,11 @@
 //! and the pushes tell where it stands.
 
 use pushplan::effect::{EffectModel, Prior, Simulated};
-use pushplan::fit::{FitSettings, fit};
-use pushplan::judge::Trial;
 use pushplan::scene::Support;
 use pushplan::sim::Simulator;
 use pushplan::watch::Unwatched;
+use pushplan_act::fit::{FitSettings, fit};
+use pushplan_act::judge::Trial;
 
 use crate::recorded_pushes::{SUPPORTS, errors, pushes};
 

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use pushplan::asset::recordings_in;
 use pushplan::effect::EffectModel;
-use pushplan::judge::{Comparison, Trial, mean, percentile};
 use pushplan::recording::Recording;
 use pushplan::scene::Support;
+use pushplan_act::judge::{Comparison, Trial, mean, percentile};
 
 use crate::ROOT;
 

@@ -1,6 +1,5 @@
 //! The belief regulator: what ships, and its symmetries.
 
-use pushplan::belief::{Belief, BeliefRegulator, BeliefSettings, EVIDENCE};
 use pushplan::effect::Prior;
 use pushplan::geometry::{Pose, Vector};
 use pushplan::network::RegulatorWeights;
@@ -11,6 +10,7 @@ use pushplan::{
     scene::{Joint, JointKind, Object, Scene},
     task::{Job, Noise, Push, ToolMotion},
 };
+use pushplan_act::belief::{Belief, BeliefRegulator, BeliefSettings, EVIDENCE};
 
 use crate::fixtures::hand;
 use crate::random_regulator::random_weights;

@@ -1,6 +1,5 @@
 //! What pushes of a run teach the network that plans them.
 
-use pushplan::act::{RunSettings, Runner, SimulatedWorld, Trace};
 use pushplan::effect::{EffectModels, Network};
 use pushplan::network::Head;
 use pushplan::solve::{Effort, Planner};
@@ -9,6 +8,7 @@ use pushplan::{
     scene::{HeadSpread, TableFit, Unknowns},
     task::Truth,
 };
+use pushplan_act::act::{RunSettings, Runner, SimulatedWorld, Trace};
 
 use crate::closed_loop::{drawn, interrupted, library, shipped};
 

@@ -2,8 +2,8 @@
 
 use std::fs;
 
-use pushplan::store::FolderLock;
 use pushplan::watch::Unwatched;
+use pushplan_bench::store::FolderLock;
 use tempfile::TempDir;
 
 use crate::ROOT;

@@ -5,9 +5,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use pushplan::effect::{EffectModel, EffectModels, Job, ModelError, Network, Prior};
-use pushplan::fit::{Basis, FitSettings, HeadSettings, fit, learn};
 use pushplan::geometry::{Pose, Shape, Vector};
-use pushplan::judge::{Comparison, Trial, mean};
 use pushplan::network::Head;
 use pushplan::watch::Unwatched;
 use pushplan::{
@@ -15,6 +13,8 @@ use pushplan::{
     scene::{Object, Part, Scene, Support, Surface, TableFit, Tool},
     task::{Push, ToolMotion},
 };
+use pushplan_act::fit::{Basis, FitSettings, HeadSettings, fit, learn};
+use pushplan_act::judge::{Comparison, Trial, mean};
 
 use crate::random_network::weights;
 
@@ -58,9 +58,9 @@ fn learnt(network: &Network, trials: &[Trial]) -> TableFit {
     let settings = FitSettings { values: 5, ..FitSettings::default() };
     let found = fit(&Prior::default(), trials, &settings, &Unwatched).expect("something moves");
     // The support and the friction that made them are known.
-    let found = pushplan::fit::Fit {
-        friction: pushplan::fit::Estimate { told: false, ..found.friction },
-        stated: pushplan::fit::AsStated { likelier: true, ..found.stated },
+    let found = pushplan_act::fit::Fit {
+        friction: pushplan_act::fit::Estimate { told: false, ..found.friction },
+        stated: pushplan_act::fit::AsStated { likelier: true, ..found.stated },
         ..found
     };
     learn(network, trials, &Basis::from(&found), &HeadSettings::default())

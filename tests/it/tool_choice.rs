@@ -3,13 +3,13 @@
 
 use std::sync::{Arc, OnceLock};
 
-use pushplan::bench::{
-    GoalSet, Layout, Method, ReferenceSetup, StartGoals, ToolBench, ToolRecord, single_pushes,
-};
 use pushplan::effect::EffectModels;
 use pushplan::geometry::Vector;
 use pushplan::scene::ModelKind;
 use pushplan::solve::{Effort, Planner};
+use pushplan_bench::{
+    GoalSet, Layout, Method, ReferenceSetup, StartGoals, ToolBench, ToolRecord, single_pushes,
+};
 
 use crate::program::succeed;
 

@@ -1,8 +1,8 @@
 //! A task is solved.
 
 use pushplan::asset::{PlanFile, parse_task};
-use pushplan::report::{Origin, PageView, TaskSource, solution_document, solution_page};
 use pushplan::{Effort, Planner, Situation, Solution, Task};
+use pushplan_report::{Origin, PageView, TaskSource, solution_document, solution_page};
 use serde_json::json;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -85,7 +85,7 @@ impl Solved {
         serde_json::to_string(&file).unwrap_or_default()
     }
 
-    fn document(&self) -> pushplan::report::Document {
+    fn document(&self) -> pushplan_report::Document {
         solution_document(&self.task, &self.solution)
     }
 }

@@ -1,8 +1,8 @@
 //! The text of a task, what it says, and changes of it.
 
 use pushplan::asset::{self, Fault, Faults, parse_task};
-use pushplan::report::task_stage;
 use pushplan::{Task, ToolLibrary};
+use pushplan_report::task_stage;
 use serde_json::{Value as Json, json};
 use wasm_bindgen::prelude::wasm_bindgen;
 

@@ -6,12 +6,12 @@ use std::sync::Arc;
 use clap::Args;
 
 use pushplan::asset::ToolLibrary;
-use pushplan::report::{Origin, TaskSource};
 use pushplan::solve::{ActionError, ManualLever, ManualPush, manual_lever, manual_plan};
 use pushplan::{
     scene::{Models, Situation, Tool},
     task::{Plan, Task},
 };
+use pushplan_report::{Origin, TaskSource};
 
 use super::{
     error::CliError, lever_argument::lever_argument, push_argument::push_argument, session::Session,

@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use pushplan::act::{ActError, Trace};
 use pushplan::asset::{
     self, Fault, Faults, Kind, ToolLibrary, recording_schema, task_schema, tool_schema,
     world_schema,
 };
 use pushplan::solve::{Effort, Planner};
+use pushplan_act::act::{ActError, Trace};
 
 use super::{
     action::LibraryArgs, error::CliError, exit_code, follow::Following, session::Session,

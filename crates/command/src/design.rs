@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use pushplan::design::DesignSettings;
-use pushplan::report::{Origin, design_document};
 use pushplan::scene::Tool;
 use pushplan::solve::{Effort, Planner};
+use pushplan_report::{Origin, design_document};
 
 use super::{
     error::CliError,

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use clap::Args;
 
 use pushplan::effect::{EffectModels, Network};
-use pushplan::fit::{Basis, FitSettings, HeadSettings, NoiseLaw, fit, learn};
-use pushplan::judge::Trial;
 use pushplan::recording::Recording;
-use pushplan::report::{fit_document, table_fit_section};
 use pushplan::scene::ModelSpec;
+use pushplan_act::fit::{Basis, FitSettings, HeadSettings, NoiseLaw, fit, learn};
+use pushplan_act::judge::Trial;
+use pushplan_report::{fit_document, table_fit_section};
 
 use super::{
     error::CliError, exit_code, follow::Following, form::Form, model, output,

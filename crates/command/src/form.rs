@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use pushplan::report::Document;
+use pushplan_report::Document;
 
 use super::{error::CliError, session::Session};
 

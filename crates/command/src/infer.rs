@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use pushplan::belief::{Belief, BeliefSettings};
 use pushplan::recording::Recording;
-use pushplan::report::{PageView, Recipe, Setting, belief_document, recording_page};
 use pushplan::scene::{ModelSpec, Span};
 use pushplan::watch::Count;
+use pushplan_act::belief::{Belief, BeliefSettings};
+use pushplan_report::{PageView, Recipe, Setting, belief_document, recording_page};
 
 use super::{
     error::CliError,

@@ -7,8 +7,8 @@ use clap::Args;
 
 use pushplan::effect::{EffectModel, EffectModels, ModelError, Outside, Routed};
 use pushplan::network::PredictorWeights;
-use pushplan::report::Setting;
 use pushplan::scene::{ModelSpec, OTHER_OBJECTS, Scene, TableFit};
+use pushplan_report::Setting;
 
 use super::error::CliError;
 use super::session::Session;

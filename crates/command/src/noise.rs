@@ -2,8 +2,8 @@
 
 use clap::Args;
 
-use pushplan::report::Setting;
 use pushplan::task::Noise;
+use pushplan_report::Setting;
 
 /// Usual errors, metres and radians.
 const USUAL: (f64, f64) = (1e-3, 0.01);

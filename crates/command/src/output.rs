@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use pushplan::asset::{Fault, write_atomic};
-use pushplan::report::{Figure, PageView};
+use pushplan_report::{Figure, PageView};
 
 use super::action::LibraryArgs;
 use super::error::CliError;

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use pushplan::asset::PlanFile;
 use pushplan::effect::EffectModel;
-use pushplan::report::{PageView, Recipe, verdict_page};
 use pushplan::{
     outcome::{Record, Trajectory, Verdict},
     scene::ModelSpec,
     task::Job,
 };
+use pushplan_report::{PageView, Recipe, verdict_page};
 
 use super::{error::CliError, model, output, session::Session};
 

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use clap::Args;
 
 use pushplan::asset::write_atomic;
-use pushplan::report::{PoseRow, poses_document};
+use pushplan_report::{PoseRow, poses_document};
 
 use super::error::CliError;
 

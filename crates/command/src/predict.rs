@@ -6,17 +6,17 @@ use std::sync::Arc;
 use clap::Args;
 
 use pushplan::asset::{self, Kind, PlanFile, TrajectoryFile};
-use pushplan::bench::timed_effect;
 use pushplan::effect::EffectModel;
 use pushplan::geometry::Pose;
-use pushplan::report::{
-    PageView, PoseRow, TaskSource, prediction_document, prediction_page, trajectory_figures,
-};
 use pushplan::sim::LeverSimulator;
 use pushplan::{
     outcome::{Frame, Record, Trajectory, Warning},
     scene::{Engine, ModelKind, ModelSpec, Object, TableFit, Tool},
     task::{Job, Plan, Task},
+};
+use pushplan_bench::timed_effect;
+use pushplan_report::{
+    PageView, PoseRow, TaskSource, prediction_document, prediction_page, trajectory_figures,
 };
 
 use super::{

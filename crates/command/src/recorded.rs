@@ -2,12 +2,12 @@
 
 use pushplan::effect::EffectModel;
 use pushplan::geometry::Pose;
-use pushplan::judge::{
+use pushplan::recording::Recording;
+use pushplan::{outcome::Warning, scene::TableFit};
+use pushplan_act::judge::{
     Comparison, RecordedErrors, Trial, TrialErrors, assumed, own_spread, recorded_baselines,
 };
-use pushplan::recording::Recording;
-use pushplan::report::{PoseRow, RECORDED, recorded_document, recordings_document};
-use pushplan::{outcome::Warning, scene::TableFit};
+use pushplan_report::{PoseRow, RECORDED, recorded_document, recordings_document};
 
 use super::{
     error::CliError,

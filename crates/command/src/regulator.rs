@@ -4,10 +4,10 @@ use std::path::Path;
 
 use clap::Args;
 
-use pushplan::belief::BeliefRegulator;
 use pushplan::network::RegulatorWeights;
-use pushplan::report::Setting;
-use pushplan::store::digest;
+use pushplan_act::belief::BeliefRegulator;
+use pushplan_bench::store::digest;
+use pushplan_report::Setting;
 
 use super::error::CliError;
 

@@ -4,18 +4,18 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use pushplan::act::{
-    ActError, End, ProbeRule, RunSettings, Runner, SimulatedWorld, Trace, hidden, really,
-};
 use pushplan::asset::{ToolLibrary, load_world};
 use pushplan::effect::{EffectModels, Outside};
-use pushplan::report::{Recipe, Setting, run_document, run_page, table_fit_section};
 use pushplan::solve::{Effort, Planner};
-use pushplan::store::FolderLock;
 use pushplan::{
     scene::Models,
     task::{Task, Truth},
 };
+use pushplan_act::act::{
+    ActError, End, ProbeRule, RunSettings, Runner, SimulatedWorld, Trace, hidden, really,
+};
+use pushplan_bench::store::FolderLock;
+use pushplan_report::{Recipe, Setting, run_document, run_page, table_fit_section};
 
 use super::{
     error::CliError,

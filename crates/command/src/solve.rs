@@ -6,12 +6,12 @@ use std::time::Duration;
 use clap::Args;
 
 use pushplan::asset::PlanFile;
-use pushplan::report::{Origin, PageView, plan_figures, solution_document, solution_page};
 use pushplan::solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
 use pushplan::{
     scene::{Models, Situation},
     task::Task,
 };
+use pushplan_report::{Origin, PageView, plan_figures, solution_document, solution_page};
 
 use super::{
     error::CliError,

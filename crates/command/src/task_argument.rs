@@ -6,8 +6,8 @@ use clap::Args;
 use clap::builder::PossibleValuesParser;
 
 use pushplan::asset::{ToolLibrary, load_example, load_task};
-use pushplan::report::TaskSource;
 use pushplan::task::Task;
+use pushplan_report::TaskSource;
 
 use super::error::CliError;
 

@@ -6,10 +6,10 @@ use std::time::Duration;
 use clap::Args;
 
 use pushplan::asset::PlanFile;
-use pushplan::report::{PageView, Recipe, replay_warnings, verdict_document};
 use pushplan::scene::Situation;
 use pushplan::verify::{Verifier, VerifySettings};
 use pushplan::watch::Until;
+use pushplan_report::{PageView, Recipe, replay_warnings, verdict_document};
 
 use super::{
     error::CliError,

@@ -2,12 +2,12 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-use pushplan::act::ProbeRule;
-use pushplan::bench::Layout;
 use pushplan::effect::Outside;
-use pushplan::report::PageView;
 use pushplan::scene::Engine;
 use pushplan::solve::Effort;
+use pushplan_act::act::ProbeRule;
+use pushplan_bench::Layout;
+use pushplan_report::PageView;
 
 /// Words, what they stand for, and what that means.
 pub type Words<T> = [(&'static str, T, &'static str)];

@@ -5,7 +5,7 @@
 //! one script for all such files carries it out and judges it by our rules ([`REPLAY_SCRIPT`], and
 //! [`LEVER_SCRIPT`] where something leaves the plane). An MCAP file holds a plan and what a model
 //! says it does. Nothing is simulated here, nothing is written to disk, and MuJoCo is not a
-//! dependency. Reports for people are in [`pushplan::report`].
+//! dependency. Reports for people are in `pushplan-report`.
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 

@@ -12,13 +12,13 @@ use pushplan::effect::{EffectModel, Network, Prior};
 use pushplan::geometry::Vector;
 use pushplan::network::PredictorWeights;
 use pushplan::recording::Recording;
-use pushplan::report::{ScenePicture, Source, Track};
 use pushplan::solve::{Planner, Settings};
 use pushplan::{
     outcome::{Record, Trajectory, Warning},
     scene::{ModelKind, Object, Scene, Tool},
     task::{Job, Plan, Push, Task, ToolMotion},
 };
+use pushplan_report::{ScenePicture, Source, Track};
 
 /// Frames above which a motion is not rolled out.
 const LONGEST: usize = 400;

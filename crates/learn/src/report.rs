@@ -1,6 +1,6 @@
 //! Curves of a training run.
 
-use pushplan::internals::report::{Axis, Chart, Document, Figure, Mark, Section, Series};
+use pushplan_report::{Axis, Chart, Document, Figure, Mark, Section, Series};
 use serde_json::json;
 
 use crate::train::{HeldOutError, Line};

@@ -3,14 +3,14 @@
 use std::path::PathBuf;
 
 use numpy::{PyArray1, PyArray2, PyArray3};
-use pushplan::belief::{Belief, BeliefRegulator, BeliefSettings};
 use pushplan::recording::Recording;
-use pushplan::report::belief_document;
 use pushplan::watch::Watch;
 use pushplan::{
     scene::{Span, Velocity},
     task::Noise,
 };
+use pushplan_act::belief::{Belief, BeliefRegulator, BeliefSettings};
+use pushplan_report::belief_document;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
@@ -153,7 +153,7 @@ impl PyBelief {
 }
 
 impl PyBelief {
-    fn document(&self) -> pushplan::report::Document {
+    fn document(&self) -> pushplan_report::Document {
         let names: Vec<&str> = self.objects.iter().map(String::as_str).collect();
         belief_document(&self.name, &self.belief, &names, &self.ranges)
     }

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use pushplan::report::{TaskSource, design_document};
 use pushplan::{Design, DesignSettings};
 use pushplan::{Solution, Task};
+use pushplan_report::{TaskSource, design_document};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyAny;

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use pushplan::asset::PlanFile;
-use pushplan::report::{Origin, PageView, TaskSource, verdict_page};
 use pushplan::solve::{ManualPush, manual_plan};
 use pushplan::verify::{VerifySettings, broken_rules};
 use pushplan::{Graph, Job, RankedPlan, Task, Trajectory, Verdict, Verifier};
@@ -14,6 +13,7 @@ use pushplan::{
     task::PushForm,
 };
 use pushplan_export::mjcf;
+use pushplan_report::{Origin, PageView, TaskSource, verdict_page};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyAny;

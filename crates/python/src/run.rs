@@ -4,10 +4,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use numpy::PyArray2;
-use pushplan::act::{ActError, End, Look, SimulatedWorld, World, WorldError};
-use pushplan::report::{PageView, Recipe, run_document, run_page};
 use pushplan::scene::Sight;
-use pushplan::{Noise, RunSettings, Runner, Tool, ToolMotion, Trace, Vector, hidden};
+use pushplan::{Noise, Tool, ToolMotion, Vector};
+use pushplan_act::act::{ActError, End, Look, SimulatedWorld, World, WorldError};
+use pushplan_act::{RunSettings, Runner, Trace, hidden};
+use pushplan_report::{PageView, Recipe, run_document, run_page};
 use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
@@ -327,14 +328,14 @@ impl World for Place {
         }
     }
 
-    fn stopped(&self) -> Option<pushplan::act::Stop> {
+    fn stopped(&self) -> Option<pushplan_act::act::Stop> {
         match self {
             Place::Drawn(world) => world.stopped(),
             Place::Theirs { .. } => None,
         }
     }
 
-    fn save(&self) -> Option<pushplan::act::WorldState> {
+    fn save(&self) -> Option<pushplan_act::act::WorldState> {
         match self {
             Place::Drawn(world) => world.save(),
             Place::Theirs { .. } => None,

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use pushplan::report::{Origin, PageView, TaskSource, solution_document, solution_page};
 use pushplan::solve::PlanStatus;
 use pushplan::{RankedPlan, Solution, TableFit, Task};
 use pushplan::{outcome::Warning, scene::Situation};
+use pushplan_report::{Origin, PageView, TaskSource, solution_document, solution_page};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyAny;

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use pushplan::asset::PlanFile;
 use pushplan::effect::{EffectModel, Routed};
-use pushplan::report::TaskSource;
 use pushplan::verify::VerifySettings;
 use pushplan::watch::{Cancel, Until};
 use pushplan::{
@@ -15,6 +14,7 @@ use pushplan::{
     outcome::Warning,
     scene::{ModelKind, Situation, TableFit},
 };
+use pushplan_report::TaskSource;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 

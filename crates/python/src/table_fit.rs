@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use pushplan::TableFit;
 use pushplan::effect::{EffectModels, Network, Prior};
-use pushplan::fit::{Basis, FitSettings, HeadSettings, learn};
-use pushplan::judge::Trial;
 use pushplan::watch::Unwatched;
+use pushplan_act::fit::{Basis, FitSettings, HeadSettings, learn};
+use pushplan_act::judge::Trial;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
@@ -109,7 +109,7 @@ pub fn fit(
         recordings.iter().map(|one| Trial::of_recording(&one.get().0)).collect();
     let learnt = work::run(py, words::threads(threads)?, |_| {
         let settings = FitSettings::default();
-        let found = pushplan::fit::fit(&Prior::default(), &trials, &settings, &Unwatched)?;
+        let found = pushplan_act::fit::fit(&Prior::default(), &trials, &settings, &Unwatched)?;
         Some(learn(&network, &trials, &Basis::from(&found), &HeadSettings::default()))
     })?;
     match learnt {

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use numpy::PyArray2;
 use pushplan::asset::{load_example, load_task};
-use pushplan::report::TaskSource;
 use pushplan::task::ToolChoice;
 use pushplan::{Pose, State, Task};
+use pushplan_report::TaskSource;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyAny;

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use numpy::PyArray2;
 use pushplan::asset::PlanFile;
 use pushplan::outcome::{Disturbance, Evidence, Warning};
-use pushplan::report::{
+use pushplan::{Task, Verdict};
+use pushplan_report::{
     Origin, PageView, TaskSource, replay_warnings, verdict_document, verdict_page,
 };
-use pushplan::{Task, Verdict};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyAny;

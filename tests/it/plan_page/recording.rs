@@ -1,16 +1,16 @@
 //! The page of a recording: what was seen, and what was believed of it, under one clock.
 
-use pushplan::belief::{Belief, BeliefSettings};
 use pushplan::effect::Prior;
 use pushplan::geometry::Vector;
 use pushplan::recording::Recording;
-use pushplan::report::{PageView, Recipe, belief_document, recording_page};
 use pushplan::sim::Simulator;
 use pushplan::{
     outcome::Record,
     scene::{Joint, JointKind, Object, Scene},
     task::{Job, Truth},
 };
+use pushplan_act::belief::{Belief, BeliefSettings};
+use pushplan_report::{PageView, Recipe, belief_document, recording_page};
 use tempfile::TempDir;
 
 use super::browser::Browser;

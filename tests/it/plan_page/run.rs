@@ -1,15 +1,15 @@
 //! The page of a run: what really happened, what was predicted and what was believed, under one
 //! clock.
 
-use pushplan::act::{
-    RunSettings, Runner, SimulatedWorld, Step, TRACE_VERSION, Trace, hidden, really,
-};
 use pushplan::asset::ToolLibrary;
 use pushplan::geometry::Pose;
-use pushplan::report::{PageView, Recipe, run_page};
 use pushplan::watch::Unwatched;
 use pushplan::{Effort, Planner};
 use pushplan::{outcome::Trajectory, scene::State, task::Goal};
+use pushplan_act::act::{
+    RunSettings, Runner, SimulatedWorld, Step, TRACE_VERSION, Trace, hidden, really,
+};
+use pushplan_report::{PageView, Recipe, run_page};
 use serde_json::json;
 use tempfile::TempDir;
 

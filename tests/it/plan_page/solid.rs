@@ -5,13 +5,13 @@ use std::sync::Arc;
 
 use pushplan::asset::PlanFile;
 use pushplan::geometry::Pose;
-use pushplan::report::PageView;
 use pushplan::sim::LeverSimulator;
 use pushplan::{Solution, Task};
 use pushplan::{
     scene::{Engine, LeverScene},
     task::LeverJob,
 };
+use pushplan_report::PageView;
 use serde_json::Value as Json;
 use tempfile::TempDir;
 

@@ -9,9 +9,9 @@ use serde::{Serialize, de::DeserializeOwned};
 use crate::{
     error::CliError, follow::Following, form::Form, interrupt, model, output, session::Session,
 };
-use pushplan::report::Document;
 use pushplan::scene::{ModelSpec, Tool};
-use pushplan::store::{Measured, RunManifest, Shard, Store, StoreError, digest};
+use pushplan_bench::store::{Measured, RunManifest, Shard, Store, StoreError, digest};
+use pushplan_report::Document;
 
 /// Names of the files that a report leaves next to the records.
 const PAGE: &str = "report.html";

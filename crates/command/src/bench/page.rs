@@ -7,11 +7,11 @@ use clap::Args;
 
 use crate::{action::LibraryArgs, error::CliError, output, page, session::Session};
 use pushplan::asset::{PlanFile, load_task};
-use pushplan::bench::{End, SolvedTask};
-use pushplan::report::{PageView, TaskSource};
 use pushplan::scene::{Engine, Models, Situation};
-use pushplan::store::RunManifest;
 use pushplan::verify::{Verifier, VerifySettings};
+use pushplan_bench::store::RunManifest;
+use pushplan_bench::{End, SolvedTask};
+use pushplan_report::{PageView, TaskSource};
 
 /// Which task, and the tools that it was solved with.
 #[derive(Args, Debug)]

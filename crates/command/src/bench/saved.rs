@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::{error::CliError, form::Form, output, session::Session};
-use pushplan::bench::SolvedTask;
-use pushplan::report::Document;
-use pushplan::store::{self, RunManifest, Store, line_index, merge_runs};
+use pushplan_bench::SolvedTask;
+use pushplan_bench::store::{self, RunManifest, Store, line_index, merge_runs};
+use pushplan_report::Document;
 
 use super::keep;
 use super::page::PageArgs;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::{error::CliError, session::Session};
-use pushplan::store::RunStatus;
+use pushplan_bench::store::RunStatus;
 
 /// Say which shards of a run are missing or unfinished, as array jobs take them: `3,7-9`
 #[derive(Args, Debug)]

@@ -8,9 +8,9 @@ use clap::{ArgMatches, Args, Command, FromArgMatches};
 use serde::{Serialize, de::DeserializeOwned};
 
 use crate::{error::CliError, form::Form, session::Session};
-use pushplan::bench::SolvedTask;
-use pushplan::report::Document;
-use pushplan::store::{Finished, Measured, RunManifest, Store};
+use pushplan_bench::SolvedTask;
+use pushplan_bench::store::{Finished, Measured, RunManifest, Store};
+use pushplan_report::Document;
 
 use super::keep::{self, KeepArgs};
 

@@ -12,11 +12,11 @@ use crate::{
     words::{EFFORTS, words},
 };
 use pushplan::asset::load_task;
-use pushplan::bench::SolvedTask;
-use pushplan::report::{Document, solved_document};
 use pushplan::solve::Effort;
-use pushplan::store::{Measured, RunManifest};
 use pushplan::task::Task;
+use pushplan_bench::SolvedTask;
+use pushplan_bench::store::{Measured, RunManifest};
+use pushplan_report::{Document, solved_document};
 
 use super::common::Common;
 use super::keep::{self, KeepArgs, tools_digest, value_digest, weights_digest};

@@ -13,13 +13,13 @@ use crate::{
     words::{EFFORTS, LAYOUTS, words},
 };
 use pushplan::asset::write_atomic;
-use pushplan::bench::{
-    GoalSet, Layout, ReferenceSetup, ToolBench, ToolBenchError, ToolRecord, single_pushes,
-};
-use pushplan::report::{Document, single_document, tools_document};
 use pushplan::scene::{ModelKind, ModelSpec, Models};
 use pushplan::solve::{Effort, Planner, Settings};
-use pushplan::store::RunManifest;
+use pushplan_bench::store::RunManifest;
+use pushplan_bench::{
+    GoalSet, Layout, ReferenceSetup, ToolBench, ToolBenchError, ToolRecord, single_pushes,
+};
+use pushplan_report::{Document, single_document, tools_document};
 
 use super::keep::{self, KeepArgs, value_digest, weights_digest};
 use super::suite::{Cases, Measure, Run, Suite, SuiteArgs, only};

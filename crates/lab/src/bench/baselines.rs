@@ -1,7 +1,7 @@
 //! What a model is compared with in an evaluation on random scenes.
 
-use pushplan::internals::judge::{SHIFTED_START, mistaken_frictions};
 use pushplan::internals::scene::{ModelKind, ModelSpec};
+use pushplan_act::judge::{SHIFTED_START, mistaken_frictions};
 
 use crate::trivial::{Follow, Projection};
 

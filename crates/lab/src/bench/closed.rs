@@ -2,18 +2,16 @@
 
 use std::time::Instant;
 
-use pushplan::internals::act::{
-    ActError, End, RunSettings, Runner, SimulatedWorld, Trace, Why, World,
-};
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::geometry::wrap_angle;
 use pushplan::internals::solve::{Planner, SolveError};
-use pushplan::internals::store::Measured;
 use pushplan::internals::watch::Unwatched;
 use pushplan::internals::{
     scene::{Scene, Situation, State},
     task::{Goal, Task, Truth},
 };
+use pushplan_act::act::{ActError, End, RunSettings, Runner, SimulatedWorld, Trace, Why, World};
+use pushplan_bench::store::Measured;
 use serde::{Deserialize, Serialize};
 
 use super::random::{HiddenWorld, RandomError, RandomSuite, TaskKind};
@@ -109,7 +107,7 @@ fn once(
         }
     }
     let mut scene: Scene = task.scene.clone();
-    scene.joints = pushplan::internals::belief::carried(&task.scene.joints, &task.scene, &start);
+    scene.joints = pushplan_act::belief::carried(&task.scene.joints, &task.scene, &start);
     for (object, pose) in scene.objects.iter_mut().zip(&start.poses) {
         object.pose = *pose;
     }

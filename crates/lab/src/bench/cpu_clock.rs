@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use pushplan::internals::bench::thread_time;
+use pushplan_bench::thread_time;
 
 /// Runs `work` and returns the processor time that this thread spent on it, so that other work on the
 /// machine does not count. Outside Linux, where the system does not report it, returns wall-clock time.

@@ -9,7 +9,6 @@
 
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::effect::{EffectModel, shifted_start};
-use pushplan::internals::judge::{Comparison, MOVED, ObjectError, Summary, Trial};
 use pushplan::internals::seeded::generator;
 use pushplan::internals::sim::Simulator;
 use pushplan::internals::{
@@ -17,6 +16,7 @@ use pushplan::internals::{
     scene::{Physics, Scene},
     task::Job,
 };
+use pushplan_act::judge::{Comparison, MOVED, ObjectError, Summary, Trial};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 

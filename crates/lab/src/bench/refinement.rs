@@ -2,11 +2,11 @@
 //! it, everything else alike.
 
 use pushplan::internals::asset::ToolLibrary;
-use pushplan::internals::bench::{End, SolvedTask};
-use pushplan::internals::judge::Summary;
 use pushplan::internals::solve::{PlanStatus, Planner, Solution, SolveError};
-use pushplan::internals::store::Measured;
 use pushplan::internals::{scene::Situation, task::Task};
+use pushplan_act::judge::Summary;
+use pushplan_bench::store::Measured;
+use pushplan_bench::{End, SolvedTask};
 use serde::{Deserialize, Serialize};
 
 use super::random::random_task;

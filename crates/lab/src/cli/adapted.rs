@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 use pushplan::internals::effect::Network;
-use pushplan::internals::judge::Trial;
 use pushplan::internals::scene::{ModelKind, ModelSpec};
+use pushplan_act::judge::Trial;
 use pushplan_command::error::CliError;
 use pushplan_command::form::Form;
 use pushplan_command::model;

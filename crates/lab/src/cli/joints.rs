@@ -1,9 +1,8 @@
 //! `pushplan-lab joints`: how well joints are inferred from what is seen.
 
 use clap::Args;
-use pushplan::internals::report::Document;
 use pushplan::internals::scene::{Engine, ModelSpec};
-use pushplan::internals::store::RunManifest;
+use pushplan_bench::store::RunManifest;
 use pushplan_command::bench::keep;
 use pushplan_command::bench::keep::KeepArgs;
 use pushplan_command::bench::suite::{Cases, Measure, Run, Suite, only};
@@ -14,6 +13,7 @@ use pushplan_command::session::Session;
 use pushplan_command::words::{ENGINES, words};
 use pushplan_learn::cli::words::JOINTS;
 use pushplan_learn::dataset::JointRule;
+use pushplan_report::Document;
 use serde_json::json;
 
 use crate::bench::{

@@ -1,6 +1,6 @@
 //! The suites whose runs are kept in folders, and what runs must have in common to be compared.
 
-use pushplan::internals::store::RunManifest;
+use pushplan_bench::store::RunManifest;
 use pushplan_command::bench::saved::Kept;
 use pushplan_command::bench::suite::{Run, load, only};
 use pushplan_command::error::CliError;

@@ -3,10 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use pushplan::internals::report::Document;
 use pushplan::internals::scene::{ModelKind, ModelSpec};
 use pushplan::internals::solve::{Effort, Planner};
-use pushplan::internals::store::RunManifest;
+use pushplan_bench::store::RunManifest;
 use pushplan_command::action::LibraryArgs;
 use pushplan_command::bench::keep;
 use pushplan_command::bench::keep::{KeepArgs, tools_digest, weights_digest};
@@ -16,6 +15,7 @@ use pushplan_command::model;
 use pushplan_command::session::Session;
 use pushplan_command::solve::solve_error;
 use pushplan_command::words::{EFFORTS, words};
+use pushplan_report::Document;
 use serde_json::json;
 
 use crate::bench::{LeverRecord, LeverSuite};

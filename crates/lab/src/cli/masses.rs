@@ -1,9 +1,8 @@
 //! `pushplan-lab masses`: how well masses are told from pushes.
 
 use clap::Args;
-use pushplan::internals::report::Document;
 use pushplan::internals::scene::ModelSpec;
-use pushplan::internals::store::RunManifest;
+use pushplan_bench::store::RunManifest;
 use pushplan_command::bench::keep;
 use pushplan_command::bench::keep::KeepArgs;
 use pushplan_command::bench::suite::{Cases, Measure, Run, Suite, only};
@@ -12,6 +11,7 @@ use pushplan_command::model;
 use pushplan_command::session::Session;
 use pushplan_command::words::words;
 use pushplan_learn::dataset::{Controlled, MassSetup};
+use pushplan_report::Document;
 use serde_json::json;
 
 use crate::bench::{MassRecord, MassSuite, Sighting, summarise_masses};

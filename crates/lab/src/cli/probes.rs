@@ -1,10 +1,9 @@
 //! `pushplan-lab probes`: how much pushes tell, by how they were chosen.
 
 use clap::Args;
-use pushplan::internals::act::ProbeRule;
-use pushplan::internals::report::Document;
 use pushplan::internals::scene::ModelSpec;
-use pushplan::internals::store::RunManifest;
+use pushplan_act::act::ProbeRule;
+use pushplan_bench::store::RunManifest;
 use pushplan_command::bench::keep;
 use pushplan_command::bench::keep::KeepArgs;
 use pushplan_command::bench::suite::{Cases, Measure, Run, Suite, only};
@@ -12,6 +11,7 @@ use pushplan_command::error::CliError;
 use pushplan_command::model;
 use pushplan_command::session::Session;
 use pushplan_command::words::{PROBES, words};
+use pushplan_report::Document;
 use serde_json::json;
 
 use crate::bench::{ProbeRecord, ProbeSuite, summarise_probes};

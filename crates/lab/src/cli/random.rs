@@ -3,9 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use pushplan::internals::bench::SolvedTask;
-use pushplan::internals::report::Document;
 use pushplan::internals::solve::Effort;
+use pushplan_bench::SolvedTask;
 use pushplan_command::bench::keep;
 use pushplan_command::bench::keep::KeepArgs;
 use pushplan_command::bench::suite::{Cases, Measure, Run, Suite};
@@ -13,6 +12,7 @@ use pushplan_command::error::CliError;
 use pushplan_command::session::Session;
 use pushplan_command::solve::solve_error;
 use pushplan_command::words::{EFFORTS, words};
+use pushplan_report::Document;
 
 use crate::bench::{RandomError, RandomRecord};
 use crate::cli::kept::same_tasks;

@@ -1,9 +1,8 @@
 //! `pushplan-lab refinement`: what refinement brings.
 
 use clap::Args;
-use pushplan::internals::report::Document;
 use pushplan::internals::solve::{Effort, Planner, Settings};
-use pushplan::internals::store::RunManifest;
+use pushplan_bench::store::RunManifest;
 use pushplan_command::bench::common::Common;
 use pushplan_command::bench::keep;
 use pushplan_command::bench::keep::{KeepArgs, tools_digest, weights_digest};
@@ -12,6 +11,7 @@ use pushplan_command::error::CliError;
 use pushplan_command::session::Session;
 use pushplan_command::solve::solve_error;
 use pushplan_command::words::{EFFORTS, words};
+use pushplan_report::Document;
 use serde_json::json;
 
 use crate::bench::{RefinedTask, RefinementReport, refine_task};

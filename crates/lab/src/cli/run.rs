@@ -1,16 +1,16 @@
 //! `pushplan-lab run`: the closed loop on random tasks that do not know their scene.
 
 use clap::Args;
-use pushplan::internals::act::{ProbeRule, RunSettings};
-use pushplan::internals::report::Document;
 use pushplan::internals::scene::Engine;
 use pushplan::internals::solve::Effort;
+use pushplan_act::act::{ProbeRule, RunSettings};
 use pushplan_command::bench::keep;
 use pushplan_command::bench::keep::KeepArgs;
 use pushplan_command::bench::suite::{Cases, Measure, Run, Suite};
 use pushplan_command::error::CliError;
 use pushplan_command::session::Session;
 use pushplan_command::words::{EFFORTS, ENGINES, PROBES, words};
+use pushplan_report::Document;
 use serde_json::json;
 
 use crate::bench::{ClosedRecord, HiddenWorld, TaskKind};

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use pushplan::internals::store::{RunManifest, Seconds, Shard, Store};
 use pushplan::internals::watch::Watch;
+use pushplan_bench::store::{RunManifest, Seconds, Shard, Store};
 use pushplan_command::action::LibraryArgs;
 use pushplan_command::bench::weights_digest;
 use pushplan_command::error::CliError;

@@ -4,8 +4,8 @@ use std::fmt;
 
 use candle_core::{Result as CandleResult, Tensor};
 use pushplan::internals::network::{Card, Layout, Parameters, Weights, WeightsError, check_widths};
-use pushplan::internals::store::FolderLock;
 use pushplan::internals::watch::Watch;
+use pushplan_bench::store::FolderLock;
 use pushplan_learn::dataset::DatasetError;
 use pushplan_learn::train::{Descent, TrainError, Trainable, Trainer, drawn, gradients_of};
 use serde::{Deserialize, Serialize};

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use pushplan::internals::network::{Parameters, Statistics};
-use pushplan::internals::store::FolderLock;
 use pushplan::internals::watch::Watch;
+use pushplan_bench::store::FolderLock;
 use pushplan_learn::dataset::LeverEpisode;
 use pushplan_learn::train::{
     Descent, LeverBatch, LeverExample, LeverScore, LeverSettings, TrainError, Trainable, Trainer,

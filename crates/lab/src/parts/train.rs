@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use candle_core::{Device, Result, Tensor};
 use pushplan::internals::network::{Forward, Normaliser, Parameters};
-use pushplan::internals::store::FolderLock;
 use pushplan::internals::watch::Watch;
+use pushplan_bench::store::FolderLock;
 use pushplan_learn::dataset::LeverEpisode;
 use pushplan_learn::network::{Inputs, Predictor};
 use pushplan_learn::train::{

@@ -1,7 +1,7 @@
 //! What a network gains that is fitted to a table.
 
-use pushplan::internals::report::Align::{Left, Right};
-use pushplan::internals::report::{Document, Section, Table};
+use pushplan_report::Align::{Left, Right};
+use pushplan_report::{Document, Section, Table};
 use serde_json::json;
 
 use crate::bench::{AdaptedRow, Ratio};

@@ -1,11 +1,9 @@
 //! Runs of tasks that do not know their scene: what the closed loop brings.
 
-use pushplan::internals::act::End;
-use pushplan::internals::judge::{mean, percentile};
-use pushplan::internals::report::{
-    Align, Document, NONE, Section, Table, millimetres, progress_note, seconds,
-};
-use pushplan::internals::store::{Finished, RunManifest};
+use pushplan_act::act::End;
+use pushplan_act::judge::{mean, percentile};
+use pushplan_bench::store::{Finished, RunManifest};
+use pushplan_report::{Align, Document, NONE, Section, Table, millimetres, progress_note, seconds};
 use serde_json::json;
 
 use crate::bench::{ClosedRecord, Left, TaskKind};

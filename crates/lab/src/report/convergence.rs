@@ -1,7 +1,7 @@
 //! How far simulated lever-ups are from finer ones.
 
-use pushplan::internals::report::Align::{Left, Right};
-use pushplan::internals::report::{Document, NONE, Section, Table, millimetres, seconds};
+use pushplan_report::Align::{Left, Right};
+use pushplan_report::{Document, NONE, Section, Table, millimetres, seconds};
 use serde_json::json;
 
 use crate::bench::{ConvergenceReport, ConvergenceRow, Setting};

@@ -1,9 +1,7 @@
 //! What pushes, networks and searches cost.
 
-use pushplan::internals::report::Align::{Left, Right};
-use pushplan::internals::report::{
-    Axis, Chart, Document, Figure, Mark, NONE, Section, Series, Table, seconds,
-};
+use pushplan_report::Align::{Left, Right};
+use pushplan_report::{Axis, Chart, Document, Figure, Mark, NONE, Section, Series, Table, seconds};
 use serde_json::json;
 
 use crate::bench::{EquationCost, FarCost, InferenceCost, PushCost, SearchCost};

@@ -1,8 +1,8 @@
 //! Errors on crowds as tables and curves.
 
-use pushplan::internals::judge::{Drift, ModelErrors, RelativeErrors, TrialErrors};
-use pushplan::internals::report::Align::{Left, Right};
-use pushplan::internals::report::{
+use pushplan_act::judge::{Drift, ModelErrors, RelativeErrors, TrialErrors};
+use pushplan_report::Align::{Left, Right};
+use pushplan_report::{
     Document, Figure, NONE, Section, Table, beside, end, fine_millimetres, horizon_chart,
     millimetres, model_name, share, trials_line,
 };

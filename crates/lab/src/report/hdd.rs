@@ -1,8 +1,8 @@
 //! Errors of models of boards in drives.
 
-use pushplan::internals::judge::Summary;
-use pushplan::internals::report::Align::{Left, Right};
-use pushplan::internals::report::{Document, NONE, Section, Table, degrees, seconds};
+use pushplan_act::judge::Summary;
+use pushplan_report::Align::{Left, Right};
+use pushplan_report::{Document, NONE, Section, Table, degrees, seconds};
 use serde_json::json;
 
 use crate::bench::{DriveReport, DriveRow};

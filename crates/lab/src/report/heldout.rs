@@ -1,8 +1,8 @@
 //! Errors on held-out pushes.
 
-use pushplan::internals::judge::Summary;
-use pushplan::internals::report::Align::{Left, Right};
-use pushplan::internals::report::{Document, NONE, Section, Table, fine_millimetres, millimetres};
+use pushplan_act::judge::Summary;
+use pushplan_report::Align::{Left, Right};
+use pushplan_report::{Document, NONE, Section, Table, fine_millimetres, millimetres};
 use serde_json::json;
 
 use crate::bench::{ErrorRow, HeldOutReport};

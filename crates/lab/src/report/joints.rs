@@ -1,7 +1,7 @@
 //! How well joints are inferred, as tables and curves.
 
-use pushplan::internals::report::Align::{Left, Right};
-use pushplan::internals::report::{
+use pushplan_report::Align::{Left, Right};
+use pushplan_report::{
     Align, Axis, Chart, Document, Figure, Mark, NONE, Section, Series, Table, millimetres,
 };
 use serde_json::json;

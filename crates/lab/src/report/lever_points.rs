@@ -1,8 +1,8 @@
 //! How well lever points are inferred.
 
-use pushplan::internals::judge::Summary;
-use pushplan::internals::report::Align::Right;
-use pushplan::internals::report::{Document, NONE, Section, Table, degrees};
+use pushplan_act::judge::Summary;
+use pushplan_report::Align::Right;
+use pushplan_report::{Document, NONE, Section, Table, degrees};
 use serde_json::json;
 
 use crate::bench::{PointReport, PointRow};

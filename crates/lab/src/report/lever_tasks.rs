@@ -1,9 +1,9 @@
 //! Generated tasks of levering: how many are solved, how robustly, and what that cost.
 
-use pushplan::internals::judge::{mean, percentile};
-use pushplan::internals::report::{Align, Document, Section, Table, flat, progress_note, seconds};
 use pushplan::internals::solve::PlanStatus;
-use pushplan::internals::store::{Finished, RunManifest};
+use pushplan_act::judge::{mean, percentile};
+use pushplan_bench::store::{Finished, RunManifest};
+use pushplan_report::{Align, Document, Section, Table, flat, progress_note, seconds};
 use serde_json::json;
 
 use crate::bench::LeverRecord;

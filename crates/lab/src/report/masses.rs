@@ -1,7 +1,7 @@
 //! How well masses are told, as a table.
 
-use pushplan::internals::report::Align::{Left, Right};
-use pushplan::internals::report::{Document, NONE, Section, Table};
+use pushplan_report::Align::{Left, Right};
+use pushplan_report::{Document, NONE, Section, Table};
 use serde_json::json;
 
 use crate::bench::MassSummary;

@@ -1,8 +1,8 @@
 //! How much probes tell, as a table.
 
-use pushplan::internals::act::ProbeRule;
-use pushplan::internals::report::Align::{Left, Right};
-use pushplan::internals::report::{Document, Section, Table};
+use pushplan_act::act::ProbeRule;
+use pushplan_report::Align::{Left, Right};
+use pushplan_report::{Document, Section, Table};
 use serde_json::json;
 
 use crate::bench::ProbeSummary;

@@ -1,13 +1,13 @@
 //! The suite of random tasks: one table by kind and method, charts, rows for CSV.
 
-use pushplan::internals::bench::{End, SolvedTask};
-use pushplan::internals::judge::{mean, percentile};
-use pushplan::internals::report::{
+use pushplan::internals::solve::PlanStatus;
+use pushplan_act::judge::{mean, percentile};
+use pushplan_bench::store::{Finished, RunManifest, Seconds};
+use pushplan_bench::{End, SolvedTask};
+use pushplan_report::{
     Align, BarChart, Bars, Document, Figure, NONE, SOLVED_COLUMNS, Section, Table, error_chart,
     flat, millimetres, progress_note, seconds, solved_cells,
 };
-use pushplan::internals::solve::PlanStatus;
-use pushplan::internals::store::{Finished, RunManifest, Seconds};
 use serde_json::json;
 
 use crate::bench::{RandomRecord, TaskKind};

@@ -1,7 +1,7 @@
 //! What refinement brings.
 
-use pushplan::internals::report::Align::{Left, Right};
-use pushplan::internals::report::{Document, Section, Table};
+use pushplan_report::Align::{Left, Right};
+use pushplan_report::{Document, Section, Table};
 use serde_json::json;
 
 use crate::bench::RefinementReport;

@@ -1,8 +1,8 @@
 //! The trade of speed for accuracy as tables and charts.
 
-use pushplan::internals::judge::Summary;
-use pushplan::internals::report::Align::{Left, Right};
-use pushplan::internals::report::{
+use pushplan_act::judge::Summary;
+use pushplan_report::Align::{Left, Right};
+use pushplan_report::{
     Axis, Chart, Document, Figure, Mark, NONE, Section, Series, Table, fine_millimetres, seconds,
 };
 use serde_json::json;

@@ -5,10 +5,10 @@ use pushplan::recording::Recording;
 use pushplan::watch::Unwatched;
 use pushplan::{
     effect::{Assuming, EffectModel, Simulated, Still},
-    judge::{ModelErrors, Trial, TrialErrors},
     scene::{Assumptions, JointBelief},
     sim::Simulator,
 };
+use pushplan_act::judge::{ModelErrors, Trial, TrialErrors};
 use pushplan_lab::bench::{CrowdFamily, CrowdReport, CrowdSet, crowd_cases};
 use pushplan_lab::report::{crowd_document, evaluation_document};
 use pushplan_lab::trivial::Projection;

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use pushplan::{
     asset::ToolLibrary,
     effect::{EffectModel, Simulated, Still},
-    judge::MOVED,
     sim::Simulator,
     solve::{Effort, Planner, Settings},
 };
+use pushplan_act::judge::MOVED;
 use pushplan_lab::bench::{
     HeldOut, HeldOutReport, PlanErrors, RefinedTask, RefinementReport, Suite, SuiteKind,
     push_costs, random_task, refine_task, search_costs,

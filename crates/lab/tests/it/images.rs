@@ -10,13 +10,13 @@ use pushplan::effect::{LeverInputs, LeverModel};
 use pushplan::network::{
     Card, LEVER_ENDS, LeverCard, LeverSizes, LeverTold, Parameters, Statistics, WeightsError,
 };
-use pushplan::store::FolderLock;
 use pushplan::watch::{Unwatched, Watch};
 use pushplan::{
     outcome::LEVER_FRAMES,
     scene::{LeverFeatures, LeverScene},
     task::LeverJob,
 };
+use pushplan_bench::store::FolderLock;
 use pushplan_lab::bench::load_lever;
 use pushplan_lab::image::{
     CODE, ImageCard, ImageFeatures, ImageGraph, ImageNetwork, ImageSettings, ImageSizes,

@@ -5,9 +5,9 @@ use std::path::Path;
 
 use pushplan::effect::{LeverModel, LeverPrior};
 use pushplan::network::{Buffers, Config, Forward, Normaliser, Parameters};
-use pushplan::store::FolderLock;
 use pushplan::task::LeverJob;
 use pushplan::watch::{Unwatched, Watch};
+use pushplan_bench::store::FolderLock;
 use pushplan_lab::bench::load_lever;
 use pushplan_lab::parts::{
     LeverCourse, LeverParts, PARTS, PartGraphs, PartState, PartsCard, PartsSettings, PartsWeights,

@@ -4,12 +4,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use pushplan::asset::ToolLibrary;
 use pushplan::geometry::{Footprint, Pose, swept_clearance, wrap_angle};
-use pushplan::store::Shard;
 use pushplan::verify::{Verifier, VerifySettings};
 use pushplan::{
     scene::{Engine, Object, Robot, Situation},
     task::Task,
 };
+use pushplan_bench::store::Shard;
 use pushplan_lab::bench::{RandomSuite, SuiteTask, TaskKind};
 
 #[test]

@@ -3,12 +3,12 @@
 
 use pushplan::asset::ToolLibrary;
 use pushplan::effect::{EffectModel, EffectModels, Job, Prior, Routed};
-use pushplan::judge::{MOVED, mean};
 use pushplan::sim::Simulator;
 use pushplan::{
     outcome::Record,
     scene::{Engine, ModelKind, Rate},
 };
+use pushplan_act::judge::{MOVED, mean};
 use pushplan_lab::bench::{Suite, SuiteKind};
 
 use crate::recorded_pushes::{SUPPORTS, errors, pushes};

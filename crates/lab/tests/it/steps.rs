@@ -5,13 +5,13 @@ use std::sync::Arc;
 
 use pushplan::asset::ToolLibrary;
 use pushplan::geometry::{Pose, Vector};
-use pushplan::judge::mean;
 use pushplan::sim::Simulator;
 use pushplan::{
     outcome::Record,
     scene::{Engine, Rate, Scene, Support},
     task::Job,
 };
+use pushplan_act::judge::mean;
 use pushplan_lab::bench::{Suite, SuiteKind};
 
 use crate::fixtures::{brick, can, push};

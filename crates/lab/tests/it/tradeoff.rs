@@ -1,6 +1,5 @@
 //! Speed against accuracy: coarser levels keep the interface of the finer ones.
 
-use pushplan::store::{Seconds, Store, StoreError};
 use pushplan::watch::Watch;
 use pushplan::{
     asset::ToolLibrary,
@@ -9,6 +8,7 @@ use pushplan::{
     scene::{ModelSpec, Models},
     solve::{Effort, Settings},
 };
+use pushplan_bench::store::{Seconds, Store, StoreError};
 use pushplan_lab::bench::{
     Level, ObjectCost, PlanRow, Suite, SuiteKind, TradeOff, TradeOffReport, TradeOffSettings, Unit,
     dominates, is_open_to, levels, plan_levels,

@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use pushplan::internals::asset::write_atomic;
 use pushplan::internals::geometry::Pose3;
 use pushplan::internals::outcome::LeverTrajectory;
-use pushplan::internals::store::{Shard, StoreError};
+use pushplan_bench::store::{Shard, StoreError};
 use pushplan_command::error::CliError;
 use pushplan_command::follow::Following;
 use pushplan_command::session::Session;

@@ -3,12 +3,12 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use pushplan::internals::store::{RunManifest, StoreError};
 use pushplan::internals::{
     outcome::Frame,
     scene::{Ranges, Scene, Tool},
     task::{Stroke, ToolMotion},
 };
+use pushplan_bench::store::{RunManifest, StoreError};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use pushplan::internals::store::{Shard, StoreError};
+use pushplan_bench::store::{Shard, StoreError};
 use thiserror::Error;
 
 /// Why a data set could not be made or read.

@@ -1,11 +1,11 @@
-//! Data sets on disk: runs whose records are episodes, see [`pushplan::internals::store`].
+//! Data sets on disk: runs whose records are episodes, see [`pushplan_bench::store`].
 
 use std::path::{Path, PathBuf};
 
-use pushplan::internals::store::{
+use pushplan::internals::watch::{Count, Watch};
+use pushplan_bench::store::{
     Form, Journal, RunManifest, Shard, StoreError, merge_runs, read_records,
 };
-use pushplan::internals::watch::{Count, Watch};
 
 use super::config::DatasetConfig;
 use super::error::DatasetError;

@@ -3,9 +3,6 @@
 
 use std::sync::Arc;
 
-use pushplan::internals::belief::{
-    Belief, BeliefRegulator, BeliefSettings, Draft, JointType, Testimony,
-};
 use pushplan::internals::effect::{EffectModel, Network};
 use pushplan::internals::recording::Recording;
 use pushplan::internals::seeded::generator;
@@ -13,6 +10,7 @@ use pushplan::internals::{
     scene::{Joint, Scene, Span},
     task::Noise,
 };
+use pushplan_act::belief::{Belief, BeliefRegulator, BeliefSettings, Draft, JointType, Testimony};
 use rand::Rng;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};

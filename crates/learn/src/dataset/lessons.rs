@@ -1,11 +1,11 @@
-//! Lessons on disk: runs whose records are lessons, see [`pushplan::internals::store`].
+//! Lessons on disk: runs whose records are lessons, see [`pushplan_bench::store`].
 
 use std::path::Path;
 use std::sync::Arc;
 
 use pushplan::internals::effect::{Network, Prior};
-use pushplan::internals::store::{Form, Journal, RunManifest, StoreError, read_records};
 use pushplan::internals::watch::{Count, Watch};
+use pushplan_bench::store::{Form, Journal, RunManifest, StoreError, read_records};
 use rayon::prelude::*;
 
 use super::error::DatasetError;

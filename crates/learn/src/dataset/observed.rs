@@ -1,12 +1,12 @@
 //! A trajectory as a camera sees it: with noise, and perhaps without the headings of what is round.
 
-use pushplan::internals::belief::normal;
 use pushplan::internals::geometry::Vector;
 use pushplan::internals::recording::Recording;
 use pushplan::internals::{
     scene::{Scene, Sight},
     task::{Noise, Observation},
 };
+use pushplan_act::belief::normal;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 

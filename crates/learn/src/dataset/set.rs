@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use pushplan::internals::store::{RunManifest, StoreError, digest};
 use pushplan::internals::watch::{Count, Watch};
+use pushplan_bench::store::{RunManifest, StoreError, digest};
 use rayon::prelude::*;
 
 use super::config::DatasetConfig;

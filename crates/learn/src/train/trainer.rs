@@ -7,8 +7,8 @@ use std::time::Instant;
 
 use pushplan::internals::asset::{Faults, write_atomic};
 use pushplan::internals::network::{Parameters, Weights, WeightsError};
-use pushplan::internals::store::FolderLock;
 use pushplan::internals::watch::Watch;
+use pushplan_bench::store::FolderLock;
 use rayon::prelude::*;
 use thiserror::Error;
 

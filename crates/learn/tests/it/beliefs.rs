@@ -1,7 +1,7 @@
 //! Joints are found from how objects move, in drawn crowds.
 
-use pushplan::belief::JointType;
 use pushplan::recording::Recording;
+use pushplan_act::belief::JointType;
 use pushplan_learn::dataset::{Constraints, DatasetConfig, Episode, JointRule, Preset, Solids};
 
 use crate::believing::{EXACT, believed};

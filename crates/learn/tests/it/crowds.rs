@@ -1,7 +1,6 @@
 //! Crowds, scattered or in a grid: what they hold, that every draw is sound, and that joints
 //! and constraints are as stated.
 
-use pushplan::store::{Shard, StoreError};
 use pushplan::watch::Unwatched;
 use pushplan::{
     geometry::{Footprint, Pose, Shape, clearance, contact_points},
@@ -10,6 +9,7 @@ use pushplan::{
     sim::Simulator,
     task::Job,
 };
+use pushplan_bench::store::{Shard, StoreError};
 use pushplan_learn::dataset::{
     Constraints, Dataset, DatasetConfig, DatasetError, Episode, HAND_RADIUS, JointRule, Preset,
     Solids, TEST_SPEED, generate,

@@ -10,7 +10,6 @@ use std::{
     },
 };
 
-use pushplan::store::{FolderLock, RunManifest, Shard, Store, StoreError};
 use pushplan::watch::{Unwatched, Watch};
 use pushplan::{
     asset::ToolLibrary,
@@ -19,6 +18,7 @@ use pushplan::{
     scene::Quantity,
     task::{Job, ToolMotion},
 };
+use pushplan_bench::store::{FolderLock, RunManifest, Shard, Store, StoreError};
 use pushplan_learn::dataset::{
     Dataset, DatasetConfig, DatasetError, Episode, generate, is_shipped,
 };

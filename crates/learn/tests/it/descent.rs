@@ -7,8 +7,8 @@ use std::{
 };
 
 use pushplan::network::{Config, PredictorWeights, file_metadata};
-use pushplan::store::{FolderLock, StoreError};
 use pushplan::watch::{Unwatched, Watch};
+use pushplan_bench::store::{FolderLock, StoreError};
 use pushplan_learn::dataset::{Dataset, DatasetConfig, Preset};
 use pushplan_learn::train::{
     CheckpointError, Descent, Exposure, HeldOutError, Line, Noise, PredictorSettings, TrainError,

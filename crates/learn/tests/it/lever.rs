@@ -9,9 +9,9 @@ use pushplan::network::{
     LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverSizes, LeverWeights, Parameters, Statistics,
     fresh_lever, lever_layout,
 };
-use pushplan::store::FolderLock;
 use pushplan::watch::{Unwatched, Watch};
 use pushplan::{outcome::LEVER_FRAMES, scene::LeverFeatures, task::LeverJob};
+use pushplan_bench::store::FolderLock;
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
 use pushplan_learn::judge::lever_error;
 use pushplan_learn::network::{LeverGraph, LeverTensors};

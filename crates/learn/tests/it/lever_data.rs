@@ -3,9 +3,9 @@
 
 use std::fs;
 
-use pushplan::store::Shard;
 use pushplan::watch::Unwatched;
 use pushplan::{outcome::LeverWarning, task::LeverJob};
+use pushplan_bench::store::Shard;
 use pushplan_learn::dataset::{
     Dataset, DatasetConfig, DatasetError, LEVERS_PER_SHAPE, LeverConfig, LeverDataset,
     LeverEpisode, LeverPreset, generate, lever_job,

@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::PathBuf;
 
-use pushplan::store::FolderLock;
 use pushplan::watch::Unwatched;
+use pushplan_bench::store::FolderLock;
 use pushplan_learn::dataset::Dataset;
 use tempfile::TempDir;
 

@@ -3,13 +3,13 @@
 use std::ops::Range;
 
 use pushplan::internals::effect::{EffectModel, Network, Prior};
-use pushplan::internals::fit::{Basis, FitSettings, HeadSettings, fit, learn};
 use pushplan::internals::geometry::wrap_angle;
-use pushplan::internals::judge::{Comparison, Trial};
 use pushplan::internals::network::WeightsError;
 use pushplan::internals::scene::TableFit;
 use pushplan::internals::seeded::generator;
 use pushplan::watch::Unwatched;
+use pushplan_act::fit::{Basis, FitSettings, HeadSettings, fit, learn};
+use pushplan_act::judge::{Comparison, Trial};
 use rand::seq::SliceRandom;
 use serde::{Deserialize, Serialize};
 

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use pushplan::internals::judge::{mean, percentile};
 use pushplan::internals::scene::Span;
 use pushplan::internals::seeded::generator;
+use pushplan_act::judge::{mean, percentile};
 use rand::Rng;
 use serde::{Deserialize, Serialize};
 

@@ -3,16 +3,16 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use pushplan::internals::belief::{Belief, BeliefRegulator, BeliefSettings, JointType};
 use pushplan::internals::effect::EffectModel;
 use pushplan::internals::geometry::{Pose, Vector};
-use pushplan::internals::judge::mean;
 use pushplan::internals::recording::Recording;
 use pushplan::internals::{
     outcome::Record,
     scene::{Joint, JointKind, Physics, Scene, Situation, Span, near_pairs},
     task::{Job, Noise, Observation, ToolMotion},
 };
+use pushplan_act::belief::{Belief, BeliefRegulator, BeliefSettings, JointType};
+use pushplan_act::judge::mean;
 use pushplan_learn::dataset::true_type;
 
 use super::super::cpu_clock::processor_time;

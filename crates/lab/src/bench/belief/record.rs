@@ -1,6 +1,6 @@
 //! What is measured on one trajectory.
 
-use pushplan::internals::belief::JointType;
+use pushplan_act::belief::JointType;
 use serde::{Deserialize, Serialize};
 
 /// Ways to tell how objects are joined.

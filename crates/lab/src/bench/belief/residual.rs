@@ -8,11 +8,11 @@
 use nalgebra::{DMatrix, DVector, Matrix2, Rotation2, Vector3};
 
 use pushplan::internals::{
-    belief::JointType,
     geometry::{Pose, Vector, wrap_angle},
     scene::{Scene, Sight},
     task::{Noise, Observation},
 };
+use pushplan_act::belief::JointType;
 
 /// Play of joints beside the noise, as standard deviations: metres and radians.
 const PLAY: [f64; 2] = [3e-4, 5e-3];

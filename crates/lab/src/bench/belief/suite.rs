@@ -1,11 +1,11 @@
 //! The cases and their trajectories.
 
-use pushplan::internals::belief::BeliefRegulator;
 use pushplan::internals::effect::EffectModel;
 use pushplan::internals::recording::Recording;
 use pushplan::internals::seeded::generator;
-use pushplan::internals::store::Measured;
 use pushplan::internals::task::Noise;
+use pushplan_act::belief::BeliefRegulator;
+use pushplan_bench::store::Measured;
 use pushplan_learn::dataset::{Episode, JointRule, Seeing, Solids};
 use serde::{Deserialize, Serialize};
 

@@ -1,8 +1,8 @@
 //! Trajectories of a case, taken together.
 
-use pushplan::internals::belief::JointType;
-use pushplan::internals::judge::{Summary, mean, percentile};
-use pushplan::internals::store::Finished;
+use pushplan_act::belief::JointType;
+use pushplan_act::judge::{Summary, mean, percentile};
+use pushplan_bench::store::Finished;
 use serde::{Deserialize, Serialize};
 
 use crate::bench::Calibration;

@@ -1,7 +1,7 @@
 //! The test sets: families of crowds by number of objects, joints and solids.
 
-use pushplan::internals::judge::Trial;
 use pushplan::internals::watch::{Count, Watch};
+use pushplan_act::judge::Trial;
 use pushplan_learn::dataset::{Constraints, DatasetConfig, Episode, JointRule, Preset, Solids};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};

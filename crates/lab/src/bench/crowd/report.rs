@@ -1,8 +1,8 @@
 //! What was measured, as plain data.
 
 use pushplan::internals::effect::EffectModel;
-use pushplan::internals::judge::{Trial, TrialErrors};
 use pushplan::internals::watch::Watch;
+use pushplan_act::judge::{Trial, TrialErrors};
 use serde::{Deserialize, Serialize};
 
 use super::family::{CrowdFamily, CrowdSet};

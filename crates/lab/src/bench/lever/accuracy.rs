@@ -1,11 +1,11 @@
 //! Errors of models of lever-ups on those that none was made from.
 
 use pushplan::internals::effect::{LeverModel, LeverTrust};
-use pushplan::internals::judge::Summary;
 use pushplan::internals::{
     outcome::{Ending, LeverTrajectory},
     task::LeverJob,
 };
+use pushplan_act::judge::Summary;
 use pushplan_learn::dataset::{LeverEpisode, LeverPreset};
 use pushplan_learn::judge::{LeverError, lever_error};
 use serde::{Deserialize, Serialize};

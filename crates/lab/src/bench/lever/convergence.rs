@@ -4,7 +4,6 @@
 use std::f64::consts::TAU;
 
 use super::super::cpu_clock::timed;
-use pushplan::internals::judge::Summary;
 use pushplan::internals::seeded::generator;
 use pushplan::internals::sim::LeverSimulator;
 use pushplan::internals::{
@@ -12,6 +11,7 @@ use pushplan::internals::{
     scene::LeverScene,
     task::LeverJob,
 };
+use pushplan_act::judge::Summary;
 use pushplan_learn::dataset::{LEVERS_PER_SHAPE, LeverConfig, LeverPreset, lever_job};
 use rand::Rng;
 use rayon::prelude::*;

@@ -1,8 +1,8 @@
 //! Errors of models of boards that are levered out of drives (Tekden 2020, section 8.5).
 
 use pushplan::internals::effect::{LeverModel, LeverTrust};
-use pushplan::internals::judge::Summary;
 use pushplan::internals::{outcome::LeverTrajectory, scene::LeverScene, task::LeverJob};
+use pushplan_act::judge::Summary;
 use pushplan_learn::dataset::{LEVERS_PER_SHAPE, LeverEpisode};
 use pushplan_learn::judge::{LeverError, lever_error};
 use serde::{Deserialize, Serialize};

@@ -2,8 +2,8 @@
 
 use pushplan::internals::effect::LeverModel;
 use pushplan::internals::geometry::Pose3;
-use pushplan::internals::judge::Summary;
 use pushplan::internals::outcome::LEVER_FRAMES;
+use pushplan_act::judge::Summary;
 use pushplan_learn::dataset::{LeverEpisode, LeverPreset};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};

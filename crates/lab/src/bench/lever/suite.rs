@@ -8,7 +8,6 @@ use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::geometry::Pose;
 use pushplan::internals::sim::LeverSimulator;
 use pushplan::internals::solve::{LeverStatistics, PlanStatus, Planner, SolveError};
-use pushplan::internals::store::{Measured, Seconds};
 use pushplan::internals::verify::{Verifier, VerifySettings};
 use pushplan::internals::watch::Unwatched;
 use pushplan::internals::{
@@ -16,6 +15,7 @@ use pushplan::internals::{
     scene::{Obstacle, Robot, Scene, Situation, Tool},
     task::{Goal, LeverJob, LeverMotion, LeverRules, Motion, PushRules, Task},
 };
+use pushplan_bench::store::{Measured, Seconds};
 use pushplan_learn::dataset::{LEVERS_PER_SHAPE, LeverConfig, LeverPreset, lever_job};
 
 /// The name of what must be left, and of the tool that does it.

@@ -1,11 +1,11 @@
 //! The cases and their trajectories.
 
-use pushplan::internals::belief::{Belief, BeliefSettings};
 use pushplan::internals::effect::EffectModel;
 use pushplan::internals::recording::Recording;
 use pushplan::internals::scene::Unknowns;
 use pushplan::internals::seeded::generator;
-use pushplan::internals::store::Measured;
+use pushplan_act::belief::{Belief, BeliefSettings};
+use pushplan_bench::store::Measured;
 use pushplan_learn::dataset::{Controlled, MASS_RANGES, MassEpisode, MassSetup, Touched};
 use serde::{Deserialize, Serialize};
 

@@ -1,6 +1,6 @@
 //! Many trajectories in a few numbers.
 
-use pushplan::internals::judge::{mean, percentile};
+use pushplan_act::judge::{mean, percentile};
 use pushplan_learn::dataset::{MASS_RANGES, Touched};
 use serde::{Deserialize, Serialize};
 

@@ -2,12 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use pushplan::internals::act::Probe;
 use pushplan::internals::geometry::{Pose, Vector, perpendicular, travel_to_contact};
 use pushplan::internals::{
     scene::{Scene, State},
     task::{Stroke, ToolMotion},
 };
+use pushplan_act::act::Probe;
 use rand::Rng;
 use rand_pcg::Pcg64;
 

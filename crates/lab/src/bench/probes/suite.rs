@@ -2,19 +2,19 @@
 
 use std::sync::Arc;
 
-use pushplan::internals::act::{ProbeRule, choose_probe};
-use pushplan::internals::belief::{Belief, BeliefSettings, JointType, carried};
 use pushplan::internals::effect::EffectModel;
-use pushplan::internals::judge::mean;
 use pushplan::internals::recording::Recording;
 use pushplan::internals::seeded::generator;
 use pushplan::internals::sim::Simulator;
-use pushplan::internals::store::Measured;
 use pushplan::internals::{
     outcome::{Frame, Record},
     scene::{Physics, Scene, State},
     task::{Job, ToolMotion},
 };
+use pushplan_act::act::{ProbeRule, choose_probe};
+use pushplan_act::belief::{Belief, BeliefSettings, JointType, carried};
+use pushplan_act::judge::mean;
+use pushplan_bench::store::Measured;
 use pushplan_learn::dataset::{Episode, JointRule, Solids, true_type};
 use serde::{Deserialize, Serialize};
 

@@ -1,6 +1,6 @@
 //! Many scenes in a few numbers.
 
-use pushplan::internals::judge::{mean, percentile};
+use pushplan_act::judge::{mean, percentile};
 use serde::{Deserialize, Serialize};
 
 use super::suite::{Learnt, ProbeCase, ProbeRecord};

@@ -1,11 +1,11 @@
 //! Random tasks that do not know their scene.
 
-use pushplan::internals::belief::normal;
 use pushplan::internals::seeded::generator;
 use pushplan::internals::{
     scene::{Engine, Scene, Support, Unknowns},
     task::{Task, Truth},
 };
+use pushplan_act::belief::normal;
 use rand::Rng;
 use serde::{Deserialize, Serialize};
 

@@ -1,16 +1,16 @@
 //! What is measured on a random task: our plan, doing nothing and a random choice.
 
 use pushplan::internals::asset::ToolLibrary;
-use pushplan::internals::bench::{End, SolvedTask};
 use pushplan::internals::geometry::Pose;
 use pushplan::internals::seeded::generator;
 use pushplan::internals::solve::{Planner, SolveError};
-use pushplan::internals::store::Measured;
 use pushplan::internals::verify::{Verifier, VerifySettings};
 use pushplan::internals::{
     outcome::{Outcome, Trajectory},
     scene::{Engine, ModelKind, Situation},
 };
+use pushplan_bench::store::Measured;
+use pushplan_bench::{End, SolvedTask};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 

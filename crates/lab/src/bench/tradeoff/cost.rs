@@ -1,7 +1,7 @@
 //! What a push costs at every level, all levels in turn.
 
 use pushplan::internals::asset::ToolLibrary;
-use pushplan::internals::store::Seconds;
+use pushplan_bench::store::Seconds;
 use pushplan_learn::dataset::JointRule;
 
 use crate::bench::inference::peak;

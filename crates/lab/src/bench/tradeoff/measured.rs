@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use pushplan::internals::asset::SCHEMA_VERSION;
-use pushplan::internals::bench::{End, SolvedTask};
-use pushplan::internals::judge::{Summary, mean, percentile};
 use pushplan::internals::solve::{Effort, PlanStatus};
-use pushplan::internals::store::Seconds;
+use pushplan_act::judge::{Summary, mean, percentile};
+use pushplan_bench::store::Seconds;
+use pushplan_bench::{End, SolvedTask};
 use serde::{Deserialize, Serialize};
 
 use crate::bench::SuiteKind;

@@ -1,7 +1,7 @@
 //! Speed against accuracy: every level of the ladder on the same pushes and the same tasks, in
 //! one run.
 //!
-//! A run is made of units that are kept one by one (see [`pushplan::internals::store::Store`]): the errors of one
+//! A run is made of units that are kept one by one (see [`pushplan_bench::store::Store`]): the errors of one
 //! predictor on held-out pushes; one round of timing all predictors in turn; one task solved at
 //! all levels of planning in turn. Costs are processor time of one thread, so other work on the
 //! machine does not count, and comparisons are between neighbours in time. What comes out is

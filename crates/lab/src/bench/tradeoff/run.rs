@@ -3,14 +3,14 @@
 use std::sync::OnceLock;
 
 use pushplan::internals::asset::ToolLibrary;
-use pushplan::internals::bench::SolvedTask;
 use pushplan::internals::solve::{Planner, Solution, SolveError};
-use pushplan::internals::store::{Measured, RunManifest, Seconds};
 use pushplan::internals::verify::{Verifier, VerifySettings};
 use pushplan::internals::{
     scene::{ModelSpec, Situation},
     task::Task,
 };
+use pushplan_bench::SolvedTask;
+use pushplan_bench::store::{Measured, RunManifest, Seconds};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use serde::{Deserialize, Serialize};
 use serde_json::json;

@@ -2,7 +2,7 @@
 
 use clap::Args;
 use pushplan::internals::scene::ModelSpec;
-use pushplan::internals::store::Shard;
+use pushplan_bench::store::Shard;
 use pushplan_command::action::LibraryArgs;
 use pushplan_command::error::CliError;
 use pushplan_command::form::Form;

@@ -1,8 +1,8 @@
 //! Measuring on a set of crowds.
 
 use pushplan::internals::effect::EffectModel;
-use pushplan::internals::judge::assumed;
 use pushplan::internals::scene::ModelSpec;
+use pushplan_act::judge::assumed;
 use pushplan_command::error::CliError;
 use pushplan_command::follow::Following;
 use pushplan_command::form::Form;

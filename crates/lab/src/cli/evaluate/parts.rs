@@ -1,8 +1,8 @@
 //! What is drawn to be measured on, part by part: kept, resumed and split into shards.
 
 use pushplan::internals::effect::EffectModel;
-use pushplan::internals::store::{Measured, RunManifest, Seconds, Shard, Store};
 use pushplan::internals::watch::Unwatched;
+use pushplan_bench::store::{Measured, RunManifest, Seconds, Shard, Store};
 use pushplan_command::bench::{tools_digest, weights_digest};
 use pushplan_command::error::CliError;
 use pushplan_command::follow::Following;

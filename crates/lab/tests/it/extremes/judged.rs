@@ -12,13 +12,13 @@ use std::num::NonZeroU16;
 use pushplan::{
     effect::{EffectModel, shifted_start},
     geometry::Pose,
-    judge::{Comparison, Summary, Trial, object_errors},
     outcome::{Record, Trajectory, Warning},
     scene::{Body, Engine, Physics, Rate, Scene, State},
     seeded::generator,
     sim::Simulator,
     task::{COAST_FRAME, Job, MAX_COAST_FRAMES, ToolMotion},
 };
+use pushplan_act::judge::{Comparison, Summary, Trial, object_errors};
 use pushplan_lab::bench::{Case, DISTURBANCE};
 use rayon::prelude::*;
 use serde_json::Value as Json;

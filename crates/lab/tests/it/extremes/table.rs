@@ -1,7 +1,7 @@
 //! The extremes as a Markdown page.
 
-use pushplan::judge::Summary;
-use pushplan::report::{Align, NONE, Table, millimetres};
+use pushplan_act::judge::Summary;
+use pushplan_report::{Align, NONE, Table, millimetres};
 
 use super::Extremes;
 use super::cell::{Cell, Kind};

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
-use pushplan::internals::store::FolderLock;
 use pushplan::internals::watch::Watch;
+use pushplan_bench::store::FolderLock;
 use pushplan_command::error::CliError;
 use pushplan_command::follow::Following;
 use pushplan_command::session::Session;

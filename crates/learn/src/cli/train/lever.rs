@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use pushplan::internals::store::Shard;
+use pushplan_bench::store::Shard;
 use pushplan_command::error::CliError;
 use pushplan_command::session::Session;
 

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use pushplan::internals::network::Config;
-use pushplan::internals::store::Shard;
 use pushplan::internals::watch::Watch;
+use pushplan_bench::store::Shard;
 use pushplan_command::error::CliError;
 use pushplan_command::follow::Following;
 use pushplan_command::output;

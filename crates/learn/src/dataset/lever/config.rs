@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use pushplan::internals::store::{RunManifest, StoreError};
+use pushplan_bench::store::{RunManifest, StoreError};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use pushplan::internals::asset::write_atomic;
-use pushplan::internals::store::{Form, Journal, StoreError, digest};
 use pushplan::internals::watch::{Count, Watch};
+use pushplan_bench::store::{Form, Journal, StoreError, digest};
 use serde::{Deserialize, Serialize};
 
 use crate::dataset::config::DatasetConfig;

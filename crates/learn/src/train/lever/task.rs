@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use pushplan::internals::effect::{LeverModel, LeverNetwork};
 use pushplan::internals::network::{LeverCard, LeverWeights, Parameters, Statistics, fresh_lever};
 use pushplan::internals::seeded::generator;
-use pushplan::internals::store::FolderLock;
 use pushplan::internals::task::LeverJob;
 use pushplan::internals::watch::Watch;
+use pushplan_bench::store::FolderLock;
 use rand::Rng;
 
 use crate::dataset::LeverEpisode;

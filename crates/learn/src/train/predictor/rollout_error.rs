@@ -3,7 +3,7 @@
 use std::fmt;
 
 use pushplan::internals::effect::EffectModel;
-use pushplan::internals::judge::{Comparison, ObjectError, Trial, mean, percentile};
+use pushplan_act::judge::{Comparison, ObjectError, Trial, mean, percentile};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 

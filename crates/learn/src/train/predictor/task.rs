@@ -7,8 +7,8 @@ use pushplan::internals::effect::{Network, PRIOR_RANGES};
 use pushplan::internals::network::{
     ErrorCard, Forward, Normaliser, Parameters, PredictorCard, PredictorWeights, Source, Tables,
 };
-use pushplan::internals::store::FolderLock;
 use pushplan::internals::watch::Watch;
+use pushplan_bench::store::FolderLock;
 
 use crate::dataset::{Dataset, DatasetConfig};
 use crate::network::{Inputs, Predictor};

@@ -1,8 +1,8 @@
 //! Lessons side by side, as tensors.
 
 use candle_core::{Device, Result, Tensor};
-use pushplan::internals::belief::{JointType, Testimony};
 use pushplan::internals::network::{LEAST, Statistics, TYPES};
+use pushplan_act::belief::{JointType, Testimony};
 
 use crate::dataset::Lesson;
 use crate::network::{RegulatorGraph, Unrolled};

@@ -6,8 +6,8 @@ use pushplan::internals::network::{
     Parameters, Regulator, RegulatorCard, RegulatorWeights, Statistics, fresh_regulator,
 };
 use pushplan::internals::seeded::generator;
-use pushplan::internals::store::FolderLock;
 use pushplan::internals::watch::Watch;
+use pushplan_bench::store::FolderLock;
 use rand::Rng;
 
 use crate::dataset::Lesson;

@@ -1,0 +1,276 @@
+//! What was seen during a motion, put in order.
+
+use serde::{Deserialize, Serialize};
+
+use pushplan::geometry::Vector;
+use pushplan::{
+    scene::{FRAME_TRAVEL, Scene, Sight, State},
+    task::{Observation, Stroke, ToolMotion},
+};
+
+use super::error::ActError;
+use super::world::{Look, Stop};
+
+/// Two objects have changed places where each is farther than the first from where it can be and
+/// nearer than the second to where the other can be, metres.
+const APART: f64 = 0.04;
+const THERE: f64 = 0.02;
+
+/// What a tool pushes goes at most this many times as far as the tool, and this much farther,
+/// metres: it may swing about a joint and slide on.
+const SWING: f64 = 2.0;
+const SLIDE: f64 = 0.10;
+
+/// Something that was wrong with what was seen, and was put right.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Note {
+    /// Looks came late and were put in order.
+    OutOfOrder,
+    /// Looks from other times than those of this motion were left out.
+    Untimely,
+    /// A sight without a finite place was left out.
+    Unreadable {
+        /// Index of the object.
+        object: usize,
+    },
+    /// Two objects were mistaken for each other.
+    Swapped {
+        /// Their indices.
+        between: [usize; 2],
+    },
+    /// An object was seen where it cannot be.
+    Jumped {
+        /// Its index.
+        object: usize,
+    },
+    /// An object was not seen at rest, and is taken to be where it was predicted.
+    Unseen {
+        /// Its index.
+        object: usize,
+    },
+    /// The push ended before its end.
+    Ended {
+        /// Why.
+        why: String,
+    },
+    /// At first an object is seen elsewhere than the task states it.
+    Elsewhere {
+        /// Its index.
+        object: usize,
+    },
+    /// An object is not where any push can have brought it: somebody has moved it.
+    Moved {
+        /// Its index.
+        object: usize,
+    },
+}
+
+impl Note {
+    /// In words, with the names of `scene`.
+    pub fn words(&self, scene: &Scene) -> String {
+        let name = |k: usize| scene.objects.get(k).map_or("?", |object| object.name.as_str());
+        match *self {
+            Note::OutOfOrder => "looks came late and were put in order".to_owned(),
+            Note::Untimely => "looks from another time were left out".to_owned(),
+            Note::Unreadable { object } => {
+                format!("{} was seen without a finite place; left out", name(object))
+            }
+            Note::Swapped { between: [a, b] } => {
+                format!("{} and {} were mistaken for each other; swapped back", name(a), name(b))
+            }
+            Note::Jumped { object } => {
+                format!("{} was seen where it cannot be; left out", name(object))
+            }
+            Note::Unseen { object } => {
+                format!("{} was not seen at rest; taken to be where it was predicted", name(object))
+            }
+            Note::Ended { ref why } => format!("the push ended early: {why}"),
+            Note::Elsewhere { object } => format!(
+                "{} stands elsewhere than the task says; it is taken to be where it is seen",
+                name(object)
+            ),
+            Note::Moved { object } => format!("{} was moved by somebody else", name(object)),
+        }
+    }
+}
+
+/// Observations, one after another, with notes on what was wrong with them.
+#[derive(Clone, Debug)]
+pub(super) struct Gatherer {
+    /// Where every object was seen last, or else is thought to be.
+    last: Vec<Vector>,
+    /// Where every object is predicted to come to rest.
+    predicted: Vec<Vector>,
+    /// Travel of the tool since every object was seen last, metres.
+    travelled: Vec<f64>,
+    pub notes: Vec<Note>,
+}
+
+impl Gatherer {
+    /// Before a motion that begins in `before` and is predicted to end in `predicted`.
+    pub fn new(before: &State, predicted: &State) -> Self {
+        let places = |state: &State| state.poses.iter().map(|pose| pose.position).collect();
+        Self {
+            last: places(before),
+            predicted: places(predicted),
+            travelled: vec![0.0; before.poses.len()],
+            notes: Vec::new(),
+        }
+    }
+
+    /// [`Gatherer::motion`] of a motion that may have ended early.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn made(
+        &mut self,
+        motion: &ToolMotion,
+        stop: Option<&Stop>,
+        looks: Vec<Look>,
+    ) -> Result<(Vec<Observation>, Option<Look>), ActError> {
+        let Some(stop) = stop else { return self.motion(motion, looks) };
+        self.note(Note::Ended { why: stop.why.clone() });
+        let made = stop.made(motion);
+        match made.strokes.is_empty() {
+            true => Ok((Vec::new(), None)),
+            false => self.motion(&made, looks),
+        }
+    }
+
+    /// What was seen while a motion went on, and at rest after it; `None` for the latter where
+    /// there is no look at rest.
+    ///
+    /// # Errors
+    /// [`ActError::Objects`] if the looks are of another table.
+    pub fn motion(
+        &mut self,
+        motion: &ToolMotion,
+        mut looks: Vec<Look>,
+    ) -> Result<(Vec<Observation>, Option<Look>), ActError> {
+        let whole: f64 = motion.strokes.iter().map(|stroke| stroke.duration).sum();
+        let travel: f64 = motion.strokes.iter().map(Stroke::travel).sum();
+        let count = looks.len();
+        looks.retain(|look| look.time >= 0.0 && look.time.is_finite());
+        if looks.len() < count {
+            self.note(Note::Untimely);
+        }
+        if !looks.is_sorted_by(|a, b| a.time <= b.time) {
+            looks.sort_by(|a, b| a.time.total_cmp(&b.time));
+            self.note(Note::OutOfOrder);
+        }
+        // About one look for each frame of a model: nearer ones show less than the noise.
+        let least = 0.8 * whole * FRAME_TRAVEL / travel.max(FRAME_TRAVEL);
+        let (mut observations, mut rest, mut done) = (Vec::new(), None, 0.0);
+        for look in looks {
+            if look.time >= whole - 1e-9 {
+                rest = Some(look);
+            } else if look.time - done >= least && whole - look.time >= least {
+                let strokes = between(motion, done, look.time);
+                let gone = strokes.iter().map(Stroke::travel).sum();
+                let seen = self.sights(&look, gone)?;
+                observations.push(Observation { strokes, seen });
+                done = look.time;
+            }
+        }
+        let mut strokes = between(motion, done, whole);
+        if let Some(last) = strokes.last_mut() {
+            last.settle = true;
+        }
+        let gone: f64 = strokes.iter().map(Stroke::travel).sum();
+        let seen = match &rest {
+            Some(look) => self.sights(look, gone)?,
+            None => {
+                self.travelled.iter_mut().for_each(|travelled| *travelled += gone);
+                vec![None; self.last.len()]
+            }
+        };
+        observations.push(Observation { strokes, seen });
+        Ok((observations, rest))
+    }
+
+    /// Where objects were seen after another `gone` metres of travel, as far as that can be.
+    ///
+    /// # Errors
+    /// [`ActError::Objects`] if the look is of another table.
+    pub fn sights(&mut self, look: &Look, gone: f64) -> Result<Vec<Option<Sight>>, ActError> {
+        let (expected, found) = (self.last.len(), look.seen.len());
+        if expected != found {
+            return Err(ActError::Objects { expected, found });
+        }
+        self.travelled.iter_mut().for_each(|travelled| *travelled += gone);
+        let mut seen = look.seen.clone();
+        for (object, sight) in seen.iter_mut().enumerate() {
+            let is_place = |sight: &Sight| {
+                let heading = sight.heading.is_none_or(f64::is_finite);
+                heading && sight.position.iter().all(|x| x.is_finite())
+            };
+            if sight.is_some_and(|sight| !is_place(&sight)) {
+                *sight = None;
+                self.note(Note::Unreadable { object });
+            }
+        }
+        self.change_back(&mut seen);
+        for (object, sight) in seen.iter_mut().enumerate() {
+            let Some(Sight { position, .. }) = *sight else { continue };
+            let most = SWING * self.travelled[object] + SLIDE;
+            if (position - self.last[object]).norm() > most {
+                *sight = None;
+                self.note(Note::Jumped { object });
+            } else {
+                self.last[object] = position;
+                self.travelled[object] = 0.0;
+            }
+        }
+        Ok(seen)
+    }
+
+    /// Notes something once.
+    pub fn note(&mut self, note: Note) {
+        if !self.notes.contains(&note) {
+            self.notes.push(note);
+        }
+    }
+
+    /// Swaps back objects that were mistaken for each other.
+    fn change_back(&mut self, seen: &mut [Option<Sight>]) {
+        for a in 0..seen.len() {
+            for b in a + 1..seen.len() {
+                let [Some(one), Some(other)] = [seen[a], seen[b]] else { continue };
+                let off = |object: usize, sight: Sight| {
+                    let from = |place: Vector| (sight.position - place).norm();
+                    from(self.last[object]).min(from(self.predicted[object]))
+                };
+                let apart = off(a, one).min(off(b, other)) > APART;
+                if apart && off(a, other).max(off(b, one)) < THERE {
+                    seen.swap(a, b);
+                    self.note(Note::Swapped { between: [a, b] });
+                }
+            }
+        }
+    }
+}
+
+/// What the tool does from one time of a motion to another, seconds.
+fn between(motion: &ToolMotion, from: f64, to: f64) -> Vec<Stroke> {
+    let mut strokes = Vec::new();
+    let mut begins = 0.0;
+    for stroke in &motion.strokes {
+        let ends = begins + stroke.duration;
+        let (first, last) = (from.max(begins), to.min(ends));
+        if last - first > 1e-9 {
+            let share = |time: f64| (time - begins) / stroke.duration;
+            strokes.push(Stroke {
+                from: stroke.from.towards(&stroke.to, share(first)),
+                to: stroke.from.towards(&stroke.to, share(last)),
+                duration: last - first,
+                settle: false,
+            });
+        }
+        begins = ends;
+    }
+    strokes
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,376 @@
+//! The loop.
+
+use std::sync::Arc;
+
+use crate::belief::{Belief, BeliefRegulator, BeliefSettings, generator};
+use pushplan::asset::{Faults, ToolLibrary};
+use pushplan::effect::{ModelError, Prior};
+use pushplan::geometry::Pose;
+use pushplan::solve::{Planner, SolveError};
+use pushplan::watch::Watch;
+use pushplan::{
+    outcome::{Record, Trajectory},
+    scene::{Scene, Sight, Situation, State, TableFit, Tool},
+    task::{Goal, Job, Observation, Plan, Push, PushForm},
+};
+
+use super::decide::Decision;
+use super::error::ActError;
+use super::gather::{Gatherer, Note};
+use super::judge::{Chance, Samples};
+use super::learning::Learner;
+use super::trace::{End, Step, Trace, Why};
+use super::world::{Look, World};
+
+/// How often the table is looked at where something is not seen at rest.
+const LOOKS: usize = 3;
+
+/// Two looks at rest agree within this distance beyond the noise, metres.
+const AGREE: f64 = 0.01;
+
+/// The goal counts as reached if it is with this many standard deviations of doubt, but half of the
+/// tolerance is never asked for more.
+const SURE: f64 = 1.645;
+
+/// Plans, acts, looks, believes, and plans again.
+#[derive(Clone)]
+pub struct Runner<'a> {
+    pub(super) planner: &'a Planner,
+    pub(super) library: &'a ToolLibrary,
+    /// Rolls out hypotheses of the belief.
+    model: Prior,
+    regulator: Option<BeliefRegulator>,
+    /// Shared, as a runner is cloned for every decision.
+    learner: Option<Arc<Learner>>,
+}
+
+impl<'a> Runner<'a> {
+    /// A runner that plans with `planner`, chooses among the tools of `library` and believes what a
+    /// filter over hypotheses finds.
+    pub fn new(planner: &'a Planner, library: &'a ToolLibrary) -> Self {
+        Self { planner, library, model: Prior::default(), regulator: None, learner: None }
+    }
+
+    /// Has `regulator` correct what the filter finds.
+    pub fn regulated(self, regulator: BeliefRegulator) -> Self {
+        Self { regulator: Some(regulator), ..self }
+    }
+
+    /// Lets the planner's network learn from every push where a task leaves nothing open, after what
+    /// `given` says; [`Trace::learnt`] has it. `given` should be what the planner was
+    /// [fitted](Planner::fitted) with. Nothing is learnt by a planner without a network.
+    ///
+    /// # Errors
+    /// [`ModelError`] if the network's weights cannot be read.
+    pub fn learning(self, given: Option<TableFit>) -> Result<Self, ModelError> {
+        let learner = Learner::new(self.planner.model().spec(), given)?;
+        Ok(Self { learner: learner.map(Arc::new), ..self })
+    }
+
+    /// Goes on with `trace`, from the beginning if it is new, until it has an end. `keep` is given the
+    /// trace after the first look and after every step, so that an interrupted run goes on from there,
+    /// to the same bits.
+    ///
+    /// # Errors
+    /// If the run cannot go on, or is stopped by `watch`; what was done is in the trace.
+    pub fn run(
+        &self,
+        trace: &mut Trace,
+        world: &mut dyn World,
+        keep: &mut dyn FnMut(&Trace) -> Result<(), Faults>,
+        watch: &dyn Watch,
+    ) -> Result<(), ActError> {
+        if trace.first.is_none() {
+            trace.first = Some(world.look()?.with_parts(&trace.task.scene));
+            trace.before = world.save();
+            let (belief, notes) = self.begin(trace)?;
+            trace.notes = notes;
+            trace.pairs = belief.pairs().collect();
+            trace.prior = belief.probabilities();
+            trace.prior_numbers = belief.numbers();
+            keep(trace)?;
+        }
+        let (mut belief, _) = self.begin(trace)?;
+        let start = belief.situation().start;
+        for step in &trace.steps {
+            self.again(trace, &mut belief, step)?;
+        }
+        let mut learnt = self.learnt(trace, &start)?;
+        let saved = match trace.steps.last() {
+            Some(step) => step.world.as_ref(),
+            None => trace.before.as_ref(),
+        };
+        if let Some(saved) = saved {
+            world.restore(saved);
+        }
+        while trace.end.is_none() {
+            if watch.cancelled() {
+                return Err(ActError::Stopped { pushes: trace.pushes() });
+            }
+            let planner = learnt.as_ref().unwrap_or(self.planner);
+            let now = Runner { planner, ..self.clone() };
+            let decision = now.next(trace, &belief, watch)?;
+            // A decision under a time limit would not be made again.
+            if watch.cancelled() {
+                return Err(ActError::Stopped { pushes: trace.pushes() });
+            }
+            match decision {
+                Decision::Done => trace.end = Some(End::Reached),
+                Decision::Nothing => trace.end = Some(End::NoPush),
+                Decision::Do { .. } if trace.steps.len() >= trace.settings.pushes => {
+                    trace.end = Some(End::UsedUp);
+                }
+                Decision::Do { why, plan, tool, chance } => {
+                    let step = now.step(trace, &mut belief, world, (why, plan, tool, chance))?;
+                    trace.steps.push(step);
+                    learnt = self.learnt(trace, &start)?;
+                    watch.progress(trace.steps.len() as u64, trace.settings.pushes as u64);
+                }
+            }
+            keep(trace)?;
+        }
+        Ok(())
+    }
+
+    /// Learns from all steps of a trace that began at `start`, and gives the planner that knows it.
+    fn learnt(&self, trace: &mut Trace, start: &State) -> Result<Option<Planner>, ActError> {
+        let Some(learner) = &self.learner else { return Ok(None) };
+        trace.learnt = learner.learn(trace, start)?;
+        // A planner that would decide the same need not be made.
+        let news = trace.learnt.as_ref().filter(|fit| fit.head.iter().any(|value| *value != 0.0));
+        Ok(news.map(|fit| self.planner.fitted_anew(fit)).transpose()?)
+    }
+
+    /// What is believed after the first look, and what is odd about that.
+    fn begin(&self, trace: &Trace) -> Result<(Belief, Vec<Note>), ActError> {
+        let Trace { task, settings, first, .. } = trace;
+        if task.in_space() {
+            let what = "what leaves the plane is planned, and run by nobody who looks".to_owned();
+            return Err(SolveError::BadTask { task: task.name.clone(), what }.into());
+        }
+        let stated = task.scene.start();
+        let mut gatherer = Gatherer::new(&stated, &stated);
+        let look = first.as_ref().ok_or_else(|| ActError::Trace("it has no first look".into()))?;
+        let mut seen = gatherer.sights(look, 0.0)?;
+        let mut notes = std::mem::take(&mut gatherer.notes);
+        // The table is as it is, whatever was written about it.
+        for (object, (sight, looked)) in seen.iter_mut().zip(&look.seen).enumerate() {
+            if sight.is_none() && looked.is_some_and(|one| one.position.norm().is_finite()) {
+                *sight = *looked;
+                notes.retain(|note| *note != Note::Jumped { object });
+                notes.push(Note::Elsewhere { object });
+            }
+        }
+        let poses = seen.iter().zip(&stated.poses).map(|(sight, stated)| match sight {
+            Some(Sight { position, heading }) => Pose {
+                position: *position,
+                heading: heading.map_or(stated.heading, |heading| near(heading, stated.heading)),
+            },
+            None => *stated,
+        });
+        let start = State::at_rest(poses.collect());
+        let scene = seen_at(&task.scene, &start);
+        let tools = task.tools(self.library).map_err(SolveError::from)?;
+        let tool = tools.first().ok_or_else(|| ActError::Trace("its task has no tool".into()))?;
+        let belief_settings = BeliefSettings::new(settings.noise);
+        let held = (Arc::clone(tool), task.pushes.lift);
+        let belief = Belief::about(&scene, task.unknown, held, belief_settings, settings.seed);
+        let belief = match &self.regulator {
+            Some(regulator) => belief.regulated(regulator.clone()),
+            None => belief,
+        };
+        Ok((belief, notes))
+    }
+
+    /// What is done next.
+    fn next(
+        &self,
+        trace: &Trace,
+        belief: &Belief,
+        watch: &dyn Watch,
+    ) -> Result<Decision, ActError> {
+        let Trace { task, settings, steps, .. } = trace;
+        let now = belief.situation();
+        let doubt = belief.doubt();
+        if task.goals.iter().all(|goal| is_sure(goal, &now.start, doubt[goal.object])) {
+            return Ok(Decision::Done);
+        }
+        let mut rng = generator(settings.seed, steps.len() as u64);
+        let physics = (0..settings.samples.max(1)).map(|_| Arc::new(belief.sample(&mut rng)));
+        let samples = Samples { physics: physics.collect(), now };
+        self.decide(trace, (belief, &samples), watch)
+    }
+
+    /// Makes the first push of a plan, or all of a chained one, and takes in what is seen.
+    fn step(
+        &self,
+        trace: &Trace,
+        belief: &mut Belief,
+        world: &mut dyn World,
+        (why, plan, tool, chance): (Why, Plan, Arc<Tool>, Chance),
+    ) -> Result<Step, ActError> {
+        let task = &trace.task;
+        let pushes = match plan.form() {
+            PushForm::Placed => 1.min(plan.pushes().len()),
+            PushForm::Chained => plan.pushes().len(),
+        };
+        let done = plan.first(pushes);
+        let predicted = self.predicted(&belief.situation(), &done, &tool, Record::Frames);
+        let rest = predicted.outcome();
+        let motion = done.motion(&tool);
+        let scene = &trace.task.scene;
+        if trace.steps.last().is_none_or(|last| last.tool.name != tool.name) {
+            world.change_tool(&tool)?;
+        }
+        let looks: Vec<Look> =
+            world.act(&motion)?.into_iter().map(|look| look.with_parts(scene)).collect();
+        let stop = world.stopped();
+        let mut gatherer = Gatherer::new(&belief.situation().start, rest);
+        let seen = gatherer.made(&motion, stop.as_ref(), looks.clone())?;
+        let mut again = Vec::new();
+        let mut look = || {
+            let look = world.look()?.with_parts(scene);
+            again.push(look.clone());
+            Ok(look)
+        };
+        let observations = rests(trace, &mut gatherer, seen, &mut look)?;
+        self.believe(belief, (&tool, plan.lift()), observations);
+        Ok(Step {
+            why,
+            pushes,
+            chance,
+            expected: rest.poses[task.goals[0].object],
+            predicted: predicted.frames,
+            tool: Tool::clone(&tool),
+            plan,
+            looks,
+            again,
+            stop,
+            notes: gatherer.notes,
+            state: belief.situation().start,
+            probabilities: belief.probabilities(),
+            numbers: belief.numbers(),
+            world: world.save(),
+        })
+    }
+
+    /// Takes a step of a trace into the belief again.
+    fn again(&self, trace: &Trace, belief: &mut Belief, step: &Step) -> Result<(), ActError> {
+        let unfit = |why: &str| ActError::Trace(why.to_owned());
+        let made = step.plan.pushes();
+        let pushes = made.get(..step.pushes).filter(|pushes| !pushes.is_empty());
+        let pushes =
+            pushes.ok_or_else(|| unfit("a step makes pushes that its plan does not have"))?;
+        let count = trace.task.scene.objects.len();
+        let world = step.world.as_ref().map_or(count, |world| world.state.poses.len());
+        let before = trace.before.as_ref().map_or(count, |world| world.state.poses.len());
+        if [step.state.poses.len(), world, before] != [count; 3] {
+            return Err(unfit("a step has another number of objects"));
+        }
+        let can_be = |push: &Push| push.speed > 0.0 && (0.0..=10.0).contains(&push.length);
+        if !pushes.iter().all(can_be) {
+            return Err(unfit("a step makes a push that cannot be made"));
+        }
+        let done = step.plan.first(pushes.len());
+        let tool = Arc::new(step.tool.clone());
+        let motion = done.motion(&tool);
+        let now = belief.situation();
+        let predicted = self.predicted(&now, &done, &tool, Record::Outcome);
+        let mut gatherer = Gatherer::new(&now.start, predicted.outcome());
+        let seen = gatherer.made(&motion, step.stop.as_ref(), step.looks.clone())?;
+        let mut again = step.again.iter().cloned();
+        let mut look = || again.next().ok_or_else(|| unfit("a step misses a look"));
+        let observations = rests(trace, &mut gatherer, seen, &mut look)?;
+        self.believe(belief, (&tool, done.lift()), observations);
+        Ok(())
+    }
+
+    fn believe(
+        &self,
+        belief: &mut Belief,
+        (tool, lift): (&Arc<Tool>, f64),
+        observations: Vec<Observation>,
+    ) {
+        belief.take_tool(Arc::clone(tool), lift);
+        for observation in observations {
+            belief.update(&self.model, observation);
+        }
+        belief.settle(&self.model);
+    }
+
+    /// What a plan is believed to do to all objects; `None` if no model says.
+    fn predicted(
+        &self,
+        now: &Situation,
+        plan: &Plan,
+        tool: &Arc<Tool>,
+        record: Record,
+    ) -> Trajectory {
+        let job = Job::new(now, plan.motion(tool));
+        let model = self.planner.model();
+        let rolled = model.rollout(&now.scene, std::slice::from_ref(&job), record).pop();
+        rolled.filter(|rolled| !rolled.frames.is_empty()).unwrap_or_else(|| {
+            Trajectory::standing(
+                model.spec().clone(),
+                job.motion.slide().strokes[0].from,
+                now.start.clone(),
+            )
+        })
+    }
+}
+
+/// Looks again at what was not seen at rest, and returns the observations with what is then seen.
+fn rests(
+    trace: &Trace,
+    gatherer: &mut Gatherer,
+    (mut observations, mut rest): (Vec<Observation>, Option<Look>),
+    look: &mut dyn FnMut() -> Result<Look, ActError>,
+) -> Result<Vec<Observation>, ActError> {
+    let task = &trace.task;
+    let Some(last) = observations.last_mut() else { return Ok(observations) };
+    for _ in 0..LOOKS {
+        if last.seen.iter().all(Option::is_some) {
+            break;
+        }
+        let now = look()?;
+        let seen = gatherer.sights(&now, 0.0)?;
+        let missing = last.seen.iter_mut().enumerate().filter(|(_, sight)| sight.is_none());
+        for (object, sight) in missing {
+            *sight = seen[object];
+            let twice = [rest.as_ref().and_then(|rest| rest.seen[object]), now.seen[object]];
+            if let (None, [Some(one), Some(other)]) = (&sight, twice) {
+                let off = (one.position - other.position).norm();
+                // A NaN agrees with nothing.
+                if off <= AGREE + 6.0 * trace.settings.noise.position {
+                    *sight = Some(other);
+                    gatherer.note(Note::Moved { object });
+                }
+            }
+        }
+        rest = Some(now);
+    }
+    for (object, _) in last.seen.iter().enumerate().filter(|(_, sight)| sight.is_none()) {
+        if task.wants(object) {
+            let object = task.scene.objects[object].name.clone();
+            return Err(ActError::Lost { object, looks: LOOKS });
+        }
+        gatherer.note(Note::Unseen { object });
+    }
+    Ok(observations)
+}
+
+/// Whether the goal is reached despite the doubt about where the object is: metres and radians.
+fn is_sure(goal: &Goal, state: &State, [place, turn]: [f64; 2]) -> bool {
+    goal.stricter(SURE * place, SURE * turn).reached(state)
+}
+
+/// The scene with its objects where they are seen; known joints go with them.
+pub(super) fn seen_at(scene: &Scene, start: &State) -> Scene {
+    let joints = crate::belief::carried(&scene.joints, scene, start);
+    Scene { joints, ..scene.moved_to(start) }
+}
+
+/// A heading up to whole turns, near another.
+fn near(heading: f64, other: f64) -> f64 {
+    other + pushplan::geometry::wrap_angle(heading - other)
+}

@@ -1,0 +1,178 @@
+//! A simulated world, whose truth is hidden behind noise.
+
+use std::sync::Arc;
+
+use crate::belief::{Belief, BeliefSettings, generator, normal};
+use pushplan::asset::{Faults, ToolLibrary};
+use pushplan::geometry::Vector;
+use pushplan::sim::{Arm, Simulator};
+use pushplan::{
+    outcome::{Record, Trajectory, Warning},
+    scene::{Physics, Rate, Sight, State},
+    task::{COAST_FRAME, Job, Stroke, Task, ToolMotion, Truth},
+};
+
+use super::trace::{Step, Trace};
+use super::world::{Look, Stop, World, WorldError, WorldState};
+
+/// A world in one of the engines.
+#[derive(Clone, Debug)]
+pub struct SimulatedWorld {
+    truth: Truth,
+    simulator: Simulator,
+    state: State,
+    looks: u64,
+    arm: Arm,
+    stop: Option<Stop>,
+}
+
+impl SimulatedWorld {
+    /// The world as it begins.
+    pub fn new(truth: Truth) -> Self {
+        let simulator = Simulator::new(truth.engine, Rate::DEFAULT).retreating();
+        let (state, arm) = (truth.scene.start(), Arm::default());
+        Self { state, simulator, looks: 0, truth, arm, stop: None }
+    }
+
+    /// The same, in which the robot's arm can keep up `max_force` newtons; `None` if no force is too
+    /// large for it.
+    pub fn pushed_with(self, max_force: Option<f64>) -> Self {
+        Self { arm: Arm { max_force }, ..self }
+    }
+
+    /// Where everything really is.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// What is seen of a state.
+    fn see(&mut self, time: f64, state: &State) -> Look {
+        let mut rng = generator(self.truth.seed, self.looks);
+        self.looks += 1;
+        let noise = self.truth.noise;
+        let things = self.truth.scene.things().count();
+        let seen = state.poses.iter().take(things).map(|pose| {
+            let off = Vector::new(normal(&mut rng), normal(&mut rng)) * noise.position;
+            let heading = pose.heading + noise.heading * normal(&mut rng);
+            let position = pose.position + off;
+            Some(Sight { position, heading: self.truth.headings.then_some(heading) })
+        });
+        Look { time, seen: seen.collect() }
+    }
+}
+
+impl World for SimulatedWorld {
+    fn look(&mut self) -> Result<Look, WorldError> {
+        let state = self.state.clone();
+        Ok(self.see(0.0, &state))
+    }
+
+    fn act(&mut self, motion: &ToolMotion) -> Result<Vec<Look>, WorldError> {
+        let physics = Physics::stated(&self.truth.scene).into();
+        let job = Job { start: self.state.clone(), motion: motion.clone().into(), physics };
+        let run = self.simulator.run_by(&self.arm, &self.truth.scene, &job, Record::Frames);
+        if let Some(warning) = run.warnings.iter().find(|warning| ends(warning)) {
+            return Err(WorldError(format!("the simulated world cannot go on: {warning}")));
+        }
+        let (stop, kept) = stop(motion, &run);
+        let frames = &run.frames[..kept];
+        let mut looks: Vec<Look> =
+            frames.iter().skip(1).map(|frame| self.see(frame.time, &frame.state)).collect();
+        let last = &frames[kept - 1];
+        self.state = State::at_rest(last.state.poses.clone());
+        if stop.is_some() {
+            // Things have come to rest by the next look.
+            let state = self.state.clone();
+            looks.push(self.see(last.time + COAST_FRAME, &state));
+        }
+        self.stop = stop;
+        Ok(looks)
+    }
+
+    fn stopped(&self) -> Option<Stop> {
+        self.stop.clone()
+    }
+
+    fn save(&self) -> Option<WorldState> {
+        Some(WorldState { state: self.state.clone(), looks: self.looks })
+    }
+
+    fn restore(&mut self, saved: &WorldState) {
+        self.state = saved.state.clone();
+        self.looks = saved.looks;
+    }
+}
+
+/// Where a motion ended that the arm could not go on with, and how many of the frames lead there: that
+/// in which it gave up is left out, as rigid bodies do not get into each other and a force that is not
+/// there moves nothing.
+fn stop(motion: &ToolMotion, run: &Trajectory) -> (Option<Stop>, usize) {
+    let all = run.frames.len();
+    let stops = |warning: &&Warning| {
+        matches!(
+            warning,
+            Warning::Jammed { .. } | Warning::TooMuchForce { .. } | Warning::SetDownOn { .. }
+        )
+    };
+    let Some(warning) = run.warnings.iter().find(stops) else { return (None, all) };
+    let why = warning.to_string();
+    let kept = match warning {
+        Warning::SetDownOn { stroke, .. } => {
+            return (Some(Stop { stroke: *stroke, share: 0.0, why }), all);
+        }
+        _ => all.saturating_sub(1).max(1),
+    };
+    let last = &run.frames[kept - 1];
+    let stroke = last.stroke.min(motion.strokes.len().saturating_sub(1));
+    let whole = motion.strokes.get(stroke).map_or(0.0, Stroke::travel);
+    let done = motion
+        .strokes
+        .get(stroke)
+        .map_or(0.0, |stroke| Stroke { to: last.tool, ..*stroke }.travel());
+    // The start is of no stroke yet.
+    let share = if kept > 1 && whole > 0.0 { done / whole } else { 0.0 };
+    (Some(Stop { stroke, share, why }), kept)
+}
+
+/// What really happened in every step of a run in a simulated world, frame by frame: an engine that
+/// begins at the same start computes the same bits again. `None` where the world was not simulated.
+pub fn really(trace: &Trace) -> Vec<Trajectory> {
+    let (Some(truth), Some(before)) = (&trace.truth, &trace.before) else { return Vec::new() };
+    let physics = Arc::new(Physics::stated(&truth.scene));
+    let simulator = Simulator::new(truth.engine, Rate::DEFAULT).retreating();
+    let begins = trace.steps.iter().filter_map(|step| step.world.as_ref());
+    let begins = std::iter::once(before).chain(begins);
+    let replay = |(begin, step): (&WorldState, &Step)| {
+        let (start, physics) = (begin.state.clone(), Arc::clone(&physics));
+        simulator.run(
+            &truth.scene,
+            &Job { start, motion: step.motion().into(), physics },
+            Record::Frames,
+        )
+    };
+    begins.zip(&trace.steps).map(replay).collect()
+}
+
+/// Whether a replay with this warning left no table to go on with.
+fn ends(warning: &Warning) -> bool {
+    matches!(
+        warning,
+        Warning::NotFinite | Warning::Stopped | Warning::OffTable { .. } | Warning::Toppled { .. }
+    )
+}
+
+/// A world of a task, drawn from `seed`: what the task does not know is as likely as it says, everything
+/// else as it is stated. In the planar engine, seen with [`Truth::NOISE`].
+///
+/// # Errors
+/// If the task names tools that `library` does not have.
+pub fn hidden(task: &Task, library: &ToolLibrary, seed: u64) -> Result<Truth, Faults> {
+    let mut truth = Truth::stated(&task.scene, seed);
+    // Before anything has moved the tool does not matter.
+    if let Some(tool) = task.tools(library)?.into_iter().next() {
+        let settings = BeliefSettings::new(Default::default());
+        let belief = Belief::about(&task.scene, task.unknown, (tool, 0.0), settings, seed);
+        truth.scene = belief.sample_scene(&mut generator(seed, u64::MAX));
+    }
+    Ok(truth)
+}

@@ -1,0 +1,381 @@
+//! The belief, and how it follows what is seen.
+
+use std::{borrow::Cow, sync::Arc};
+
+use serde::Serialize;
+
+use pushplan::{
+    effect::EffectModel,
+    scene::{
+        JOINABLE, Joint, NearPair, Physics, Scene, Situation, State, Tool, Unknowns, pairs_within,
+    },
+    task::{Job, Noise, Observation},
+};
+
+use super::{
+    chance::LOGISTIC,
+    group::{Push, has_unseen_headings, is_lifted},
+    joints::{carried, likeliest, of_types},
+    look::{Looked, Told},
+    masses::Masses,
+    pair::{JointType, PairBelief},
+    particles::Particles,
+    regulation::{BeliefRegulator, Regulation},
+    relative::{relative, spread},
+    settings::BeliefSettings,
+    testimony::{Circumstances, Draft, Testimony, Together, features},
+    track::{ARM, Track},
+    weighing::Stretch,
+};
+
+/// Observations that are looked at together: fewer show less than the noise, more let errors of the
+/// rollout grow.
+const WINDOW: usize = 5;
+
+/// How far beyond what may be joined two objects may be seen and yet be thought to be joined: standard
+/// deviations of their gap.
+const BEYOND: f64 = 2.0;
+
+/// What is believed about a scene.
+#[derive(Clone, Debug)]
+pub struct Belief {
+    pub(super) scene: Scene,
+    pub(super) tool: Arc<Tool>,
+    pub(super) lift: f64,
+    pub(super) settings: BeliefSettings,
+    /// As the filter has them.
+    pub(super) pairs: Vec<PairBelief>,
+    pub(super) track: Track,
+    /// Joints that are not to be found out, where the scene states its objects.
+    pub(super) known: Vec<Joint>,
+    pub(super) particles: Particles,
+    pub(super) masses: Option<Masses>,
+    pub(super) stretch: Option<Stretch>,
+    pub(super) push: Option<Push>,
+    /// Of every pair, while a push is taken again after its joints were inferred together.
+    pub(super) together: Option<Vec<Together>>,
+    /// Not looked at yet.
+    window: Vec<Observation>,
+    pub(super) seen: usize,
+    pub(super) history: Vec<Step>,
+    pub(super) regulation: Option<Regulation>,
+}
+
+/// What was believed when, and why.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Step {
+    /// Observations until then.
+    pub observations: usize,
+    /// Of every near pair, in the order of [`Belief::pairs`]: probabilities of [`JointType::ALL`];
+    /// at the end of a push, those of all joints inferred together.
+    pub probabilities: Vec<[f64; 4]>,
+    /// What the window said for each type, as logarithms against the best; `None` where nothing of
+    /// the pair moved.
+    pub evidence: Vec<Option<[f64; 4]>>,
+}
+
+impl Belief {
+    /// What is believed of `scene` before anything has moved, but for its joints, which are not
+    /// known other than those within a thing; its objects were seen where it states them. The tool's underside is `lift` metres above
+    /// the table.
+    pub fn new(scene: &Scene, tool: Arc<Tool>, lift: f64, settings: BeliefSettings) -> Self {
+        let known = scene.seams().collect();
+        let scene = Scene { joints: Vec::new(), ..scene.clone() };
+        let particles = Particles::new(scene.objects.len(), Unknowns::NONE, 0);
+        let track = Track::new(scene.start(), settings.noise);
+        let doubt = gap_deviation(settings.noise);
+        let pairs = pairs_within(&scene, JOINABLE + BEYOND * doubt)
+            .into_iter()
+            .filter(|pair| !scene.same_thing(pair.between))
+            .map(|NearPair { between: [a, b], gap, midway }| {
+                let [first, second] = [a, b].map(|k| &scene.objects[k].pose);
+                let seen = relative(first, second);
+                let variance = |which: usize| [a, b].map(|k| track.variance[k][which]);
+                let spread = spread(&seen, variance(0), variance(1));
+                let near = joinable(gap, doubt);
+                PairBelief::new([a, b], seen, &spread, first.local_point(midway), near)
+            })
+            .collect();
+        Self {
+            scene,
+            tool,
+            lift,
+            settings,
+            pairs,
+            track,
+            known,
+            particles,
+            masses: None,
+            stretch: None,
+            push: None,
+            together: None,
+            window: Vec::new(),
+            seen: 0,
+            history: Vec::new(),
+            regulation: None,
+        }
+    }
+
+    /// The belief with a regulator beside the filter.
+    pub fn regulated(self, regulator: BeliefRegulator) -> Self {
+        Self { regulation: Some(Regulation::new(regulator)), ..self }
+    }
+
+    /// What windows told a regulator that only listens.
+    pub fn heard(&self) -> &[Testimony] {
+        self.regulation.as_ref().map_or(&[], |regulation| &regulation.heard)
+    }
+
+    /// What it heard of pushes before their joints were inferred together, where they were.
+    pub fn drafts(&self) -> &[Draft] {
+        self.regulation.as_ref().map_or(&[], |regulation| &regulation.drafts)
+    }
+
+    /// Pairs of objects that were near each other at the start and so may be joined: indices, the
+    /// lower first.
+    pub fn pairs(&self) -> impl ExactSizeIterator<Item = [usize; 2]> {
+        self.pairs.iter().map(|pair| pair.between)
+    }
+
+    /// Of each of these pairs the probabilities of [`JointType::ALL`].
+    pub fn probabilities(&self) -> Vec<[f64; 4]> {
+        let pairs = self.regulated_pairs();
+        let map = likeliest(&self.scene, &pairs, &self.track.state);
+        pairs.iter().map(|pair| pair.probabilities(follows(&map, pair))).collect()
+    }
+
+    /// Pairs as the regulator has them, where it told of them.
+    pub(super) fn regulated_pairs(&self) -> Cow<'_, [PairBelief]> {
+        let Some(regulation) = &self.regulation else { return Cow::Borrowed(&self.pairs) };
+        let mut pairs = self.pairs.clone();
+        for (pair, shares) in pairs.iter_mut().zip(&regulation.shares) {
+            pair.regulated = *shares;
+        }
+        Cow::Owned(pairs)
+    }
+
+    /// What was believed when, and why.
+    pub fn history(&self) -> &[Step] {
+        &self.history
+    }
+
+    /// Takes what was seen. Every few observations are looked at together, so the last ones may
+    /// not have told anything yet: see [`Self::settle`].
+    pub fn update(&mut self, model: &dyn EffectModel, observation: Observation) {
+        let lifted = is_lifted(&observation);
+        self.window.push(observation);
+        if self.window.len() >= WINDOW || lifted {
+            self.settle(model);
+        }
+    }
+
+    /// Looks at all that was seen.
+    pub fn settle(&mut self, model: &dyn EffectModel) {
+        let window = std::mem::take(&mut self.window);
+        if window.is_empty() {
+            return;
+        }
+        self.remember(&window);
+        self.take(model, &window, None);
+        self.look_together(model);
+    }
+
+    /// Takes a window, in which physics is as `assumed`, or else the likeliest.
+    pub(super) fn take(
+        &mut self,
+        model: &dyn EffectModel,
+        window: &[Observation],
+        assumed: Option<Physics>,
+    ) {
+        self.seen += window.len();
+        let open = assumed.is_none();
+        let mut map = assumed.unwrap_or_else(|| self.filtered_map());
+        let Some(mut looked) = self.look(model, window, &map) else { return };
+        if open && has_unseen_headings(window) {
+            // Without headings a pair is told by how all of its group moves: once more, with the
+            // others joined as this window has them.
+            let mut pairs = self.pairs.clone();
+            weigh(&mut pairs, &looked.told, self.settings.tempering);
+            map = self.with_known(likeliest(&self.scene, &pairs, &self.track.state));
+            let Some(again) = self.look(model, window, &map) else { return };
+            looked = again;
+        }
+        weigh(&mut self.pairs, &looked.told, self.settings.tempering);
+        self.weigh_numbers(model, window);
+        let played = (self.scene_now(), self.job(window, map));
+        self.learn(window, &looked);
+        for (pair, told) in self.pairs.iter_mut().zip(&looked.told) {
+            pair.learn_stops(&told.instants, &told.doubts);
+        }
+        let of = |(pair, told): (&PairBelief, &Told)| {
+            told.judged.as_ref().map(|judged| pair.by_type(&judged.evidence))
+        };
+        let evidence = self.pairs.iter().zip(&looked.told).map(of).collect();
+        self.regulate(played, window, &looked);
+        let probabilities = self.probabilities();
+        self.history.push(Step { observations: self.seen, probabilities, evidence });
+    }
+
+    /// Takes what was seen in a window into where everything is and the geometry of all hypotheses.
+    pub(super) fn learn(&mut self, window: &[Observation], looked: &Looked) {
+        self.track.follow(&looked.base, window);
+        for (pair, Told { instants, ends, .. }) in self.pairs.iter_mut().zip(&looked.told) {
+            pair.learn(instants);
+            let between = pair.between;
+            pair.recount(&ends.map(|ends| {
+                [0, 1].map(|k| Some(ends[k]? - self.track.state.poses[between[k]].heading))
+            }));
+        }
+    }
+
+    /// Physics in which [`Self::pairs`] are joined as `types` say, where these joints would most likely
+    /// be; joints close no loop.
+    pub fn physics_of(&self, types: &[JointType]) -> Physics {
+        self.with_known(of_types(&self.scene, &self.pairs, &self.track.state, types))
+    }
+
+    /// The types that the last window which told of a pair says by itself: a belief without memory.
+    pub fn last_types(&self) -> Vec<JointType> {
+        let last = |p: usize| self.history.iter().rev().find_map(|step| step.evidence[p]);
+        let of = |p| last(p).map_or(JointType::None, |evidence| PairBelief::by_window(&evidence));
+        (0..self.pairs.len()).map(of).collect()
+    }
+
+    /// Has the regulator, if there is one, correct what the filter found in a window, which was
+    /// `played` with the likeliest physics in the scene before it.
+    fn regulate(&mut self, played: (Scene, Job), window: &[Observation], looked: &Looked) {
+        let Some(mut regulation) = self.regulation.take() else { return };
+        let (scene, job) = (&played.0, &played.1);
+        let now = self.filtered_map();
+        let seen = |k: usize| {
+            window.iter().any(|one| one.seen[k].is_some_and(|sight| sight.heading.is_some()))
+        };
+        let of = |(p, (pair, told)): (usize, (&PairBelief, &Told))| {
+            let around = Circumstances {
+                noise: self.settings.noise,
+                windows: self.history.len(),
+                moved: pair.between.map(|k| looked.moved[k]),
+                worked: self.worked(pair.between),
+                headings: pair.between.map(seen),
+                cylinders: pair.between.map(|k| self.scene.objects[k].shape.is_cylinder()),
+                taken: JointType::of(joint_of(&job.physics, pair.between)),
+                follows: follows(&now, pair),
+            };
+            let together = self.together.as_ref().map(|together| &together[p]);
+            told.judged.as_ref().map(|judged| features(pair, judged, &around, together))
+        };
+        let told = self.pairs.iter().zip(&looked.told).enumerate();
+        let evidence: Vec<_> = told.map(of).collect();
+        let filtered = self.pairs.iter().map(|pair| pair.filtered(follows(&now, pair))).collect();
+        let pairs: Vec<[usize; 2]> = self.pairs().collect();
+        regulation.take((scene, job), &pairs, &evidence, filtered);
+        self.regulation = Some(regulation);
+    }
+
+    /// How far two objects are thought to have moved against each other: metres, radians.
+    fn worked(&self, [a, b]: [usize; 2]) -> [f64; 2] {
+        let (start, now) = (&self.scene.objects, &self.track.state.poses);
+        let change = relative(&now[a], &now[b]) - relative(&start[a].pose, &start[b].pose);
+        [change.xy().norm(), change.z.abs()]
+    }
+
+    /// The scene as it is thought to stand now, with the joints to predict with.
+    pub fn situation(&self) -> Situation {
+        let physics = Arc::new(self.supposed());
+        Situation { scene: Arc::new(self.scene_now()), start: self.track.state.clone(), physics }
+    }
+
+    /// The likeliest physics: anchors and axes are where they are with the objects as in
+    /// [`Self::situation`].
+    pub fn map(&self) -> Physics {
+        self.with_known(likeliest(&self.scene, &self.regulated_pairs(), &self.track.state))
+    }
+
+    /// The likeliest physics by the filter alone. Windows are rolled out in it, so that what they
+    /// tell is what the regulator heard in its lessons.
+    pub(super) fn filtered_map(&self) -> Physics {
+        self.with_known(likeliest(&self.scene, &self.pairs, &self.track.state))
+    }
+
+    /// These joints of near pairs with all that is believed besides.
+    pub(super) fn with_known(&self, mut physics: Physics) -> Physics {
+        physics.joints.extend(carried(&self.known, &self.scene, &self.track.state));
+        self.with_numbers(physics)
+    }
+
+    /// The likeliest masses, frictions and supports.
+    pub(super) fn with_numbers(&self, physics: Physics) -> Physics {
+        let physics = self.particles.mean(&self.scene, physics);
+        match &self.masses {
+            Some(masses) => masses.likeliest(physics),
+            None => physics,
+        }
+    }
+
+    pub(super) fn scene_now(&self) -> Scene {
+        self.scene_at(&self.track.state)
+    }
+
+    pub(super) fn scene_at(&self, state: &State) -> Scene {
+        self.scene.moved_to(state)
+    }
+}
+
+/// Standard deviation of the gap between two objects that were seen with this noise, metres.
+fn gap_deviation(noise: Noise) -> f64 {
+    noise.position.hypot(ARM * noise.heading) * std::f64::consts::SQRT_2
+}
+
+/// How likely objects that were seen with this gap and its standard deviation, metres, are so near that
+/// they may be joined.
+fn joinable(gap: f64, doubt: f64) -> f64 {
+    if doubt == 0.0 {
+        return 1.0;
+    }
+    (1.0 + (LOGISTIC * (gap - JOINABLE) / doubt).exp()).recip()
+}
+
+/// Whether the motion of a pair is likest to a joint but follows from likelier ones already.
+pub(super) fn follows(physics: &Physics, pair: &PairBelief) -> bool {
+    pair.likeliest() != JointType::None && joint_of(physics, pair.between).is_none()
+}
+
+pub(super) fn joint_of(physics: &Physics, between: [usize; 2]) -> Option<&Joint> {
+    physics.joints.iter().find(|joint| joint.between == between)
+}
+
+/// Takes what a window tells of pairs, as far as it is trusted.
+pub(super) fn weigh(pairs: &mut [PairBelief], told: &[Told], tempering: f64) {
+    for (pair, told) in pairs.iter_mut().zip(told) {
+        if let Some(judged) = &told.judged {
+            pair.weigh(&judged.evidence, tempering);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pushplan::{
+        geometry::{Pose, Shape},
+        scene::{Object, Part},
+    };
+
+    #[test]
+    fn what_noise_may_have_moved_apart_may_be_joined() {
+        let can = |name: &str, x| Object::cylinder(name, 0.05, 0.1).at(x, 0.0, 0.0);
+        let scene = Scene::new([can("a", 0.0), can("b", 0.1 + JOINABLE + 1e-3), can("c", 0.5)]);
+        let none = |position: f64| {
+            let finger = Shape::Cylinder { radius: 0.01, height: 0.05 };
+            let tool = Tool::new("finger", [Part::new("finger", finger, Pose::default())]);
+            let settings = BeliefSettings::new(Noise { position, heading: 0.0 });
+            let belief = Belief::new(&scene, Arc::new(tool.expect("one piece")), 0.0, settings);
+            belief.pairs().zip(belief.probabilities()).map(|(_, [none, ..])| none).next()
+        };
+        assert_eq!(none(0.0), None);
+        // With more noise it says less that they stood too far apart.
+        let (fine, coarse) = (none(1e-3).expect("a pair"), none(5e-3).expect("a pair"));
+        assert!(0.85 < fine && fine < 0.9, "{fine}");
+        assert!(0.75 < coarse && coarse < 0.8, "{coarse}");
+    }
+}

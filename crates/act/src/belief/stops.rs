@@ -1,0 +1,222 @@
+//! How far a joint goes: where it was seen to stop though a rollout would have gone on.
+//!
+//! A stop that was never reached cannot be known, and one that was shows only in that the joint stays
+//! where it is while the tool would have it go on. So either side of a joint has a *reach*, how far it
+//! was seen to go, and the odds that it stops there against going on.
+
+use nalgebra::Vector3;
+
+use pushplan::{geometry::Vector, scene::Span};
+
+use super::{
+    chance::LOGISTIC,
+    density::{log_sum, student_of_one},
+    fit::Fit,
+    pair::JointType,
+    window::{Doubt, Instant, UNEVEN},
+};
+
+/// Share of joints that stop somewhere.
+const LIMITED: f64 = 0.3;
+
+/// How far they go to either side: radians and metres.
+const TURN: Span = Span::new(0.1, 1.0);
+const SLIDE: Span = Span::new(0.02, 0.15);
+
+/// How exactly a joint stops, as standard deviations: radians and metres.
+const PLAY: [f64; 2] = [5e-3, 5e-4];
+
+/// Further than so many standard deviations beyond its reach a joint went on.
+const BEYOND: f64 = 2.0;
+
+/// What a window can say for or against a stop, as a logarithm.
+const MOST: f64 = 8.0;
+
+/// How far a joint is believed to go to a side on which no stop was found, while one was on the other:
+/// radians, as far as engines take them, and metres.
+pub const NO_STOP: [f64; 2] = [3.0, 10.0];
+
+/// Where a joint stops to either side of where it started, as far as was seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Stops([Side; 2]);
+
+/// One side of a joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Side {
+    /// How far it was seen to go, radians or metres, and the variance of that.
+    reach: f64,
+    variance: f64,
+    /// Logarithm of the odds that it stops there.
+    odds: f64,
+}
+
+/// How far a joint has gone by the end of a window, from where it started: radians or metres.
+struct Travel {
+    seen: f64,
+    variance: f64,
+    /// As it was rolled out, and the variance of that.
+    rolled: f64,
+    doubt: f64,
+}
+
+impl Stops {
+    /// Before anything has moved.
+    pub fn new() -> Self {
+        Self([Side { reach: 0.0, variance: 0.0, odds: prior() }; 2])
+    }
+
+    /// Takes a window in which two objects that began at `start` were seen, and rolled out under
+    /// the joint.
+    pub fn learn(&mut self, fit: &Fit, start: &Vector3<f64>, instants: &[Instant], doubt: &Doubt) {
+        let Some(which) = coordinate(fit.kind) else { return };
+        let Some(travel) = travel(fit, start, instants, doubt) else { return };
+        for (side, sign) in self.0.iter_mut().zip([-1.0, 1.0]) {
+            side.learn(&travel, sign, which);
+        }
+    }
+
+    /// How far a joint goes on from where it is `now`, if it stops anywhere.
+    pub fn limits(&self, fit: &Fit, start: &Vector3<f64>, now: &Vector3<f64>) -> Option<Span> {
+        let which = coordinate(fit.kind)?;
+        let gone = gone(fit, start, now);
+        let [low, high] = &self.0;
+        let left = |side: &Side, sign: f64| match side.odds > 0.0 {
+            true => (side.reach - sign * gone).max(0.0),
+            false => NO_STOP[which],
+        };
+        let stops = low.odds > 0.0 || high.odds > 0.0;
+        stops.then(|| Span::new(-left(low, -1.0), left(high, 1.0)))
+    }
+}
+
+impl Side {
+    /// Without a stop what is seen is spread around what was rolled out. A stop takes all of that which
+    /// lies beyond it to itself. Where the joint has gone further than ever, the stop may be anywhere in the
+    /// rest of the range; where it is back at its reach, it is there; elsewhere either says the same.
+    fn learn(&mut self, travel: &Travel, sign: f64, which: usize) {
+        let range = [TURN, SLIDE][which];
+        let (seen, rolled) = (sign * travel.seen, sign * travel.rolled);
+        let play = PLAY[which].powi(2);
+        let free = travel.variance + travel.doubt + play;
+        let going_on = student_of_one(seen - rolled, free);
+        // Without a stop it would have come at least that far, so likely.
+        let beyond = |far: f64| -(-LOGISTIC * (rolled - far) / free.sqrt()).exp().ln_1p();
+        let sd = (travel.variance + self.variance + play).sqrt();
+        if seen > self.reach + BEYOND * sd {
+            let left = range.high - self.reach.max(range.low);
+            *self = Self { reach: seen, variance: travel.variance, odds: prior() };
+            if seen + BEYOND * sd > range.low && left > 0.0 {
+                self.weigh(beyond(seen) - left.ln() - going_on);
+            }
+        } else if seen > (self.reach - BEYOND * sd).max(range.low - BEYOND * sd) {
+            let stopped = beyond(self.reach) + student_of_one(seen - self.reach, sd * sd);
+            self.weigh(log_sum([stopped - going_on, 0.5f64.ln()].into_iter()));
+            let share = self.variance / (self.variance + travel.variance + 1e-12);
+            self.reach += share * (seen - self.reach);
+            self.variance *= 1.0 - share;
+        }
+    }
+
+    fn weigh(&mut self, evidence: f64) {
+        self.odds += evidence.clamp(-MOST, MOST);
+    }
+}
+
+fn prior() -> f64 {
+    (LIMITED / (1.0 - LIMITED)).ln()
+}
+
+/// Which of angles and lengths a joint moves along, if it moves.
+fn coordinate(kind: JointType) -> Option<usize> {
+    match kind {
+        JointType::Revolute => Some(0),
+        JointType::Prismatic => Some(1),
+        JointType::None | JointType::Fixed => None,
+    }
+}
+
+/// How far a joint has gone from `start`, when the second object stands like this in the frame of the
+/// first.
+fn gone(fit: &Fit, start: &Vector3<f64>, now: &Vector3<f64>) -> f64 {
+    match fit.kind {
+        JointType::Revolute => now.z - start.z,
+        _ => axis(fit).dot(&(now.xy() - start.xy())),
+    }
+}
+
+fn axis(fit: &Fit) -> Vector {
+    Vector::new(fit.mean.x.cos(), fit.mean.x.sin())
+}
+
+/// How far a joint has gone by the last of these instants; `None` where a heading was not seen.
+fn travel(fit: &Fit, start: &Vector3<f64>, instants: &[Instant], doubt: &Doubt) -> Option<Travel> {
+    let last = instants.last().filter(|last| last.headings == [true; 2])?;
+    let (mut weight, mut off, mut noise) = (0.0, 0.0, 0.0);
+    let across = |of: &nalgebra::Matrix3<f64>| match fit.kind {
+        JointType::Revolute => of[(2, 2)],
+        _ => {
+            let axis = axis(fit);
+            (axis.transpose() * of.fixed_view::<2, 2>(0, 0) * axis)[0]
+        }
+    };
+    for now in instants.iter().filter(|now| now.headings == [true; 2]) {
+        let look = now.look(&fit.errors);
+        let far = |of: &Vector3<f64>| gone(fit, start, of);
+        weight += now.share * now.share;
+        off += now.share * (far(&look.seen) - far(&look.predicted));
+        noise = across(&look.spread);
+    }
+    let look = last.look(&fit.errors);
+    let [seen, rolled] = [look.seen, look.predicted].map(|at| gone(fit, start, &at));
+    if !rolled.is_finite() {
+        return None;
+    }
+    let which = coordinate(fit.kind)?;
+    // What a rollout is off by grows evenly, unless a stop is reached meanwhile.
+    let even = last.share * off / weight;
+    let uneven = (UNEVEN * even).powi(2) + noise / weight;
+    let share = noise / (noise + uneven).max(1e-12);
+    Some(Travel {
+        seen: seen + share * (rolled + even - seen),
+        variance: (1.0 - share) * noise + across(&doubt.start),
+        rolled,
+        doubt: doubt.model[1 - which].powi(2),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A slide of which windows see it at these places, metres, where it was rolled out to those.
+    fn slid(windows: &[[f64; 2]]) -> Side {
+        let mut side = Side { reach: 0.0, variance: 0.0, odds: prior() };
+        for [seen, rolled] in windows {
+            let doubt = 2e-3f64.powi(2);
+            let travel = Travel { seen: *seen, variance: 1e-8, rolled: *rolled, doubt };
+            side.learn(&travel, 1.0, 1);
+        }
+        side
+    }
+
+    #[test]
+    fn a_joint_stops_where_it_stayed_though_a_rollout_went_on() {
+        let on = [[0.01, 0.01], [0.02, 0.021], [0.03, 0.029]];
+        assert!(slid(&on).odds < 0.0);
+        let stayed = [&on[..], &[[0.0352, 0.04], [0.0349, 0.045]]].concat();
+        let side = slid(&stayed);
+        assert!(side.odds > 2.0 && (side.reach - 0.035).abs() < 3e-4, "{side:?}");
+        // What is still at a stop, comes back from it or stops short of it says nothing of it.
+        let after = [&stayed[..], &[[0.035, 0.035], [0.02, 0.022], [0.025, 0.034]]].concat();
+        assert!(slid(&after).odds > 2.0);
+        // It was none where it goes on later.
+        let beyond = [&after[..], &[[0.045, 0.044]]].concat();
+        assert!(slid(&beyond).odds < 0.0);
+    }
+
+    #[test]
+    fn one_that_outruns_its_rollout_or_hardly_moved_did_not_stop() {
+        assert!(slid(&[[0.05, 0.02]]).odds < 0.0);
+        assert!(slid(&[[0.002, 0.01], [0.002, 0.01], [0.002, 0.01]]).odds < 0.0);
+    }
+}

@@ -1,0 +1,315 @@
+//! The fit: a rough grid over everything possible, then a fine one over what is left.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::judge::{Comparison, Trial, mean, percentile};
+use pushplan::effect::EffectModel;
+use pushplan::watch::{Count, Watch};
+use pushplan::{
+    outcome::Record,
+    scene::{ModelSpec, Span, Support, Surface},
+    task::Job,
+};
+
+use super::grid::{Axis, Grid};
+use super::likelihood::{NoiseLaw, Residual, Widths};
+use super::posterior::{Estimate, Posterior};
+
+/// Objects that move less, in truth and in every prediction, say nothing, metres.
+const STILL: f64 = 5e-4;
+
+/// Cells less likely than the best by this factor are left out of the fine grid.
+const UNLIKELY: f64 = 1e-4;
+
+/// What is looked for, and under which assumptions.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FitSettings {
+    /// Spreads that are possible, each as likely as the others: shares of the corners' distance.
+    pub spread: Span,
+    /// Coefficients of friction of pusher and object that are possible, the same.
+    pub friction: Span,
+    /// Values on either axis of a grid.
+    pub values: usize,
+    /// The law of the noise.
+    pub law: NoiseLaw,
+    /// Its width, metres: in each of x, y and the turn at the object's radius of gyration; `None`
+    /// to find it as well.
+    pub noise: Option<f64>,
+}
+
+impl Default for FitSettings {
+    fn default() -> Self {
+        Self {
+            spread: Span::new(0.2, 1.0),
+            friction: Span::new(0.02, 1.0),
+            values: 17,
+            law: NoiseLaw::Student,
+            noise: None,
+        }
+    }
+}
+
+/// Final position errors over all objects that move, metres, with objects resting in one way and
+/// the pusher's friction that suits this best.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SupportError {
+    /// How the objects rest.
+    pub support: Support,
+    /// The pusher's friction.
+    pub friction: f64,
+    /// Mean error.
+    pub mean: f64,
+    /// Median error.
+    pub median: f64,
+}
+
+/// The same with every object resting as its scene states it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AsStated {
+    /// The pusher's friction that suits this best.
+    pub friction: f64,
+    /// Mean error, metres.
+    pub mean: f64,
+    /// Median error, metres.
+    pub median: f64,
+    /// Whether the recordings are likelier so than with any one spread for all objects, taken over
+    /// all that was thought possible.
+    pub likelier: bool,
+}
+
+/// What recordings say.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Fit {
+    /// The model that was told the numbers.
+    pub by: ModelSpec,
+    /// Under which assumptions.
+    pub settings: FitSettings,
+    /// Number of recordings.
+    pub recordings: usize,
+    /// Objects in them that move.
+    pub moved: usize,
+    /// How far these move on average, metres.
+    pub motion: f64,
+    /// Width of the noise, metres: as stated or, where the posterior is highest, as found.
+    pub noise: f64,
+    /// Share of the corners' distance at which the objects rest.
+    pub spread: Estimate,
+    /// Coefficient of friction of pusher and objects.
+    pub friction: Estimate,
+    /// The posterior over all that was thought possible.
+    pub rough: Posterior,
+    /// The same, finer, where it is not negligible; the estimates come from it.
+    pub fine: Posterior,
+    /// With the likeliest numbers.
+    pub best: SupportError,
+    /// With even pressure.
+    pub even: SupportError,
+    /// On the corners.
+    pub corners: SupportError,
+    /// As stated.
+    pub stated: AsStated,
+}
+
+impl Fit {
+    /// The spread that recordings tell, better than what was stated of each object.
+    pub fn told_spread(&self) -> Option<f64> {
+        (self.spread.told && !self.stated.likelier).then_some(self.spread.best)
+    }
+
+    /// The friction that goes with [`Self::told_spread`], or with supports as stated.
+    pub fn told_friction(&self) -> f64 {
+        if self.told_spread().is_some() { self.friction.best } else { self.stated.friction }
+    }
+}
+
+/// Fits spread and the pusher's friction to what was recorded, the same for all objects; `watch`
+/// is told the recordings done, first roughly, then finely. Masses and the table's friction are
+/// taken as they are stated: slow pushes do not feel them. `None` if nothing moves.
+///
+/// The noise is at least 2 % of the mean motion, as models of the same physics differ by so much.
+/// From slow pushes (0.01 m/s) of either engine the prior finds the spread to 0.05; of pushes at
+/// 0.04 m/s it makes 0.8 of 0.9, where the planar engine finds its own to 0.01.
+///
+/// Only the last instant of a recording is compared, so a recording of several pushes says as much
+/// as one.
+pub fn fit(
+    model: &dyn EffectModel,
+    trials: &[Trial],
+    settings: &FitSettings,
+    watch: &dyn Watch,
+) -> Option<Fit> {
+    let FitSettings { values, law, .. } = *settings;
+    let moves: Vec<Vec<bool>> = trials.iter().map(|trial| moving(model, trial)).collect();
+    let motions: Vec<f64> = trials
+        .iter()
+        .zip(&moves)
+        .flat_map(|(trial, moves)| {
+            let pairs = trial.motions().into_iter().zip(moves.clone());
+            pairs.filter(|(_, moves)| *moves).map(|(motion, _)| motion).collect::<Vec<_>>()
+        })
+        .collect();
+    if motions.is_empty() {
+        return None;
+    }
+    let widths = Widths::of(settings.noise, mean(&motions));
+    let look = |what: &str, told: Vec<(Option<Support>, f64)>| -> Vec<Vec<Ended>> {
+        watch.stage(what);
+        let count = Count::new(watch, 0, trials.len());
+        let by_trial: Vec<Vec<Vec<Ended>>> = trials
+            .par_iter()
+            .zip(&moves)
+            .map(|(trial, moves)| {
+                let ends = ends(model, trial, moves, &told);
+                count.one();
+                ends
+            })
+            .collect();
+        let of = |cell: usize| by_trial.iter().flat_map(|cells| cells[cell].clone()).collect();
+        (0..told.len()).map(of).collect()
+    };
+    let over = |what: &str, grid: Grid| {
+        let told = grid.cells().map(|[spread, mu]| (Some(Support::Spread(spread)), mu)).collect();
+        let cells = look(what, told);
+        let found: Vec<(f64, f64)> =
+            cells.iter().map(|cell| widths.log_density(law, &residuals(cell))).collect();
+        let logs: Vec<f64> = found.iter().map(|(log, _)| *log).collect();
+        let posterior = Posterior::of(grid, &logs);
+        let noise = found[posterior.best()].1;
+        let best = cells[posterior.best()].clone();
+        (posterior, noise, best, mean_log(&logs))
+    };
+    let axis = |span| Axis::over(span, values);
+    let grid = Grid { spread: axis(settings.spread), friction: axis(settings.friction) };
+    let (rough, _, _, over_spreads) = over("roughly", grid);
+    let most = rough.probabilities[rough.best()];
+    let (fine, noise, best, _) =
+        over("finely", grid.around(|cell| rough.probabilities[cell] > UNLIKELY * most));
+
+    let rested = |support: Option<Support>| {
+        let told: Vec<(Option<Support>, f64)> =
+            grid.friction.values().map(|friction| (support.clone(), friction)).collect();
+        let cells = look("even, on corners and as stated", told);
+        let log = |cell: &Vec<Ended>| widths.log_density(law, &residuals(cell)).0;
+        let logs: Vec<f64> = cells.iter().map(log).collect();
+        let likeliest = (0..logs.len()).max_by(|&a, &b| logs[a].total_cmp(&logs[b])).unwrap_or(0);
+        (grid.friction.at(likeliest), cells[likeliest].clone(), mean_log(&logs))
+    };
+    let with = |support: Support| {
+        let (friction, ends, _) = rested(Some(support.clone()));
+        error(support, friction, &ends)
+    };
+    let (friction_as_stated, ends_as_stated, as_stated) = rested(None);
+    let SupportError { mean: mean_as_stated, median: median_as_stated, .. } =
+        error(Support::Even, friction_as_stated, &ends_as_stated);
+    let [spread, friction] = fine.best_cell();
+    Some(Fit {
+        by: model.spec().clone(),
+        settings: settings.clone(),
+        recordings: trials.len(),
+        moved: motions.len(),
+        motion: mean(&motions),
+        noise,
+        spread: fine.spread(settings.spread),
+        friction: fine.friction(settings.friction),
+        best: error(Support::Spread(spread), friction, &best),
+        even: with(Support::Even),
+        corners: with(Support::Corners),
+        stated: AsStated {
+            friction: friction_as_stated,
+            mean: mean_as_stated,
+            median: median_as_stated,
+            likelier: as_stated >= over_spreads,
+        },
+        rough,
+        fine,
+    })
+}
+
+/// How far one object ends from where it was recorded.
+#[derive(Clone, Copy)]
+struct Ended {
+    position: f64,
+    residual: Residual,
+}
+
+/// Which objects move by more than [`STILL`], in truth or as the model has them rest as stated.
+pub(super) fn moving(model: &dyn EffectModel, trial: &Trial) -> Vec<bool> {
+    let start = trial.scene.start();
+    let predicted = model.rollout(&trial.scene, &[trial.job()], Record::Outcome);
+    let ends = predicted.first().and_then(|trajectory| trajectory.frames.last());
+    let motions = trial.motions().into_iter().enumerate();
+    motions
+        .map(|(k, motion)| {
+            let moved = |end: &pushplan::outcome::Frame| {
+                (end.state.poses[k].position - start.poses[k].position).norm()
+            };
+            motion > STILL || ends.is_some_and(|end| moved(end) > STILL)
+        })
+        .collect()
+}
+
+/// Where the moving objects end, for each way of resting and each friction that the model is told.
+fn ends(
+    model: &dyn EffectModel,
+    trial: &Trial,
+    moves: &[bool],
+    told: &[(Option<Support>, f64)],
+) -> Vec<Vec<Ended>> {
+    let stated = trial.job();
+    let jobs: Vec<Job> = told
+        .iter()
+        .map(|(support, friction)| {
+            let mut physics = (*stated.physics).clone();
+            if let Some(support) = support {
+                physics.support_all(&trial.scene, support);
+            }
+            for index in 0..trial.scene.objects.len() {
+                physics = physics.with_pair(index, Surface::Tool, *friction);
+            }
+            Job { physics: Arc::new(physics), ..stated.clone() }
+        })
+        .collect();
+    let rolled = model.rollout(&trial.scene, &jobs, Record::Outcome);
+    rolled
+        .into_iter()
+        .map(|trajectory| {
+            let comparison = Comparison::new(trial, trajectory);
+            let errors = comparison.end().into_iter().zip(&trial.scene.objects).zip(moves);
+            errors
+                .filter(|(_, moves)| **moves)
+                .map(|((error, object), _)| {
+                    let arm = object.shape.footprint().gyration_radius();
+                    // No answer counts as the worst one.
+                    let far = |value: f64| if value.is_finite() { value } else { 1.0 };
+                    let position = far(error.position);
+                    let residual = match error.heading {
+                        Some(turn) => {
+                            Residual { distance: position.hypot(arm * far(turn)), numbers: 3.0 }
+                        }
+                        None => Residual { distance: position, numbers: 2.0 },
+                    };
+                    Ended { position, residual }
+                })
+                .collect()
+        })
+        .collect()
+}
+
+/// Logarithm of the mean of what `logs` are the logarithms of.
+fn mean_log(logs: &[f64]) -> f64 {
+    let most = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    most + mean(&logs.iter().map(|log| (log - most).exp()).collect::<Vec<f64>>()).ln()
+}
+
+fn residuals(ends: &[Ended]) -> Vec<Residual> {
+    ends.iter().map(|end| end.residual).collect()
+}
+
+fn error(support: Support, friction: f64, ends: &[Ended]) -> SupportError {
+    let mut errors: Vec<f64> = ends.iter().map(|end| end.position).collect();
+    errors.sort_by(f64::total_cmp);
+    SupportError { support, friction, mean: mean(&errors), median: percentile(&errors, 50.0) }
+}

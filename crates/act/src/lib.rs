@@ -1,0 +1,18 @@
+//! Acting on what is not known: the closed loop over a [`World`], what it believes of objects, and how well
+//! models predict what was seen.
+//!
+//! - [`judge`]: errors of predictions against recorded and simulated motion,
+//! - [`fit`]: frictions, supports and an adapted network from recordings of a table,
+//! - [`belief`]: what objects are like, from observed motion,
+//! - [`act`]: the closed loop.
+#![deny(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod act;
+pub mod belief;
+pub mod fit;
+pub mod judge;
+
+pub use act::{
+    ActError, Look, RunSettings, Runner, SimulatedWorld, Trace, World, WorldError, hidden,
+};

@@ -1,0 +1,159 @@
+//! The records of a run on disk: appended one after another, each on the disk before the next; a
+//! torn end is dropped, never trusted.
+
+use std::fs::{File, OpenOptions};
+use std::io::{BufReader, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+use pushplan::watch::Watch;
+
+use super::error::StoreError;
+use super::form::{Form, Next};
+use super::lock::FolderLock;
+use super::manifest::RunManifest;
+
+/// Looks at a record: its index, or why it cannot be read.
+pub type Look<'a> = dyn FnMut(&[u8]) -> Result<usize, String> + 'a;
+
+/// A run that is being written. Holds the folder's lock.
+#[derive(Debug)]
+pub struct Journal {
+    form: Form,
+    path: PathBuf,
+    file: File,
+    done: usize,
+    bytes: u64,
+    _lock: FolderLock,
+}
+
+impl Journal {
+    /// Begins a run in the folder `dir`, or goes on with the one that is there: `look` is shown
+    /// each of its records, in order. A torn end is dropped with a note to `watch`.
+    ///
+    /// # Errors
+    /// If the folder holds a run with another manifest (the error says what differs) or a damaged
+    /// one, another process writes to it, or it cannot be written.
+    pub fn open(
+        dir: &Path,
+        manifest: RunManifest,
+        form: Form,
+        watch: &dyn Watch,
+        look: &mut Look,
+    ) -> Result<Self, StoreError> {
+        let lock = FolderLock::take(dir, watch)?;
+        let path = dir.join(form.file());
+        match RunManifest::load(dir)? {
+            Some(there) if there != manifest => {
+                let differences = there.differences(&manifest);
+                return Err(StoreError::OtherRun { path: dir.to_owned(), differences });
+            }
+            Some(_) => {}
+            None if path.exists() => return Err(StoreError::Stray { path: dir.to_owned() }),
+            None => manifest.save(dir)?,
+        }
+        let read = read_records(dir, &manifest, form, look)?;
+        let file = OpenOptions::new()
+            .append(true)
+            .create(true)
+            .open(&path)
+            .map_err(StoreError::io("write", &path))?;
+        if read.torn {
+            watch.note(&format!(
+                "{} is incomplete after record {}; the rest is made again",
+                path.display(),
+                read.count
+            ));
+            file.set_len(read.bytes).map_err(StoreError::io("shorten", &path))?;
+        }
+        Ok(Self { form, path, file, done: read.count, bytes: read.bytes, _lock: lock })
+    }
+
+    /// Number of finished records.
+    pub fn done(&self) -> usize {
+        self.done
+    }
+
+    /// Length of the finished records, bytes.
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
+
+    /// Keeps the next records.
+    ///
+    /// # Errors
+    /// If they cannot be written; what was kept before stays.
+    pub fn append<'a>(
+        &mut self,
+        records: impl IntoIterator<Item = &'a [u8]>,
+    ) -> Result<(), StoreError> {
+        let mut bytes = Vec::new();
+        let mut count = 0;
+        for record in records {
+            bytes.extend(self.form.frame(record));
+            count += 1;
+        }
+        self.file
+            .write_all(&bytes)
+            .and_then(|()| self.file.sync_data())
+            .map_err(StoreError::io("write", &self.path))?;
+        self.done += count;
+        self.bytes += bytes.len() as u64;
+        Ok(())
+    }
+}
+
+/// What a file of records holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Held {
+    /// Whole records.
+    pub count: usize,
+    /// Their length, bytes.
+    pub bytes: u64,
+    /// Whether bytes that are no whole record follow.
+    pub torn: bool,
+}
+
+/// Shows `look` the records of a folder's run: those of the first tasks of `manifest`, in order. A
+/// torn end is left out. Writes nothing.
+///
+/// # Errors
+/// If any other record is not the one that belongs there.
+pub fn read_records(
+    dir: &Path,
+    manifest: &RunManifest,
+    form: Form,
+    look: &mut Look,
+) -> Result<Held, StoreError> {
+    let path = dir.join(form.file());
+    let mut held = Held { count: 0, bytes: 0, torn: false };
+    let mut file = match File::open(&path) {
+        Ok(file) => BufReader::new(file),
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(held),
+        Err(error) => return Err(StoreError::io("read", &path)(error)),
+    };
+    let mut next = || form.next(&mut file).map_err(StoreError::io("read", &path));
+    let mut indices = manifest.indices();
+    let mut coming = next()?;
+    loop {
+        let record = match coming {
+            Next::Record(record) => record,
+            Next::Torn => return Ok(Held { torn: true, ..held }),
+            Next::End => return Ok(held),
+        };
+        coming = next()?;
+        let damaged = |why| StoreError::Damaged { path: path.clone(), record: held.count + 1, why };
+        let wanted = indices.next();
+        match look(&record) {
+            Ok(index) if Some(index) == wanted => {}
+            Ok(index) => {
+                let wanted = wanted.map_or("no more".to_owned(), |index| format!("record {index}"));
+                return Err(damaged(format!("record {index} where {wanted} belongs")));
+            }
+            // A crash may leave a last record of which not all blocks reached the disk.
+            Err(_) if matches!(coming, Next::End) => return Ok(Held { torn: true, ..held }),
+            Err(why) => return Err(damaged(why)),
+        }
+        held.count += 1;
+        held.bytes += form.frame(&record).len() as u64;
+    }
+}

@@ -1,0 +1,193 @@
+//! One writer at a time in a folder.
+
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{Read, Seek, Write};
+use std::path::{Path, PathBuf};
+
+use pushplan::watch::Watch;
+
+use super::error::StoreError;
+
+/// Name of the lock's file, which is there while somebody writes to the folder.
+const LOCK: &str = ".pushplan-lock";
+
+/// Keeps other processes from writing to a folder, as long as it lives; the system frees the
+/// folder of a process that was killed. The lock is of a file rather than of the folder, as
+/// network file systems lock only what can be opened for writing; it says who writes, and goes
+/// with the lock.
+#[derive(Debug)]
+pub struct FolderLock {
+    folder: PathBuf,
+    /// Dropped after the file was removed, so that nobody locks a file that is about to go.
+    _file: File,
+}
+
+impl FolderLock {
+    /// Makes the folder if there is none, and locks it. Where the file system knows no locks, and
+    /// where they may not reach another machine, `watch` is told so.
+    ///
+    /// # Errors
+    /// [`StoreError::Busy`] if another process has locked it, [`StoreError::Io`] if it cannot be
+    /// made or written.
+    pub fn take(dir: &Path, watch: &dyn Watch) -> Result<Self, StoreError> {
+        fs::create_dir_all(dir).map_err(StoreError::io("create", dir))?;
+        let path = dir.join(LOCK);
+        loop {
+            // Not truncated: what stands there says who writes.
+            let mut file = OpenOptions::new()
+                .read(true)
+                .write(true)
+                .create(true)
+                .truncate(false)
+                .open(&path)
+                .map_err(StoreError::io("write", &path))?;
+            let locked = file.try_lock();
+            let before = writer(&mut file);
+            match locked {
+                Ok(()) if !is_at(&file, &path) => continue,
+                Ok(()) => note_another_machine(dir, before, watch),
+                Err(TryLockError::WouldBlock) => {
+                    return Err(StoreError::Busy { path: dir.to_owned(), writer: before });
+                }
+                Err(TryLockError::Error(_)) => note_no_locks(dir, before, watch),
+            }
+            // Who writes is only a help for people; the lock holds without it.
+            let _ = file
+                .set_len(0)
+                .and_then(|()| file.rewind())
+                .and_then(|()| file.write_all(format!("{}\n", this_process()).as_bytes()));
+            return Ok(Self { folder: dir.to_owned(), _file: file });
+        }
+    }
+
+    /// The folder.
+    pub fn path(&self) -> &Path {
+        &self.folder
+    }
+}
+
+impl Drop for FolderLock {
+    fn drop(&mut self) {
+        // While it is still locked. A file that stays locks nothing.
+        let _ = fs::remove_file(self.folder.join(LOCK));
+    }
+}
+
+/// Who holds the lock of a folder, or was killed while it did, in words; nobody of most folders.
+/// Only looks: a lock taken to find out would refuse somebody else's for that moment.
+pub(super) fn writer_of(dir: &Path) -> Option<String> {
+    writer(&mut File::open(dir.join(LOCK)).ok()?)
+}
+
+/// This process in words: `process 4711 on node-3`.
+fn this_process() -> String {
+    format!("process {} on {}", std::process::id(), host())
+}
+
+/// Name of this machine, or of the container.
+fn host() -> String {
+    let kernel = fs::read_to_string("/proc/sys/kernel/hostname").ok();
+    let named = kernel.or_else(|| ["HOSTNAME", "COMPUTERNAME"].iter().find_map(variable));
+    let name = named.map(|name| name.trim().to_owned()).filter(|name| !name.is_empty());
+    name.unwrap_or_else(|| "an unnamed machine".to_owned())
+}
+
+fn variable(name: &&str) -> Option<String> {
+    std::env::var(name).ok()
+}
+
+/// What stands in the lock's file, if that is a line of ours.
+fn writer(file: &mut File) -> Option<String> {
+    let mut text = String::new();
+    // Longer than any name of a host; what is longer is none.
+    file.take(400).read_to_string(&mut text).ok()?;
+    let line = text.lines().next()?;
+    line.starts_with("process ").then(|| line.to_owned())
+}
+
+/// Whether the path still leads to this file: whoever had it locked may have removed it between
+/// our opening and locking it.
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let of = |metadata: fs::Metadata| (metadata.dev(), metadata.ino());
+    match (file.metadata(), fs::metadata(path)) {
+        (Ok(file), Ok(there)) => of(file) == of(there),
+        _ => false,
+    }
+}
+
+#[cfg(not(unix))]
+fn is_at(_: &File, path: &Path) -> bool {
+    path.exists()
+}
+
+/// A file that was left behind with the name of another machine: a process that ended there without
+/// saying so, or a lock that is not seen from here.
+fn note_another_machine(dir: &Path, before: Option<String>, watch: &dyn Watch) {
+    let here = format!(" on {}", host());
+    if let Some(writer) = before.filter(|writer| !writer.ends_with(&here)) {
+        watch.note(&format!(
+            "{} was last written to by {writer}, which did not say that it has ended; if it still \
+             runs, stop one of the two, as locks do not reach across machines there",
+            dir.display()
+        ));
+    }
+}
+
+fn note_no_locks(dir: &Path, before: Option<String>, watch: &dyn Watch) {
+    let last = before.map_or(String::new(), |writer| format!(" (last to write was {writer})"));
+    watch.note(&format!(
+        "the file system of {} has no locks: make sure that only one pushplan writes there{last}",
+        dir.display()
+    ));
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Mutex;
+
+    use super::*;
+    use pushplan::watch::Unwatched;
+
+    #[derive(Default)]
+    struct Notes(Mutex<Vec<String>>);
+
+    impl Watch for Notes {
+        fn note(&self, message: &str) {
+            self.0.lock().expect("notes").push(message.to_owned());
+        }
+    }
+
+    #[test]
+    fn the_lock_names_host_and_process_and_leaves_nothing_behind() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let lock = FolderLock::take(folder.path(), &Unwatched).expect("a free folder");
+        let text = fs::read_to_string(folder.path().join(LOCK)).expect("the lock");
+        assert_eq!(text, format!("process {} on {}\n", std::process::id(), host()));
+        let error = FolderLock::take(folder.path(), &Unwatched).expect_err("a locked folder");
+        assert!(error.to_string().contains(text.trim_end()), "{error}");
+        assert_eq!(writer_of(folder.path()).as_deref(), Some(text.trim_end()));
+        drop(lock);
+        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
+        assert_eq!(writer_of(folder.path()), None);
+    }
+
+    #[test]
+    fn a_lock_left_behind_is_taken_and_told_if_it_is_of_another_machine() {
+        let folder = tempfile::tempdir().expect("a folder");
+        for (left, told) in [
+            (format!("process 1 on {}\n", host()), None),
+            ("process 7 on elsewhere\n".to_owned(), Some("process 7 on elsewhere")),
+            (String::new(), None),
+            ("noise \u{1b}[2J\n".to_owned(), None),
+        ] {
+            fs::write(folder.path().join(LOCK), &left).expect("a file");
+            let notes = Notes::default();
+            drop(FolderLock::take(folder.path(), &notes).expect("a free folder"));
+            let notes = notes.0.into_inner().expect("notes");
+            assert_eq!(notes.len(), usize::from(told.is_some()), "{left:?}: {notes:?}");
+            assert!(told.is_none_or(|told| notes[0].contains(told)), "{notes:?}");
+        }
+    }
+}

@@ -1,0 +1,236 @@
+//! A run of tasks measured one by one or side by side: what is finished, what is left, and keeping
+//! each as it is done.
+
+use std::collections::{BTreeMap, HashMap};
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
+use std::thread;
+
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+
+use pushplan::watch::Watch;
+
+use super::error::StoreError;
+use super::form::Form;
+use super::journal::{Journal, read_records};
+use super::manifest::RunManifest;
+use super::times::{Seconds, Times, TimesLine, read_times};
+
+/// What measuring a task gives.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured<R> {
+    /// The result, the same every time.
+    pub record: R,
+    /// How long it took, never the same.
+    pub seconds: Seconds,
+}
+
+/// A finished task.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finished<R> {
+    /// Index of the task in the suite.
+    pub index: usize,
+    /// Its result.
+    pub record: R,
+    /// How long it took, where that is known.
+    pub seconds: Seconds,
+}
+
+/// A line of the records' file.
+#[derive(Serialize, Deserialize)]
+struct RecordLine<R> {
+    index: usize,
+    record: R,
+}
+
+/// The records of a run, in a folder or only in memory.
+#[derive(Debug)]
+pub struct Store<R> {
+    manifest: RunManifest,
+    files: Option<(Journal, Times)>,
+    finished: Vec<Finished<R>>,
+}
+
+impl<R: Serialize + DeserializeOwned> Store<R> {
+    /// A run that is kept nowhere.
+    pub fn in_memory(manifest: RunManifest) -> Self {
+        Self { manifest, files: None, finished: Vec::new() }
+    }
+
+    /// Begins a run in the folder `dir`, or goes on with the one that is there. A torn last line
+    /// is dropped with a note to `watch`, and its task is measured again.
+    ///
+    /// # Errors
+    /// Those of [`Journal::open`].
+    pub fn open(dir: &Path, manifest: RunManifest, watch: &dyn Watch) -> Result<Self, StoreError> {
+        let mut records = Vec::new();
+        let journal = {
+            let look = &mut reading(&mut records);
+            Journal::open(dir, manifest.clone(), Form::Lines, watch, look)?
+        };
+        let indices: Vec<usize> = manifest.indices().take(records.len()).collect();
+        let times = read_times(dir)?;
+        let times = times.into_iter().filter(|(times, _)| indices.contains(&times.index));
+        let (times, kept): (Vec<TimesLine>, Vec<String>) = times.unzip();
+        let files = Some((journal, Times::open(dir, &kept)?));
+        let finished = join(&manifest, records, times);
+        Ok(Self { manifest, files, finished })
+    }
+
+    /// Reads a run, finished or not, for reports. Writes nothing.
+    ///
+    /// # Errors
+    /// If the folder holds none or a damaged one.
+    pub fn load(dir: &Path) -> Result<Self, StoreError> {
+        let manifest = RunManifest::expect(dir)?;
+        let mut records = Vec::new();
+        read_records(dir, &manifest, Form::Lines, &mut reading(&mut records))?;
+        let times = read_times(dir)?.into_iter().map(|(times, _)| times).collect();
+        let finished = join(&manifest, records, times);
+        Ok(Self { manifest, files: None, finished })
+    }
+
+    /// Measures every task that is left, in order, and keeps each result as soon as it is there.
+    /// `measure` gets the task's index.
+    ///
+    /// # Errors
+    /// The first error of `measure`; a result that cannot be kept; or that `watch`, asked before
+    /// every task, says to stop. What was finished is kept in every case.
+    pub fn run<E: From<StoreError>>(
+        &mut self,
+        watch: &dyn Watch,
+        mut measure: impl FnMut(usize) -> Result<Measured<R>, E>,
+    ) -> Result<(), E> {
+        let left: Vec<usize> = self.manifest.indices().skip(self.finished.len()).collect();
+        let total = self.manifest.indices().len();
+        let tell = |done: usize| watch.progress(done as u64, total as u64);
+        tell(self.finished.len());
+        for index in left {
+            if watch.cancelled() {
+                let done = self.finished.len();
+                return Err(StoreError::Cancelled { done, total }.into());
+            }
+            let measured = measure(index)?;
+            self.keep(index, measured)?;
+            tell(self.finished.len());
+        }
+        Ok(())
+    }
+
+    /// The same with as many tasks side by side as there are `threads`, for tasks that do not keep a
+    /// machine busy one by one. Results are kept in order, each once all before it are there.
+    ///
+    /// # Errors
+    /// A result that cannot be kept; or that `watch`, asked before every task, says to stop. Then
+    /// tasks that have begun are finished and kept.
+    pub fn run_side_by_side(
+        &mut self,
+        watch: &dyn Watch,
+        threads: usize,
+        measure: impl Fn(usize) -> Measured<R> + Sync,
+    ) -> Result<(), StoreError>
+    where
+        R: Send,
+    {
+        let left: Vec<usize> = self.manifest.indices().skip(self.finished.len()).collect();
+        let total = self.manifest.indices().len();
+        watch.progress(self.finished.len() as u64, total as u64);
+        let next = AtomicUsize::new(0);
+        let (sender, receiver) = mpsc::channel();
+        thread::scope(|scope| {
+            // It goes when this closure returns, early or not, and nobody begins another task then.
+            let receiver = receiver;
+            for _ in 0..threads.clamp(1, left.len().max(1)) {
+                let (sender, next, left, measure) = (sender.clone(), &next, &left, &measure);
+                scope.spawn(move || {
+                    while !watch.cancelled() {
+                        let k = next.fetch_add(1, Ordering::Relaxed);
+                        let Some(index) = left.get(k) else { return };
+                        if sender.send((k, measure(*index))).is_err() {
+                            return;
+                        }
+                    }
+                });
+            }
+            drop(sender);
+            let mut waiting = BTreeMap::new();
+            for (kept, index) in left.iter().enumerate() {
+                let measured = loop {
+                    if let Some(measured) = waiting.remove(&kept) {
+                        break measured;
+                    }
+                    let Ok((k, measured)) = receiver.recv() else {
+                        let done = self.finished.len();
+                        return Err(StoreError::Cancelled { done, total });
+                    };
+                    waiting.insert(k, measured);
+                };
+                self.keep(*index, measured)?;
+                watch.progress(self.finished.len() as u64, total as u64);
+            }
+            Ok(())
+        })
+    }
+
+    /// What is measured.
+    pub fn manifest(&self) -> &RunManifest {
+        &self.manifest
+    }
+
+    /// The finished tasks, in order.
+    pub fn finished(&self) -> &[Finished<R>] {
+        &self.finished
+    }
+
+    /// What is measured and the finished tasks; releases the folder.
+    pub fn into_parts(self) -> (RunManifest, Vec<Finished<R>>) {
+        (self.manifest, self.finished)
+    }
+
+    /// Whether nothing is left to measure.
+    pub fn is_complete(&self) -> bool {
+        self.finished.len() == self.manifest.indices().len()
+    }
+
+    /// Keeps a record as it will be read again, so that a report is the same whether or not the
+    /// run was interrupted.
+    fn keep(&mut self, index: usize, measured: Measured<R>) -> Result<(), StoreError> {
+        let unkept =
+            |error: serde_json::Error| StoreError::Record { index, why: error.to_string() };
+        let Measured { record, seconds } = measured;
+        let line = serde_json::to_vec(&RecordLine { index, record }).map_err(unkept)?;
+        let read: RecordLine<R> = serde_json::from_slice(&line).map_err(unkept)?;
+        let times = TimesLine { index, seconds };
+        if let Some((journal, file)) = &mut self.files {
+            // Times first, so that every record has some.
+            file.append(&serde_json::to_string(&times).map_err(unkept)?)?;
+            journal.append([line.as_slice()])?;
+        }
+        self.finished.push(Finished { index, record: read.record, seconds: times.seconds });
+        Ok(())
+    }
+}
+
+/// Reads each line into `records`.
+fn reading<R: DeserializeOwned>(
+    records: &mut Vec<R>,
+) -> impl FnMut(&[u8]) -> Result<usize, String> {
+    |line| {
+        let read: RecordLine<R> =
+            serde_json::from_slice(line).map_err(|error| error.to_string())?;
+        records.push(read.record);
+        Ok(read.index)
+    }
+}
+
+fn join<R>(manifest: &RunManifest, records: Vec<R>, times: Vec<TimesLine>) -> Vec<Finished<R>> {
+    let mut times: HashMap<usize, Seconds> =
+        times.into_iter().map(|times| (times.index, times.seconds)).collect();
+    let finished = manifest.indices().zip(records).map(|(index, record)| Finished {
+        index,
+        record,
+        seconds: times.remove(&index).unwrap_or_default(),
+    });
+    finished.collect()
+}

@@ -1,0 +1,65 @@
+//! Wall times of a run, `times.jsonl`: apart from the records, as they differ from run to run.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File, OpenOptions};
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use pushplan::asset::write_atomic;
+
+use super::error::StoreError;
+
+/// Name of the file.
+pub(super) const TIMES: &str = "times.jsonl";
+
+/// Wall times of a task by what they were spent on, seconds.
+pub type Seconds = BTreeMap<String, f64>;
+
+/// A line of the file.
+#[derive(Serialize, Deserialize)]
+pub(super) struct TimesLine {
+    pub index: usize,
+    pub seconds: Seconds,
+}
+
+/// The file, open for appending.
+#[derive(Debug)]
+pub(super) struct Times {
+    file: File,
+    path: PathBuf,
+}
+
+impl Times {
+    /// Opens the file behind the `kept` lines; whatever else a crash left in it is dropped.
+    pub fn open(dir: &Path, kept: &[String]) -> Result<Self, StoreError> {
+        let path = dir.join(TIMES);
+        write_atomic(&path, kept.concat().as_bytes()).map_err(StoreError::Write)?;
+        let file =
+            OpenOptions::new().append(true).open(&path).map_err(StoreError::io("write", &path))?;
+        Ok(Self { file, path })
+    }
+
+    pub fn append(&mut self, line: &str) -> Result<(), StoreError> {
+        self.file
+            .write_all(format!("{line}\n").as_bytes())
+            .and_then(|()| self.file.sync_data())
+            .map_err(StoreError::io("write", &self.path))
+    }
+}
+
+/// The times of a folder's run, with their lines; what cannot be read is left out, as no result
+/// depends on it.
+pub(super) fn read_times(dir: &Path) -> Result<Vec<(TimesLine, String)>, StoreError> {
+    let path = dir.join(TIMES);
+    let bytes = match fs::read(&path) {
+        Ok(bytes) => bytes,
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
+        Err(error) => return Err(StoreError::io("read", &path)(error)),
+    };
+    let text = String::from_utf8_lossy(&bytes);
+    let lines = text.split_inclusive('\n').filter(|line| line.ends_with('\n'));
+    let read = |line: &str| Some((serde_json::from_str(line).ok()?, line.to_owned()));
+    Ok(lines.filter_map(read).collect())
+}

@@ -1,0 +1,182 @@
+//! The reference layout: tools of four cuboids in seven poses, and one cylinder at 24 starts.
+//!
+//! After the tool experiments of Tekden et al. 2021 ("Object and relation centric
+//! representations for push effect prediction", arXiv 2102.02100). Their robot's hand can touch
+//! the cylinder too; ours holds the tool without a hand. They state no masses and frictions:
+//! those here are of a kitchen object on a wooden table.
+
+use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
+
+use rand::Rng;
+use serde::{Deserialize, Serialize};
+
+use pushplan::{
+    geometry::{Pose, Vector, clearance},
+    scene::{Object, Part, Robot, Scene, Tool},
+    seeded::generator,
+    task::{Goal, PushForm, PushRules, Task},
+};
+
+/// Stops are offered after this many equal steps of a push: 5 mm each.
+pub const STEPS: usize = 40;
+
+/// Travel of a push, metres.
+pub const TRAVEL: f64 = 0.20;
+
+/// Speed of a push, m/s.
+pub const SPEED: f64 = 0.10;
+
+/// Pushes of a sequence.
+pub const PUSHES: usize = 3;
+
+/// A task counts as solved within this, metres; the second, coarser mark is [`COARSE`].
+pub const FINE: f64 = 0.05;
+
+/// The coarser mark, metres.
+pub const COARSE: f64 = 0.10;
+
+/// A tool pose is skipped for a start that its parts overlap when grown by this, metres.
+const GROWN: f64 = 0.025;
+
+/// Height of the tools' underside above the table, metres: parts 0.05 m high with their centres
+/// 0.05 m above the table.
+pub const LIFT: f64 = 0.025;
+
+/// The starts: four along x and six along y, ends included, over 0.6 x 1.0 m centred 0.425 m in
+/// front of the end effector.
+const GRID: (usize, usize) = (4, 6);
+const GRID_CENTRE: f64 = 0.425;
+const GRID_SIZE: (f64, f64) = (0.6, 1.0);
+
+/// Half the spacing of the grid, metres.
+const CELL_HALF: f64 = 0.1;
+
+/// Seed of the scattered starts.
+const SCATTER_SEED: u64 = 7;
+
+/// The tool poses: index into [`reference_tools`], turns of 90 degrees.
+const POSES: [(usize, i8); 7] = [(0, 0), (0, -1), (0, 1), (1, 0), (1, -1), (2, 0), (2, 1)];
+
+/// Where the cylinder starts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Layout {
+    /// On the grid of the reference. Grid, tools and pushes fit together so well that flat faces
+    /// push the cylinder through its centre nearly always.
+    Grid,
+    /// Each start moved at random within its own cell of the grid, so that corners and edges
+    /// meet the cylinder too.
+    Scattered,
+}
+
+impl Layout {
+    /// Both.
+    pub const ALL: [Layout; 2] = [Layout::Grid, Layout::Scattered];
+
+    /// Start number `index` of the grid as this layout has it, to a millimetre.
+    fn place(self, start: Vector, index: usize) -> Vector {
+        match self {
+            Layout::Grid => start,
+            Layout::Scattered => {
+                let mut random = generator(SCATTER_SEED, index as u64);
+                let mut aside = || random.random_range(-CELL_HALF..=CELL_HALF);
+                (start + Vector::new(aside(), aside())).map(|v| (v * 1e3).round() / 1e3)
+            }
+        }
+    }
+}
+
+/// Tool poses and starts.
+#[derive(Clone, Debug)]
+pub struct ReferenceSetup {
+    /// The seven tool poses, each as a tool of its own that is held without turning it: stick, L
+    /// and inverse L. They are named `stick -90`, with the turn in degrees.
+    pub poses: Vec<Arc<Tool>>,
+    /// Positions of the cylinder, metres.
+    pub starts: Vec<Vector>,
+}
+
+impl ReferenceSetup {
+    /// Tools, poses and the starts of a layout.
+    pub fn new(layout: Layout) -> Self {
+        let tools = reference_tools();
+        let posed = |&(tool, quarters): &(usize, i8)| {
+            let tool: &Tool = &tools[tool];
+            let name = format!("{} {}", tool.name, i32::from(quarters) * 90);
+            // The end effector's pose in the tool frame: the tool is turned the other way.
+            let grip = Pose::new(0.0, 0.0, -f64::from(quarters) * FRAC_PI_2);
+            Arc::new(tool.clone().named(name).held_at(grip))
+        };
+        let poses = POSES.iter().map(posed).collect();
+        let along = |k: usize, n: usize, size: f64| size * (k as f64 / (n - 1) as f64 - 0.5);
+        let starts = (0..GRID.0)
+            .flat_map(|i| (0..GRID.1).map(move |j| (i, j)))
+            .map(|(i, j)| {
+                let x = GRID_CENTRE + along(i, GRID.0, GRID_SIZE.0);
+                let start = Vector::new(x, along(j, GRID.1, GRID_SIZE.1));
+                layout.place(start, i * GRID.1 + j)
+            })
+            .collect();
+        Self { poses, starts }
+    }
+
+    /// The task of bringing the cylinder from `start` to `goal` (metres) by chained pushes.
+    pub fn task(&self, start: Vector, goal: Vector) -> Task {
+        let cylinder = Object::cylinder("cylinder", 0.05, 0.10).mass(0.5);
+        let scene = Scene::new([cylinder.at(start.x, start.y, 0.0)]);
+        // The end effector stays within what chained sequences need.
+        let robot = Robot::reaching(0.0, PUSHES as f64 * TRAVEL).without_body();
+        Task::new("reference", scene, robot, Goal::new(0, goal.into(), FINE)).pushing(PushRules {
+            form: PushForm::Chained,
+            grip_yaws: vec![0.0],
+            length: TRAVEL,
+            speed: SPEED,
+            max_count: PUSHES,
+            lift: LIFT,
+            ..PushRules::default()
+        })
+    }
+
+    /// Indices of the poses that can be set down with the cylinder at `start`.
+    pub fn free_poses(&self, start: Vector) -> Vec<usize> {
+        let task = self.task(start, start);
+        let cylinder = &task.scene.objects[0];
+        let still = (&cylinder.shape.footprint(), &cylinder.pose);
+        let overlaps = |tool: &Tool| {
+            let frame = tool.pose(Pose { position: task.robot.home, heading: 0.0 });
+            (0..tool.parts().len()).any(|k| {
+                let grown = tool.parts()[k].footprint().grown(GROWN);
+                clearance((&grown, &tool.part_pose(k, &frame)), still, GROWN) <= 0.0
+            })
+        };
+        (0..self.poses.len()).filter(|&k| !overlaps(&self.poses[k])).collect()
+    }
+
+    /// Index of the tool pose called `name`.
+    pub fn pose(&self, name: &str) -> Option<usize> {
+        self.poses.iter().position(|pose| pose.name == name)
+    }
+}
+
+/// Three cuboids of 0.14 x 0.08 m in a row, centres at 0.12, 0.26 and 0.40 m from the end
+/// effector, and a fourth: another in the row at 0.54 m, or a head of 0.16 x 0.08 m across.
+fn reference_tools() -> Vec<Tool> {
+    let handle =
+        |name: &str, x: f64| Part::cuboid(name, [0.14, 0.08, 0.05], Pose::new(x, 0.0, 0.0));
+    let head = |side: f64| {
+        Part::cuboid("head", [0.16, 0.08, 0.05], Pose::new(0.43, 0.12 * side, FRAC_PI_2 * side))
+    };
+    [("stick", handle("handle-4", 0.54)), ("l", head(1.0)), ("inverse-l", head(-1.0))]
+        .into_iter()
+        .map(|(name, fourth)| {
+            let mut parts: Vec<Part> = [("handle-1", 0.12), ("handle-2", 0.26), ("handle-3", 0.40)]
+                .into_iter()
+                .map(|(name, x)| handle(name, x))
+                .collect();
+            parts.push(fourth);
+            let joints = (1..parts.len()).map(|k| [k - 1, k]).collect();
+            Tool::assembled(name, parts, joints)
+        })
+        .collect()
+}

@@ -1,0 +1,88 @@
+//! A proposed tool, with what it does for its task.
+
+use serde_json::json;
+
+use pushplan::design::Design;
+use pushplan::geometry::Vector;
+use pushplan::solve::PlanStatus;
+use pushplan::{
+    scene::{Part, Tool},
+    task::{Task, ToolChoice},
+};
+
+use super::document::{Document, Section};
+use super::number::{degrees, millimetres};
+use super::plan_text::point;
+use super::solution::{headline, solution_document};
+use super::table::{Align, Table};
+
+/// A tool to make, or why none is proposed.
+pub fn design_document(task: &Task, design: &Design) -> Document {
+    let mut document = solution_document(task, design.best());
+    let solution = std::mem::take(&mut document.json);
+    let tool = design.proposal.as_ref().map(|proposal| &*proposal.tool);
+    let known = headline(task, &design.known);
+    match tool {
+        Some(tool) => {
+            let mut section = parts(tool);
+            if task.tools != ToolChoice::All {
+                section.lines.push(format!("add {} to `tools` of the task to use it", tool.name));
+            }
+            document.sections.insert(0, section);
+            document.notes.push(format!("tools that there are: {known}"));
+        }
+        None => document.title = format!("{}: no new tool; {known}{}", task.name, why_none(design)),
+    }
+    let spent = &design.spent;
+    if spent.looked_at > 0 {
+        let line = format!(
+            "tools: {} looked at in {} rollouts, {} of them promising; solved with {} of these",
+            spent.looked_at, spent.rollouts, spent.promising, spent.solved
+        );
+        document.sections.push(Section { lines: vec![line], ..Section::default() });
+    }
+    document.json = json!({
+        "task": task.name,
+        "status": design.status(),
+        "stopped": design.stopped,
+        "tool": tool.map(Tool::to_json),
+        "solution": solution,
+        "known": solution_document(task, &design.known).json,
+        "spent": design.spent,
+    });
+    document
+}
+
+/// Why no tool is proposed, after what those that there are do.
+fn why_none(design: &Design) -> &'static str {
+    match (design.known.status, design.spent.looked_at) {
+        (PlanStatus::Solved, 0) => ", and none could do so with more margin",
+        (PlanStatus::Solved, _) => ", and none was found that does so with more margin",
+        _ => ", and none was found that does better",
+    }
+}
+
+fn parts(tool: &Tool) -> Section {
+    let size = |part: &&Part| {
+        let across = |axis: Vector| part.footprint().extent(axis) + part.footprint().extent(-axis);
+        let [x, y] = [Vector::x(), Vector::y()].map(across);
+        [x, y, part.shape.height()].map(millimetres).join(" x ")
+    };
+    Section {
+        title: format!(
+            "The tool {}, held at its origin with the grip turned by {}",
+            tool.name,
+            degrees(tool.grip.heading)
+        ),
+        table: Table::of(
+            tool.parts(),
+            &[
+                ("part", Align::Left, &|part| part.name.clone()),
+                ("size", Align::Left, &size),
+                ("centre", Align::Left, &|part| point(part.pose.position)),
+                ("turn", Align::Right, &|part| degrees(part.pose.heading)),
+            ],
+        ),
+        ..Section::default()
+    }
+}

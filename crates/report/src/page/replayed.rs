@@ -1,0 +1,257 @@
+//! The pages of one plan: replayed for a verdict, or predicted next to simulated.
+
+use std::sync::Arc;
+
+use serde_json::Value as Json;
+
+use crate::number::millimetres;
+use crate::plan_picture::space_figures;
+use crate::plan_text::plan_line;
+use crate::verdict::{replay_warnings, verdict_line};
+use pushplan::asset::{PLAN_VERSION, PlanFile};
+use pushplan::{
+    outcome::{Outcome, Trajectory, Verdict},
+    scene::{Engine, Tool},
+    task::{Job, Plan, Task, ToolMotion},
+};
+
+use super::data::{self, Data, File, Layer, Replay, Standing, Stroke, length, pose};
+use super::html::{self, PageView};
+use super::recipe::Recipe;
+use super::replay::{ends, graph, layer_of, replay, replays, sound};
+use super::{space, stage};
+
+/// The page of a plan that was replayed. `predicted` is what its effect model says, if that was
+/// asked; `recipe` makes the replays again.
+pub fn verdict_page(
+    file: &PlanFile,
+    predicted: Option<&Trajectory>,
+    verdict: &Verdict,
+    recipe: Recipe,
+    view: PageView,
+) -> String {
+    let task = &file.task;
+    let mut making = Making::of(task, plan_line(&file.plan));
+    let space = making.drawing(&file.plan, &file.tools, verdict);
+    let plan = making.plan(&file.tools, &file.plan, recipe);
+    plan.standing = standing(verdict);
+    plan.verdict = verdict_line(task, Some(verdict));
+    let shown = predicted.map(|trajectory| {
+        let reached = Outcome::judge(&task.scene, task, trajectory).reached;
+        (Layer::Predicted, trajectory, reached)
+    });
+    let own = (&file.plan, &file.tools[..]);
+    let shown = shown.into_iter().chain(replays(verdict));
+    plan.replays.extend(shown.filter_map(|one| shown_replay(task, own, one)));
+    plan.ends = ends(task, verdict);
+    making.data.warnings = replay_warnings(verdict);
+    making.data.drawing = space;
+    html::page(&making.data, view)
+}
+
+/// A trajectory as it is shown; in space where something of it left the plane.
+pub(super) fn shown_replay(
+    task: &Task,
+    (plan, tools): (&Plan, &[Arc<Tool>]),
+    (layer, trajectory, reached): (Layer, &Trajectory, bool),
+) -> Option<Replay> {
+    if is_in_space(task, plan) {
+        return space::replay(layer, task, (plan, tools), trajectory, reached);
+    }
+    let mut replay = replay(layer, trajectory, reached)?;
+    let goal = &task.goals[0];
+    // The page measures distances from a place; from anything else they are told.
+    let told = goal.area.is_some()
+        || goal.coverage.is_some()
+        || goal.is_relation()
+        || goal.relative.is_some();
+    if told || !goal.has_place() {
+        replay.measure = sound(&trajectory.frames).map(|f| length(goal.error(&f.state))).collect();
+    }
+    // The parts of one tool are its nodes.
+    if let (Layer::Predicted, Some([motion])) = (layer, plan.slides(tools).as_deref()) {
+        let job = Job::stated(&task.scene, motion.clone());
+        replay.graph = graph(&task.scene, &job, trajectory);
+    }
+    Some(replay)
+}
+
+fn is_in_space(task: &Task, plan: &Plan) -> bool {
+    task.in_space() || plan.levers()
+}
+
+/// The page of pushes as several models see them, each frame by frame; `recipe` makes it again.
+pub fn prediction_page(
+    task: &Task,
+    tools: &[Arc<Tool>],
+    plan: &Plan,
+    trajectories: &[Trajectory],
+    recipe: Recipe,
+    view: PageView,
+) -> String {
+    let mut making = Making::of(task, plan_line(plan));
+    let drawing = trajectories.last().and_then(|last| making.drawn(plan, tools, last, ""));
+    let page = making.plan(tools, plan, recipe);
+    let mut ends = Vec::new();
+    for (k, trajectory) in trajectories.iter().enumerate() {
+        let outcome = Outcome::judge(&task.scene, task, trajectory);
+        let end = match (outcome.lying, outcome.reached) {
+            (None, _) => millimetres(outcome.error),
+            (Some(_), true) => "reaches the goal".to_owned(),
+            (Some(_), false) => "misses the goal".to_owned(),
+        };
+        ends.push(format!("{} {end}", trajectory.by));
+        // A model that hands a job to an engine is still the one that predicts.
+        let own = layer_of(trajectory);
+        let twice = trajectories[k + 1..].iter().any(|other| layer_of(other) == own);
+        let layer = if twice { Layer::Predicted } else { own };
+        let one = (layer, trajectory, outcome.reached);
+        page.replays.extend(shown_replay(task, (plan, tools), one));
+    }
+    page.verdict = match task.goals[0].has_place() {
+        true => {
+            let allowed = millimetres(task.goals[0].tolerance);
+            format!("error: {}; allowed {allowed}", ends.join(", "))
+        }
+        false => ends.join(", "),
+    };
+    making.data.drawing = drawing;
+    for trajectory in trajectories {
+        let line = |warning| format!("{}: {warning}", trajectory.by);
+        making.data.warnings.extend(trajectory.warnings.iter().map(line));
+    }
+    html::page(&making.data, view)
+}
+
+/// How good a plan is by its verdict.
+pub fn standing(verdict: &Verdict) -> Standing {
+    match (verdict.passed, verdict.works()) {
+        (true, _) => Standing::Passed,
+        (false, true) => Standing::Fragile,
+        (false, false) => Standing::Failed,
+    }
+}
+
+/// A page in the making.
+pub struct Making<'a> {
+    task: &'a Task,
+    pub data: Data,
+}
+
+impl<'a> Making<'a> {
+    /// A page without plans.
+    pub fn of(task: &'a Task, headline: String) -> Self {
+        let data = Data {
+            task: task.name.clone(),
+            description: task.description.clone(),
+            models: String::new(),
+            headline,
+            stage: stage::stage(task),
+            measure: None,
+            tools: Vec::new(),
+            plans: Vec::new(),
+            columns: Vec::new(),
+            choice: Vec::new(),
+            candidates: None,
+            run: None,
+            warnings: Vec::new(),
+            file: File { schema_version: PLAN_VERSION, task: Json::Null },
+            drawing: None,
+        };
+        Self { task, data }
+    }
+
+    /// Index of a tool, whose file this is; it is added if it is new.
+    pub fn tool(&mut self, tool: &Tool, file: Json) -> usize {
+        let known = self.data.tools.iter().position(|known| known.name == tool.name);
+        known.unwrap_or_else(|| {
+            self.data.tools.push(stage::tool(tool, file));
+            self.data.tools.len() - 1
+        })
+    }
+
+    /// A drawing of what leaves the plane, by the replay of a verdict.
+    pub fn drawing(&self, plan: &Plan, tools: &[Arc<Tool>], verdict: &Verdict) -> Option<String> {
+        let replay = verdict.nominal(Engine::Spatial)?.trajectory.as_ref()?;
+        self.drawn(plan, tools, replay, &verdict_line(self.task, Some(verdict)))
+    }
+
+    /// A drawing of what leaves the plane, with a line below its title.
+    fn drawn(
+        &self,
+        plan: &Plan,
+        tools: &[Arc<Tool>],
+        trajectory: &Trajectory,
+        line: &str,
+    ) -> Option<String> {
+        if !is_in_space(self.task, plan) {
+            return None;
+        }
+        let lines: Vec<String> =
+            Some(line).filter(|line| !line.is_empty()).map(str::to_owned).into_iter().collect();
+        let named = ("", false);
+        let figures = space_figures(self.task, (plan, tools), trajectory, &lines, named);
+        figures.first().map(|figure| figure.to_svg())
+    }
+
+    /// Adds a plan, whose replays and verdict are to be filled in.
+    pub fn plan(&mut self, tools: &[Arc<Tool>], plan: &Plan, recipe: Recipe) -> &mut data::Plan {
+        let file = PlanFile::new(self.task.clone(), tools.to_vec(), plan.clone());
+        let mut file = serde_json::to_value(&file).unwrap_or_default();
+        let mut part = |key: &str| file.get_mut(key).map_or(Json::Null, Json::take);
+        self.data.file.task = part("task");
+        let files = part("tools");
+        let known: Vec<usize> = tools
+            .iter()
+            .enumerate()
+            .map(|(k, tool)| self.tool(tool, files.get(k).cloned().unwrap_or_default()))
+            .collect();
+        let index = |name: &str| {
+            let place = tools.iter().position(|tool| tool.name == name);
+            place.map_or(0, |place| known[place])
+        };
+        let first = known.first().copied().unwrap_or(0);
+        let in_space = is_in_space(self.task, plan);
+        if in_space {
+            self.data.measure = Some(space::measure(plan));
+        }
+        let strokes = match in_space {
+            true => space::strokes(plan, tools, &index),
+            false => {
+                let motions = plan.slides(tools).unwrap_or_default();
+                let own = |motion: &ToolMotion| strokes(motion, index(&motion.tool.name));
+                motions.iter().flat_map(own).collect()
+            }
+        };
+        self.data.plans.push(data::Plan {
+            tool: first,
+            tools: known,
+            name: plan_line(plan),
+            standing: Standing::Open,
+            verdict: String::new(),
+            cells: Vec::new(),
+            strokes,
+            replays: Vec::new(),
+            ends: Vec::new(),
+            lift: if in_space { 0 } else { length(plan.lift()) },
+            hand: tools.first().and_then(|tool| stage::hand(self.task, tool, plan)),
+            command: recipe.command,
+            python: recipe.python,
+            file: part("plan"),
+        });
+        let last = self.data.plans.len() - 1;
+        &mut self.data.plans[last]
+    }
+}
+
+/// The strokes of a motion with the tool of this index.
+pub fn strokes(motion: &ToolMotion, tool: usize) -> Vec<Stroke> {
+    let mut lowered = true;
+    let stroke = |stroke: &pushplan::task::Stroke| Stroke {
+        tool,
+        from: pose(&stroke.from),
+        to: pose(&stroke.to),
+        lowered: std::mem::replace(&mut lowered, stroke.settle),
+    };
+    motion.strokes.iter().map(stroke).collect()
+}

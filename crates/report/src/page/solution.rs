@@ -1,0 +1,180 @@
+//! The page of a solved task: its plans, its tools, and what the search went through.
+
+use crate::number::millimetres;
+use crate::plan_text::{engine_name, plan_line};
+use crate::solution::{headline, models_words};
+use crate::table::NONE;
+use crate::verdict::verdict_line;
+use pushplan::plan::{ScoredPush, bare, is_behind};
+use pushplan::solve::{PlanStatus, RankedPlan, Solution};
+use pushplan::{
+    outcome::{Outcome, Verdict},
+    scene::Engine,
+    task::Task,
+};
+
+use super::candidates::{candidates, frequent};
+use super::data::{Choice, Layer, Standing};
+use super::html::{self, PageView};
+use super::recipe::Recipe;
+use super::replay::{ends, replays};
+use super::replayed::{Making, shown_replay, standing};
+
+/// Names of the columns of the table of plans.
+const COLUMNS: [&str; 6] = ["plan", "predicted", "planar", "3-D", "disturbed", "what came of it"];
+
+/// The page of a solution. `nominal` holds the replays of its first plan, also where that was not
+/// worth verifying; `recipe` says how a plan's replays are made again.
+pub fn solution_page(
+    task: &Task,
+    solution: &Solution,
+    nominal: &Verdict,
+    recipe: &dyn Fn(&RankedPlan) -> Recipe,
+    view: PageView,
+) -> String {
+    let mut making = Making::of(task, headline(task, solution));
+    making.data.drawing =
+        solution.best().and_then(|best| making.drawing(&best.plan, &best.tools, nominal));
+    for (k, ranked) in solution.plans.iter().enumerate() {
+        let verdict = ranked.verdict.as_ref();
+        let replayed = if k == 0 { Some(nominal) } else { verdict };
+        let mut list = Vec::new();
+        let predicted = (Layer::Predicted, &ranked.predicted, ranked.outcome.reached);
+        // Of what leaves the plane only the end is predicted.
+        let predicted = Some(predicted)
+            .filter(|(_, shown, _)| ranked.outcome.lying.is_none() || shown.frames.len() > 1);
+        let shown = predicted.into_iter().chain(replayed.into_iter().flat_map(replays));
+        let own = (&ranked.plan, &ranked.tools[..]);
+        list.extend(shown.filter_map(|one| shown_replay(task, own, one)));
+        let why = why(task, solution, k);
+        let plan = making.plan(&ranked.tools, &ranked.plan, recipe(ranked));
+        plan.standing = verdict.map_or(Standing::Open, standing);
+        plan.verdict = if k == 0 { verdict_line(task, verdict) } else { why.clone() };
+        plan.cells = cells(ranked, replayed, why);
+        plan.ends = verdict.map_or(Vec::new(), |verdict| ends(task, verdict));
+        plan.replays = list;
+    }
+    making.data.columns = COLUMNS.to_vec();
+    making.data.models = format!("Plans were {}.", models_words(task, solution));
+    // Of lever-ups nothing but the plans is kept.
+    if solution.statistics.levers.is_none() {
+        making.data.choice = choice(solution);
+    }
+    making.data.candidates = candidates(solution);
+    making.data.warnings = solution.warnings.iter().map(ToString::to_string).collect();
+    html::page(&making.data, view)
+}
+
+fn cells(ranked: &RankedPlan, replayed: Option<&Verdict>, why: String) -> Vec<String> {
+    let error = |outcome: Option<&Outcome>| {
+        outcome.map_or(NONE.to_owned(), |outcome| match (outcome.lying, outcome.reached) {
+            (None, _) => millimetres(outcome.error),
+            (Some(_), true) => "reaches the goal".to_owned(),
+            (Some(_), false) => "misses the goal".to_owned(),
+        })
+    };
+    let nominal = |engine| replayed.and_then(|verdict| verdict.nominal(engine));
+    let end = |engine| error(nominal(engine).map(|evidence| &evidence.outcome));
+    let [planar, spatial] = Engine::ALL.map(end);
+    let disturbed = ranked.verdict.as_ref().and_then(fewest).map_or(NONE.to_owned(), |found| {
+        let (reached, replays, _) = found;
+        format!("{reached} of {replays}")
+    });
+    vec![plan_line(&ranked.plan), error(Some(&ranked.outcome)), planar, spatial, disturbed, why]
+}
+
+/// Disturbed replays that reach the goal, and all of them, in the engine in which fewer do.
+fn fewest(verdict: &Verdict) -> Option<(usize, usize, Engine)> {
+    let counts = Engine::ALL.map(|engine| {
+        let reached = verdict.disturbed(engine).filter(|evidence| evidence.outcome.reached);
+        (reached.count(), verdict.disturbed(engine).count(), engine)
+    });
+    let made = counts.into_iter().filter(|(_, replays, _)| *replays > 0);
+    made.min_by(|a, b| (a.0 * b.1).cmp(&(b.0 * a.1)))
+}
+
+/// The result of the plan of rank `k`: for the first its verdict, for the others why they are not
+/// first.
+fn why(task: &Task, solution: &Solution, k: usize) -> String {
+    let ranked = &solution.plans[k];
+    let Some(verdict) = &ranked.verdict else {
+        return match (ranked.plan.is_empty(), ranked.outcome.reached) {
+            (true, _) => "leaves everything as it is".to_owned(),
+            (false, true) => "predicted to reach the goal; not replayed".to_owned(),
+            (false, false) => "predicted to miss the goal".to_owned(),
+        };
+    };
+    let best = solution.best().and_then(|best| best.verdict.as_ref());
+    if k == 0 || !verdict.passed {
+        return verdict_line(task, Some(verdict));
+    }
+    match (verdict.robustness, best.and_then(|best| best.robustness)) {
+        (None, Some(_)) => "works as written; not replayed with disturbances".to_owned(),
+        (Some(own), Some(best)) if own < best => {
+            let found = fewest(verdict);
+            let engine = found.map_or("", |(_, _, engine)| engine_name(engine));
+            format!("passes, but in fewer disturbed replays ({engine})")
+        }
+        _ => "passes as well".to_owned(),
+    }
+}
+
+/// Every tool that was offered, those with a plan first, then by what is predicted for them.
+fn choice(solution: &Solution) -> Vec<Choice> {
+    let mut found: Vec<(Option<usize>, f64, Choice)> = Vec::new();
+    for (index, tool) in solution.tools.iter().enumerate() {
+        let own = |push: &&ScoredPush| push.tool == index;
+        let pushes: Vec<&ScoredPush> = solution.candidates.iter().filter(own).collect();
+        let best = pushes.iter().filter_map(|push| push.score).reduce(f64::min);
+        let of_tool = |plan: &RankedPlan| plan.plan.tools().contains(&tool.name.as_str());
+        let plan = solution.plans.iter().position(of_tool);
+        let refused = pushes.iter().filter(|push| push.score.is_none() && push.refused.is_some());
+        let choice = Choice {
+            tool: tool.name.clone(),
+            considered: pushes.len(),
+            refused: refused.count(),
+            best: best.map_or(NONE.to_owned(), |best| format!("{:.2}", bare(best))),
+            why: lost(solution, plan, best, &pushes),
+            plan,
+        };
+        found.push((plan, best.unwrap_or(f64::INFINITY), choice));
+    }
+    let place = |plan: Option<usize>| plan.unwrap_or(usize::MAX);
+    found.sort_by(|a, b| place(a.0).cmp(&place(b.0)).then(a.1.total_cmp(&b.1)));
+    found.into_iter().map(|(.., choice)| choice).collect()
+}
+
+/// Why a tool was not chosen, or that it was.
+fn lost(
+    solution: &Solution,
+    plan: Option<usize>,
+    best: Option<f64>,
+    pushes: &[&ScoredPush],
+) -> String {
+    let ranked = plan.map(|plan| (plan, &solution.plans[plan]));
+    match (ranked, best) {
+        (Some((0, _)), _) => match solution.status {
+            PlanStatus::Solved | PlanStatus::Fragile => "chosen".to_owned(),
+            PlanStatus::FailedVerification => {
+                "best by prediction, but fails in a replay".to_owned()
+            }
+            PlanStatus::Partial => "chosen: it meets some of the goals".to_owned(),
+            PlanStatus::NoPlan => "comes nearest, but misses the goal".to_owned(),
+        },
+        (Some((k, plan)), _) => match &plan.verdict {
+            Some(verdict) if verdict.passed => format!("works too, as plan {}", k + 1),
+            Some(_) => format!("fails in a replay, as plan {} shows", k + 1),
+            None if plan.outcome.reached => format!("predicted to work, as plan {}", k + 1),
+            None => format!("predicted to miss, as plan {} shows", k + 1),
+        },
+        (None, None) => match frequent(pushes) {
+            Some(reason) => format!("no push can be made, mostly as {reason}"),
+            None => "no push was tried".to_owned(),
+        },
+        (None, Some(best)) if is_behind(best) => {
+            "leads through something that does not give way".to_owned()
+        }
+        (None, Some(best)) if best > 1.0 => "ends too far from the goal by prediction".to_owned(),
+        (None, Some(_)) => "predicted to come near; others were taken further".to_owned(),
+    }
+}

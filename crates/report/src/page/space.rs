@@ -1,0 +1,113 @@
+//! What a page holds of plans in space: their strokes, and replays in which everything has six
+//! degrees of freedom.
+
+use std::sync::Arc;
+
+use pushplan::geometry::{Pose3, Vector3};
+use pushplan::{
+    outcome::{Frame, Trajectory},
+    scene::{LeverScene, Tool},
+    task::{Plan, Step, Task},
+};
+
+use super::data::{Layer, Measure, Replay, Stroke, fine, length, pose};
+use super::replay::{differences, packed};
+
+/// A stroke for each step, with the tools' indices on the page.
+pub fn strokes(plan: &Plan, tools: &[Arc<Tool>], index: &dyn Fn(&str) -> usize) -> Vec<Stroke> {
+    let stroke = |(k, step): (usize, &Step)| {
+        let ends = match (step, tools.iter().find(|tool| tool.name == step.tool())) {
+            (Step::Push(step), Some(tool)) => {
+                let motion = Plan { steps: vec![Step::Push(step.clone())] }.motion(tool);
+                motion.strokes.first().map(|stroke| [pose(&stroke.from), pose(&stroke.to)])
+            }
+            _ => None,
+        };
+        let [from, to] = ends.unwrap_or([[0; 3]; 2]);
+        Stroke { tool: index(step.tool()), from, to, lowered: k == 0 }
+    };
+    plan.steps.iter().enumerate().map(stroke).collect()
+}
+
+/// What is measured over time.
+pub fn measure(plan: &Plan) -> Measure {
+    match plan.levers() {
+        true => Measure { name: "Edge raised", axis: "edge raised, mm" },
+        false => Measure { name: "Off the goal", axis: "off the goal, mm" },
+    }
+}
+
+/// A trajectory in space, judged as `reached` or not; nothing without a frame.
+pub fn replay(
+    layer: Layer,
+    task: &Task,
+    (plan, tools): (&Plan, &[Arc<Tool>]),
+    trajectory: &Trajectory,
+    reached: bool,
+) -> Option<Replay> {
+    let sound = |frame: &&Frame| frame.state.is_finite();
+    let frames: Vec<&Frame> = trajectory.frames.iter().filter(sound).collect();
+    let objects = frames.first()?.state.poses.len();
+    let at = |frame: &Frame, k: usize| match &frame.state.space {
+        Some(space) => space[k],
+        None => Pose3::upright(frame.state.poses[k], task.scene.objects[k].z),
+    };
+    let mut strokes = Vec::new();
+    for (k, frame) in frames.iter().enumerate() {
+        while strokes.len() <= frame.stroke {
+            strokes.push(k);
+        }
+    }
+    let tool = |frame: &Frame| match (plan.steps.get(frame.stroke), frame.blade) {
+        (_, Some(blade)) => blade,
+        (Some(Step::Push(step)), None) => Pose3::upright(frame.tool, step.lift),
+        // Laid aside, out of sight below the table.
+        _ => Pose3::upright(frame.tool, -1.0),
+    };
+    let edge = edge(task, plan, tools);
+    let height = |frame: &Frame| match edge {
+        Some((object, edge)) => at(frame, object).point(edge).z,
+        None => task.goals[0].error(&frame.state),
+    };
+    let before = edge.map_or(0.0, |_| height(frames[0]));
+    Some(Replay {
+        layer,
+        by: trajectory.by.to_string(),
+        reached,
+        time: differences(frames.iter().map(|frame| fine(frame.time))),
+        strokes,
+        tool: columns(frames.iter().map(|frame| tool(frame))),
+        objects: (0..objects).map(|k| columns(frames.iter().map(|frame| at(frame, k)))).collect(),
+        graph: Vec::new(),
+        measure: frames.iter().map(|frame| length(height(frame) - before)).collect(),
+    })
+}
+
+/// The object that is levered first, and the lever point in its frame.
+fn edge(task: &Task, plan: &Plan, tools: &[Arc<Tool>]) -> Option<(usize, Vector3)> {
+    let step = plan.lever_steps().next()?;
+    let tool = tools.iter().find(|tool| tool.name == step.tool)?;
+    let scene = LeverScene::with(&task.scene, tool);
+    let start = scene.plates.get(step.lever.plate)?.start();
+    Some((step.lever.plate, start.local_point(step.lever.frame(&scene).position)))
+}
+
+/// Columns of poses in space: x and y, no heading, z, and the quaternion of the turn.
+fn columns(poses: impl Iterator<Item = Pose3>) -> Vec<Vec<i64>> {
+    let mut last = [0.0; 4];
+    let rows: Vec<[i64; 8]> = poses
+        .map(|pose| {
+            let mut turn = pose.quaternion();
+            // The same turn has two; the nearer one keeps what is drawn between frames from
+            // whirling around.
+            if turn.iter().zip(last).map(|(a, b)| a * b).sum::<f64>() < 0.0 {
+                turn = turn.map(|part| -part);
+            }
+            last = turn;
+            let [x, y, z] = [pose.position.x, pose.position.y, pose.position.z].map(length);
+            let [a, b, c, d] = turn.map(fine);
+            [x, y, 0, z, a, b, c, d]
+        })
+        .collect();
+    (0..8).map(|column| packed(rows.iter().map(|row| row[column]))).collect()
+}

@@ -1,0 +1,175 @@
+//! The table with what stands on it, and the tools.
+
+use serde_json::Value as Json;
+
+use crate::plan_text::goal_line;
+use pushplan::geometry::{Footprint, Pose, Shape, Vector};
+use pushplan::{
+    scene::{self, Blade, Carried, Plate, SHOWN_HAND, Scene, Slab},
+    task::{Plan, Task},
+};
+
+use super::data::{Body, Goal, Outline, Stage, Tool, fine, length, point, pose};
+
+/// Scene, reach and goal of a task.
+pub fn stage(task: &Task) -> Stage {
+    let goal = |goal: &pushplan::task::Goal| Goal {
+        object: goal.object,
+        at: point(goal.position),
+        // In space something else is measured than the distance.
+        tolerance: match goal.has_place()
+            && goal.area.is_none()
+            && goal.coverage.is_none()
+            && !task.in_space()
+        {
+            true => length(goal.tolerance),
+            false => 0,
+        },
+        area: goal.area.map(|area| turned(outline(&area.shape), area.pose.heading)),
+        heading: goal.heading.map(|(heading, tolerance)| [fine(heading), fine(tolerance)]),
+        middle: goal.middle.map(fine),
+        alike: goal.alike,
+        words: goal_line(task),
+    };
+    let shown = task.shown_goals();
+    Stage {
+        reach: [task.robot.reach_min, task.robot.reach_max].map(length).to_vec(),
+        goal: shown.first().map(goal),
+        further: shown.iter().skip(1).map(goal).collect(),
+        ..table(&task.scene)
+    }
+}
+
+/// The same as JSON, for whoever draws it elsewhere as the page does.
+pub fn task_stage(task: &Task) -> Json {
+    // It holds no maps with odd keys.
+    serde_json::to_value(stage(task)).unwrap_or_default()
+}
+
+/// What stands on a table, with nothing to be done.
+pub fn table(scene: &Scene) -> Stage {
+    // What leaves the plane moves as one, with all its solids; in the plane each has a pose of its own.
+    let in_space = scene.in_space();
+    let solids = scene.objects.iter().enumerate();
+    let objects = solids.filter(|(_, object)| !(in_space && object.is_part()));
+    let objects = objects.map(|(k, object)| Body {
+        name: object.name.clone(),
+        shape: outline(&object.shape),
+        height: length(object.shape.height()),
+        under: length(object.span()[0]),
+        more: match in_space {
+            true => Plate::of(scene, k).slabs[1..].iter().map(slab).collect(),
+            false => Vec::new(),
+        },
+        at: pose(&object.pose),
+    });
+    let obstacles = scene.obstacles.iter().map(|obstacle| Body {
+        name: obstacle.name.clone(),
+        shape: outline(&obstacle.shape()),
+        height: length(obstacle.size[2]),
+        under: length(obstacle.z),
+        more: Vec::new(),
+        at: pose(&obstacle.pose),
+    });
+    let regions = scene.keep_out.iter().map(|region| Body {
+        name: format!("{}: {}", region.name, region.words()),
+        shape: outline(&region.shape),
+        height: 0,
+        under: 0,
+        more: Vec::new(),
+        at: pose(&region.pose),
+    });
+    Stage {
+        objects: objects.collect(),
+        obstacles: obstacles.collect(),
+        regions: regions.collect(),
+        table: scene.table_top.map(|top| [point(top.middle), top.size.map(length)]),
+        reach: Vec::new(),
+        goal: None,
+        further: Vec::new(),
+    }
+}
+
+/// A tool as it is drawn, and as in its file.
+pub fn tool(tool: &scene::Tool, file: Json) -> Tool {
+    let parts = tool.parts().iter().map(|part| Body {
+        name: part.name.clone(),
+        shape: outline(&part.shape),
+        height: length(part.shape.height()),
+        under: 0,
+        more: Vec::new(),
+        at: pose(&part.pose),
+    });
+    let mut parts: Vec<Body> = parts.collect();
+    parts.extend(tool.blade().map(|Blade { length: long, width, thickness, .. }| Body {
+        // About its middle.
+        name: "blade".to_owned(),
+        shape: outline(&Shape::Cuboid { size: [long, width, thickness] }),
+        height: length(thickness),
+        under: length(-0.5 * thickness),
+        more: Vec::new(),
+        at: [0; 3],
+    }));
+    Tool { name: tool.name.clone(), parts, grip: pose(&tool.grip), file }
+}
+
+/// The hand that holds a tool, about its grip; of what is levered nothing is said of it.
+pub fn hand(task: &Task, tool: &scene::Tool, plan: &Plan) -> Option<Body> {
+    if task.in_space() || plan.levers() {
+        return None;
+    }
+    let Carried { footprint: Footprint::Disc { radius }, pose: at, span: [from, _] } =
+        task.robot.carried(tool, plan.lift())[0]?
+    else {
+        return None;
+    };
+    Some(Body {
+        name: "hand".to_owned(),
+        shape: Outline::Disc(length(radius)),
+        height: length(SHOWN_HAND),
+        under: length(from - plan.lift()),
+        more: Vec::new(),
+        at: pose(&at),
+    })
+}
+
+/// What is fixed on an object.
+fn slab(slab: &Slab) -> Body {
+    Body {
+        name: String::new(),
+        shape: Outline::Polygon(slab.corners.iter().map(|corner| point(*corner)).collect()),
+        height: length(slab.height),
+        under: length(slab.bottom),
+        more: Vec::new(),
+        at: [0; 3],
+    }
+}
+
+/// An outline turned about its origin by this angle, radians.
+fn turned(outline: Outline, by: f64) -> Outline {
+    let turn = Pose { heading: by, ..Pose::default() };
+    match outline {
+        Outline::Polygon(corners) => {
+            let corner = |[x, y]: [i64; 2]| {
+                let at = turn.vector(Vector::new(x as f64, y as f64));
+                [at.x.round() as i64, at.y.round() as i64]
+            };
+            Outline::Polygon(corners.into_iter().map(corner).collect())
+        }
+        disc => disc,
+    }
+}
+
+fn outline(shape: &Shape) -> Outline {
+    match shape.footprint() {
+        Footprint::Disc { radius } => Outline::Disc(length(radius)),
+        Footprint::Rectangle { half } => {
+            let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
+            let corner = |(x, y): (f64, f64)| point(Vector::new(x * half.x, y * half.y));
+            Outline::Polygon(corners.map(corner).to_vec())
+        }
+        Footprint::Polygon(polygon) => {
+            Outline::Polygon(polygon.corners().iter().map(|corner| point(*corner)).collect())
+        }
+    }
+}

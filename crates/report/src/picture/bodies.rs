@@ -1,0 +1,256 @@
+//! Objects, obstacles, the goal and the robot's reach.
+
+use std::f64::consts::TAU;
+
+use crate::svg::{Anchor, Font, Style, Svg};
+use pushplan::geometry::{Pose, Shape, Vector, wrap_angle};
+use pushplan::{
+    scene::{Object, Robot, Scene},
+    task::Goal,
+};
+
+use super::{legend::Sample, palette, view::View};
+
+/// Objects that end nearer than this to their start, metres, and turned by less than
+/// [`STILL_TURN`] have not moved: a second outline would only blur the first.
+const STILL: f64 = 5e-4;
+/// Radians, about half a degree.
+const STILL_TURN: f64 = 0.01;
+
+/// The ring that the end effector can stand in, with the robot's base in its middle.
+pub fn reach(svg: &mut Svg, view: &View, robot: &Robot) {
+    let base = view.map(Vector::zeros());
+    svg.circle(base, view.length(robot.reach_max), palette::REACH_AREA);
+    svg.circle(base, view.length(robot.reach_max), palette::REACH_RIM);
+    svg.circle(base, view.length(robot.reach_min), Style::fill("#fbfcfd"));
+    svg.circle(base, view.length(robot.reach_min), palette::REACH_RIM);
+    svg.circle(base, 4.0, Style::fill(palette::INK));
+    let font = Font::new(11.0, palette::FAINT_INK).anchored(Anchor::Middle).halo();
+    svg.text(base + Vector::new(0.0, 18.0), "robot", font);
+}
+
+/// The area where the goal object may come to rest.
+pub fn goal_area(svg: &mut Svg, view: &View, goal: &Goal) {
+    match &goal.area {
+        Some(area) => {
+            view.footprint(svg, &area.shape.footprint(), &area.pose, palette::GOAL_AREA);
+        }
+        None if goal.coverage.is_some() => outline(svg, view, goal, palette::GOAL_AREA),
+        None if goal.has_place() => {
+            svg.circle(view.map(goal.position), view.length(goal.tolerance), palette::GOAL_AREA);
+        }
+        None => {}
+    }
+}
+
+/// Rim of the tolerance, centre cross and, where a heading is asked for, its wedges.
+pub fn goal(svg: &mut Svg, view: &View, goal: &Goal) {
+    let centre = view.map(goal.position);
+    outline(svg, view, goal, palette::GOAL_RIM);
+    let placed = goal.has_place() && goal.coverage.is_none();
+    let radius = match (&goal.area, placed) {
+        (Some(area), _) => {
+            view.footprint(svg, &area.shape.footprint(), &area.pose, palette::GOAL_RIM);
+            0.0
+        }
+        (None, true) => view.length(goal.tolerance),
+        (None, false) => 0.0,
+    };
+    if goal.area.is_none() && placed {
+        svg.circle(centre, radius, palette::GOAL_RIM);
+    }
+    let arm = 7.0;
+    for side in [Vector::new(arm, 0.0), Vector::new(0.0, arm)] {
+        svg.line(centre - side, centre + side, palette::GOAL_RIM);
+    }
+    if let Some((heading, tolerance)) = goal.heading {
+        // Long enough to be seen beyond a small tolerance circle.
+        let length = radius.max(34.0) + 10.0;
+        let at = |angle: f64| centre + Vector::new(angle.cos(), -angle.sin()) * length;
+        // A wedge for each heading that counts.
+        for turn in (0..goal.alike).map(|k| TAU * k as f64 / goal.alike as f64) {
+            let wedge: Vec<Vector> = std::iter::once(centre)
+                .chain((0..=12).map(|k| at(heading + turn + tolerance * (k as f64 / 6.0 - 1.0))))
+                .collect();
+            svg.polygon(&wedge, Style::fill(palette::GOAL).opacity(0.22));
+        }
+        svg.arrow(centre, at(heading), 8.0, palette::GOAL, 1.6);
+    }
+}
+
+/// The outline that a goal's object is to cover.
+fn outline(svg: &mut Svg, view: &View, goal: &Goal, style: Style) {
+    let heading = goal.heading.map_or(0.0, |(heading, _)| heading);
+    let pose = Pose { position: goal.position, heading };
+    let pieces = goal.coverage.iter().flat_map(|coverage| coverage.outline(&pose));
+    for piece in pieces {
+        let corners: Vec<Vector> = piece.into_iter().map(|corner| view.map(corner)).collect();
+        svg.polygon(&corners, style);
+    }
+}
+
+/// The gap that a goal speaks of, as it is at the start.
+pub fn gap(svg: &mut Svg, view: &View, goal: &Goal, scene: &Scene) {
+    let object = scene.objects.get(goal.object);
+    let nearest = goal
+        .gap
+        .as_ref()
+        .zip(object)
+        .and_then(|(gap, object)| gap.nearest(&object.pose, &scene.start()));
+    if let Some(nearest) = nearest {
+        svg.line(view.map(nearest.on_first), view.map(nearest.on_second), palette::GOAL_MISS);
+    }
+}
+
+/// The edges of the table over which a goal's object is to fall.
+pub fn brink(svg: &mut Svg, view: &View, goal: &Goal) {
+    if let Some(fall) = &goal.fall {
+        for [from, to] in fall.edges().map(|edge| fall.ends(edge)) {
+            svg.line(view.map(from), view.map(to), palette::GOAL_RIM);
+        }
+    }
+}
+
+/// Where a missed goal lies from where the object ended.
+pub fn miss(svg: &mut Svg, view: &View, goal: &Goal, end: Vector) {
+    if goal.has_place() {
+        let to = goal.area.map_or(goal.position, |area| area.nearest(end));
+        svg.line(view.map(end), view.map(to), palette::GOAL_MISS);
+    }
+}
+
+/// What stands on the table and does not move, and the regions to keep out of.
+pub fn fixed(svg: &mut Svg, view: &View, scene: &Scene) {
+    for region in &scene.keep_out {
+        svg.open_titled(&format!("{}: {}", region.name, region.words()));
+        view.footprint(svg, &region.footprint(), &region.pose, palette::KEEP_OUT);
+        svg.close();
+    }
+    scene.obstacles.iter().filter(|obstacle| obstacle.z == 0.0).for_each(|obstacle| {
+        svg.open_titled(&obstacle.name);
+        view.footprint(svg, &obstacle.shape().footprint(), &obstacle.pose, palette::OBSTACLE);
+        svg.close();
+    });
+}
+
+/// What is fixed above the table, to be drawn over what passes below it.
+pub fn overhead(svg: &mut Svg, view: &View, scene: &Scene) {
+    scene.obstacles.iter().filter(|obstacle| obstacle.z > 0.0).for_each(|obstacle| {
+        svg.open_titled(&format!("{}, {:.3} m above the table", obstacle.name, obstacle.z));
+        view.footprint(svg, &obstacle.shape().footprint(), &obstacle.pose, palette::OVERHEAD);
+        svg.close();
+    });
+}
+
+/// The names of what [`fixed`] and [`overhead`] draw.
+pub fn names_of_fixed(svg: &mut Svg, view: &View, scene: &Scene) {
+    for obstacle in &scene.obstacles {
+        name(svg, view, &obstacle.name, &obstacle.shape(), &obstacle.pose);
+    }
+    for region in &scene.keep_out {
+        name(svg, view, &region.name, &region.shape, &region.pose);
+    }
+}
+
+/// What a legend says of them.
+pub fn legend_of_fixed(scene: &Scene) -> impl Iterator<Item = (Sample, String)> {
+    let standing = scene.obstacles.iter().any(|obstacle| obstacle.z == 0.0);
+    let above = scene.obstacles.iter().any(|obstacle| obstacle.z > 0.0);
+    let entries = [
+        (standing, palette::OBSTACLE, "obstacle"),
+        (above, palette::OVERHEAD, "obstacle above the table"),
+        (!scene.keep_out.is_empty(), palette::KEEP_OUT, "to be kept out of"),
+    ];
+    let there = entries.into_iter().filter(|(there, ..)| *there);
+    there.map(|(_, style, words)| (Sample::Area(style), words.to_owned()))
+}
+
+/// An object where it stood at the start.
+pub fn object(svg: &mut Svg, view: &View, object: &Object, is_goal: bool) {
+    let style = if is_goal { palette::GOAL_OBJECT } else { palette::OTHER_OBJECT };
+    svg.open_titled(&format!("{}: {:.3} kg", object.name, object.mass));
+    view.footprint(svg, &object.shape.footprint(), &object.pose, style);
+    let mark = if is_goal { "#1c6fbf" } else { "#868e96" };
+    heading_mark(svg, view, &object.shape, &object.pose, Style::stroke(mark, 1.6));
+    svg.close();
+}
+
+/// Whether an object that ended at `end` is seen to have moved.
+pub fn moved(object: &Object, end: &Pose) -> bool {
+    let turned = wrap_angle(end.heading - object.pose.heading).abs() > STILL_TURN
+        && !object.shape.is_cylinder();
+    let shifted = (end.position - object.pose.position).norm() > STILL;
+    (shifted || turned) && end.is_finite()
+}
+
+/// An object where it ended.
+pub fn final_object(svg: &mut Svg, view: &View, object: &Object, pose: &Pose, style: Style) {
+    view.footprint(svg, &object.shape.footprint(), pose, style);
+    heading_mark(svg, view, &object.shape, pose, style);
+}
+
+/// A name in the middle of a body if it fits there, else above it.
+pub fn name(svg: &mut Svg, view: &View, name: &str, shape: &Shape, pose: &Pose) {
+    let font = Font::new(12.0, palette::INK).bold().anchored(Anchor::Middle).halo();
+    let centre = view.map(pose.position);
+    let half = Vector::new((-pose.heading).cos(), (-pose.heading).sin());
+    let extent = |direction| view.length(shape.footprint().extent(direction));
+    // Half extents of the body along the page's own axes.
+    let across = extent(Vector::new(half.x, half.y));
+    let up = extent(Vector::new(-half.y, half.x));
+    let fits = font.width(name) < 2.0 * across - 6.0 && up > 9.0;
+    let rise = if fits { -4.0 } else { up + 6.0 };
+    svg.text(centre - Vector::new(0.0, rise), name, font);
+}
+
+/// A line from the centre of an object to its outline ahead; a cylinder has no front.
+fn heading_mark(svg: &mut Svg, view: &View, shape: &Shape, pose: &Pose, style: Style) {
+    let ahead = match shape {
+        Shape::Cylinder { .. } => return,
+        Shape::Cuboid { size } => size[0] / 2.0,
+        Shape::Prism { base, .. } => {
+            let ways = base.faces().filter(|(_, normal)| normal.x > 0.0);
+            ways.map(|(corner, normal)| corner.dot(&normal) / normal.x).fold(f64::MAX, f64::min)
+        }
+    };
+    let front = pose.point(Vector::new(ahead, 0.0));
+    svg.line(view.map(pose.position), view.map(front), style);
+}
+
+#[cfg(test)]
+mod tests {
+    use insta::assert_snapshot;
+
+    use super::super::view::Bounds;
+    use super::*;
+    use pushplan::geometry::ConvexPolygon;
+
+    #[test]
+    fn a_prism_has_its_corners_and_a_mark_ahead_and_a_goal_a_wedge_for_each_heading() {
+        let corners = [[0.0, 0.0], [0.09, 0.0], [0.0, 0.06]].map(|[x, y]| Vector::new(x, y));
+        let base = ConvexPolygon::new(&corners).expect("convex");
+        let wedge = Object::prism("wedge", base, 0.05).at(0.03, 0.02, 0.0);
+        let view = View::fit(Bounds { low: corners[0], high: corners[1] }, Vector::zeros());
+        let mut svg = Svg::new(100.0, 100.0, "a prism");
+        object(&mut svg, &view, &wedge, true);
+        assert_snapshot!(svg.finish(), @r##"
+        <svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100" width="100" height="100" font-family="Inter, 'Segoe UI', 'Helvetica Neue', Arial, 'DejaVu Sans', sans-serif" role="img">
+        <title>a prism</title>
+        <rect width="100" height="100" rx="8" fill="#ffffff"/>
+        <g><title>wedge: 0.400 kg</title>
+        <polygon points="215.79,215.79 604.21,215.79 215.79,-43.16" stroke-linejoin="round" stroke-linecap="round" fill="#74b3f0" stroke="#1c6fbf" stroke-width="1.6"/>
+        <line x1="345.26" y1="129.47" x2="474.74" y2="129.47" fill="none" stroke="#1c6fbf" stroke-width="1.6"/>
+        </g>
+        </svg>
+        "##);
+
+        let square = Shape::Cuboid { size: [0.08, 0.08, 0.05] };
+        let facing = Goal::new(0, [0.03, 0.02], 0.02).facing(0.2, 0.1);
+        let wedges = |wanted: &Goal| {
+            let mut svg = Svg::new(100.0, 100.0, "a goal");
+            goal(&mut svg, &view, wanted);
+            svg.finish().matches(r#"opacity="0.22""#).count()
+        };
+        assert_eq!((wedges(&facing), wedges(&facing.looking_like(&square))), (1, 4));
+    }
+}

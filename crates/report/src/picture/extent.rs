@@ -1,0 +1,67 @@
+//! What a picture must show, as a box on the table.
+
+use pushplan::geometry::Vector;
+use pushplan::{
+    outcome::Trajectory,
+    scene::{Robot, Scene},
+    task::{Goal, ToolMotion},
+};
+
+use super::view::Bounds;
+
+/// Ways are followed this far beyond the scene, metres; a wild prediction must not shrink
+/// everything else to a dot.
+const FOLLOW: f64 = 1.0;
+
+/// Everything that must be seen.
+pub struct Extent<'a> {
+    pub scene: &'a Scene,
+    pub goals: Vec<Goal>,
+    pub robot: Option<&'a Robot>,
+    pub motions: &'a [ToolMotion],
+    pub trajectories: Vec<&'a Trajectory>,
+}
+
+impl Extent<'_> {
+    pub fn bounds(&self) -> Bounds {
+        let mut bounds = Bounds::empty();
+        for object in &self.scene.objects {
+            bounds.add_body(&object.shape.footprint(), &object.pose);
+        }
+        for obstacle in &self.scene.obstacles {
+            bounds.add_body(&obstacle.shape().footprint(), &obstacle.pose);
+        }
+        for region in &self.scene.keep_out {
+            bounds.add_body(&region.footprint(), &region.pose);
+        }
+        for goal in &self.goals {
+            match &goal.area {
+                Some(area) => bounds.add_body(&area.shape.footprint(), &area.pose),
+                None if goal.has_place() => bounds.add(goal.position, goal.tolerance),
+                None => bounds.add(goal.position, 0.0),
+            }
+        }
+        if let Some(robot) = self.robot {
+            bounds.add(Vector::zeros(), robot.reach_min);
+        }
+        self.motions.iter().for_each(|motion| self.add_motion(&mut bounds, motion));
+        let near = bounds;
+        for frame in self.trajectories.iter().flat_map(|trajectory| &trajectory.frames) {
+            for (object, pose) in self.scene.objects.iter().zip(&frame.state.poses) {
+                if near.holds(pose.position, FOLLOW) {
+                    bounds.add_body(&object.shape.footprint(), pose);
+                }
+            }
+        }
+        bounds
+    }
+
+    fn add_motion(&self, bounds: &mut Bounds, motion: &ToolMotion) {
+        for pose in motion.strokes.iter().flat_map(|stroke| [&stroke.from, &stroke.to]) {
+            bounds.add((*pose * motion.tool.grip).position, 0.01);
+            for (k, part) in motion.tool.parts().iter().enumerate() {
+                bounds.add_body(&part.footprint(), &motion.tool.part_pose(k, pose));
+            }
+        }
+    }
+}

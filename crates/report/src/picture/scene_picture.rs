@@ -1,0 +1,254 @@
+//! The whole picture: title, plot, legend.
+
+use std::fmt;
+
+use crate::svg::{Font, Style, Svg};
+use pushplan::geometry::{Pose, Vector};
+use pushplan::{
+    outcome::Trajectory,
+    scene::{Engine, Robot, Scene},
+    task::{Goal, ToolMotion},
+};
+
+use super::{
+    bodies,
+    extent::Extent,
+    joints::{self, Symbol},
+    legend::{self, Sample},
+    palette, strokes,
+    view::View,
+};
+
+/// Pixels left of the plot, for the axis numbers.
+const LEFT: f64 = 46.0;
+const RIGHT: f64 = 16.0;
+
+/// Which source says where the objects went.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// The effect model that chose the plan.
+    Predicted,
+    /// A replay in an engine.
+    Simulated(Engine),
+    /// Who looked.
+    Seen,
+}
+
+impl fmt::Display for Source {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Source::Predicted => "predicted",
+            Source::Seen => "seen",
+            Source::Simulated(Engine::Planar) => "simulated in the plane",
+            Source::Simulated(Engine::Spatial) => "simulated in 3-D",
+            Source::Simulated(Engine::Upright) => "simulated in 3-D, upright",
+        })
+    }
+}
+
+/// Ways of the objects by one source.
+#[derive(Clone, Copy, Debug)]
+pub struct Track<'a> {
+    /// Who says so.
+    pub source: Source,
+    /// Frame by frame; one frame alone still shows where things ended.
+    pub trajectory: &'a Trajectory,
+}
+
+/// What to draw. Only the scene is needed; everything else is drawn where it is given.
+#[derive(Clone, Debug)]
+pub struct ScenePicture<'a> {
+    /// First line, bold.
+    pub title: String,
+    /// Lines below it.
+    pub notes: Vec<String>,
+    /// Objects at their start, obstacles.
+    pub scene: &'a Scene,
+    /// Goal circles, and which objects are drawn as those that matter.
+    pub goals: Vec<Goal>,
+    /// Reach of the end effector.
+    pub robot: Option<&'a Robot>,
+    /// Tool outlines and push arrows.
+    pub motions: &'a [ToolMotion],
+    /// Ways and ends of the objects; later ones are drawn over earlier ones.
+    pub tracks: Vec<Track<'a>>,
+}
+
+impl ScenePicture<'_> {
+    /// The picture as an SVG document.
+    pub fn to_svg(&self) -> String {
+        let mut view = View::fit(self.extent().bounds(), Vector::new(LEFT, 0.0));
+        let notes: Vec<String> =
+            self.notes.iter().flat_map(|note| palette::NOTE.wrap(note, view.size.x)).collect();
+        let top = 40.0 + 18.0 * notes.len() as f64;
+        view.corner.y = top;
+        let entries = self.entries();
+        let width = LEFT + view.size.x + RIGHT;
+        let below = top + view.size.y + 28.0;
+        let height = below + legend::height(&entries, view.size.x) + 10.0;
+
+        let mut svg = Svg::new(width, height, &self.title);
+        svg.define(palette::HATCH);
+        svg.text(Vector::new(LEFT, 27.0), &self.title, Font::new(16.0, palette::INK).bold());
+        for (k, note) in notes.iter().enumerate() {
+            let at = Vector::new(LEFT, 46.0 + 18.0 * k as f64);
+            svg.text(at, note, palette::NOTE);
+        }
+        svg.rect(view.corner, view.size, 0.0, palette::PLOT);
+        self.plot(&mut svg, &view);
+        legend::draw(&mut svg, &entries, Vector::new(LEFT, below), view.size.x);
+        svg.finish()
+    }
+
+    fn extent(&self) -> Extent<'_> {
+        Extent {
+            scene: self.scene,
+            goals: self.goals.clone(),
+            robot: self.robot,
+            motions: self.motions,
+            trajectories: self.tracks.iter().map(|track| track.trajectory).collect(),
+        }
+    }
+
+    fn plot(&self, svg: &mut Svg, view: &View) {
+        if let Some(robot) = self.robot {
+            svg.open_clipped("table", view.corner, view.size);
+            bodies::reach(svg, view, robot);
+            svg.close();
+        }
+        view.grid(svg);
+        svg.open_clipped("plot", view.corner, view.size);
+        for goal in &self.goals {
+            bodies::goal_area(svg, view, goal);
+        }
+        bodies::fixed(svg, view, self.scene);
+        let made = strokes::all(self.motions);
+        strokes::tool(svg, view, &made);
+        // Over the tool, which often ends where the object was.
+        for (k, object) in self.scene.objects.iter().enumerate() {
+            bodies::object(svg, view, object, self.is_goal(k));
+        }
+        let start: Vec<Pose> = self.scene.objects.iter().map(|object| object.pose).collect();
+        for joint in &self.scene.joints {
+            joints::joint(svg, view, &self.scene.objects, joint, &start, palette::INK);
+        }
+        for goal in &self.goals {
+            bodies::goal(svg, view, goal);
+            bodies::gap(svg, view, goal, self.scene);
+            bodies::brink(svg, view, goal);
+        }
+        for track in &self.tracks {
+            self.track(svg, view, track);
+        }
+        strokes::pushes(svg, view, &made);
+        for (_, object) in self.scene.things() {
+            bodies::name(svg, view, &object.name, &object.shape, &object.pose);
+        }
+        bodies::overhead(svg, view, self.scene);
+        bodies::names_of_fixed(svg, view, self.scene);
+        view.scale_bar(svg);
+        svg.close();
+    }
+
+    fn track(&self, svg: &mut Svg, view: &View, track: &Track) {
+        let Some(last) = track.trajectory.frames.last() else { return };
+        let style = style(track.source);
+        let mut drawn = vec![false; self.scene.objects.len()];
+        for (k, (object, end)) in self.scene.objects.iter().zip(&last.state.poses).enumerate() {
+            if !bodies::moved(object, end) {
+                continue;
+            }
+            drawn[k] = true;
+            strokes::path(svg, view, track.trajectory, k, style);
+            bodies::final_object(svg, view, object, end, style);
+            let missed = |goal: &&Goal| goal.object == k && !goal.reached(&last.state);
+            if let Some(goal) = self.goals.iter().find(missed) {
+                bodies::miss(svg, view, goal, end.position);
+            }
+        }
+        let (objects, ends) = (&self.scene.objects, &last.state.poses);
+        for joint in &self.scene.joints {
+            let [first, second] = joint.between;
+            let finite = ends[first].is_finite() && ends[second].is_finite();
+            if finite && (drawn[first] || drawn[second]) {
+                joints::joint(svg, view, objects, joint, ends, colour(track.source));
+            }
+        }
+    }
+
+    fn is_goal(&self, object: usize) -> bool {
+        self.goals.iter().any(|goal| goal.object == object)
+    }
+
+    fn entries(&self) -> Vec<(Sample, String)> {
+        let mut entries = Vec::new();
+        let mut add = |sample, words: String| entries.push((sample, words));
+        if !self.goals.is_empty() {
+            add(Sample::Area(palette::GOAL_OBJECT), "object to move, at the start".to_owned());
+        }
+        if self.scene.objects.len() > self.goals.len() {
+            add(Sample::Area(palette::OTHER_OBJECT), "other object, at the start".to_owned());
+        }
+        for (symbol, words) in Symbol::ALL {
+            if self.scene.joints.iter().any(|joint| Symbol::of(joint) == symbol) {
+                add(Sample::Joint(symbol), words.to_owned());
+            }
+        }
+        for track in &self.tracks {
+            let words = match track.source {
+                Source::Predicted => "predicted way and end",
+                Source::Seen => "seen",
+                Source::Simulated(Engine::Planar) => "simulated, planar",
+                Source::Simulated(Engine::Spatial) => "simulated, 3-D",
+                Source::Simulated(Engine::Upright) => "simulated, 3-D upright",
+            };
+            add(Sample::Way(style(track.source)), words.to_owned());
+        }
+        if let Some(goal) = self.goals.first() {
+            let heading = goal.heading.map_or(String::new(), |(_, tolerance)| {
+                format!(", \u{00b1}{:.0}\u{00b0}", tolerance.to_degrees())
+            });
+            let words = match (&goal.area, goal.has_place()) {
+                (None, true) => format!("goal, tolerance {:.0} mm{heading}", goal.tolerance * 1e3),
+                _ => format!("goal{heading}"),
+            };
+            add(Sample::Ring(palette::GOAL_RIM), words);
+        }
+        if !self.motions.is_empty() {
+            let name = strokes::tools(self.motions);
+            let look = Style::fill(palette::TOOL_FILL).outlined(palette::TOOL, 1.4);
+            let words = format!("{name} before a push");
+            add(Sample::Area(look.opacity(palette::TOOL_BEFORE)), words);
+            add(Sample::Area(look.opacity(palette::TOOL_AFTER)), format!("{name} after it"));
+            add(Sample::Push, "push of the end effector".to_owned());
+        }
+        bodies::legend_of_fixed(self.scene).for_each(|(sample, words)| add(sample, words));
+        if let Some(robot) = self.robot {
+            let words = format!("reach, {:.2} to {:.2} m", robot.reach_min, robot.reach_max);
+            add(Sample::Ring(palette::REACH_RIM), words);
+        }
+        entries
+    }
+}
+
+fn style(source: Source) -> Style {
+    let colour = colour(source);
+    match source {
+        Source::Predicted => Style::stroke(colour, 2.0).dashed("6 4"),
+        Source::Seen | Source::Simulated(Engine::Planar) => Style::stroke(colour, 2.0),
+        Source::Simulated(Engine::Spatial | Engine::Upright) => {
+            Style::stroke(colour, 1.6).dashed("2 3")
+        }
+    }
+}
+
+fn colour(source: Source) -> &'static str {
+    match source {
+        Source::Predicted => palette::PREDICTED,
+        Source::Seen | Source::Simulated(Engine::Planar) => palette::PLANAR,
+        Source::Simulated(Engine::Spatial | Engine::Upright) => palette::SPATIAL,
+    }
+}
+
+#[cfg(test)]
+mod tests;

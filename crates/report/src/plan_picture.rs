@@ -1,0 +1,128 @@
+//! Pictures of a plan: as it is, and moving.
+
+use std::sync::Arc;
+
+use pushplan::solve::RankedPlan;
+use pushplan::{
+    outcome::{Trajectory, Verdict},
+    scene::{Engine, Tool},
+    task::{Plan, Task, ToolMotion},
+};
+
+use super::document::Figure;
+use super::number::millimetres;
+use super::picture::{MovingPicture, ScenePicture, Source, SpacePicture, Track};
+use super::plan_text::{engine_name, goal_line, plan_line};
+use super::verdict::{nominal, verdict_line};
+
+/// The pictures of a plan with its ways by prediction and in its replays; `animate` adds one that
+/// moves. Their files are named `name`.
+pub fn plan_figures(
+    task: &Task,
+    plan: &RankedPlan,
+    replays: &Verdict,
+    name: &str,
+    animate: bool,
+) -> Vec<Figure> {
+    let replay = replays.nominal(Engine::Spatial).and_then(|found| found.trajectory.as_ref());
+    if task.in_space() || plan.plan.levers() {
+        let line = format!("verdict: {}", verdict_line(task, plan.verdict.as_ref()));
+        let plan = (&plan.plan, &plan.tools[..]);
+        return replay.map_or(Vec::new(), |replay| {
+            space_figures(task, plan, replay, &[line], (name, animate))
+        });
+    }
+    let motions = plan.plan.slides(&plan.tools).unwrap_or_default();
+    let still = still(task, plan, &motions, replays).to_svg();
+    let mut figures = vec![Figure::svg(name, still)];
+    if let Some(replay) = replay.filter(|_| animate) {
+        figures.push(moving_figure(
+            task,
+            &plan.plan,
+            &motions,
+            (Source::Simulated(Engine::Spatial), replay),
+            name,
+        ));
+    }
+    figures
+}
+
+/// The pictures of what leaves the plane, with lines below their title; `animate` adds one that
+/// moves.
+pub fn space_figures(
+    task: &Task,
+    (plan, tools): (&Plan, &[Arc<Tool>]),
+    trajectory: &Trajectory,
+    lines: &[String],
+    (name, animate): (&str, bool),
+) -> Vec<Figure> {
+    let notes = [format!("goal: {}", goal_line(task))].into_iter().chain(lines.iter().cloned());
+    let picture = SpacePicture {
+        title: format!("{}: {}", task.name, plan_line(plan)),
+        notes: notes.collect(),
+        scene: &task.scene,
+        plan,
+        tools,
+        goal: &task.goals[0],
+        trajectory,
+    };
+    let mut figures = vec![Figure::svg(name, picture.to_svg())];
+    if animate {
+        figures.push(Figure::svg(format!("{name}.animated"), picture.to_moving_svg()));
+    }
+    figures
+}
+
+/// The simulation of a plan in an engine as a picture that moves.
+pub fn moving_figure(
+    task: &Task,
+    plan: &Plan,
+    motions: &[ToolMotion],
+    (source, trajectory): (Source, &Trajectory),
+    name: &str,
+) -> Figure {
+    let title = match task.description.as_str() {
+        "" => &task.name,
+        description => description,
+    };
+    let picture = MovingPicture {
+        title: title.to_owned(),
+        plan: plan_line(plan),
+        source,
+        task,
+        motions,
+        trajectory,
+    };
+    Figure::svg(format!("{name}.animated"), picture.to_svg())
+}
+
+fn still<'a>(
+    task: &'a Task,
+    plan: &'a RankedPlan,
+    motions: &'a [ToolMotion],
+    replays: &'a Verdict,
+) -> ScenePicture<'a> {
+    let mut errors = vec![format!("predicted {}", millimetres(plan.outcome.error))];
+    let mut tracks = Vec::new();
+    // An object that does not move has no path to draw.
+    for evidence in nominal(replays).filter(|_| !plan.plan.is_empty()) {
+        let (engine, error) = (engine_name(evidence.engine), evidence.outcome.error);
+        errors.push(format!("{engine} {}", millimetres(error)));
+        let source = Source::Simulated(evidence.engine);
+        tracks.extend(evidence.trajectory.iter().map(|trajectory| Track { source, trajectory }));
+    }
+    let allowed = millimetres(task.goals[0].tolerance);
+    tracks.push(Track { source: Source::Predicted, trajectory: &plan.predicted });
+    ScenePicture {
+        title: format!("{}: {}", task.name, plan_line(&plan.plan)),
+        notes: vec![
+            format!("error: {}; allowed {allowed}", errors.join(", ")),
+            format!("verdict: {}", verdict_line(task, plan.verdict.as_ref())),
+        ],
+        scene: &task.scene,
+        goals: task.shown_goals(),
+        robot: Some(&task.robot),
+        motions,
+        tracks,
+    }
+}

@@ -1,0 +1,325 @@
+//! A plan and where it ends, in words and tables for the terminal.
+
+use pushplan::geometry::{Footprint, Vector, wrap_angle};
+use pushplan::{
+    outcome::{Lying, Outcome, Warning},
+    scene::{Engine, Span},
+    task::{Goal, LeverUp, Plan, Step, Task},
+};
+
+use super::{
+    document::Section,
+    number::{degrees, millimetres},
+    recorded::percent,
+    table::{
+        Align::{Left, Right},
+        Column, NONE, Table,
+    },
+};
+
+/// One line: tool, grip yaw, number of pushes, or what a lever-up does; for a plan that leaves
+/// everything as it is, just that.
+pub(super) fn plan_line(plan: &Plan) -> String {
+    let lines: Vec<String> = rows(plan).into_iter().map(row_line).collect();
+    match lines.is_empty() {
+        true => "no push".to_owned(),
+        false => lines.join(", then "),
+    }
+}
+
+/// Steps of one kind in a row with one tool, held in one way.
+fn rows(plan: &Plan) -> Vec<&[Step]> {
+    let together = |a: &Step, b: &Step| match (a, b) {
+        (Step::Push(a), Step::Push(b)) => a.tool == b.tool && a.grip_yaw == b.grip_yaw,
+        _ => false,
+    };
+    plan.steps.chunk_by(together).collect()
+}
+
+fn row_line(row: &[Step]) -> String {
+    match &row[0] {
+        Step::Push(step) => {
+            let pushes = match row.len() {
+                1 => "1 push".to_owned(),
+                count => format!("{count} pushes"),
+            };
+            format!("{}, grip yaw {}, {pushes}", step.tool, whole_degrees(step.grip_yaw))
+        }
+        Step::LeverUp(step) => {
+            let way = if step.lever.pivot < 0.0 { "prying" } else { "lifting" };
+            format!("{}, {way} by {}", step.tool, degrees(step.lever.angle))
+        }
+    }
+}
+
+/// The steps in full, a table for each tool and way to hold it.
+pub(super) fn plan_sections(plan: &Plan) -> Vec<Section> {
+    let rows = rows(plan);
+    let section = |(k, row): (usize, &&[Step])| {
+        let title = match k {
+            0 => String::new(),
+            _ => format!("Then {}, once everything rests", row_line(row)),
+        };
+        let table = match &row[0] {
+            Step::Push(_) => push_table(row),
+            Step::LeverUp(step) => lever_table(&step.lever),
+        };
+        Section { title, table, ..Section::default() }
+    };
+    rows.iter().enumerate().map(section).collect()
+}
+
+fn push_table(row: &[Step]) -> Table {
+    let pushes = row.iter().filter_map(|step| match step {
+        Step::Push(step) => Some(&step.push),
+        Step::LeverUp(_) => None,
+    });
+    Table::of(
+        pushes.enumerate(),
+        &[
+            ("push", Right, &|(k, _)| (k + 1).to_string()),
+            ("end effector starts at", Left, &|(_, push)| point(push.start)),
+            ("direction", Right, &|(_, push)| direction(push.direction)),
+            ("length", Right, &|(_, push)| millimetres(push.length)),
+            ("speed", Right, &|(_, push)| format!("{:.2} m/s", push.speed)),
+        ],
+    )
+}
+
+fn lever_table(lever: &LeverUp) -> Table {
+    Table::of(
+        [lever],
+        &[
+            ("edge", Right, &|lever| lever.place.edge.to_string()),
+            ("along it", Right, &|lever| format!("{:.0} %", 100.0 * lever.place.fraction)),
+            ("depth", Right, &|lever| millimetres(lever.depth)),
+            ("pivot", Right, &|lever| millimetres(lever.pivot)),
+            ("turn", Right, &|lever| degrees(lever.angle)),
+            ("speed", Right, &|lever| format!("{:.2} m/s", lever.speed)),
+        ],
+    )
+}
+
+/// Where a source says that a plan ends, and what went wrong on the way.
+type Row<'a> = (String, &'a Outcome, Option<&'a Warning>);
+
+/// Where the goal object ends by several sources, one row each, and what went wrong on the way.
+pub(super) fn outcome_table<'a>(
+    task: &Task,
+    outcomes: impl Iterator<Item = (String, &'a Outcome, Option<&'a Warning>)>,
+) -> Table {
+    let end = |outcome: &Outcome| {
+        let end = outcome.state.poses.get(task.goals[0].object);
+        end.map_or(NONE.to_owned(), |pose| point(pose.position))
+    };
+    let covered =
+        |outcome: &Outcome| task.goals[0].covered(&outcome.state).map_or(NONE.to_owned(), percent);
+    let heading = |outcome: &Outcome| outcome.heading_error.map_or(NONE.to_owned(), degrees);
+    let outcomes: Vec<(String, &Outcome, Option<&Warning>)> = outcomes.collect();
+    if outcomes.iter().any(|(_, outcome, _)| outcome.lying.is_some()) {
+        return lying_table(outcomes, &end);
+    }
+    if task.goals.len() > 1 {
+        return goals_table(task, outcomes);
+    }
+    let position = |(_, outcome, _): &Row| end(outcome);
+    let error = |(_, outcome, _): &Row| millimetres(outcome.error);
+    let turned = |(_, outcome, _): &Row| heading(outcome);
+    let share = |(_, outcome, _): &Row| covered(outcome);
+    let there = |(_, outcome, fault): &Row| reached(outcome, *fault);
+    let mut columns: Vec<Column<Row>> = vec![
+        ("", Left, &|(source, ..)| source.clone()),
+        ("final position", Left, &position),
+        ("error", Right, &error),
+        ("heading error", Right, &turned),
+    ];
+    if task.goals[0].coverage.is_some() {
+        columns.push(("covered", Right, &share));
+    }
+    columns.push(("reached", Left, &there));
+    Table::of(outcomes, &columns)
+}
+
+/// The same of several goals, one row for each.
+fn goals_table(task: &Task, outcomes: Vec<(String, &Outcome, Option<&Warning>)>) -> Table {
+    let rows = outcomes.into_iter().flat_map(|(source, outcome, fault)| {
+        let goal = |(k, goal): (usize, &Goal)| {
+            let first = if k == 0 { source.clone() } else { String::new() };
+            let error = (goal.error(&outcome.state), goal.heading_error(&outcome.state));
+            // What went wrong on the way went wrong for all of them.
+            let there = fault.is_none() && goal.reached(&outcome.state);
+            let there = if there { "yes".to_owned() } else { reached(outcome, fault) };
+            (first, goal.object, error, there)
+        };
+        let ends = &outcome.state.poses;
+        let known = |goal: &&Goal| goal.object < ends.len();
+        let rows: Vec<_> = task.goals.iter().filter(known).enumerate().map(goal).collect();
+        rows.into_iter().map(|row| (row, ends)).collect::<Vec<_>>()
+    });
+    Table::of(
+        rows,
+        &[
+            ("", Left, &|((source, ..), _)| source.clone()),
+            ("object", Left, &|((_, k, ..), _)| task.scene.objects[*k].name.clone()),
+            ("final position", Left, &|((_, k, ..), ends)| point(ends[*k].position)),
+            ("error", Right, &|((_, _, (error, _), _), _)| millimetres(*error)),
+            ("heading error", Right, &|((_, _, (_, turned), _), _)| {
+                turned.map_or(NONE.to_owned(), degrees)
+            }),
+            ("reached", Left, &|((.., there), _)| there.clone()),
+        ],
+    )
+}
+
+fn reached(outcome: &Outcome, fault: Option<&Warning>) -> String {
+    match (outcome.reached, fault) {
+        (true, _) => "yes".to_owned(),
+        (false, None) => "no".to_owned(),
+        (false, Some(fault)) => format!("no, {}", fault.word()),
+    }
+}
+
+/// How the goal object lies by several sources.
+fn lying_table(
+    outcomes: Vec<(String, &Outcome, Option<&Warning>)>,
+    end: &dyn Fn(&Outcome) -> String,
+) -> Table {
+    let of = |outcome: &Outcome, told: &dyn Fn(&Lying) -> String| {
+        outcome.lying.as_ref().map_or(NONE.to_owned(), told)
+    };
+    Table::of(
+        outcomes,
+        &[
+            ("", Left, &|(source, ..)| source.clone()),
+            ("edge raised", Right, &|(_, outcome, _)| {
+                of(outcome, &|lying| millimetres(lying.raised))
+            }),
+            ("at rest", Left, &|(_, outcome, _)| of(outcome, &|lying| lying.ending.to_string())),
+            ("final position", Left, &|(_, outcome, _)| end(outcome)),
+            ("reached", Left, &|(_, outcome, fault)| reached(outcome, *fault)),
+        ],
+    )
+}
+
+/// An engine in a sentence or a table.
+pub(super) fn engine_name(engine: Engine) -> &'static str {
+    match engine {
+        Engine::Planar => "planar",
+        Engine::Spatial => "3-D",
+        Engine::Upright => "3-D, upright",
+    }
+}
+
+/// One line: what must come where.
+pub(super) fn goal_line(task: &Task) -> String {
+    task.goals.iter().map(|goal| one_goal(task, goal)).collect::<Vec<_>>().join("; ")
+}
+
+fn one_goal(task: &Task, goal: &Goal) -> String {
+    let name = task.scene.objects.get(goal.object).map_or("object", |object| &object.name);
+    let heading = goal.heading.map_or(String::new(), |(heading, tolerance)| {
+        let alike = match goal.alike {
+            1 => String::new(),
+            alike => format!(", or any of {alike} that look the same"),
+        };
+        let by = goal.middle.and_then(|_| goal.turned(&task.scene.start()));
+        let by = by.map_or(String::new(), |turn| format!(", a turn by {}", degrees(-turn)));
+        format!(", heading {} \u{00b1} {}{alike}{by}", degrees(heading), degrees(tolerance))
+    });
+    let mut demands = Vec::new();
+    if let Some(obstacle) = goal.outside.and_then(|k| task.scene.obstacles.get(k)) {
+        demands.push(format!("outside of {}", obstacle.name));
+    }
+    if let Some(height) = goal.raised {
+        demands.push(format!("edge raised by {}", millimetres(height)));
+    }
+    match goal.flipped {
+        Some(true) => demands.push("upside down".to_owned()),
+        Some(false) => demands.push("on its underside".to_owned()),
+        None => {}
+    }
+    let of = goal.relative.and_then(|other| task.scene.objects.get(other));
+    let of = of.map_or(String::new(), |other| format!(" as {} sees it", other.name));
+    let at = point(goal.position);
+    if let Some(gap) = &goal.gap {
+        let [min, max] = [gap.min, gap.max].map(millimetres);
+        let far = match (gap.min > 0.0, gap.max.is_finite()) {
+            (_, false) => format!("at least {min}"),
+            (false, true) => format!("at most {max}"),
+            (true, true) => format!("{min} to {max}"),
+        };
+        demands.push(format!("{far} from {}", gap.name(&task.scene)));
+    }
+    if let Some(fall) = &goal.fall {
+        let over = fall.over.map(|edge| format!(", over its {} edge", edge.name()));
+        let part = |span: Span| format!(" from {:.3} to {:.3} m", span.low, span.high);
+        let part = fall.between.map(part).unwrap_or_default();
+        demands.push(format!("off the table{}{part}", over.unwrap_or_default()));
+    }
+    if let Some(coverage) = &goal.coverage {
+        let turn = goal.heading.map(|(heading, _)| format!(", heading {}", degrees(heading)));
+        let share = percent(coverage.share);
+        demands.push(format!(
+            "covering {share} of its outline at {at}{of}{}",
+            turn.unwrap_or_default()
+        ));
+        return format!("{name} {}", demands.join(", "));
+    }
+    match (&goal.area, goal.has_place() && !goal.is_relation()) {
+        (Some(area), _) => {
+            let outline = match area.shape.footprint() {
+                Footprint::Disc { radius } => format!("a circle of {}", millimetres(radius)),
+                Footprint::Rectangle { half } => {
+                    let [x, y] = [half.x, half.y].map(|half| millimetres(2.0 * half));
+                    format!("a rectangle of {x} by {y}")
+                }
+                Footprint::Polygon(_) => "a polygon".to_owned(),
+            };
+            demands.push(format!("in {outline} about {at}{of}{heading}"));
+        }
+        (None, true) => {
+            demands.push(format!("at {at} within {}{of}{heading}", millimetres(goal.tolerance)));
+        }
+        (None, false) if goal.heading.is_some() => {
+            demands.push(format!("{}{of}", heading.trim_start_matches(", ")));
+        }
+        _ => {}
+    }
+    let colon = if goal.in_space() { ":" } else { "" };
+    format!("{name}{colon} {}", demands.join(", "))
+}
+
+/// A position on the table.
+pub(super) fn point(position: Vector) -> String {
+    format!("({:.3}, {:.3}) m", position.x + 0.0, position.y + 0.0)
+}
+
+/// A direction, degrees in (-180, 180] as shown.
+fn direction(radians: f64) -> String {
+    // Half of the last digit shown, so that nothing is shown as -180.0.
+    let wrapped = wrap_angle(radians);
+    let half_turn = wrapped <= -(179.95f64.to_radians());
+    degrees(if half_turn { std::f64::consts::PI } else { wrapped })
+}
+
+fn whole_degrees(radians: f64) -> String {
+    format!("{:.0}\u{00b0}", radians.to_degrees() + 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pushplan::task::{Push, PushForm};
+
+    #[test]
+    fn a_plan_reads_as_a_table() {
+        let push = Push { start: Vector::new(0.42, -0.0), direction: 3.2, length: 0.2, speed: 0.1 };
+        let yaw = -std::f64::consts::FRAC_PI_2;
+        let plan = Plan::pushing("l-hook", yaw, PushForm::Placed, 0.002, [push]);
+        insta::assert_snapshot!(plan_line(&plan), @"l-hook, grip yaw -90°, 1 push");
+        insta::assert_snapshot!(plan_sections(&plan)[0].table.to_text(), @r"
+        push  end effector starts at  direction  length     speed
+           1  (0.420, 0.000) m          -176.7°  200 mm  0.10 m/s
+        ");
+    }
+}

@@ -1,0 +1,226 @@
+//! The result of solving a task.
+
+use serde_json::{Value as Json, json};
+
+use pushplan::solve::{PlanStatus, Solution};
+use pushplan::{
+    scene::{CORRECTED, ModelKind, ModelPart, ModelSpec},
+    task::{Goal, Task},
+};
+
+use super::bystanders::{self, bystanders};
+use super::document::{Document, Section};
+use super::number::seconds;
+use super::plan_text::{goal_line, plan_line, plan_sections, point};
+use super::table::{Align, Table};
+use super::verdict::{outcome_section, verdict_line};
+use super::ways::ways;
+
+/// A solved task, or the nearest plan.
+pub fn solution_document(task: &Task, solution: &Solution) -> Document {
+    let mut sections = Vec::new();
+    if let Some(best) = solution.best() {
+        sections.extend(plan_sections(&best.plan));
+        let fault = best.predicted.warnings.iter().find(|warning| warning.forbids_success());
+        let predicted = Some((best.predicted.by.to_string(), &best.outcome, fault));
+        let mut outcomes = outcome_section(task, predicted, best.verdict.as_ref());
+        outcomes.lines.extend(best.refinement.aimed_at.map(|aim| {
+            let aim = point(aim);
+            format!("aimed at {aim}, as the same plan aimed at the goal ended next to it in 3-D")
+        }));
+        let share = solution.partial.as_ref().and_then(|partial| partial.robustness);
+        outcomes.lines.extend(share.map(|share| {
+            format!("{:.0} % of the disturbed replays meet the goals that are met", 100.0 * share)
+        }));
+        outcomes.lines.extend(ways(task, &best.plan, &best.tools));
+        sections.push(outcomes);
+    }
+    if solution.statistics.levers.is_some() {
+        sections.extend(alternatives(task, solution));
+    }
+    if solution.status == PlanStatus::NoPlan {
+        sections.extend(refusals(solution));
+    }
+    sections.push(Section {
+        lines: vec![format!("plans: {}", models_words(task, solution)), cost(solution)],
+        ..Section::default()
+    });
+    Document {
+        title: format!("{}: {}", task.name, headline(task, solution)),
+        notes: vec![format!("goal: {}", goal_line(task))],
+        sections,
+        json: json(task, solution),
+        ..Document::default()
+    }
+}
+
+pub(super) fn headline(task: &Task, solution: &Solution) -> String {
+    let Some(best) = solution.best() else {
+        let step = if solution.statistics.levers.is_some() { "lever-up" } else { "push" };
+        return format!("no plan{}; no {step} can be made at all", cause(solution));
+    };
+    let plan = plan_line(&best.plan);
+    let headline = match solution.status {
+        PlanStatus::Solved if best.plan.is_empty() => {
+            "solved; the object is at the goal already".to_owned()
+        }
+        PlanStatus::Solved => format!("solved with {plan}"),
+        PlanStatus::Fragile => format!("fragile; the most robust is {plan}"),
+        PlanStatus::Partial => {
+            let (met, missed) = met(task, solution);
+            format!("partial: {met} of {} goals with {plan}; not {missed}", task.goals.len())
+        }
+        PlanStatus::NoPlan if best.plan.is_empty() => {
+            format!("no plan{}; no push brings the object nearer", cause(solution))
+        }
+        PlanStatus::NoPlan => format!("no plan{}; the nearest is {plan}", cause(solution)),
+        PlanStatus::FailedVerification => {
+            format!("failed verification; the best by prediction is {plan}")
+        }
+    };
+    match solution.stopped {
+        true => format!("{headline} (stopped before the search was over)"),
+        false => headline,
+    }
+}
+
+/// How many goals a partial plan meets, and the objects of those that it does not.
+fn met(task: &Task, solution: &Solution) -> (usize, String) {
+    let met = solution.partial.as_ref().map_or(&[][..], |partial| &partial.met);
+    let missed = task.goals.iter().enumerate().filter(|(k, _)| !met.contains(k));
+    let names: Vec<&str> =
+        missed.map(|(_, goal)| task.scene.objects[goal.object].name.as_str()).collect();
+    (met.len(), names.join(", "))
+}
+
+/// Why there is none, if that is known.
+fn cause(solution: &Solution) -> String {
+    solution.cause.as_ref().map_or(String::new(), |cause| format!(": {cause}"))
+}
+
+/// Why pushes were not tried, most frequent first.
+fn refusals(solution: &Solution) -> Option<Section> {
+    let statistics = &solution.statistics;
+    let (what, considered, mut reasons) = match &statistics.levers {
+        Some(levers) => {
+            let refused = levers.search.refused.iter();
+            let reasons: Vec<_> = refused.map(|(why, count)| (why.clone(), *count)).collect();
+            ("lever-ups", levers.search.considered, reasons)
+        }
+        None => {
+            let refused = statistics.search.infeasible.iter();
+            let reasons: Vec<_> = refused.map(|(why, count)| (why.to_string(), *count)).collect();
+            ("pushes", statistics.search.considered, reasons)
+        }
+    };
+    // Stable: equal ones keep the order of their kinds.
+    reasons.sort_by_key(|reason| std::cmp::Reverse(reason.1));
+    (!reasons.is_empty()).then(|| Section {
+        title: format!("{considered} {what} were considered; of these could not be made"),
+        table: Table::of(
+            reasons,
+            &[
+                (what, Align::Right, &|(_, count)| count.to_string()),
+                ("why", Align::Left, &|(why, _)| why.clone()),
+            ],
+        ),
+        ..Section::default()
+    })
+}
+
+/// The other plans that were verified.
+fn alternatives(task: &Task, solution: &Solution) -> Option<Section> {
+    let verified = solution.plans.iter().skip(1).filter(|plan| plan.verdict.is_some());
+    let others: Vec<_> = verified.take(7).collect();
+    (!others.is_empty()).then(|| Section {
+        title: "Other plans".to_owned(),
+        table: Table::of(
+            others,
+            &[
+                ("plan", Align::Left, &|ranked| plan_line(&ranked.plan)),
+                ("verdict", Align::Left, &|ranked| verdict_line(task, ranked.verdict.as_ref())),
+            ],
+        ),
+        ..Section::default()
+    })
+}
+
+/// What screened the many rollouts, if that is another model, and what decided among the few.
+fn screened_and_decided(solution: &Solution) -> (Option<ModelKind>, ModelKind) {
+    let models = &solution.models;
+    let by = solution.best().map(|best| &best.predicted.by.first().kind);
+    let took = |part: &&ModelPart| Some(&part.kind) == by;
+    let kind = |part: &ModelPart| part.kind.clone();
+    let decided = models.decided.parts().find(took).unwrap_or(models.decided.first());
+    let same = models.screened.parts().any(|part| part.kind == decided.kind);
+    ((!same).then(|| kind(models.screened.first())), kind(decided))
+}
+
+/// The same in words.
+pub(super) fn models_words(task: &Task, solution: &Solution) -> String {
+    let (screened, decided) = screened_and_decided(solution);
+    let crowd =
+        matches!(decided, ModelKind::Network { .. }) && task.scene.objects.len() > CORRECTED;
+    let decided = ModelSpec::from(decided);
+    let line = match screened.map(ModelSpec::from) {
+        Some(screened) => format!("screened by {screened}, decided by {decided}"),
+        None => format!("decided by {decided}"),
+    };
+    match crowd {
+        true => format!("{line}, its prior alone while more than {CORRECTED} objects move"),
+        false => line,
+    }
+}
+
+fn cost(solution: &Solution) -> String {
+    let statistics = &solution.statistics;
+    let timing = &statistics.timing;
+    format!(
+        "rollouts: {}, of which {} to decide; verified: {}; time: {}, of which search {}, \
+         refinement {}, verification {}",
+        statistics.rollouts,
+        statistics.decided,
+        statistics.verified,
+        seconds(timing.total),
+        seconds(timing.search),
+        seconds(timing.refinement),
+        seconds(timing.verification)
+    )
+}
+
+fn json(task: &Task, solution: &Solution) -> Json {
+    let plans: Vec<Json> = solution
+        .plans
+        .iter()
+        .map(|ranked| {
+            json!({
+                "plan": ranked.plan,
+                "predicted": ranked.outcome,
+                "verdict": ranked.verdict,
+                "refinement": ranked.refinement,
+            })
+        })
+        .collect();
+    json!({
+        "task": task.name,
+        "model": solution.best().map(|best| &best.predicted.by),
+        "models": solution.models,
+        "status": solution.status,
+        "stopped": solution.stopped,
+        "partial": solution.partial.as_ref().map(|partial| {
+            let name = |goal: &Goal| task.scene.objects[goal.object].name.clone();
+            let met = task.goals.iter().enumerate().map(|(k, goal)| {
+                json!({"object": name(goal), "met": partial.met.contains(&k)})
+            });
+            json!({"goals": met.collect::<Vec<Json>>(), "robustness": partial.robustness})
+        }),
+        "cause": solution.cause.as_ref().map(ToString::to_string),
+        "reason": solution.best().map(|best| verdict_line(task, best.verdict.as_ref())),
+        "moved": solution.best().map(|best| {
+            bystanders::json(&bystanders(task, Some(&best.outcome), best.verdict.as_ref()))
+        }),
+        "plans": plans,
+        "statistics": solution.statistics,
+        "warnings": solution.warnings,
+    })
+}

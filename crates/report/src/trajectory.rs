@@ -1,0 +1,42 @@
+//! Pictures of one trajectory of an action or a plan.
+
+use pushplan::asset::TrajectoryFile;
+use pushplan::{outcome::Trajectory, scene::ModelKind};
+
+use super::document::Figure;
+use super::number::millimetres;
+use super::picture::{ScenePicture, Source, Track};
+use super::plan_picture::{moving_figure, space_figures};
+use super::plan_text::plan_line;
+
+/// A picture of a trajectory, whose file is named `name`; `animate` adds one that moves.
+pub fn trajectory_figures(file: &TrajectoryFile, name: &str, animate: bool) -> Vec<Figure> {
+    let TrajectoryFile { task, tools, plan, trajectory, .. } = file;
+    let (false, Some(motions)) = (task.in_space() || plan.levers(), plan.slides(tools)) else {
+        return space_figures(task, (plan, tools), trajectory, &[], (name, animate));
+    };
+    let error = task.goals[0].error(trajectory.outcome());
+    let source = source(trajectory);
+    let picture = ScenePicture {
+        title: format!("{}: {}", task.name, plan_line(plan)),
+        notes: vec![format!("{} from the goal at rest", millimetres(error))],
+        scene: &task.scene,
+        goals: task.shown_goals(),
+        robot: Some(&task.robot),
+        motions: &motions,
+        tracks: vec![Track { source, trajectory }],
+    };
+    let mut figures = vec![Figure::svg(name, picture.to_svg())];
+    if animate {
+        figures.push(moving_figure(task, plan, &motions, (source, trajectory), name));
+    }
+    figures
+}
+
+/// Which source says where the objects went.
+fn source(trajectory: &Trajectory) -> Source {
+    match trajectory.by.first().kind {
+        ModelKind::Simulated { engine, .. } => Source::Simulated(engine),
+        _ => Source::Predicted,
+    }
+}

@@ -1,0 +1,221 @@
+//! What replays of a plan show, in words and tables.
+
+use serde_json::json;
+
+use pushplan::asset::PlanFile;
+use pushplan::{
+    outcome::{Evidence, Force, Outcome, Reason, Verdict, Warning},
+    scene::{Engine, Support},
+    task::Task,
+};
+
+use super::bystanders::{self, bystanders};
+use super::document::{Document, Section};
+use super::number::{degrees, millimetres};
+use super::plan_text::{engine_name, goal_line, outcome_table, plan_line, plan_sections};
+use super::recorded::percent;
+
+/// A plan that was replayed.
+pub fn verdict_document(file: &PlanFile, verdict: &Verdict) -> Document {
+    let predicted = file.model.as_ref().zip(file.predicted.as_ref());
+    let predicted = predicted.map(|(model, outcome)| (model.to_string(), outcome, None));
+    let outcomes = outcome_section(&file.task, predicted, Some(verdict));
+    Document {
+        title: format!("{}: {}", file.task.name, plan_line(&file.plan)),
+        notes: vec![format!("goal: {}", goal_line(&file.task))],
+        sections: plan_sections(&file.plan).into_iter().chain([outcomes]).collect(),
+        json: json!({
+            "task": file.task.name, "plan": file.plan, "verdict": verdict,
+            "reason": verdict_line(&file.task, Some(verdict)),
+            "moved": bystanders::json(&bystanders(&file.task, None, Some(verdict))),
+        }),
+        ..Document::default()
+    }
+}
+
+/// What a reader should know of the nominal replays, once each and with the engines that say so.
+pub fn replay_warnings(verdict: &Verdict) -> Vec<String> {
+    let mut found: Vec<(&Warning, Vec<&'static str>)> = Vec::new();
+    for evidence in nominal(verdict) {
+        for warning in &evidence.warnings {
+            let name = engine_name(evidence.engine);
+            match found.iter_mut().find(|(known, _)| *known == warning) {
+                Some((_, engines)) if engines.contains(&name) => {}
+                Some((_, engines)) => engines.push(name),
+                None => found.push((warning, vec![name])),
+            }
+        }
+    }
+    let line =
+        |(warning, engines): (&Warning, Vec<&str>)| format!("{}: {warning}", engines.join(" and "));
+    found.into_iter().map(line).collect()
+}
+
+/// Where a plan ends by prediction (which model, where, what goes wrong) and in both engines, and
+/// what the verdict is.
+pub(super) fn outcome_section(
+    task: &Task,
+    predicted: Option<(String, &Outcome, Option<&Warning>)>,
+    verdict: Option<&Verdict>,
+) -> Section {
+    let predicted =
+        predicted.map(|(model, outcome, fault)| (format!("predicted ({model})"), outcome, fault));
+    let replayed = verdict.into_iter().flat_map(nominal);
+    let replayed = replayed.map(|e| (engine_name(e.engine).to_owned(), &e.outcome, e.fault()));
+    let reached = predicted.as_ref().is_some_and(|(_, outcome, _)| outcome.reached);
+    let mut lines = vec![match verdict {
+        None if reached => "verdict: not verified, as it was stopped before".to_owned(),
+        _ => format!("verdict: {}", verdict_line(task, verdict)),
+    }];
+    lines.extend(verdict.and_then(force_line).map(|force| format!("force: {force}")));
+    let moved = bystanders(task, predicted.as_ref().map(|(_, outcome, _)| *outcome), verdict);
+    lines.extend(bystanders::line(&moved));
+    Section {
+        table: outcome_table(task, predicted.into_iter().chain(replayed)),
+        lines,
+        ..Section::default()
+    }
+}
+
+/// What the verdict is, and why, in a sentence.
+pub(super) fn verdict_line(task: &Task, verdict: Option<&Verdict>) -> String {
+    let Some(verdict) = verdict else {
+        return "not verified, as the prediction misses the goal".to_owned();
+    };
+    let engines: Vec<&str> = nominal(verdict).map(|e| engine_name(e.engine)).collect();
+    match &verdict.reason {
+        None => {
+            let simulations = match engines[..] {
+                [one] => format!("the {one} simulation"),
+                _ => "both simulations".to_owned(),
+            };
+            format!("passed: reaches the goal in {simulations}{}", disturbed(verdict))
+        }
+        Some(Reason::Forbidden(what)) => format!("failed: {what}"),
+        Some(Reason::GoesWrong { engine, fault }) => {
+            format!("failed: in the {} simulation {fault}", engine_name(*engine))
+        }
+        Some(Reason::Misses { engine, error, heading_error }) => {
+            let mut by = Vec::new();
+            let covered =
+                verdict.nominal(*engine).and_then(|e| task.goals[0].covered(&e.outcome.state));
+            if let (Some(covered), Some(asked)) = (covered, &task.goals[0].coverage) {
+                let [covered, asked] = [covered, asked.share].map(percent);
+                return format!(
+                    "failed: covers {covered} of its outline, not {asked}, in the {} simulation",
+                    engine_name(*engine)
+                );
+            }
+            if *error > task.goals[0].tolerance {
+                let allowed = millimetres(task.goals[0].tolerance);
+                by.push(format!("{} ({allowed} allowed)", millimetres(*error)));
+            }
+            if let (Some(turned), Some((_, allowed))) = (heading_error, task.goals[0].heading)
+                && *turned > allowed
+            {
+                by.push(format!("{} ({} allowed)", degrees(*turned), degrees(allowed)));
+            }
+            let ended = verdict.nominal(*engine).map_or(&[][..], |e| &e.outcome.further);
+            for (goal, miss) in task.goals.iter().skip(1).zip(ended) {
+                if miss.error > goal.tolerance {
+                    let name = task.scene.objects.get(miss.object).map_or("?", |o| &o.name);
+                    let [off, allowed] = [miss.error, goal.tolerance].map(millimetres);
+                    by.push(format!("{off} of {name} ({allowed} allowed)"));
+                }
+            }
+            let by = match by.is_empty() {
+                true => String::new(),
+                false => format!(" by {}", by.join(" and ")),
+            };
+            format!("failed: misses the goal{by} in the {} simulation", engine_name(*engine))
+        }
+        Some(Reason::NeverOn { engine, support, replays }) => format!(
+            "fragile: works as written, but never where objects rest on {}: in {replays} of {replays} \
+             {} replays with small errors",
+            resting(support),
+            engine_name(*engine)
+        ),
+        Some(Reason::Fragile { engine, reached, replays, wanted }) => format!(
+            "fragile: works as written, but with small errors of starts and frictions {reached} of \
+             {replays} {} replays reach the goal ({:.0} % asked for)",
+            engine_name(*engine),
+            100.0 * wanted
+        ),
+    }
+}
+
+/// What objects rest on.
+fn resting(support: &Support) -> String {
+    match support {
+        Support::Even => "all of their underside".to_owned(),
+        Support::Corners => "their corners or rims".to_owned(),
+        Support::Spread(share) => format!("points at {:.0} % of their corners", 100.0 * share),
+        Support::Points(_) => "points".to_owned(),
+    }
+}
+
+/// How many of the disturbed replays reach the goal.
+fn disturbed(verdict: &Verdict) -> String {
+    let mut found = Vec::new();
+    for engine in Engine::ALL {
+        let count = verdict.disturbed(engine).count();
+        let reached = verdict.disturbed(engine).filter(|e| e.outcome.reached).count();
+        if count > 0 {
+            found.push(format!("{reached} of {count} in the {} one", engine_name(engine)));
+        }
+    }
+    match found.is_empty() {
+        true => String::new(),
+        false => format!("; of the disturbed replays {} do", found.join(" and ")),
+    }
+}
+
+/// How hard the tool presses when the plan is carried out as written.
+fn force_line(verdict: &Verdict) -> Option<String> {
+    let forces: Vec<Force> = nominal(verdict).filter_map(|evidence| evidence.force).collect();
+    let most = |of: fn(&Force) -> f64| forces.iter().map(of).reduce(f64::max);
+    let (lasting, peak) = (most(|force| force.lasting)?, most(|force| force.peak)?);
+    Some(format!("about {lasting:.0} N lasting, {peak:.0} N at first touch"))
+}
+
+/// The nominal replays, planar first.
+pub(super) fn nominal(verdict: &Verdict) -> impl Iterator<Item = &Evidence> {
+    Engine::ALL.into_iter().filter_map(|engine| verdict.nominal(engine))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pushplan::{outcome::Disturbance, scene::State};
+
+    #[test]
+    fn a_warning_of_both_engines_is_said_once() {
+        let landed = || Warning::SetDownOn { object: "can".to_owned(), stroke: 1 };
+        let toppled = Warning::Toppled { object: "can".to_owned() };
+        let outcome = Outcome {
+            state: State::default(),
+            error: 0.1,
+            heading_error: None,
+            further: Vec::new(),
+            reached: false,
+            lying: None,
+        };
+        let evidence = |engine, warnings| Evidence {
+            engine,
+            disturbance: Disturbance::Nominal,
+            outcome: outcome.clone(),
+            warnings,
+            force: None,
+            trajectory: None,
+        };
+        let evidence = vec![
+            evidence(Engine::Planar, vec![landed()]),
+            evidence(Engine::Spatial, vec![landed(), toppled]),
+        ];
+        let verdict = Verdict::judge(Vec::new(), evidence, 0.75);
+        insta::assert_snapshot!(replay_warnings(&verdict).join("\n"), @r"
+        planar and 3-D: the tool came down on can for push 2 instead of next to it, so the plan does not work as written
+        3-D: can toppled; its pose on the table means little; push lower or slower
+        ");
+    }
+}

@@ -1,0 +1,30 @@
+//! How the tool gets from one push to the next, where it does not go straight.
+
+use std::sync::Arc;
+
+use pushplan::{
+    scene::Tool,
+    task::{Plan, PushStep, Task, Way},
+};
+
+use super::plan_text::point;
+
+/// A line for each way between pushes that leads around something.
+pub(super) fn ways(task: &Task, plan: &Plan, tools: &[Arc<Tool>]) -> Vec<String> {
+    let Some(tool) = tools.first().filter(|_| !plan.levers()) else { return Vec::new() };
+    let pushes: Vec<_> = plan.push_steps().collect();
+    let around = |(k, pair): (usize, &[&PushStep])| {
+        let Way::Around { what, by } = task.way_between(&task.scene, tool, [pair[0], pair[1]])?
+        else {
+            return None;
+        };
+        let by: Vec<String> = by.into_iter().map(point).collect();
+        let (height, by) = (task.robot.travel, by.join(", "));
+        let (from, to) = (k + 1, k + 2);
+        Some(format!(
+            "between pushes {from} and {to} the tool goes {height:.2} m above the table around {what}, by \
+             {by}"
+        ))
+    };
+    pushes.windows(2).enumerate().filter_map(around).collect()
+}
