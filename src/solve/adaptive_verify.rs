@@ -1,76 +1,144 @@
-//! How often plans work: in the plane first, then in 3-D where that can matter, and the best until it is clear.
+//! Verification of attempts: in the plane first, then in 3-D where that can matter, and the best until its
+//! share of successes is clear.
 
-use crate::verify::Verifier;
-use crate::watch::Instant;
+use rayon::prelude::*;
 
-use super::attempts::Perturbed;
+use crate::outcome::Verdict;
+use crate::task::Task;
+use crate::verify::{Verifier, VerifySettings};
+
+use super::attempts::{Attempt, Attempts, Replays};
 use super::grade::{Class, Grade};
-use super::solving::Solving;
+use super::query::Query;
 
-impl Solving<'_> {
-    /// Replays a plan with disturbances, and says what it is worth. One that is not safe in the plane is
-    /// replayed there alone: it is worth no more than that, see [`Self::best_of_all`].
-    pub(super) fn disturb(&mut self, k: usize) -> Class {
-        let class = self.replay(k, &self.verifier.clone().in_plane(), Perturbed::InPlane);
-        if class == Class::Safe { self.complete(k) } else { class }
+/// Maximum number of plans of one batch that are replayed with perturbations, best first: the others
+/// miss by more.
+const PERTURBED_AT_ONCE: usize = 3;
+
+/// Replays of attempts, and their counts.
+pub(super) struct Verification<'a> {
+    query: Query<'a>,
+    verifier: Verifier<'a>,
+    /// Plans that were replayed.
+    pub verified: usize,
+    /// Plans that were replayed with perturbations.
+    pub perturbed: usize,
+    /// Where nothing is to be verified: whether any plan would be worth it. The search ends with the first.
+    pub promising: Option<bool>,
+}
+
+impl<'a> Verification<'a> {
+    /// Starts counting at zero; every plan is replayed `perturbed` times with perturbations.
+    pub fn new(query: Query<'a>, perturbed: usize) -> Self {
+        let settings = VerifySettings { disturbed: perturbed, seed: query.planner.seed() };
+        let verifier = Verifier::new(settings).watched(query.watch);
+        Self { query, verifier, verified: 0, perturbed: 0, promising: None }
     }
 
-    /// Replays a plan in 3-D, too.
-    fn complete(&mut self, k: usize) -> Class {
-        self.replay(k, &self.verifier.clone(), Perturbed::InBoth)
+    /// Replays plans as written, in parallel, and the best of those that work with perturbations,
+    /// until one is safe. Keeps the best.
+    pub fn verify(&mut self, attempts: &mut Attempts, indices: &[usize]) {
+        if let Some(promising) = &mut self.promising {
+            *promising = true;
+            return;
+        }
+        let Query { task, situation, watch, .. } = self.query;
+        let verdicts: Vec<Verdict> = indices
+            .par_iter()
+            .map(|&k| {
+                let Attempt { tools, plan, .. } = &attempts.list[k];
+                self.verifier.nominal(task, situation, tools, plan)
+            })
+            .collect();
+        self.verified += indices.len();
+        let mut working = Vec::new();
+        for (&k, verdict) in indices.iter().zip(verdicts) {
+            if verdict.was_stopped() {
+                continue;
+            }
+            if verdict.works() {
+                working.push((Grade::of(task, &verdict), k));
+            }
+            attempts.list[k].verdict = Some(verdict);
+        }
+        // Stable, so equal ones keep the order of their predictions.
+        let cost = |k: usize| attempts.list[k].cost;
+        working.sort_by(|a, b| a.0.before(&b.0, cost(a.1).cmp(&cost(b.1))));
+        for (_, k) in working.into_iter().take(PERTURBED_AT_ONCE) {
+            self.perturbed += 1;
+            if self.perturb(&mut attempts.list[k]) == Class::Safe || watch.cancelled() {
+                break;
+            }
+        }
+        self.keep_best(attempts);
     }
 
-    fn replay(&mut self, k: usize, verifier: &Verifier, disturbed: Perturbed) -> Class {
-        let tried = &mut self.tried[k];
-        tried.disturbed = disturbed;
-        let Some(verdict) = tried.verdict.take() else { return Class::Fails };
-        let (tools, plan) = (&tried.tools, &tried.plan);
-        let verdict = verifier.disturb(self.task, self.situation, tools, plan, verdict);
-        let class = Grade::of(self.task, &verdict).class;
-        tried.verdict = Some(verdict);
-        class
-    }
-
-    /// Replays the best plan, if it is of this class or a better one, with further disturbances until it
+    /// Replays the best plan, if it is of this class or a better one, with further perturbations until it
     /// is clear how often it works, as `verify` does. Where it works less often than it seemed, another
     /// may be the best. As long as fragile plans are not wanted, one that fails on a support is left early.
-    pub(super) fn settle(&mut self, least: Class) {
-        let began = Instant::now();
-        let asked = self.planner.settings().disturbed > 0;
-        while let Some((grade, k)) = self.best
-            && asked
+    pub fn settle(&self, attempts: &mut Attempts, least: Class) {
+        let wanted = self.query.planner.settings().disturbed > 0;
+        while let Some((grade, k)) = attempts.best
+            && wanted
             && grade.class >= least
-            && self.tried[k].disturbed != Perturbed::Settled
-            && !self.watch.cancelled()
+            && attempts.list[k].replays != Replays::Settled
+            && !self.query.watch.cancelled()
         {
             let verifier = self.verifier.clone().until_clear();
             let seeking = least > Class::Fragile;
             let verifier = if seeking { verifier.giving_up() } else { verifier };
-            if self.replay(k, &verifier, Perturbed::Settled) < least {
-                self.tried[k].disturbed = Perturbed::InBoth;
+            let attempt = &mut attempts.list[k];
+            if self.replay(attempt, &verifier, Replays::Settled) < least {
+                attempt.replays = Replays::InBoth;
             }
-            self.best = self.best_of_all();
+            self.keep_best(attempts);
         }
-        self.statistics.timing.verification += began.elapsed().as_secs_f64();
     }
 
-    /// The best of the plans that were replayed with disturbances; the first of equal ones. It has been
-    /// replayed in 3-D, which the others that seem no better need not be.
-    pub(super) fn best_of_all(&mut self) -> Option<(Grade, usize)> {
-        loop {
-            let graded = self.tried.iter().enumerate().filter_map(|(k, tried)| {
-                let replayed = tried.verdict.as_ref().filter(|_| tried.disturbed != Perturbed::No);
-                Some((Grade::of(self.task, replayed?), k))
-            });
-            let better = |best: (Grade, usize), next: (Grade, usize)| {
-                if next.0.compare(&best.0).is_gt() { next } else { best }
-            };
-            match graded.reduce(better) {
-                Some((_, k)) if self.tried[k].disturbed == Perturbed::InPlane => {
-                    self.complete(k);
-                }
-                best => return best,
-            }
+    /// Replays a plan by the goal of `task`: as written, and with perturbations if it passes.
+    pub fn verdict(&self, task: &Task, attempt: &Attempt) -> Verdict {
+        let (situation, tools, plan) = (self.query.situation, &attempt.tools, &attempt.plan);
+        let nominal = self.verifier.nominal(task, situation, tools, plan);
+        match nominal.passed {
+            true => self.verifier.disturb(task, situation, tools, plan, nominal),
+            false => nominal,
         }
+    }
+
+    /// Replays a plan with perturbations and returns its class. One that is not safe in the plane is
+    /// replayed there alone: it is worth no more than that, see [`Self::keep_best`].
+    fn perturb(&self, attempt: &mut Attempt) -> Class {
+        match self.replay(attempt, &self.verifier.clone().in_plane(), Replays::InPlane) {
+            Class::Safe => self.complete(attempt),
+            class => class,
+        }
+    }
+
+    /// Replays a plan in 3-D, too.
+    fn complete(&self, attempt: &mut Attempt) -> Class {
+        self.replay(attempt, &self.verifier, Replays::InBoth)
+    }
+
+    fn replay(&self, attempt: &mut Attempt, verifier: &Verifier, replays: Replays) -> Class {
+        let Query { task, situation, .. } = self.query;
+        attempt.replays = replays;
+        let Some(verdict) = attempt.verdict.take() else { return Class::Fails };
+        let verdict = verifier.disturb(task, situation, &attempt.tools, &attempt.plan, verdict);
+        let class = Grade::of(task, &verdict).class;
+        attempt.verdict = Some(verdict);
+        class
+    }
+
+    /// Keeps the best of the attempts that were replayed with perturbations. It has been replayed in 3-D,
+    /// which the others that seem no better need not be.
+    fn keep_best(&self, attempts: &mut Attempts) {
+        attempts.best = loop {
+            match attempts.graded_best(&self.query) {
+                Some((_, k)) if attempts.list[k].replays == Replays::InPlane => {
+                    self.complete(&mut attempts.list[k]);
+                }
+                best => break best,
+            }
+        };
     }
 }

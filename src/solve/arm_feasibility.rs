@@ -1,44 +1,32 @@
-//! What an arm makes of plans: those that it cannot carry out are not verified.
+//! Feasibility of plans for a robot arm: an infeasible plan is not verified.
 
 use crate::arm::follow;
 use crate::plan::Evaluation;
+use crate::scene::{ArmFault, JointTrajectory};
 use crate::verify;
 
-use super::solving::Solving;
-use super::{Cause, PlanStatus, RankedPlan};
+use super::RankedPlan;
+use super::query::Query;
 
-impl Solving<'_> {
-    /// Whether the task's arm, if it has one, carries a plan out, as far as predictions say where objects
-    /// are. Notes what it cannot.
-    pub(super) fn is_for_arm(&mut self, evaluation: &Evaluation) -> bool {
-        let Some(arm) = self.task.arm.as_deref() else { return true };
-        let (tools, plan) = (evaluation.tools(&self.workspace), evaluation.plan(&self.workspace));
-        // Between pushes they are about where they were.
-        let mut states = vec![self.situation.start.clone(); plan.steps.len()];
-        states.push(evaluation.outcome.clone());
-        let scene = &*self.situation.scene;
-        match follow(self.task, (arm, scene), &tools[0], &plan, &states) {
-            Ok(_) => true,
-            Err((_, fault)) => {
-                self.unable.get_or_insert(fault);
-                false
-            }
-        }
-    }
+/// Returns why the task's arm, if it has one, cannot carry a plan out, with objects where predictions put
+/// them.
+pub(super) fn arm_fault(query: &Query, evaluation: &Evaluation) -> Option<ArmFault> {
+    let (task, workspace) = (query.task, query.workspace());
+    let arm = task.arm.as_deref()?;
+    let (tools, plan) = (evaluation.tools(&workspace), evaluation.plan(&workspace));
+    // Between pushes they are about where they were.
+    let mut states = vec![query.situation.start.clone(); plan.steps.len()];
+    states.push(evaluation.outcome.clone());
+    let scene = &*query.situation.scene;
+    follow(task, (arm, scene), &tools[0], &plan, &states).err().map(|(_, fault)| fault)
+}
 
-    /// Why there is no plan, where there would be one without the arm.
-    pub(super) fn arm_cause(&self, status: PlanStatus) -> Option<Cause> {
-        let fault = self.unable.clone().filter(|_| status == PlanStatus::NoPlan)?;
-        Some(Cause::Arm { fault })
+/// Returns the arm's motion for a plan, if the task has an arm.
+pub(super) fn joints(query: &Query, ranked: &RankedPlan) -> Option<JointTrajectory> {
+    if ranked.plan.is_empty() {
+        return None;
     }
-
-    /// Adds to plans how the arm carries them out.
-    pub(super) fn add_joints(&self, plans: &mut [RankedPlan]) {
-        for ranked in plans.iter_mut().filter(|ranked| !ranked.plan.is_empty()) {
-            let evidence = ranked.verdict.as_ref().map_or(&[][..], |verdict| &verdict.evidence);
-            let (task, situation) = (self.task, self.situation);
-            let made = verify::joints(task, situation, &ranked.tools[0], &ranked.plan, evidence);
-            ranked.joints = made.and_then(Result::ok);
-        }
-    }
+    let evidence = ranked.verdict.as_ref().map_or(&[][..], |verdict| &verdict.evidence);
+    let (task, situation) = (query.task, query.situation);
+    verify::joints(task, situation, &ranked.tools[0], &ranked.plan, evidence)?.ok()
 }

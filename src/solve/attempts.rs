@@ -1,99 +1,204 @@
-//! Plans that were tried: from refined candidates, and doing nothing.
+//! Attempts: plans from refined candidates or simulated lever-ups, and the plan without steps.
 
 use std::sync::Arc;
 
-use crate::plan::{Candidate, Cost, Refined, bare, behind, is_behind};
-use crate::{
-    outcome::Verdict,
-    scene::Tool,
-    task::{Goal, Plan},
-};
+use crate::outcome::{Outcome, Trajectory, Verdict};
+use crate::plan::{Candidate, Cost, Refined, SearchResult, bare, behind, is_behind};
+use crate::scene::{ArmFault, Tool};
+use crate::task::{Goal, Plan};
 
 use super::Refinement;
-use super::solving::Solving;
+use super::grade::{Class, Grade};
+use super::pattern::PushPattern;
+use super::query::Query;
+use super::rank::distinct;
 
-/// A plan that was refined, and verified where it was worth that.
+/// A plan, verified where it was worth that.
 pub(super) struct Attempt {
     pub plan: Plan,
-    /// Those that it names, each once; of doing nothing the first one.
+    /// Tools of the plan, each once; of the plan without steps the first one.
     pub tools: Vec<Arc<Tool>>,
-    /// What the plan was made from; `None` for the plan without pushes.
+    /// Source of a plan of pushes; `None` for the plan without steps and for lever-ups.
     pub candidate: Option<Candidate>,
-    /// What it was refined towards: the task's goals, or some next to them.
+    /// Goals of the refinement: the task's, or some next to them.
     pub aims: Vec<Goal>,
     pub refinement: Refinement,
+    /// Predicted error in units of the tolerance; 0 for a plan with a `prediction`.
     pub score: f64,
-    /// What is compared where it is as near as another.
+    /// Tie-break among plans that end equally near.
     pub cost: Cost,
+    /// Coarse simulation of a plan that leaves the plane; others are predicted when they are reported.
+    pub prediction: Option<(Trajectory, Outcome)>,
     pub verdict: Option<Verdict>,
-    pub disturbed: Perturbed,
+    pub replays: Replays,
 }
 
-/// How a plan was replayed with disturbances.
+/// Extent of a plan's perturbed replays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Perturbed {
-    No,
+pub(super) enum Replays {
+    None,
     /// In the planar engine alone.
     InPlane,
     InBoth,
-    /// Until it was clear how often it works.
+    /// Until the share of successes is clear.
     Settled,
 }
 
-impl Solving<'_> {
-    /// What was made of a candidate that was refined towards `aims`.
-    pub(super) fn tried(&self, refined: Refined, aims: &[Goal]) -> Attempt {
+/// All attempts so far, in the order in which they were made.
+#[derive(Default)]
+pub(super) struct Attempts {
+    pub list: Vec<Attempt>,
+    /// The best attempt that was replayed with perturbations.
+    pub best: Option<(Grade, usize)>,
+    /// Patterns of plans whose replays missed the goal by far.
+    pub refuted: Vec<PushPattern>,
+    /// Fault of the first plan that was not verified because the arm cannot carry it out.
+    pub arm_fault: Option<ArmFault>,
+}
+
+impl Attempt {
+    /// The attempt that a candidate becomes after its refinement towards `aims`.
+    pub fn refined(query: &Query, refined: Refined, aims: &[Goal]) -> Self {
         let Refined { best, off: [before, after], rounds, .. } = refined;
-        Attempt {
+        let (task, workspace) = (query.task, query.workspace());
+        Self {
             refinement: Refinement {
                 before,
                 after,
-                aimed_at: (!self.task.goals.iter().eq(aims) && !aims[0].is_relation())
+                aimed_at: (!task.goals().eq(aims) && !aims[0].is_relation())
                     .then(|| aims[0].position),
                 rounds: rounds.into_iter().skip(1).map(bare).collect(),
             },
             aims: aims.to_vec(),
-            // Of our goals, whatever it was refined towards.
+            // Relative to the task's goals, whatever it was refined towards.
             score: match best.score {
-                score if is_behind(score) => behind(self.task.score(&best.outcome)),
-                score if score.is_finite() => self.task.score(&best.outcome),
+                score if is_behind(score) => behind(task.score(&best.outcome)),
+                score if score.is_finite() => task.score(&best.outcome),
                 score => score,
             },
-            cost: Cost::of(&best, &self.workspace, self.situation),
+            cost: Cost::of(&best, &workspace, query.situation),
+            prediction: None,
             verdict: None,
-            disturbed: Perturbed::No,
-            plan: best.plan(&self.workspace),
-            tools: best.tools(&self.workspace),
+            replays: Replays::None,
+            plan: best.plan(&workspace),
+            tools: best.tools(&workspace),
             candidate: Some(best.candidate),
         }
     }
 
-    /// Doing nothing, which is a plan too.
-    pub(super) fn without_pushes(&self) -> Attempt {
-        let start = &self.situation.start;
-        let error = self.task.goals[0].error(start);
-        Attempt {
-            plan: Plan::default(),
-            tools: self.workspace.tools.iter().take(1).cloned().collect(),
+    /// The plan without steps.
+    pub fn idle(query: &Query) -> Self {
+        let start = &query.situation.start;
+        let score = query.task.score(start);
+        let tools = query.tools.iter().take(1).cloned().collect();
+        let error = query.task.goal.error(start);
+        Self { score, aims: query.goals(), ..Self::new(Plan::default(), tools, error) }
+    }
+
+    /// A plan that was simulated, not refined.
+    pub fn simulated(
+        plan: Plan,
+        tools: Vec<Arc<Tool>>,
+        (trajectory, outcome): (Trajectory, Outcome),
+    ) -> Self {
+        let error = outcome.error;
+        Self { prediction: Some((trajectory, outcome)), ..Self::new(plan, tools, error) }
+    }
+
+    fn new(plan: Plan, tools: Vec<Arc<Tool>>, error: f64) -> Self {
+        Self {
+            plan,
+            tools,
             candidate: None,
-            aims: self.task.goals.clone(),
+            aims: Vec::new(),
             refinement: Refinement {
                 before: error,
                 after: error,
                 aimed_at: None,
                 rounds: Vec::new(),
             },
-            score: self.task.score(start),
+            score: 0.0,
             cost: Cost::default(),
+            prediction: None,
             verdict: None,
-            disturbed: Perturbed::No,
+            replays: Replays::None,
         }
+    }
+
+    /// Returns the strength of the evidence that it works: its robustness beyond 2 if it works as written, 1
+    /// if it fails, 0 if it was not verified.
+    pub fn evidence(&self) -> f64 {
+        match &self.verdict {
+            Some(verdict) if verdict.works() => 2.0 + verdict.robustness.unwrap_or(0.0),
+            Some(_) => 1.0,
+            None => 0.0,
+        }
+    }
+
+    /// Returns `true` if it works as written.
+    pub fn works(&self) -> bool {
+        self.verdict.as_ref().is_some_and(Verdict::works)
     }
 }
 
-/// What the model that decides made of a candidate after the one that screens had refined it.
-pub(super) fn after(screened: &Refined, decided: Refined) -> Refined {
-    let mut rounds = screened.rounds.clone();
-    rounds.extend(decided.rounds);
-    Refined { off: [screened.off[0], decided.off[1]], rounds, ..decided }
+impl Attempts {
+    /// Keeps an attempt and returns its index.
+    pub fn push(&mut self, attempt: Attempt) -> usize {
+        self.list.push(attempt);
+        self.list.len() - 1
+    }
+
+    /// Returns `true` if any attempt was verified.
+    pub fn any_verified(&self) -> bool {
+        self.list.iter().any(|attempt| attempt.verdict.is_some())
+    }
+
+    /// Returns the class of the best attempt, [`Class::Fails`] if there is none.
+    pub fn best_class(&self) -> Class {
+        self.best.map_or(Class::Fails, |(grade, _)| grade.class)
+    }
+
+    /// Returns `true` if the best attempt works as written.
+    pub fn works(&self) -> bool {
+        self.best_class() > Class::Fails
+    }
+
+    /// Returns the best of the attempts that were replayed with perturbations; the first of equal ones.
+    pub fn graded_best(&self, query: &Query) -> Option<(Grade, usize)> {
+        let graded = self.list.iter().enumerate().filter_map(|(k, attempt)| {
+            let replayed = attempt.verdict.as_ref().filter(|_| attempt.replays != Replays::None);
+            Some((Grade::of(query.task, replayed?), k))
+        });
+        let better = |best: (Grade, usize), next: (Grade, usize)| {
+            if next.0.compare(&best.0).is_gt() { next } else { best }
+        };
+        graded.reduce(better)
+    }
+
+    /// Returns `true` if a candidate begins like a refuted plan.
+    pub fn is_refuted(&self, candidate: &Candidate) -> bool {
+        self.refuted.iter().any(|pattern| pattern.begins(candidate))
+    }
+
+    /// Chooses up to `count` candidates of different kinds to refine, best first, none that begins like
+    /// a refuted plan or is a variant of one of `known`, as long as there are others.
+    pub fn choose(
+        &self,
+        found: &[SearchResult],
+        count: usize,
+        known: &[&Candidate],
+        most_behind: usize,
+    ) -> Vec<Candidate> {
+        let others: Vec<SearchResult> = found
+            .iter()
+            .filter(|one| !self.is_refuted(&one.candidate))
+            .filter(|one| !known.iter().any(|known| one.candidate.is_variant_of(known)))
+            .cloned()
+            .collect();
+        if others.is_empty() && known.is_empty() {
+            distinct(found, count, most_behind)
+        } else {
+            distinct(&others, count, most_behind)
+        }
+    }
 }

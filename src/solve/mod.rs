@@ -1,47 +1,54 @@
-//! The planner: search, refine, verify in batches, and the status of the result.
+//! The planner: strategies on one blackboard, and the status of the result.
 //!
-//! [`Planner::solve`] looks at plans of one push, then of two, and so on; of each length it
-//! searches, refines the best and has them verified, and it returns the first plan that passes.
-//! Not finding one is a [`PlanStatus`], not an error. [`manual_plan`] makes a plan of pushes that a
-//! person asks for. Where something leaves the plane, `levering` does the same for lever-ups and for
-//! plans that push as well.
+//! [`Planner::solve`] gives turns to strategies, in the order that `strategy` states: the first that has
+//! something to try proposes a batch of plans, which the loop refines, verifies, grades and keeps as
+//! attempts on the blackboard. It ends when no strategy has anything to add.
+//! Not finding a plan is a [`PlanStatus`], not an error. [`manual_plan`] makes a plan of pushes that a
+//! person asks for, [`manual_lever`] one of a lever-up.
 
 mod adaptive_verify;
 mod arm_feasibility;
 mod attempts;
+mod blackboard;
 mod check;
-mod clearing;
 mod efforts;
+mod entry_points;
 mod error;
 mod grade;
-mod harden;
 mod infeasibility;
-mod levering;
+mod lever_batch;
+mod lever_check;
+mod lever_settings;
+mod manual_lever;
 mod manual_plan;
 mod partial_goals;
+mod pattern;
 mod planner;
 mod progress;
+mod query;
 mod rank;
-mod ranking;
+mod refiner;
 mod relaxation;
+mod report;
 mod retry;
 mod settings;
 mod solution;
 mod solving;
-mod tool_change;
-mod transport;
+mod strategy;
+mod try_out;
 mod typical;
 
 pub use error::SolveError;
 pub use infeasibility::Cause;
-pub use levering::{LeverActionError, LeverSettings, ManualLever, ManualPlace, manual_lever};
+pub use lever_settings::LeverSettings;
+pub use manual_lever::{LeverActionError, ManualLever, ManualPlace, manual_lever};
 pub use manual_plan::{ActionError, ManualPlan, ManualPush, ManualStart, manual_plan};
 pub use planner::{Planner, PlannerBuilder, Prediction};
 pub use settings::{Effort, Settings};
 pub use solution::{
     LeverStatistics, Partial, PlanStatus, RankedPlan, Refinement, Solution, Statistics, Timing,
 };
-pub use transport::Approach;
+pub use strategy::Approach;
 
 pub(crate) use grade::{Class, Grade, WELL_INSIDE};
 pub(crate) use planner::stated;

@@ -5,8 +5,9 @@ use crate::verify::{Verifier, VerifySettings};
 use crate::watch::{Quiet, Watch};
 use crate::{outcome::Outcome, task::Task};
 
-use super::planner::stated;
-use super::{Partial, PlanStatus, Planner, Solution, SolveError};
+use super::error::SolveError;
+use super::planner::{Planner, stated};
+use super::solution::{Partial, PlanStatus, Solution};
 
 /// Of more goals than this only all but one, and each alone, are tried: their sets double with each.
 const ALL_SETS: usize = 6;
@@ -14,47 +15,45 @@ const ALL_SETS: usize = 6;
 /// Sets of goals that are tried, each as a task of its own: what meets none of these is worth little.
 const TRIED: usize = 12;
 
-impl Planner {
-    /// Puts a plan that meets some of several goals in the place of a solution that does not meet all.
-    pub(super) fn partly(
-        &self,
-        task: &Task,
-        library: &ToolLibrary,
-        watch: &dyn Watch,
-        solution: &mut Solution,
-    ) -> Result<(), SolveError> {
-        let missed = matches!(solution.status, PlanStatus::NoPlan | PlanStatus::FailedVerification);
-        if !missed || task.goals.len() < 2 || task.in_space() {
-            return Ok(());
-        }
-        let situation = stated(task);
-        watch.stage("plans for some of the goals");
-        // What is good for some of them is no answer so far.
-        let quiet = Quiet(watch);
-        for met in sets(task) {
-            let Some(part) = task.only(&met).filter(|_| !watch.cancelled()) else { break };
-            let found = self.solve_from(&situation, &part, library, &quiet)?;
-            if found.status != PlanStatus::Solved {
-                continue;
-            }
-            let before = std::mem::take(&mut solution.statistics);
-            *solution = Solution { status: PlanStatus::Partial, ..found };
-            solution.statistics.add(&before);
-            // Others were judged by some goals only.
-            solution.plans.truncate(1);
-            let mut robustness = None;
-            for best in &mut solution.plans {
-                robustness = best.verdict.as_ref().and_then(|verdict| verdict.robustness);
-                let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
-                let (tools, plan) = (&best.tools, &best.plan);
-                best.verdict = Some(verifier.nominal(task, &situation, tools, plan));
-                best.outcome = Outcome::judge(&situation.scene, task, &best.predicted);
-            }
-            solution.partial = Some(Partial { met, robustness });
-            break;
-        }
-        Ok(())
+/// Puts a plan that meets some of several goals in the place of a solution that does not meet all.
+pub(super) fn meet_some_goals(
+    planner: &Planner,
+    task: &Task,
+    library: &ToolLibrary,
+    watch: &dyn Watch,
+    solution: &mut Solution,
+) -> Result<(), SolveError> {
+    let missed = matches!(solution.status, PlanStatus::NoPlan | PlanStatus::FailedVerification);
+    if !missed || task.further.is_empty() || task.in_space() {
+        return Ok(());
     }
+    let situation = stated(task);
+    watch.stage("plans for some of the goals");
+    // What is good for some of them is no answer so far.
+    let quiet = Quiet(watch);
+    for met in sets(task) {
+        let Some(part) = task.only(&met).filter(|_| !watch.cancelled()) else { break };
+        let found = planner.solve_from(&situation, &part, library, &quiet)?;
+        if found.status != PlanStatus::Solved {
+            continue;
+        }
+        let before = std::mem::take(&mut solution.statistics);
+        *solution = Solution { status: PlanStatus::Partial, ..found };
+        solution.statistics.add(&before);
+        // Others were judged by some goals only.
+        solution.plans.truncate(1);
+        let mut robustness = None;
+        for best in &mut solution.plans {
+            robustness = best.verdict.as_ref().and_then(|verdict| verdict.robustness);
+            let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+            let (tools, plan) = (&best.tools, &best.plan);
+            best.verdict = Some(verifier.nominal(task, &situation, tools, plan));
+            best.outcome = Outcome::judge(&situation.scene, task, &best.predicted);
+        }
+        solution.partial = Some(Partial { met, robustness });
+        break;
+    }
+    Ok(())
 }
 
 /// Sets of a task's goals, by their indices, not all of them and not only such as are met at the start:
@@ -62,7 +61,7 @@ impl Planner {
 fn sets(task: &Task) -> Vec<Vec<usize>> {
     let start = task.scene.start();
     let goals: Vec<(f64, bool)> =
-        task.goals.iter().map(|goal| (goal.weight, goal.reached(&start))).collect();
+        task.goals().map(|goal| (goal.weight, goal.reached(&start))).collect();
     let count = goals.len();
     let mut sets: Vec<Vec<usize>> = match count <= ALL_SETS {
         true => (1..(1usize << count) - 1)

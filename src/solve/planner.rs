@@ -3,13 +3,10 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::asset::ToolLibrary;
 use crate::effect::{EffectModel, EffectModels, Job, ModelError, Outside, Routed, consequence};
 use crate::geometry::Pose;
-use crate::watch::{Until, Unwatched, Watch};
 use crate::{
     outcome::{Outcome, Record, Trajectory, Warning, in_turn},
     scene::{ModelKind, Models, Situation, State, TableFit, Tool},
@@ -17,10 +14,8 @@ use crate::{
 };
 
 use super::check::check;
-use super::levering::{self, Steps};
-use super::solving::Solving;
-use super::typical::typical;
-use super::{Effort, PlanStatus, Settings, Solution, SolveError};
+use super::error::SolveError;
+use super::settings::{Effort, Settings};
 
 /// Finds tools and pushes for tasks, with one effect model, or one that screens and one that decides,
 /// and one effort.
@@ -190,7 +185,7 @@ impl Planner {
         self.screen.is_some()
     }
 
-    /// A planner that looks once, with the model that screens.
+    /// A planner that searches coarsely, with the screening model.
     pub(super) fn first_look(&self) -> Self {
         let model = self.screen.as_ref().unwrap_or(&self.model).clone();
         let settings = Effort::Draft.settings();
@@ -205,90 +200,6 @@ impl Planner {
     /// The budgets.
     pub fn settings(&self) -> &Settings {
         &self.settings
-    }
-
-    /// Solves a task with the tools that it allows. Runs on the current rayon pool; the result
-    /// is the same for any number of threads.
-    ///
-    /// # Errors
-    /// [`SolveError`] for bad input only.
-    pub fn solve(&self, task: &Task, library: &ToolLibrary) -> Result<Solution, SolveError> {
-        self.solve_with(task, library, &Unwatched)
-    }
-
-    /// Solves tasks side by side on the current rayon pool, results in the order of the tasks and
-    /// the same as those of [`Planner::solve`], except for wall-clock times, for any number of
-    /// threads.
-    pub fn solve_all(
-        &self,
-        tasks: &[Task],
-        library: &ToolLibrary,
-    ) -> Vec<Result<Solution, SolveError>> {
-        tasks.par_iter().map(|task| self.solve(task, library)).collect()
-    }
-
-    /// [`Planner::solve`], telling `watch` what it does; stopped by it, the best plan so far comes
-    /// back. A [`Cancel`](crate::watch::Cancel) stops it from another thread.
-    ///
-    /// # Errors
-    /// [`SolveError`] for bad input only.
-    pub fn solve_with(
-        &self,
-        task: &Task,
-        library: &ToolLibrary,
-        watch: &dyn Watch,
-    ) -> Result<Solution, SolveError> {
-        let until = Until::new(watch, self.time_limit);
-        let mut solution = self.solve_from(&stated(task), task, library, &until)?;
-        self.partly(task, library, &until, &mut solution)?;
-        if solution.status == PlanStatus::NoPlan && !task.in_space() && solution.cause.is_none() {
-            solution.cause = self.cause(task, library, &until);
-        }
-        if task.unknown.any() {
-            solution.warnings.push(Warning::Guessed { unknown: task.unknown });
-        }
-        Ok(solution)
-    }
-
-    /// [`Planner::solve_with`] from another situation than the one that the task states: where
-    /// everything is by now, and what is believed by now. Of the task only the robot, the tools,
-    /// the rules for pushes and the goal count then.
-    ///
-    /// # Errors
-    /// [`SolveError`] for bad input only.
-    pub fn solve_from(
-        &self,
-        situation: &Situation,
-        task: &Task,
-        library: &ToolLibrary,
-        watch: &dyn Watch,
-    ) -> Result<Solution, SolveError> {
-        if task.in_space() {
-            return self.solve_in_space(situation, task, library, watch);
-        }
-        let tools = task.tools(library)?;
-        check(task, situation, &tools)?;
-        let motion = |tool: &Arc<Tool>| typical(task, &situation.start, tool);
-        self.refuse(task, situation, tools.iter().map(motion))?;
-        let until = Until::new(watch, self.time_limit);
-        Ok(Solving::new(self, task, situation, &tools, &until).run())
-    }
-
-    /// [`Planner::solve_from`] where something leaves the plane.
-    fn solve_in_space(
-        &self,
-        situation: &Situation,
-        task: &Task,
-        library: &ToolLibrary,
-        watch: &dyn Watch,
-    ) -> Result<Solution, SolveError> {
-        let blades = match task.levers {
-            Some(_) => task.blades(library)?,
-            None => Vec::new(),
-        };
-        levering::check(task, situation, &blades)?;
-        let until = Until::new(watch, self.time_limit);
-        Steps::new(self, (task, situation), library, &blades, &until).run()
     }
 
     /// What the effect model predicts for a plan of pushes, made with those of `tools` that it names.
@@ -311,7 +222,7 @@ impl Planner {
     }
 
     /// Refuses what the model should not be trusted with, if that is asked for.
-    fn refuse(
+    pub(super) fn refuse(
         &self,
         task: &Task,
         situation: &Situation,

@@ -1,19 +1,23 @@
-//! What is told while a task is solved: what is being done, and the best plan so far.
+//! Progress reports while a task is solved: the current stage, and the best plan so far.
+
+use std::sync::Arc;
 
 use crate::plan::SearchResult;
+use crate::scene::Tool;
 use crate::task::Plan;
+use crate::watch::Watch;
 
+use super::attempts::{Attempt, Attempts};
 use super::grade::Class;
-use super::solving::Solving;
 
-/// What is known of a plan, least first.
+/// Evidence for the best plan so far, weakest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Milestone {
-    /// The model that screens says that it reaches the goal.
-    SearchResult,
-    /// So does the one that decides, after refinement.
+enum Milestone {
+    /// The screening model predicts success.
+    Found,
+    /// So does the final model, after refinement.
     Refined,
-    /// It works as written in both engines, in some of the disturbed replays.
+    /// It works as written in both engines, in some of the perturbed replays.
     Works,
     /// It passes.
     Passes,
@@ -22,7 +26,7 @@ pub(super) enum Milestone {
 impl Milestone {
     fn words(self) -> &'static str {
         match self {
-            Milestone::SearchResult => "a first look says that it reaches the goal",
+            Milestone::Found => "a first look says that it reaches the goal",
             Milestone::Refined => "predicted to reach the goal",
             Milestone::Works => "works as written in both engines",
             Milestone::Passes => "passes",
@@ -30,52 +34,70 @@ impl Milestone {
     }
 }
 
-impl Solving<'_> {
-    /// Says what is done to plans of a number of pushes.
-    pub(super) fn tell(&self, stage: &str, pushes: usize) {
-        let s = if pushes == 1 { "" } else { "es" };
-        self.watch.stage(&format!("{stage}, plans of {pushes} push{s}"));
+/// Reports to an observer, each milestone once.
+pub(super) struct Progress<'a> {
+    watch: &'a dyn Watch,
+    /// Name of the strategy whose turn it is.
+    pub strategy: &'static str,
+    reported: Option<Milestone>,
+}
+
+impl<'a> Progress<'a> {
+    /// Reports to `watch`.
+    pub fn new(watch: &'a dyn Watch) -> Self {
+        Self { watch, strategy: "", reported: None }
     }
 
-    /// Tells of the best of what the search found, all of it with one tool.
-    pub(super) fn tell_found(&mut self, found: &[SearchResult]) {
+    /// Reports a stage of the current strategy.
+    pub fn stage(&self, stage: &str) {
+        match self.strategy {
+            "" => self.watch.stage(stage),
+            strategy => self.watch.stage(&format!("{strategy}: {stage}")),
+        }
+    }
+
+    /// Reports a stage of work on plans of a number of pushes.
+    pub fn stage_of(&self, stage: &str, pushes: usize) {
+        let s = if pushes == 1 { "" } else { "es" };
+        self.stage(&format!("{stage}, plans of {pushes} push{s}"));
+    }
+
+    /// Reports the best search result, if it reaches the goal with one tool.
+    pub fn found(&mut self, found: &[SearchResult], tools: &[Arc<Tool>]) {
         let best = found.first().filter(|best| best.score <= 1.0).map(|best| &best.candidate);
         if let Some((candidate, (tool, _))) = best.and_then(|one| Some((one, one.grip()?))) {
-            let name = &self.workspace.tools[tool].name;
-            self.tell_known(Milestone::SearchResult, named(&[name], candidate.pushes.len()));
+            self.report(Milestone::Found, named(&[&tools[tool].name], candidate.pushes.len()));
         }
     }
 
-    /// Tells of the first of these plans, the best one, that it is predicted to reach the goal.
-    pub(super) fn tell_refined(&mut self, indices: &[usize]) {
-        let best = indices.first().map(|&k| &self.tried[k]).filter(|tried| tried.score <= 1.0);
-        if let Some(tried) = best {
-            self.tell_known(Milestone::Refined, of(&tried.plan));
+    /// Reports the first of these refined plans, the best one, if it is predicted to reach the goal.
+    pub fn refined(&mut self, best: Option<&Attempt>) {
+        if let Some(attempt) = best.filter(|attempt| attempt.score <= 1.0) {
+            self.report(Milestone::Refined, summary(&attempt.plan));
         }
     }
 
-    /// Tells of the best of those that were replayed.
-    pub(super) fn tell_replayed(&mut self) {
-        let Some((grade, k)) = self.best else { return };
-        let known = match grade.class {
+    /// Reports the best of the replayed plans.
+    pub fn replayed(&mut self, attempts: &Attempts) {
+        let Some((grade, k)) = attempts.best else { return };
+        let milestone = match grade.class {
             Class::Fails => return,
             Class::Fragile => Milestone::Works,
             Class::Edge | Class::Passes | Class::Safe => Milestone::Passes,
         };
-        let plan = of(&self.tried[k].plan);
-        self.tell_known(known, plan);
+        self.report(milestone, summary(&attempts.list[k].plan));
     }
 
-    /// Tells it unless as much is known of a plan that was told before.
-    fn tell_known(&mut self, known: Milestone, plan: String) {
-        if self.known.is_none_or(|before| known > before) {
-            self.known = Some(known);
-            self.watch.so_far(&format!("{plan}: {}", known.words()));
+    /// Reports `plan` if there is more evidence for it than for the last one reported.
+    fn report(&mut self, milestone: Milestone, plan: String) {
+        if self.reported.is_none_or(|before| milestone > before) {
+            self.reported = Some(milestone);
+            self.watch.so_far(&format!("{plan}: {}", milestone.words()));
         }
     }
 }
 
-fn of(plan: &Plan) -> String {
+fn summary(plan: &Plan) -> String {
     named(&plan.tools(), plan.steps.len())
 }
 

@@ -14,10 +14,11 @@ use crate::{
     task::{Directions, Plan, Task, ToolChoice},
 };
 
-use super::check::check;
-use super::planner::stated;
-use super::solving::Solving;
-use super::{Cause, Planner, SolveError};
+use super::blackboard::Blackboard;
+use super::infeasibility::Cause;
+use super::planner::{Planner, stated};
+use super::query::Query;
+use super::try_out::refined;
 
 /// Pushes that a wider task allows beyond its own.
 const MORE_PUSHES: usize = 2;
@@ -38,11 +39,11 @@ const OBSTACLES: usize = 8;
 struct Wider<'a> {
     task: Task,
     tools: Vec<Arc<Tool>>,
-    cause: Told<'a>,
+    cause: Explanation<'a>,
 }
 
-/// What plans of a wider task say of the task.
-type Told<'a> = Box<dyn Fn(&[Way]) -> Cause + Send + Sync + 'a>;
+/// The cause that follows from plans of a wider task.
+type Explanation<'a> = Box<dyn Fn(&[Way]) -> Cause + Send + Sync + 'a>;
 
 /// A plan that is predicted to reach the goal.
 struct Way {
@@ -50,78 +51,55 @@ struct Way {
     tool: String,
 }
 
-impl Planner {
-    /// Why a task of pushing has no plan, as [`Planner::solve`] would say; `None` if a plan is worth
-    /// verifying, which is not done here, or `watch` stopped it.
-    ///
-    /// # Errors
-    /// [`SolveError`] for bad input only.
-    pub fn why(
-        &self,
-        task: &Task,
-        library: &ToolLibrary,
-        watch: &dyn Watch,
-    ) -> Result<Option<Cause>, SolveError> {
-        let situation = stated(task);
-        let tools = task.tools(library)?;
-        check(task, &situation, &tools)?;
-        let mut solving = Solving::new(self, task, &situation, &tools, watch);
-        solving.promising = Some(task.reached(&situation.start));
-        solving.search();
-        match solving.promising {
-            Some(true) => Ok(None),
-            _ => Ok(self.cause(task, library, watch)),
-        }
-    }
-
-    /// What keeps `task`, of which no plan was found, from being solved: each of its limits is widened,
-    /// and the first with which a plan is predicted to reach the goal is it. A first look with the
-    /// model that screens: nothing is verified.
-    pub(super) fn cause(
-        &self,
-        task: &Task,
-        library: &ToolLibrary,
-        watch: &dyn Watch,
-    ) -> Option<Cause> {
-        let tools = task.tools(library).ok()?;
-        let first_look = self.first_look();
-        let watch = &Quiet(watch);
-        let found = wider(task, &tools, library).into_par_iter().find_map_first(|wider| {
-            let situation = stated(&wider.task);
-            let solving = Solving::new(&first_look, &wider.task, &situation, &wider.tools, watch);
-            let ways = solving.ways();
-            (!ways.is_empty()).then(|| (wider.cause)(&ways))
-        });
-        (!watch.cancelled()).then(|| found.unwrap_or(Cause::Several))
-    }
+/// Returns what keeps `task`, of which no plan was found, from being solved: each of its limits is widened,
+/// and the first with which a plan is predicted to reach the goal is the cause. Only the
+/// screening model is used: nothing is verified.
+pub(super) fn cause(
+    planner: &Planner,
+    task: &Task,
+    library: &ToolLibrary,
+    watch: &dyn Watch,
+) -> Option<Cause> {
+    let tools = task.tools(library).ok()?;
+    let first_look = planner.first_look();
+    let watch = &Quiet(watch);
+    let found = wider(task, &tools, library).into_par_iter().find_map_first(|wider| {
+        let (task, situation) = (&wider.task, &stated(&wider.task));
+        let tools = &wider.tools;
+        let ways = ways(Query { planner: &first_look, task, situation, tools, watch });
+        (!ways.is_empty()).then(|| (wider.cause)(&ways))
+    });
+    (!watch.cancelled()).then(|| found.unwrap_or(Cause::Several))
 }
 
-impl Solving<'_> {
-    /// Plans that are predicted to reach the goal, with as few pushes as do.
-    fn ways(mut self) -> Vec<Way> {
-        let settings = self.planner.settings();
-        let mut search = Search::new(self.workspace, self.situation, settings.search(0.0));
-        while search.can_deepen() && !self.watch.cancelled() {
-            let found = search.deepen(&mut self.rollouts, self.watch);
-            let candidates = self.choose(&found, settings.refined, &[]);
-            let goals = self.task.goals.clone();
-            self.refined(&candidates, &goals, search.depth());
-            let reach = self.tried.iter().filter(|one| one.score <= 1.0 && !is_behind(one.score));
-            let ways: Vec<Way> = reach
-                .map(|one| Way { plan: one.plan.clone(), tool: one.plan.tool().to_owned() })
-                .collect();
-            if !ways.is_empty() {
-                return ways;
-            }
+/// Returns plans that are predicted to reach the goal, with as few pushes as do.
+fn ways(query: Query) -> Vec<Way> {
+    let (settings, goals) = (query.planner.settings(), query.goals());
+    let search = Search::new(query.workspace(), query.situation, settings.search(0.0));
+    let mut board = Blackboard::for_pushes(query, search);
+    while let Some(search) = board.search.as_mut().filter(|search| search.can_deepen())
+        && !query.watch.cancelled()
+    {
+        let found = search.deepen(&mut board.refiner.screening, query.watch);
+        let depth = search.depth();
+        let chosen = board.attempts.choose(&found, settings.refined, &[], query.at_once());
+        refined(&mut board, &chosen, &goals, depth);
+        let attempts = board.attempts.list.iter();
+        let reach = attempts.filter(|one| one.score <= 1.0 && !is_behind(one.score));
+        let ways: Vec<Way> = reach
+            .map(|one| Way { plan: one.plan.clone(), tool: one.plan.tool().to_owned() })
+            .collect();
+        if !ways.is_empty() {
+            return ways;
         }
-        Vec::new()
     }
+    Vec::new()
 }
 
 /// The tasks with one limit wider: first those that cost nothing to widen, last what stands there.
 fn wider<'a>(task: &'a Task, tools: &[Arc<Tool>], library: &ToolLibrary) -> Vec<Wider<'a>> {
     let mut all: Vec<Wider> = Vec::new();
-    let mut add = |change: &dyn Fn(&mut Task), cause: Told<'a>| {
+    let mut add = |change: &dyn Fn(&mut Task), cause: Explanation<'a>| {
         let mut wider = task.clone();
         change(&mut wider);
         if wider != *task {
@@ -180,7 +158,7 @@ fn wider<'a>(task: &'a Task, tools: &[Arc<Tool>], library: &ToolLibrary) -> Vec<
     for (index, pose) in joined(task) {
         add(
             &|task| {
-                let goal = &mut task.goals[0];
+                let goal = &mut task.goal;
                 let heading = goal.heading.map_or(0.0, |(heading, _)| heading);
                 let there = Pose { position: goal.position, heading } * pose;
                 (goal.object, goal.position) = (index, there.position);
@@ -221,8 +199,8 @@ fn wider<'a>(task: &'a Task, tools: &[Arc<Tool>], library: &ToolLibrary) -> Vec<
 
 /// The obstacles that stand nearest to the goal and to its object.
 fn nearest(task: &Task) -> Vec<&Obstacle> {
-    let from = task.scene.objects[task.goals[0].object].pose.position;
-    let goal = task.goals[0].place(&task.scene.start());
+    let from = task.scene.objects[task.goal.object].pose.position;
+    let goal = task.goal.place(&task.scene.start());
     let far = |obstacle: &Obstacle| {
         let at = obstacle.pose.position;
         (at - goal).norm().min((at - from).norm())
@@ -241,10 +219,10 @@ fn least(ways: &[Way], of: impl Fn(&Way) -> f64) -> f64 {
 
 /// What is rigidly joined to the goal's object, and where from it: it could be brought to the same place.
 fn joined(task: &Task) -> Vec<(usize, Pose)> {
-    if task.goals[0].is_relation() {
+    if task.goal.is_relation() {
         return Vec::new();
     }
-    let mut found = vec![task.goals[0].object];
+    let mut found = vec![task.goal.object];
     let mut next = 0;
     while let Some(&one) = found.get(next) {
         let fixed = task.scene.joints.iter().filter(|joint| joint.kind == JointKind::Fixed);
@@ -258,6 +236,6 @@ fn joined(task: &Task) -> Vec<(usize, Pose)> {
         next += 1;
     }
     let poses = &task.scene.objects;
-    let from = poses[task.goals[0].object].pose.inverse();
+    let from = poses[task.goal.object].pose.inverse();
     found.into_iter().skip(1).map(|index| (index, from * poses[index].pose)).collect()
 }

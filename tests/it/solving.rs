@@ -238,7 +238,7 @@ fn tasks_made_in_code_are_refused_when_they_make_no_sense() {
     assert!(planner().solve_with(&task, &library, &told).is_ok());
     let stages = told.stages.into_inner().unwrap();
     for stage in ["search", "refine", "verify"] {
-        assert!(stages.contains(&format!("{stage}, plans of 1 push")), "{stages:?}");
+        assert!(stages.contains(&format!("push: {stage}, plans of 1 push")), "{stages:?}");
     }
     // The best plan so far: what is known of it grows, and nothing is said twice.
     let answers = told.answers.into_inner().unwrap();

@@ -1,32 +1,8 @@
-//! Tests of `reconsider`.
+//! Tests of `retry`.
 
 use super::*;
-use crate::geometry::Pose;
+use crate::geometry::{Pose, wrap_angle};
 use crate::outcome::{Disturbance, Evidence, Outcome};
-use crate::plan::Start;
-
-fn candidate(pushes: &[(f64, f64)]) -> Candidate {
-    let push = |&(direction, length): &(f64, f64)| CandidatePush {
-        tool: 0,
-        grip_yaw: 0.0,
-        object: 0,
-        start: Start::Placed { part: 0, offset: 0.0 },
-        direction,
-        length,
-        room: 0.0,
-    };
-    Candidate { pushes: pushes.iter().map(push).collect() }
-}
-
-#[test]
-fn what_begins_like_a_refuted_plan_is_known_by_directions_and_lengths_alone() {
-    let way = PushPattern::of(&candidate(&[(3.1, 0.2), (1.5, 0.1)]).pushes);
-    // Directions wrap around, and further pushes do not matter.
-    assert!(way.begins(&candidate(&[(-3.1, 0.21), (1.4, 0.09), (0.0, 0.3)])));
-    assert!(!way.begins(&candidate(&[(3.1, 0.2)])));
-    assert!(!way.begins(&candidate(&[(3.1, 0.2), (1.9, 0.1)])));
-    assert!(!way.begins(&candidate(&[(3.1, 0.25), (1.5, 0.1)])));
-}
 
 #[test]
 fn the_next_aim_lies_as_far_on_the_other_side_as_the_last_replay_ended() {

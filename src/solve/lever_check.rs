@@ -2,17 +2,18 @@
 
 use std::sync::Arc;
 
-use crate::solve::SolveError;
 use crate::{
     scene::{Situation, Tool},
     task::Task,
 };
 
+use super::SolveError;
+
 /// Checks what planning in space relies on besides what holds for every task.
 ///
 /// # Errors
 /// The first fault.
-pub(in crate::solve) fn check(
+pub(super) fn check_levers(
     task: &Task,
     situation: &Situation,
     blades: &[Arc<Tool>],

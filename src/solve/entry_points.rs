@@ -1,0 +1,179 @@
+//! Entry points of the planner: solving, why there is no plan, and the first pushes of a long one.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use crate::asset::ToolLibrary;
+use crate::outcome::Warning;
+use crate::plan::alone;
+use crate::scene::{Situation, Tool};
+use crate::task::Task;
+use crate::watch::{Instant, Until, Unwatched, Watch};
+
+use super::blackboard::Blackboard;
+use super::check::check;
+use super::error::SolveError;
+use super::grade::Class;
+use super::infeasibility::Cause;
+use super::lever_check::check_levers;
+use super::partial_goals::meet_some_goals;
+use super::planner::{Planner, stated};
+use super::query::Query;
+use super::relaxation;
+use super::report;
+use super::solution::{PlanStatus, Solution};
+use super::solving::run;
+use super::strategy::{Approach, approach, for_levers, for_pushes};
+use super::typical::typical;
+
+impl Planner {
+    /// Solves a task with the tools that it allows. Runs on the current rayon pool; the result
+    /// is the same for any number of threads.
+    ///
+    /// # Errors
+    /// [`SolveError`] for bad input only.
+    pub fn solve(&self, task: &Task, library: &ToolLibrary) -> Result<Solution, SolveError> {
+        self.solve_with(task, library, &Unwatched)
+    }
+
+    /// Solves tasks side by side on the current rayon pool, results in the order of the tasks and
+    /// the same as those of [`Planner::solve`], except for wall-clock times, for any number of
+    /// threads.
+    pub fn solve_all(
+        &self,
+        tasks: &[Task],
+        library: &ToolLibrary,
+    ) -> Vec<Result<Solution, SolveError>> {
+        tasks.par_iter().map(|task| self.solve(task, library)).collect()
+    }
+
+    /// [`Planner::solve`], telling `watch` what it does; stopped by it, the best plan so far comes
+    /// back. A [`Cancel`](crate::watch::Cancel) stops it from another thread.
+    ///
+    /// # Errors
+    /// [`SolveError`] for bad input only.
+    pub fn solve_with(
+        &self,
+        task: &Task,
+        library: &ToolLibrary,
+        watch: &dyn Watch,
+    ) -> Result<Solution, SolveError> {
+        let until = Until::new(watch, self.time_limit);
+        let mut solution = self.solve_from(&stated(task), task, library, &until)?;
+        meet_some_goals(self, task, library, &until, &mut solution)?;
+        if solution.status == PlanStatus::NoPlan && !task.in_space() && solution.cause.is_none() {
+            solution.cause = relaxation::cause(self, task, library, &until);
+        }
+        if task.unknown.any() {
+            solution.warnings.push(Warning::Guessed { unknown: task.unknown });
+        }
+        Ok(solution)
+    }
+
+    /// [`Planner::solve_with`] from another situation than the one that the task states: where
+    /// everything is by now, and what is believed by now. Of the task only the robot, the tools,
+    /// the rules for pushes and the goal count then.
+    ///
+    /// # Errors
+    /// [`SolveError`] for bad input only.
+    pub fn solve_from(
+        &self,
+        situation: &Situation,
+        task: &Task,
+        library: &ToolLibrary,
+        watch: &dyn Watch,
+    ) -> Result<Solution, SolveError> {
+        if task.in_space() {
+            let blades = match task.levers {
+                Some(_) => task.blades(library)?,
+                None => Vec::new(),
+            };
+            check_levers(task, situation, &blades)?;
+            let until = Until::new(watch, self.time_limit);
+            let query = Query { planner: self, task, situation, tools: &blades, watch: &until };
+            return solve_levers(query, library);
+        }
+        let tools = task.tools(library)?;
+        check(task, situation, &tools)?;
+        let motion = |tool: &Arc<Tool>| typical(task, &situation.start, tool);
+        self.refuse(task, situation, tools.iter().map(motion))?;
+        let until = Until::new(watch, self.time_limit);
+        solve_pushes(Query { planner: self, task, situation, tools: &tools, watch: &until })
+    }
+
+    /// Why a task of pushing has no plan, as [`Planner::solve`] would say; `None` if a plan is worth
+    /// verifying, which is not done here, or `watch` stopped it.
+    ///
+    /// # Errors
+    /// [`SolveError`] for bad input only.
+    pub fn why(
+        &self,
+        task: &Task,
+        library: &ToolLibrary,
+        watch: &dyn Watch,
+    ) -> Result<Option<Cause>, SolveError> {
+        let situation = stated(task);
+        let tools = task.tools(library)?;
+        check(task, &situation, &tools)?;
+        let query = Query { planner: self, task, situation: &situation, tools: &tools, watch };
+        let unobstructed = unobstructed(&query);
+        let mut board = Blackboard::for_pushes(query, query.search());
+        board.verification.promising = Some(task.reached(&situation.start));
+        run(&mut board, &mut for_pushes(unobstructed.as_ref()))?;
+        match board.verification.promising {
+            Some(true) => Ok(None),
+            _ => Ok(relaxation::cause(self, task, library, watch)),
+        }
+    }
+
+    /// The first pushes of a way from a situation to the goals, if that takes at least `least` pushes,
+    /// however many these are: what to do where plans end before that. Nothing is verified.
+    ///
+    /// # Errors
+    /// [`SolveError`] for bad input only.
+    pub fn approach(
+        &self,
+        situation: &Situation,
+        task: &Task,
+        library: &ToolLibrary,
+        least: usize,
+        watch: &dyn Watch,
+    ) -> Result<Option<Approach>, SolveError> {
+        if task.in_space() {
+            return Ok(None);
+        }
+        let tools = task.tools(library)?;
+        check(task, situation, &tools)?;
+        let until = Until::new(watch, self.time_limit);
+        let query = Query { planner: self, task, situation, tools: &tools, watch: &until };
+        let mut board = Blackboard::for_pushes(query, query.search());
+        Ok(approach(&mut board, least))
+    }
+}
+
+/// Solves a task of pushing.
+fn solve_pushes(query: Query) -> Result<Solution, SolveError> {
+    let began = Instant::now();
+    let unobstructed = unobstructed(&query);
+    let mut board = Blackboard::for_pushes(query, query.search());
+    board.try_idle();
+    run(&mut board, &mut for_pushes(unobstructed.as_ref()))?;
+    let settling = Instant::now();
+    board.verification.settle(&mut board.attempts, Class::Fragile);
+    board.timing.verification += settling.elapsed().as_secs_f64();
+    Ok(report::solution(board, began))
+}
+
+/// Solves a task in which something leaves the plane.
+fn solve_levers(query: Query, library: &ToolLibrary) -> Result<Solution, SolveError> {
+    let began = Instant::now();
+    let mut board = Blackboard::for_levers(query);
+    run(&mut board, &mut for_levers(query, library))?;
+    Ok(report::solution(board, began))
+}
+
+/// Returns the task without all that may be in the way, if there is anything else on the table.
+fn unobstructed(query: &Query) -> Option<(Task, Situation)> {
+    alone(query.task, query.situation).filter(|_| query.workspace().is_placed())
+}

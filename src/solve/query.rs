@@ -1,0 +1,80 @@
+//! The question that is solved. Nothing of it changes while it is.
+
+use std::sync::Arc;
+
+use crate::plan::{FOUND_RADIUS, RefineSettings, Search, Workspace};
+use crate::scene::{Situation, Tool};
+use crate::task::{Goal, Job, Task};
+use crate::watch::Watch;
+
+use super::planner::Planner;
+use super::typical::{error_p95, typical};
+
+/// Later pushes get room for the model's error, but no more than this, metres: a longer approach
+/// costs reach and time.
+const MOST_ROOM_FOR_MODEL: f64 = 0.02;
+
+/// Rollouts of a refinement, times the objects on the table. A push into a crowd costs up to
+/// a hundred times one of a single object, and its outcome is not smooth enough for late rounds to
+/// gain much; with up to four objects the rounds end first.
+const REFINE_WORK: usize = 20_000;
+
+/// A task in a situation, the planner that solves it and the observer of its progress.
+#[derive(Clone, Copy)]
+pub(super) struct Query<'a> {
+    pub planner: &'a Planner,
+    pub task: &'a Task,
+    pub situation: &'a Situation,
+    /// Tools that may be used: the pushing ones, or the blades of a task of levering.
+    pub tools: &'a [Arc<Tool>],
+    pub watch: &'a dyn Watch,
+}
+
+impl<'a> Query<'a> {
+    /// Returns the rules that pushes keep.
+    pub fn workspace(&self) -> Workspace<'a> {
+        Workspace { task: self.task, tools: self.tools }
+    }
+
+    /// Returns the task's goals.
+    pub fn goals(&self) -> Vec<Goal> {
+        self.task.goals().cloned().collect()
+    }
+
+    /// Returns the number of plans that are verified together.
+    pub fn at_once(&self) -> usize {
+        self.planner.settings().at_once(self.situation.scene.objects.len())
+    }
+
+    /// Returns the maximum number of rollouts of one refinement.
+    pub fn refine_rollouts(&self) -> usize {
+        REFINE_WORK / self.situation.scene.objects.len().max(1)
+    }
+
+    /// Returns the settings with which candidates of `pushes` pushes are refined.
+    pub fn refine_settings(&self, pushes: usize) -> RefineSettings {
+        let settings = self.planner.settings();
+        RefineSettings {
+            rounds: settings.refine_rounds,
+            extra: settings.refine_extra,
+            // Each length has a stream of its own, so that no two share samples.
+            seed: self.planner.seed().wrapping_mul(0x9E37_79B9).wrapping_add(pushes as u64) << 16,
+            enough: self.at_once(),
+            rollouts: self.refine_rollouts(),
+            short_list: usize::MAX,
+            radius: FOUND_RADIUS,
+        }
+    }
+
+    /// Prepares the search for plans with one grip; rolls nothing out.
+    pub fn search(&self) -> Search<'a> {
+        let errors = self.tools.iter().map(|tool| {
+            let start = &self.situation.start;
+            let job = Job::new(self.situation, typical(self.task, start, tool));
+            error_p95(self.planner.screen(), self.situation, &job).unwrap_or(f64::INFINITY)
+        });
+        let error = errors.fold(0.0, f64::max).min(MOST_ROOM_FOR_MODEL);
+        let settings = self.planner.settings().search(error);
+        Search::new(self.workspace(), self.situation, settings)
+    }
+}

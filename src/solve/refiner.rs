@@ -1,0 +1,123 @@
+//! Refinement of candidates with the models of a planner, and the rollouts that this takes.
+
+use crate::plan::{
+    Candidate, RefineSettings, RefineStatistics, Refined, Rollouts, Workspace, refine,
+};
+use crate::task::Goal;
+
+use super::query::Query;
+
+/// Separates the samples of the final model from those of the screening model.
+const DECIDING: u64 = 1 << 15;
+
+/// Trust radius, in steps, of candidates that another model refined: its optimum is off by as much as
+/// the two differ.
+pub(super) const SCREENED_RADIUS: f64 = 1.0;
+
+/// Counted access to the effect models of a planner.
+pub(super) struct Refiner<'a> {
+    /// Rollouts of the screening model.
+    pub screening: Rollouts<'a>,
+    /// Rollouts of the final model, if that is another.
+    pub deciding: Option<Rollouts<'a>>,
+    pub statistics: RefineStatistics,
+}
+
+impl<'a> Refiner<'a> {
+    /// Starts counting at zero.
+    pub fn new(query: &Query<'a>) -> Self {
+        let rollouts = |model| Rollouts::new(model, query.situation.clone());
+        let planner = query.planner;
+        Self {
+            screening: rollouts(planner.screen()),
+            deciding: planner.is_screened().then(|| rollouts(planner.model())),
+            statistics: RefineStatistics::default(),
+        }
+    }
+
+    /// Refines candidates towards `aims`, the task's goals or shifted copies of them. Where one
+    /// model screens and another decides, the last rounds are the final model's.
+    pub fn refine(
+        &mut self,
+        query: &Query,
+        candidates: &[Candidate],
+        aims: &[Goal],
+        pushes: usize,
+    ) -> Vec<Refined> {
+        let settings = query.planner.settings();
+        let last = if self.deciding.is_some() { settings.decided_rounds } else { 0 };
+        let all = query.refine_settings(pushes);
+        let task = query.task.aiming(aims);
+        let screened = refine(
+            &Workspace { task: &task, ..query.workspace() },
+            &mut self.screening,
+            candidates,
+            RefineSettings { rounds: settings.refine_rounds.saturating_sub(last), ..all },
+            &mut self.statistics,
+            query.watch,
+        );
+        if self.deciding.is_none() {
+            return screened;
+        }
+        let candidates: Vec<Candidate> =
+            screened.iter().map(|one| one.best.candidate.clone()).collect();
+        let decided = self.decide(query, &candidates, aims, pushes);
+        decided.into_iter().map(|one| continued(&screened[one.index], one)).collect()
+    }
+
+    /// Refines changed candidates of plans that were replayed already: a plan of the final model is not
+    /// screened again.
+    pub fn refine_again(
+        &mut self,
+        query: &Query,
+        candidates: &[Candidate],
+        aims: &[Goal],
+        pushes: usize,
+    ) -> Vec<Refined> {
+        match self.deciding {
+            None => self.refine(query, candidates, aims, pushes),
+            Some(_) => self.decide(query, candidates, aims, pushes),
+        }
+    }
+
+    /// Counts rollouts that were made elsewhere, of the screening and of the final model.
+    pub fn count(&mut self, [screened, decided]: [usize; 2]) {
+        self.screening.count(screened);
+        self.deciding.as_mut().unwrap_or(&mut self.screening).count(decided);
+    }
+
+    /// Predicts candidates with the final model, and refines the best of them with it.
+    fn decide(
+        &mut self,
+        query: &Query,
+        candidates: &[Candidate],
+        aims: &[Goal],
+        pushes: usize,
+    ) -> Vec<Refined> {
+        let settings = query.planner.settings();
+        let all = query.refine_settings(pushes);
+        let task = query.task.aiming(aims);
+        let Some(rollouts) = &mut self.deciding else { return Vec::new() };
+        refine(
+            &Workspace { task: &task, ..query.workspace() },
+            rollouts,
+            candidates,
+            RefineSettings {
+                rounds: settings.decided_rounds.min(settings.refine_rounds),
+                seed: all.seed ^ DECIDING,
+                short_list: settings.short_list,
+                radius: SCREENED_RADIUS,
+                ..all
+            },
+            &mut self.statistics,
+            query.watch,
+        )
+    }
+}
+
+/// Joins both parts of a refinement: the screening model's and the final model's.
+fn continued(screened: &Refined, decided: Refined) -> Refined {
+    let mut rounds = screened.rounds.clone();
+    rounds.extend(decided.rounds);
+    Refined { off: [screened.off[0], decided.off[1]], rounds, ..decided }
+}

@@ -1,0 +1,182 @@
+//! The result: the attempts, ranked.
+
+use std::sync::Arc;
+
+use crate::outcome::Warning;
+use crate::plan::{Search, bare};
+use crate::scene::{Models, Tool};
+use crate::sim::LeverSimulator;
+use crate::task::{Plan, Step};
+use crate::watch::Instant;
+
+use super::arm_feasibility::joints;
+use super::attempts::Attempt;
+use super::blackboard::Blackboard;
+use super::infeasibility::Cause;
+use super::query::Query;
+use super::solution::{LeverStatistics, PlanStatus, RankedPlan, Solution, Statistics};
+
+/// Maximum number of plans that are returned: as many as a reader looks at.
+const REPORTED: usize = 8;
+
+/// A plan that brings the object nearer to the goal by less, metres, or turns it nearer to the wanted
+/// heading by less, radians, is none to look at: simulations differ by as much.
+const NEARER: f64 = 0.01;
+const TURNED: f64 = 0.1;
+
+/// Ranks the attempts on a blackboard; solving `began` then.
+pub(super) fn solution(mut board: Blackboard, began: Instant) -> Solution {
+    let (query, status) = (board.query, board.status());
+    let attempts = match board.levers {
+        None => ranked_pushes(&mut board, status),
+        Some(_) => ranked_levers(&mut board),
+    };
+    let (plans, warnings) = predicted(&query, attempts);
+    let mut statistics = match board.levers.take() {
+        None => push_statistics(&board, plans.len()),
+        Some(levers) => lever_statistics(&board, levers, &plans),
+    };
+    statistics.timing.total = began.elapsed().as_secs_f64();
+    let fault = board.attempts.arm_fault.filter(|_| status == PlanStatus::NoPlan);
+    Solution {
+        status,
+        stopped: query.watch.cancelled(),
+        models: match statistics.levers {
+            None => query.planner.models(),
+            // The coarse simulation decides on lever-ups.
+            Some(_) => Models::from(LeverSimulator::COARSE.spec())
+                .screened_by(query.planner.screen().spec().clone()),
+        },
+        plans,
+        tools: query.tools.iter().map(|tool| Tool::clone(tool)).collect(),
+        candidates: board.search.map_or_else(Vec::new, |search| search.scored().to_vec()),
+        statistics,
+        partial: None,
+        cause: fault.map(|fault| Cause::Arm { fault }),
+        warnings,
+    }
+}
+
+/// Orders plans of pushes: the best; then those that passed, are untried, have failed - or, where
+/// none passed, the evidence first.
+fn ranked_pushes(board: &mut Blackboard, status: PlanStatus) -> Vec<Attempt> {
+    let best = board.attempts.best.filter(|_| board.attempts.works()).map(|(_, k)| k);
+    let rank = |index: usize, attempt: &Attempt| match (&attempt.verdict, status) {
+        _ if Some(index) == best => 0,
+        (Some(verdict), PlanStatus::Solved) => {
+            if verdict.passed {
+                1
+            } else {
+                3
+            }
+        }
+        (Some(_), _) => 1,
+        (None, _) => 2,
+    };
+    let nearest = status == PlanStatus::NoPlan;
+    let query = board.query;
+    let mut order: Vec<(usize, Attempt)> = std::mem::take(&mut board.attempts.list)
+        .into_iter()
+        .enumerate()
+        .filter(|(_, attempt)| !nearest || attempt.plan.is_empty() || is_nearer(&query, attempt))
+        .map(|(index, attempt)| (rank(index, &attempt), attempt))
+        .collect();
+    order.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.score.total_cmp(&b.1.score)));
+    order.truncate(REPORTED);
+    order.into_iter().map(|(_, attempt)| attempt).collect()
+}
+
+/// Orders plans that leave the plane: those that work by how often, then those that failed, then the rest.
+/// Of equals, plans that push after a lever-up come first, since they are made where none alone passes.
+fn ranked_levers(board: &mut Blackboard) -> Vec<Attempt> {
+    let mut order = std::mem::take(&mut board.attempts.list);
+    let pushes_last = |attempt: &Attempt| {
+        attempt.plan.steps.last().is_some_and(|step| matches!(step, Step::Push(_)))
+    };
+    order.sort_by(|a, b| {
+        let evidence = b.evidence().total_cmp(&a.evidence());
+        evidence.then(pushes_last(b).cmp(&pushes_last(a)))
+    });
+    order.truncate(REPORTED);
+    order
+}
+
+/// Returns attempts as plans with their predictions, and the warnings of the first.
+fn predicted(query: &Query, attempts: Vec<Attempt>) -> (Vec<RankedPlan>, Vec<Warning>) {
+    let (task, situation) = (query.task, query.situation);
+    let pushes: Vec<(&Plan, &[Arc<Tool>])> = attempts
+        .iter()
+        .filter(|attempt| attempt.prediction.is_none())
+        .map(|attempt| (&attempt.plan, &attempt.tools[..]))
+        .collect();
+    let mut predictions = query.planner.predict_all(task, situation, &pushes).into_iter();
+    let mut first = None;
+    let mut plans = Vec::new();
+    for attempt in attempts {
+        let (predicted, outcome, warnings) = match attempt.prediction {
+            Some((trajectory, outcome)) => (trajectory, outcome, Vec::new()),
+            None => {
+                let Some(one) = predictions.next() else { continue };
+                (one.trajectory, one.outcome, one.warnings)
+            }
+        };
+        first.get_or_insert(warnings);
+        let mut ranked = RankedPlan {
+            plan: attempt.plan,
+            tools: attempt.tools,
+            predicted,
+            outcome,
+            verdict: attempt.verdict,
+            refinement: attempt.refinement,
+            joints: None,
+        };
+        ranked.joints = joints(query, &ranked);
+        plans.push(ranked);
+    }
+    (plans, first.unwrap_or_default())
+}
+
+/// Returns `true` if a plan, by prediction, is clearly better than the plan without steps.
+fn is_nearer(query: &Query, attempt: &Attempt) -> bool {
+    let (task, start) = (query.task, &query.situation.start);
+    // By the goal that asks for least, as scores are in units of tolerances.
+    let least = task.goals().map(|goal| {
+        let turned = goal.heading.map_or(f64::INFINITY, |(_, tolerance)| TURNED / tolerance);
+        if goal.has_place() { (NEARER / goal.tolerance).min(turned) } else { turned }
+    });
+    let least = least.fold(f64::INFINITY, f64::min);
+    bare(attempt.score) <= task.score(start) - least
+}
+
+fn push_statistics(board: &Blackboard, plans: usize) -> Statistics {
+    let screened = board.refiner.screening.used();
+    let deciding = board.refiner.deciding.as_ref().map(|deciding| deciding.used());
+    let decided = plans + deciding.unwrap_or(screened);
+    let search = board.search.as_ref();
+    Statistics {
+        search: search.map(|search| search.statistics().clone()).unwrap_or_default(),
+        refinement: board.refiner.statistics.clone(),
+        rollouts: decided + deciding.map_or(0, |_| screened),
+        decided,
+        verified: board.verification.verified,
+        depth: search.map_or(0, Search::depth),
+        timing: board.timing,
+        levers: None,
+    }
+}
+
+fn lever_statistics(
+    board: &Blackboard,
+    mut levers: LeverStatistics,
+    plans: &[RankedPlan],
+) -> Statistics {
+    levers.verified = board.verification.verified;
+    Statistics {
+        rollouts: levers.search.rollouts,
+        verified: levers.verified,
+        depth: plans.first().map_or(0, |best| best.plan.steps.len()),
+        timing: board.timing,
+        levers: Some(levers),
+        ..Statistics::default()
+    }
+}

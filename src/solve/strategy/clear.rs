@@ -1,0 +1,147 @@
+//! Plans that first clear an obstruction out of the way.
+
+use std::collections::VecDeque;
+
+use crate::outcome::Record;
+use crate::plan::{
+    Evaluation, Rollouts, Search, SweptRegion, Workspace, evaluate, is_behind, kinds,
+};
+use crate::scene::Situation;
+use crate::solve::SolveError;
+use crate::solve::blackboard::Blackboard;
+use crate::solve::solving::{Batch, Strategy};
+use crate::task::{Job, Task};
+
+/// Number of kinds of plans of one length whose obstructions are looked at.
+const KINDS: usize = 16;
+
+/// Number of swept regions of one length that are cleared, those with the nearest ends first.
+const REGIONS: usize = 3;
+
+/// A plan is looked at if it misses the goal by at most this many tolerances: refinement brings it
+/// nearer.
+const NEAR: f64 = 2.0;
+
+/// Number of pushes beyond one for each obstruction: one that stands in a corner takes two.
+const MORE: usize = 1;
+
+/// Looks for plans of as many pushes as the usual search has come to and up to [`MORE`] beyond.
+pub(super) struct Clear<'a> {
+    /// The task without all that may be in the way.
+    alone: Option<&'a (Task, Situation)>,
+    /// The search in that task.
+    unobstructed: Option<Unobstructed<'a>>,
+    /// Length of the usual search's plans when it was looked at last.
+    depth: usize,
+    waiting: Vec<Clearing>,
+    open: VecDeque<Clearing>,
+    /// The current search, and the maximum length of its plans.
+    current: Option<(Search<'a>, usize)>,
+}
+
+/// A swept region in which the goals' objects would come to their goals if nothing else stood on the table.
+struct Clearing {
+    region: SweptRegion,
+    /// Tool and grip yaw of its plan.
+    grip: (usize, f64),
+    /// Pushes of the goals' objects, and one for each obstruction.
+    pushes: usize,
+}
+
+struct Unobstructed<'a> {
+    workspace: Workspace<'a>,
+    situation: &'a Situation,
+    rollouts: Rollouts<'a>,
+    search: Search<'a>,
+}
+
+impl<'a> Clear<'a> {
+    pub fn new(alone: Option<&'a (Task, Situation)>) -> Self {
+        let (waiting, open) = (Vec::new(), VecDeque::new());
+        Self { alone, unobstructed: None, depth: 0, waiting, open, current: None }
+    }
+
+    /// Notes what is to be cleared for plans of `pushes` pushes.
+    fn look(&mut self, board: &mut Blackboard<'a>, pushes: usize) {
+        let (Some(alone), Some(usual)) = (self.alone, &board.search) else { return };
+        // To clear an obstruction and to push takes two pushes at least.
+        if pushes < 2 || !board.wants_longer(pushes - 1) {
+            return;
+        }
+        let one = self.unobstructed.get_or_insert_with(|| {
+            let (task, situation) = alone;
+            let workspace = Workspace { task, ..board.query.workspace() };
+            let rollouts = Rollouts::new(board.query.planner.screen(), situation.clone());
+            let search = Search::new(workspace, situation, usual.settings());
+            Unobstructed { workspace, situation, rollouts, search }
+        });
+        if one.search.can_deepen() {
+            board.progress.stage("search for obstructions");
+            let before = one.rollouts.used();
+            self.waiting.extend(one.deepen(board));
+            board.refiner.count([one.rollouts.used() - before, 0]);
+        }
+        let (now, later): (Vec<Clearing>, Vec<Clearing>) =
+            std::mem::take(&mut self.waiting).into_iter().partition(|one| one.pushes <= pushes);
+        self.waiting = later;
+        // In the order in which they were found: nearest ends first.
+        self.open.extend(now.into_iter().take(REGIONS));
+    }
+}
+
+impl Unobstructed<'_> {
+    /// Searches plans of one push more, and returns those that something obstructs.
+    fn deepen(&mut self, board: &Blackboard) -> Vec<Clearing> {
+        let found = self.search.deepen(&mut self.rollouts, board.query.watch);
+        let near = |k: &usize| !is_behind(found[*k].score) && found[*k].score <= NEAR;
+        let near = kinds(&found, KINDS).into_iter().filter(near);
+        let candidates: Vec<_> = near.map(|k| found[k].candidate.clone()).collect();
+        let made = evaluate(&self.workspace, &mut self.rollouts, &candidates);
+        let made: Vec<Evaluation> = made.into_iter().flatten().collect();
+        let motions: Vec<_> = made.iter().map(|one| one.motions(&self.workspace)).collect();
+        let jobs: Vec<_> =
+            motions.iter().map(|motions| Job::sequence(self.situation, motions)).collect();
+        let trajectories = self.rollouts.in_turn(&jobs, Record::Frames);
+        let (workspace, situation) = (board.query.workspace(), board.query.situation);
+        let objects = &board.query.task.scene.objects;
+        let mut clearings = Vec::new();
+        for ((one, motions), trajectory) in made.iter().zip(&motions).zip(&trajectories) {
+            let region = SweptRegion::of(&workspace, situation, motions, trajectory);
+            let blocking = region.blocking(&situation.start);
+            if !blocking.is_empty() && blocking.iter().all(|&k| objects[k].keep.is_none()) {
+                let pushes = one.pushes.len() + blocking.len();
+                let grip = one.candidate.grip().map(|grip| Clearing { region, grip, pushes });
+                clearings.extend(grip);
+            }
+        }
+        clearings
+    }
+}
+
+impl<'a> Strategy<'a> for Clear<'a> {
+    fn name(&self) -> &'static str {
+        "clear the way"
+    }
+
+    fn next(&mut self, board: &mut Blackboard<'a>) -> Result<Option<Batch>, SolveError> {
+        let Some(pushes) = board.search.as_ref().map(Search::depth) else { return Ok(None) };
+        if pushes > self.depth {
+            self.depth = pushes;
+            self.look(board, pushes);
+        }
+        loop {
+            if let Some((search, longest)) = &mut self.current
+                && board.wants_longer(search.depth())
+                && search.can_deepen()
+                && search.depth() < *longest
+            {
+                return Ok(Some(Batch::Pushes(board.deepen(search))));
+            }
+            self.current = None;
+            let (Some(next), Some(usual)) = (self.open.pop_front(), &board.search) else {
+                return Ok(None);
+            };
+            self.current = Some((usual.clearing(next.region, next.grip), next.pushes + MORE));
+        }
+    }
+}

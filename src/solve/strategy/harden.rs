@@ -1,0 +1,40 @@
+//! Plans that depend less on the support, where the best plan works, but not nearly always.
+
+use crate::plan::{HardenSettings, harden};
+use crate::solve::SolveError;
+use crate::solve::blackboard::{Blackboard, Candidates};
+use crate::solve::grade::{Class, Grade};
+use crate::solve::solving::{Batch, Strategy};
+use crate::watch::Instant;
+
+/// Separates the samples of hardening from those of refinement.
+const HARDENING: u64 = 1 << 14;
+
+/// Varies the results of the last search, once.
+pub(super) struct Harden;
+
+impl<'a> Strategy<'a> for Harden {
+    fn name(&self) -> &'static str {
+        "harden"
+    }
+
+    fn next(&mut self, board: &mut Blackboard<'a>) -> Result<Option<Batch>, SolveError> {
+        let Some(Candidates { found, pushes, .. }) = board.searched.take() else { return Ok(None) };
+        let shaky = |(grade, _): &(Grade, usize)| grade.class > Class::Fails && !grade.is_steady();
+        let query = board.query;
+        if query.watch.cancelled() || !board.attempts.best.as_ref().is_some_and(shaky) {
+            return Ok(None);
+        }
+        board.progress.stage_of("search", pushes);
+        let began = Instant::now();
+        let settings = HardenSettings {
+            kinds: 2 * query.planner.settings().refined,
+            rollouts: query.refine_rollouts(),
+            seed: query.refine_settings(pushes).seed ^ HARDENING,
+        };
+        let rollouts = &mut board.refiner.screening;
+        let found = harden(&query.workspace(), rollouts, &found, settings, query.watch);
+        board.timing.search += began.elapsed().as_secs_f64();
+        Ok(Some(Batch::Pushes(Candidates { found, pushes, hardenable: false })))
+    }
+}

@@ -1,0 +1,120 @@
+//! Pushes to where the object can be levered, before a lever-up.
+
+use std::f64::consts::TAU;
+
+use crate::asset::ToolLibrary;
+use crate::geometry::{Solid, Vector};
+use crate::outcome::Verdict;
+use crate::scene::{Obstacle, Plate};
+use crate::solve::SolveError;
+use crate::solve::attempts::Attempt;
+use crate::solve::blackboard::Blackboard;
+use crate::solve::solving::{Batch, Strategy};
+use crate::task::{Goal, Task};
+
+use super::follow_up::FollowUp;
+use super::prefix::{Prefix, pushing_task, start};
+use super::search::{lever_ups, promising};
+
+/// Distances by which the object is pushed, metres, and number of directions.
+const AWAY: [f64; 3] = [0.08, 0.14, 0.2];
+const DIRECTIONS: usize = 8;
+
+/// Maximum error of the push, metres: the blade goes where the replay as written has the object then.
+const NEAR: f64 = 0.01;
+
+/// Tries places next to the object, nearest first, until a plan works.
+pub(in crate::solve::strategy) struct MakeRoom<'a> {
+    library: &'a ToolLibrary,
+    /// Displacements of the object that were not tried yet.
+    displacements: Box<dyn Iterator<Item = Vector>>,
+    pushed: usize,
+    /// The last push, and the task after it, whose lever-ups were tried.
+    last: Option<(Prefix, Task)>,
+    follow_up: Option<FollowUp<'a>>,
+}
+
+impl<'a> MakeRoom<'a> {
+    pub fn new(library: &'a ToolLibrary) -> Self {
+        let turn = |k| TAU * k as f64 / DIRECTIONS as f64;
+        let displacement =
+            move |away: f64, k| away * Vector::new(f64::cos(turn(k)), f64::sin(turn(k)));
+        let all = AWAY.into_iter();
+        let all = all.flat_map(move |away| (0..DIRECTIONS).map(move |k| displacement(away, k)));
+        Self { library, displacements: Box::new(all), pushed: 0, last: None, follow_up: None }
+    }
+
+    /// Pushes the object to the next place from which it can be levered.
+    fn push(&mut self, board: &mut Blackboard) -> Result<Option<(Prefix, Task)>, SolveError> {
+        let query = board.query;
+        let most = query.planner.settings().levers.followed;
+        let (task, goal) = (query.task, query.task.goal.object);
+        while self.pushed < most
+            && !query.watch.cancelled()
+            && let Some(displacement) = self.displacements.next()
+        {
+            let place = task.scene.objects[goal].pose.position + displacement;
+            let mut there = task.clone();
+            there.goal.tolerance = f64::INFINITY;
+            there.scene.objects[goal].pose.position = place;
+            if !is_free(&there) || promising(board, &there) == 0 {
+                continue;
+            }
+            self.pushed += 1;
+            board.progress.stage("pushes");
+            let towards = Task { goal: Goal::new(goal, place.into(), NEAR), ..task.clone() };
+            let Some(left) = pushing_task(&towards, &start(task), self.library) else { continue };
+            let solution = query.planner.solve_with(&left, self.library, query.watch)?;
+            let Some(best) = solution.best().filter(|best| !best.plan.is_empty()) else { continue };
+            if !best.verdict.as_ref().is_some_and(Verdict::works) {
+                continue;
+            }
+            let prefix = Prefix { plan: best.plan.clone(), tools: best.tools.clone() };
+            let Some(rests) = prefix.rests(task) else { continue };
+            if let Some(moved) = task.moved_to(&rests) {
+                return Ok(Some((prefix, moved)));
+            }
+        }
+        Ok(None)
+    }
+}
+
+impl<'a> Strategy<'a> for MakeRoom<'a> {
+    fn name(&self) -> &'static str {
+        "make room"
+    }
+
+    fn next(&mut self, board: &mut Blackboard<'a>) -> Result<Option<Batch>, SolveError> {
+        if let Some(follow_up) = &mut self.follow_up
+            && let Some(batch) = follow_up.next(board)?
+        {
+            return Ok(Some(batch));
+        }
+        self.follow_up = None;
+        if board.attempts.list.iter().any(Attempt::works) || board.query.watch.cancelled() {
+            return Ok(None);
+        }
+        if let Some((prefix, moved)) = self.last.take().filter(|(_, task)| task.goal.has_place()) {
+            let mut follow_up = FollowUp::after(prefix, moved, self.library);
+            let batch = follow_up.next(board)?;
+            self.follow_up = Some(follow_up);
+            if batch.is_some() {
+                return Ok(batch);
+            }
+        }
+        let Some((prefix, moved)) = self.push(board)? else { return Ok(None) };
+        let plans = lever_ups(board, &moved, &prefix);
+        self.last = Some((prefix, moved));
+        Ok(Some(Batch::Levers(plans)))
+    }
+}
+
+/// Returns `true` if the goal's object has room where it is put.
+fn is_free(task: &Task) -> bool {
+    let (scene, own) = (&task.scene, task.plate());
+    let others = scene.objects.iter().enumerate().filter(|(k, _)| *k != task.goal.object);
+    let others = others.flat_map(|(_, object)| Plate::of(object).solids());
+    let others: Vec<Solid> = others.chain(scene.obstacles.iter().map(Obstacle::solid)).collect();
+    let clear = |solid: &Solid| others.iter().all(|other| solid.depth(other) <= 0.0);
+    own.solids().iter().all(clear) && task.robot.reaches(own.pose.position)
+}

@@ -1,0 +1,91 @@
+//! Steps before the next one, and where they leave everything.
+
+use std::sync::Arc;
+
+use crate::asset::ToolLibrary;
+use crate::geometry::Pose3;
+use crate::outcome::{Outcome, Record, Trajectory};
+use crate::scene::{LeverScene, Plate, Tool};
+use crate::sim::LeverSimulator;
+use crate::solve::SolveError;
+use crate::solve::attempts::Attempt;
+use crate::solve::blackboard::Blackboard;
+use crate::solve::lever_batch::LeverPlan;
+use crate::task::{Plan, Task};
+use crate::watch::{Instant, Unwatched};
+
+/// The first steps of a plan, with their tools.
+#[derive(Default)]
+pub(super) struct Prefix {
+    pub plan: Plan,
+    pub tools: Vec<Arc<Tool>>,
+}
+
+impl Prefix {
+    /// Returns its tools and `more`, each once.
+    pub fn with(&self, more: &[Arc<Tool>]) -> Vec<Arc<Tool>> {
+        let mut tools = self.tools.clone();
+        for tool in more {
+            if !tools.iter().any(|known| known.name == tool.name) {
+                tools.push(Arc::clone(tool));
+            }
+        }
+        tools
+    }
+
+    /// Returns the poses in which it leaves all objects, as written.
+    pub fn rests(&self, task: &Task) -> Option<Vec<Pose3>> {
+        simulated(LeverSimulator::FINE, task, &self.plan, &self.tools)?.outcome().space.clone()
+    }
+}
+
+/// Returns the poses of all objects at the start.
+pub(super) fn start(task: &Task) -> Vec<Pose3> {
+    task.scene.objects.iter().map(|object| Plate::of(object).start()).collect()
+}
+
+/// Returns what is left of `task` to be pushed once all objects lie at `rests`, if it can be.
+pub(super) fn pushing_task(task: &Task, rests: &[Pose3], library: &ToolLibrary) -> Option<Task> {
+    let left = task.after(rests)?;
+    Some(Task { tools: task.pushers(library), ..left })
+}
+
+/// Returns `prefix` with the pushes that bring the object to its place from `rests`; nothing if there are
+/// none.
+pub(super) fn pushed(
+    board: &mut Blackboard,
+    library: &ToolLibrary,
+    prefix: &Prefix,
+    rests: &[Pose3],
+) -> Result<Option<LeverPlan>, SolveError> {
+    let query = board.query;
+    let began = Instant::now();
+    board.progress.stage("pushes");
+    let Some(left) = pushing_task(query.task, rests, library) else { return Ok(None) };
+    let pushed = query.planner.solve_with(&left, library, query.watch)?;
+    board.timing.refinement += began.elapsed().as_secs_f64();
+    let Some(best) = pushed.best() else { return Ok(None) };
+    let plan = prefix.plan.clone().then(best.plan.clone());
+    let tools = prefix.with(&best.tools);
+    let trajectory = simulated(LeverSimulator::COARSE, query.task, &plan, &tools);
+    Ok(trajectory.map(|trajectory| {
+        let outcome = Outcome::judge(&query.task.scene, query.task, &trajectory);
+        let attempt = Attempt::simulated(plan, tools, (trajectory, outcome));
+        LeverPlan { attempt, kind: (0, 0, 0, 0), promising: true }
+    }))
+}
+
+/// Simulates a plan as written.
+fn simulated(
+    engine: LeverSimulator,
+    task: &Task,
+    plan: &Plan,
+    tools: &[Arc<Tool>],
+) -> Option<Trajectory> {
+    let motions = plan.motions(tools)?;
+    let first = plan.lever_steps().next();
+    let blade = first.and_then(|step| tools.iter().find(|tool| tool.name == step.tool)?.blade());
+    let planned = LeverScene::new(&task.scene, blade.unwrap_or_default());
+    let watched = (Record::Outcome, &Unwatched as _);
+    Some(engine.run_all((&planned, &planned), None, &motions, watched))
+}
