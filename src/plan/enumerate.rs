@@ -11,8 +11,8 @@ use crate::{
 };
 
 use super::cost_to_go::CostToGo;
+use super::node::Node;
 use super::scored::Scores;
-use super::search::Node;
 use super::statistics::SearchStatistics;
 use super::{CandidatePush, Infeasible, Start, Workspace};
 

@@ -26,8 +26,8 @@ use super::parameters::Parameters;
 use super::score::{bare, behind, is_behind};
 use super::supports::{Ends, Supports};
 use super::{
-    Candidate, Evaluation, Margins, QpProblem, QpSolver, QpStatus, RefineStatistics, Rollouts,
-    Workspace, evaluate, preferred,
+    Candidate, Evaluation, Margins, QpProblem, QpSolver, QpStatus, RefineStatistics, Refined,
+    Rollouts, Workspace, evaluate, preferred,
 };
 
 /// Trust radius, in steps, for what a search found: an early stop is off by up to a frame, an
@@ -77,22 +77,6 @@ pub struct RefineSettings {
     pub short_list: usize,
     /// Trust radius at the start, in steps.
     pub radius: f64,
-}
-
-/// What became of a candidate.
-#[derive(Clone, Debug)]
-pub struct Refined {
-    /// Which of the candidates it was.
-    pub index: usize,
-    /// The best that was found.
-    pub best: Evaluation,
-    /// Distances of the middle of its ends on plausible supports from the goal, before and now,
-    /// metres.
-    pub off: [f64; 2],
-    /// Score on the support on which it ends farthest from the goal.
-    pub worst: f64,
-    /// Score of the middle of all its ends, before and after every round; it never rises.
-    pub rounds: Vec<f64>,
 }
 
 struct Work {

@@ -9,7 +9,6 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::geometry::Vector;
 use crate::watch::Watch;
 use crate::{
     outcome::{Record, Trajectory},
@@ -20,6 +19,7 @@ use crate::{
 use super::beam::{Stop, choose};
 use super::cost_to_go::CostToGo;
 use super::enumerate::{Extension, Grips, extensions, keep_promising};
+use super::node::Node;
 use super::rollouts::{single_push, stops};
 use super::score::{final_score, finite_score, is_blocked};
 use super::scored::Scores;
@@ -48,21 +48,6 @@ pub struct SearchSettings {
     pub kept: usize,
     /// By how much the effect model is off at times, metres: room that later pushes get for it.
     pub model_error: f64,
-}
-
-/// A state that a sequence of pushes leads to.
-#[derive(Clone, Debug)]
-pub(super) struct Node {
-    /// The pushes so far; none at the start.
-    pub candidate: Option<Candidate>,
-    /// Where everything is then; still moving in the chained form.
-    pub state: State,
-    /// Where the end effector is then.
-    pub end: Option<Vector>,
-    /// Where small errors at the start lead instead, see [`Uncertainty`]; `None` if that is not needed.
-    pub others: Vec<State>,
-    /// Room for where the object may be, metres.
-    pub room: f64,
 }
 
 /// A search in progress.

@@ -27,6 +27,7 @@ mod planner;
 mod progress;
 mod query;
 mod rank;
+mod refinement;
 mod refiner;
 mod relaxation;
 mod report;

@@ -18,7 +18,7 @@ use super::blackboard::Blackboard;
 use super::infeasibility::Cause;
 use super::planner::{Planner, stated};
 use super::query::Query;
-use super::try_out::refined;
+use super::refinement::refined;
 
 /// Pushes that a wider task allows beyond its own.
 const MORE_PUSHES: usize = 2;

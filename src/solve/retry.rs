@@ -12,7 +12,7 @@ use crate::task::{Goal, Task};
 use super::attempts::{Attempt, Attempts, Replays};
 use super::blackboard::{Blackboard, Candidates};
 use super::pattern::PushPattern;
-use super::try_out::{refined, refined_again};
+use super::refinement::{refined, refined_again};
 
 /// A plan is refuted if its replay misses the goal by more than this many tolerances: one that
 /// misses by less may work with another tool.

@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 
 use crate::ROOT;
 
+mod cycles;
+
 /// The rooms of a crate in order, each with those that it imports from: all of them stand before it.
 /// What is not listed is not allowed, and what nobody needs any more is struck from the list.
 type Rooms = &'static [(&'static str, &'static str)];
