@@ -21,6 +21,7 @@ mod frame;
 mod gain;
 mod hold;
 mod index;
+mod instant;
 mod joint;
 mod limb;
 mod lone;

@@ -9,6 +9,7 @@ use super::{
     bodies::Partner,
     constraint::{Constraint, Law},
     gain::Gain,
+    instant::{HALF, WHOLE},
     joint::{Held, turn_joints},
     midway::{Midway, midway},
     motion::Motion,
@@ -20,11 +21,6 @@ use super::{
 
 /// A target that no motion of a frame falls short of, metres.
 const OUT_OF_REACH: f64 = -10.0;
-
-/// Where in a frame contacts and joints are taken: half-way for displacements, at the end for
-/// velocities.
-pub(super) const HALF: f64 = 0.5;
-pub(super) const WHOLE: f64 = 1.0;
 
 /// The prior and what it is made of.
 #[derive(Clone, Debug, Default)]

@@ -28,8 +28,8 @@ use crate::{
 
 use super::{
     bodies::Movable,
+    instant::HALF,
     points::Scenery,
-    prior::HALF,
     tally::Tally,
     twist::{along, shift},
 };

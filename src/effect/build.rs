@@ -1,57 +1,18 @@
 //! From the name of a model to the model; the shipped weights, available from any directory.
 
-use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
-use thiserror::Error;
-
 use crate::{
-    network::{PredictorWeights, WeightsError},
+    network::PredictorWeights,
     scene::{Engine, ModelKind, ModelPart, ModelSpec, TableFit},
     sim::Simulator,
 };
 
 use super::{
-    Assuming, EffectModel, LeverModel, LeverNetwork, LeverPrior, Levering, Network, Prior, Routed,
-    Simulated, Still, UpTo,
+    Assuming, EffectModel, LeverModel, LeverNetwork, LeverPrior, Levering, ModelError, Network, Prior,
+    Routed, Simulated, Still, UpTo,
 };
-
-/// Why a model cannot be made.
-#[derive(Error)]
-pub enum ModelError {
-    /// The library was built around a damaged weights file.
-    #[error("the shipped weights are broken: {0}")]
-    Shipped(#[source] WeightsError),
-    /// A weights file that is missing, damaged or not of pushplan.
-    #[error("{path}: {error}")]
-    File {
-        /// The file.
-        path: String,
-        /// What is wrong with it.
-        #[source]
-        error: WeightsError,
-    },
-    /// A model from outside of the library.
-    #[error("the library has no model `{0}`; build it where it is defined")]
-    Custom(&'static str),
-    /// What was learnt about a table belongs to another network.
-    #[error(
-        "the fit was learnt with other weights ({weights}) than those of the model; fit again with \
-         this model"
-    )]
-    Fit {
-        /// Checksum of the weights that it was learnt with.
-        weights: String,
-    },
-}
-
-/// The text of [`Display`](fmt::Display), so that it reads well when it leaves `main`.
-impl fmt::Debug for ModelError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Display::fmt(self, f)
-    }
-}
 
 /// Where effect models come from.
 pub struct EffectModels;

@@ -6,6 +6,7 @@
 
 mod assuming;
 mod build;
+mod error;
 mod lever;
 mod measured;
 mod model;
@@ -20,7 +21,8 @@ mod up_to;
 
 pub use crate::task::Job;
 pub use assuming::{Assuming, shifted_start};
-pub use build::{EffectModels, ModelError};
+pub use build::EffectModels;
+pub use error::ModelError;
 pub use lever::{
     LeverInputs, LeverModel, LeverNetwork, LeverNetworkError, LeverPrior, LeverTrust, LeverView,
     Levering, PriorSettings, SimulatedLevers, lever_action, lever_features, lever_inputs,

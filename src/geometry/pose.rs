@@ -4,10 +4,7 @@ use std::ops::Mul;
 
 use serde::{Deserialize, Serialize};
 
-use super::Turn;
-
-/// A planar vector or position, metres.
-pub type Vector = nalgebra::Vector2<f64>;
+use super::{Turn, Vector};
 
 /// A planar rigid pose: turn by `heading`, then shift by `position`.
 ///

@@ -30,7 +30,7 @@ pub use lever::{
     fresh_lever_values, lever_layout, tanh,
 };
 pub use normaliser::{Normaliser, Statistics};
-pub use parameters::{Parameters, layout, layout_of};
+pub use parameters::{Layout, Parameters, layout, layout_of};
 pub use parity::{Sum, rectify_rows};
 pub use predictor::{ErrorCard, PredictorCard, PredictorWeights, Source};
 pub use product::matrix_product;
@@ -39,7 +39,7 @@ pub use regulator::{
     regulator_layout,
 };
 pub use tables::{Rows, Tables};
-pub use tensors::{Layout, ParameterError, decode_parameters, encode_parameters, file_metadata};
+pub use tensors::{ParameterError, decode_parameters, encode_parameters, file_metadata};
 pub use weights::{
     Card, Weights, WeightsError, check_config, check_normaliser, check_scales, check_widths,
 };

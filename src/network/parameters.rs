@@ -7,7 +7,10 @@ use std::collections::BTreeMap;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use super::{Config, Layout, Tables};
+use super::{Config, Tables};
+
+/// Names and shapes of the parameters of a network, in the order of their names' use.
+pub type Layout = Vec<(&'static str, Vec<usize>)>;
 
 /// Parameter values by name, each row-major in the shape that [`layout`] gives.
 #[derive(Clone, Debug, Default, PartialEq)]

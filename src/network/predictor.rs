@@ -6,7 +6,7 @@ use crate::scene::Ranges;
 
 use super::{
     Config, Doubt, Normaliser, Tables, layout,
-    tensors::Layout,
+    parameters::Layout,
     weights::{Card, Weights, WeightsError, check_config, check_normaliser},
 };
 

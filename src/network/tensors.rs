@@ -7,9 +7,6 @@ use thiserror::Error;
 
 use super::Parameters;
 
-/// Names and shapes of the parameters of a network, in the order of their names' use.
-pub type Layout = Vec<(&'static str, Vec<usize>)>;
-
 /// A parameter that is missing or unusable.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("the parameter `{name}` {fault}")]

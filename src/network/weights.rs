@@ -18,7 +18,8 @@ use crate::checksum::{checksum, extend};
 use super::{
     Config, Normaliser, Parameters, Statistics, Tables,
     normaliser::MIN_DEVIATION,
-    tensors::{Layout, ParameterError, decode_parameters, encode_parameters, file_metadata},
+    parameters::Layout,
+    tensors::{ParameterError, decode_parameters, encode_parameters, file_metadata},
 };
 
 /// Largest magnitude of a parameter, a mean or a deviation. Those of trained networks stay below 4;

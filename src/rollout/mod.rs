@@ -12,12 +12,14 @@ mod pressing;
 mod reach;
 mod roll;
 mod run;
+mod settings;
 mod stepper;
 mod work;
 
 pub use integrate::integrate;
 pub use pair_means::PairMeans;
 pub use reach::reachable;
-pub use roll::{RollSettings, Roller, roll};
+pub use roll::{Roller, roll};
+pub use settings::RollSettings;
 pub use stepper::{Corrector, Found, Stepper, Walk};
 pub use work::Work;

@@ -13,7 +13,7 @@ use super::{
     integrate::integrate,
     pressing::Pressing,
     reach::{Course, Listed, Reach},
-    roll::RollSettings,
+    settings::RollSettings,
     stepper::{Found, Walk},
     work::Work,
 };

@@ -65,7 +65,7 @@ impl Attempt {
             refinement: Refinement {
                 before,
                 after,
-                aimed_at: (!task.goals().eq(aims) && !aims[0].is_relation())
+                aimed_at: (!task.goals.iter().eq(aims) && !aims[0].is_relation())
                     .then(|| aims[0].position),
                 rounds: rounds.into_iter().skip(1).map(bare).collect(),
             },
@@ -91,7 +91,7 @@ impl Attempt {
         let start = &query.situation.start;
         let score = query.task.score(start);
         let tools = query.tools.iter().take(1).cloned().collect();
-        let error = query.task.goal.error(start);
+        let error = query.task.goals[0].error(start);
         Self { score, aims: query.goals(), ..Self::new(Plan::default(), tools, error) }
     }
 

@@ -89,7 +89,7 @@ impl<'a> Blackboard<'a> {
         self.progress.stage_of("search", pushes);
         let mut found = search.deepen(&mut self.refiner.screening, self.query.watch);
         // A plan that leaves one of several goals behind is no candidate yet.
-        if !self.query.task.further.is_empty() {
+        if self.query.task.goals.len() > 1 {
             found.retain(|one| bare(one.score) <= REFINABLE);
         }
         self.timing.search += began.elapsed().as_secs_f64();

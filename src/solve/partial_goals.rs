@@ -24,7 +24,7 @@ pub(super) fn meet_some_goals(
     solution: &mut Solution,
 ) -> Result<(), SolveError> {
     let missed = matches!(solution.status, PlanStatus::NoPlan | PlanStatus::FailedVerification);
-    if !missed || task.further.is_empty() || task.in_space() {
+    if !missed || task.goals.len() < 2 || task.in_space() {
         return Ok(());
     }
     let situation = stated(task);
@@ -61,7 +61,7 @@ pub(super) fn meet_some_goals(
 fn sets(task: &Task) -> Vec<Vec<usize>> {
     let start = task.scene.start();
     let goals: Vec<(f64, bool)> =
-        task.goals().map(|goal| (goal.weight, goal.reached(&start))).collect();
+        task.goals.iter().map(|goal| (goal.weight, goal.reached(&start))).collect();
     let count = goals.len();
     let mut sets: Vec<Vec<usize>> = match count <= ALL_SETS {
         true => (1..(1usize << count) - 1)

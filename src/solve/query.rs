@@ -38,7 +38,7 @@ impl<'a> Query<'a> {
 
     /// Returns the task's goals.
     pub fn goals(&self) -> Vec<Goal> {
-        self.task.goals().cloned().collect()
+        self.task.goals.clone()
     }
 
     /// Returns the number of plans that are verified together.

@@ -158,7 +158,7 @@ fn wider<'a>(task: &'a Task, tools: &[Arc<Tool>], library: &ToolLibrary) -> Vec<
     for (index, pose) in joined(task) {
         add(
             &|task| {
-                let goal = &mut task.goal;
+                let goal = &mut task.goals[0];
                 let heading = goal.heading.map_or(0.0, |(heading, _)| heading);
                 let there = Pose { position: goal.position, heading } * pose;
                 (goal.object, goal.position) = (index, there.position);
@@ -199,8 +199,8 @@ fn wider<'a>(task: &'a Task, tools: &[Arc<Tool>], library: &ToolLibrary) -> Vec<
 
 /// The obstacles that stand nearest to the goal and to its object.
 fn nearest(task: &Task) -> Vec<&Obstacle> {
-    let from = task.scene.objects[task.goal.object].pose.position;
-    let goal = task.goal.place(&task.scene.start());
+    let from = task.scene.objects[task.goals[0].object].pose.position;
+    let goal = task.goals[0].place(&task.scene.start());
     let far = |obstacle: &Obstacle| {
         let at = obstacle.pose.position;
         (at - goal).norm().min((at - from).norm())
@@ -219,10 +219,10 @@ fn least(ways: &[Way], of: impl Fn(&Way) -> f64) -> f64 {
 
 /// What is rigidly joined to the goal's object, and where from it: it could be brought to the same place.
 fn joined(task: &Task) -> Vec<(usize, Pose)> {
-    if task.goal.is_relation() {
+    if task.goals[0].is_relation() {
         return Vec::new();
     }
-    let mut found = vec![task.goal.object];
+    let mut found = vec![task.goals[0].object];
     let mut next = 0;
     while let Some(&one) = found.get(next) {
         let fixed = task.scene.joints.iter().filter(|joint| joint.kind == JointKind::Fixed);
@@ -236,6 +236,6 @@ fn joined(task: &Task) -> Vec<(usize, Pose)> {
         next += 1;
     }
     let poses = &task.scene.objects;
-    let from = poses[task.goal.object].pose.inverse();
+    let from = poses[task.goals[0].object].pose.inverse();
     found.into_iter().skip(1).map(|index| (index, from * poses[index].pose)).collect()
 }

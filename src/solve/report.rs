@@ -140,7 +140,7 @@ fn predicted(query: &Query, attempts: Vec<Attempt>) -> (Vec<RankedPlan>, Vec<War
 fn is_nearer(query: &Query, attempt: &Attempt) -> bool {
     let (task, start) = (query.task, &query.situation.start);
     // By the goal that asks for least, as scores are in units of tolerances.
-    let least = task.goals().map(|goal| {
+    let least = task.goals.iter().map(|goal| {
         let turned = goal.heading.map_or(f64::INFINITY, |(_, tolerance)| TURNED / tolerance);
         if goal.has_place() { (NEARER / goal.tolerance).min(turned) } else { turned }
     });

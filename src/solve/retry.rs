@@ -164,7 +164,7 @@ fn aim_again(board: &mut Blackboard, failed: &[usize], count: usize, pushes: usi
         let (Some(candidate), Some(verdict)) = (attempt.candidate.clone(), &attempt.verdict) else {
             continue;
         };
-        let aims = task.goals().zip(&attempt.aims);
+        let aims = task.goals.iter().zip(&attempt.aims);
         let next_aims: Vec<Option<Goal>> =
             aims.clone().map(|(goal, aimed)| aim(goal, aimed, verdict)).collect();
         if next_aims.iter().any(Option::is_some) {

@@ -13,9 +13,9 @@ use crate::{
 use super::{
     super::{
         bodies::Partner,
+        instant::{HALF, WHOLE},
         motion::Motion,
         points::{Contact, Scenery},
-        prior::{HALF, WHOLE},
         system::{SETTLED, UPDATES},
         tally::Tally,
         twist::shift,

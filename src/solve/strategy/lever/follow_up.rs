@@ -39,10 +39,10 @@ impl<'a> FollowUp<'a> {
 
     /// Searches and verifies lever-ups, with the place left to the pushes.
     fn levered(&self, board: &mut Blackboard<'a>) -> VecDeque<Attempt> {
-        let goal = Goal { tolerance: f64::INFINITY, ..self.task.goal.clone() };
-        let lifted = Task { goal: goal.clone(), ..self.task.clone() };
+        let goal = Goal { tolerance: f64::INFINITY, ..self.task.goals[0].clone() };
+        let lifted = Task { goals: vec![goal.clone()], ..self.task.clone() };
         let mut plans = lever_ups(board, &lifted, &self.prefix);
-        let goal = Task { goal, ..board.query.task.clone() };
+        let goal = Task { goals: vec![goal], ..board.query.task.clone() };
         verify_in_groups(board, &goal, &mut plans);
         let mut levered: Vec<Attempt> = plans.into_iter().map(|plan| plan.attempt).collect();
         // Stable: the search decides between equals.

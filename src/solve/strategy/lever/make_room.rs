@@ -48,21 +48,21 @@ impl<'a> MakeRoom<'a> {
     fn push(&mut self, board: &mut Blackboard) -> Result<Option<(Prefix, Task)>, SolveError> {
         let query = board.query;
         let most = query.planner.settings().levers.followed;
-        let (task, goal) = (query.task, query.task.goal.object);
+        let (task, goal) = (query.task, query.task.goals[0].object);
         while self.pushed < most
             && !query.watch.cancelled()
             && let Some(displacement) = self.displacements.next()
         {
             let place = task.scene.objects[goal].pose.position + displacement;
             let mut there = task.clone();
-            there.goal.tolerance = f64::INFINITY;
+            there.goals[0].tolerance = f64::INFINITY;
             there.scene.objects[goal].pose.position = place;
             if !is_free(&there) || promising(board, &there) == 0 {
                 continue;
             }
             self.pushed += 1;
             board.progress.stage("pushes");
-            let towards = Task { goal: Goal::new(goal, place.into(), NEAR), ..task.clone() };
+            let towards = Task { goals: vec![Goal::new(goal, place.into(), NEAR)], ..task.clone() };
             let Some(left) = pushing_task(&towards, &start(task), self.library) else { continue };
             let solution = query.planner.solve_with(&left, self.library, query.watch)?;
             let Some(best) = solution.best().filter(|best| !best.plan.is_empty()) else { continue };
@@ -94,7 +94,9 @@ impl<'a> Strategy<'a> for MakeRoom<'a> {
         if board.attempts.list.iter().any(Attempt::works) || board.query.watch.cancelled() {
             return Ok(None);
         }
-        if let Some((prefix, moved)) = self.last.take().filter(|(_, task)| task.goal.has_place()) {
+        if let Some((prefix, moved)) =
+            self.last.take().filter(|(_, task)| task.goals[0].has_place())
+        {
             let mut follow_up = FollowUp::after(prefix, moved, self.library);
             let batch = follow_up.next(board)?;
             self.follow_up = Some(follow_up);
@@ -112,7 +114,7 @@ impl<'a> Strategy<'a> for MakeRoom<'a> {
 /// Returns `true` if the goal's object has room where it is put.
 fn is_free(task: &Task) -> bool {
     let (scene, own) = (&task.scene, task.plate());
-    let others = scene.objects.iter().enumerate().filter(|(k, _)| *k != task.goal.object);
+    let others = scene.objects.iter().enumerate().filter(|(k, _)| *k != task.goals[0].object);
     let others = others.flat_map(|(_, object)| Plate::of(object).solids());
     let others: Vec<Solid> = others.chain(scene.obstacles.iter().map(Obstacle::solid)).collect();
     let clear = |solid: &Solid| others.iter().all(|other| solid.depth(other) <= 0.0);

@@ -103,7 +103,7 @@ fn simulate(query: &Query, task: &Task, chosen: Vec<ScoredLever>) -> Vec<Simulat
             let planned = LeverScene::with(&task.scene, tool);
             let run = |really: &LeverScene| coarse(task, (really, &planned), &motion);
             let (trajectory, outcome) = run(&planned);
-            let mut merit = merit(&task.goal, &outcome, &trajectory) + 1.0 - scored.company;
+            let mut merit = merit(&task.goals[0], &outcome, &trajectory) + 1.0 - scored.company;
             if outcome.reached && doubts > 0 {
                 let missed = (0..doubts)
                     .filter(|&draw| !run(&doubted(&planned, lever.plate, draw)).1.reached);
