@@ -9,7 +9,7 @@ use crate::scene::{Part, Tool};
 
 use super::form::{Form, Head};
 
-/// How many numbers say how large everything is and where.
+/// Number of parameters of sizes and places.
 pub(super) const NUMBERS: usize = 16;
 
 /// Height of the parts, metres: that of all shipped tools.
@@ -50,7 +50,7 @@ pub(super) struct Route {
     pub points: Vec<Vector>,
     /// Its width, metres.
     pub width: f64,
-    /// What is across its end.
+    /// Bar across its end.
     pub bar: Option<Bar>,
 }
 
@@ -59,9 +59,9 @@ pub(super) struct Route {
 pub(super) struct Bar {
     /// Metres.
     pub length: f64,
-    /// Which way it points, radians.
+    /// Direction, radians.
     pub heading: f64,
-    /// How far its middle is from the end of the handle that way, metres.
+    /// Distance of its middle from the end of the handle in that direction, metres.
     pub aside: f64,
 }
 
@@ -120,7 +120,7 @@ impl Assembly {
         pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
     }
 
-    /// What such a tool is called.
+    /// Returns the name of such a tool.
     pub fn name(&self) -> &'static str {
         let bends = (1..self.form.links).filter(|k| around(self.numbers[4 + k]) != 0.0);
         match (self.form.head, bends.count()) {
@@ -257,7 +257,7 @@ fn around(number: f64) -> f64 {
     out.signum() * ((out.abs() - MIDDLE) / (END - MIDDLE)).clamp(0.0, 1.0)
 }
 
-/// From -1 to 1.
+/// Maps to -1 to 1.
 fn signed(number: f64) -> f64 {
     2.0 * number - 1.0
 }
@@ -280,7 +280,7 @@ fn number_around(value: f64) -> f64 {
     }
 }
 
-/// The same turn within half a turn, degrees.
+/// Wraps a turn to half a turn, degrees.
 fn wrap(degrees: f64) -> f64 {
     degrees - 360.0 * (degrees / 360.0).round()
 }

@@ -1,6 +1,6 @@
 //! The kinds of tools that are proposed: of how many links the handle is, and what it ends in.
 
-/// What is at the end of a handle.
+/// End of a handle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Head {
     /// Nothing.
@@ -13,7 +13,7 @@ pub(super) enum Head {
     Bars,
     /// A bar with a tine at either end: a fork, or a rake where they point back.
     Fork,
-    /// The same, closed by a second bar.
+    /// Ring: a catch closed by a second bar.
     Ring,
 }
 
@@ -30,7 +30,7 @@ impl Form {
     /// The most links of a handle.
     pub const LINKS: usize = 3;
 
-    /// Those of at most `parts` parts, simplest first.
+    /// Forms of at most `parts` parts, simplest first.
     pub fn up_to(parts: usize) -> Vec<Self> {
         let heads = [Head::Plain, Head::Bar, Head::Catch, Head::Bars, Head::Fork, Head::Ring];
         let all = (1..=Self::LINKS).flat_map(|links| heads.map(|head| Self { links, head }));
@@ -51,7 +51,7 @@ impl Form {
         Some(Self { head, ..self })
     }
 
-    /// How many parts it has.
+    /// Number of parts.
     pub fn parts(self) -> usize {
         let head = match self.head {
             Head::Plain => 0,

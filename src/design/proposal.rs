@@ -1,4 +1,4 @@
-//! What came of looking for a tool.
+//! Result of designing a tool.
 
 use std::sync::Arc;
 
@@ -25,20 +25,20 @@ pub struct Design {
     /// The tool to make. `None` where those that there are solve the task and none was found that does so
     /// with more margin, or where no tool can push at all. Where no tool works it is the nearest.
     pub proposal: Option<Proposal>,
-    /// What it took.
+    /// Cost.
     pub spent: Spent,
     /// Whether it was stopped before it was over.
     pub stopped: bool,
 }
 
-/// What looking for a tool took.
+/// Cost of designing a tool.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Spent {
     /// Tools that were looked at.
     pub looked_at: usize,
     /// Rollouts of the model that screens for these.
     pub rollouts: usize,
-    /// Of these tools, how many were predicted to reach the goal.
+    /// Number of these tools that were predicted to reach the goal.
     pub promising: usize,
     /// Tools with which the task was solved in full.
     pub solved: usize,

@@ -1,4 +1,4 @@
-//! From a task to a tool.
+//! Design of a tool for a task.
 
 use std::sync::Arc;
 
@@ -125,7 +125,7 @@ fn named(seen: &Seen, task: &Task, library: &ToolLibrary) -> Option<Tool> {
     Some(seen.assembly.tool(&name)?.described(description))
 }
 
-/// What the best plan of a solution is worth, if it was verified.
+/// Returns the grade of a solution's best plan, if it was verified.
 fn grade(task: &Task, solution: &Solution) -> Option<Grade> {
     let verdict = solution.best()?.verdict.as_ref()?;
     Some(Grade::of(task, verdict))

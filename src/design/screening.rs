@@ -17,7 +17,7 @@ use crate::{
 
 use crate::solve::{LeverSettings, Settings, WELL_INSIDE, distinct};
 
-/// What a first look takes: about half a thousand rollouts where three pushes are allowed.
+/// Settings of screening: about half a thousand rollouts where three pushes are allowed.
 const SETTINGS: Settings = Settings {
     offsets: 3,
     beam: 4,
@@ -33,7 +33,7 @@ const SETTINGS: Settings = Settings {
     levers: LeverSettings::DRAFT,
 };
 
-/// What a first look sees of a tool; compared in this order, less being better.
+/// Screening result of a tool; compared in this order, less being better.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Look {
     /// How far off the best plan ends, in units of the tolerance, on the support and with the small errors
@@ -45,7 +45,7 @@ pub(super) struct Look {
     /// Pieces of the tool, flush parts taken together, and parts.
     pub pieces: usize,
     pub parts: usize,
-    /// What its parts cover together, square metres.
+    /// Area of its parts together, square metres.
     pub size: f64,
     /// Rollouts that it took.
     pub rollouts: usize,
@@ -62,7 +62,7 @@ impl Look {
     }
 }
 
-/// What is looked at, and with which model.
+/// Task and model of screening.
 pub(super) struct Looking<'a> {
     pub task: &'a Task,
     pub situation: &'a Situation,
@@ -115,7 +115,7 @@ impl Looking<'_> {
         Look { misses, pushes, pieces, parts, size, rollouts: rollouts.used() }
     }
 
-    /// How far off a plan ends in the worst of the cases that are tried.
+    /// Returns the error of a plan in the worst of the cases that are tried.
     fn missed(&self, workspace: &Workspace, rollouts: &mut Rollouts, one: &Refined) -> f64 {
         let worst = one.worst.max(one.best.score);
         if worst > 1.0 {

@@ -26,7 +26,7 @@ const OF_A_FORM: usize = 5;
 /// Numbers are varied by up to this in the first generation and in the last.
 const SPREAD: [f64; 2] = [0.4, 0.06];
 
-/// How often a variation takes on any form, and how often the next simpler one.
+/// Probabilities with which a variation takes on any form, and the next simpler one.
 const REFORMED: f64 = 0.1;
 const SIMPLER: f64 = 0.15;
 

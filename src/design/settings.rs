@@ -1,4 +1,4 @@
-//! How hard to look for a tool.
+//! Budgets of designing a tool.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,11 +9,11 @@ pub struct DesignSettings {
     pub parts: usize,
     /// Tools that are looked at.
     pub candidates: usize,
-    /// Of these, at most how many run where there is room for a handle.
+    /// Maximum number of these that run where there is room for a handle.
     pub traced: usize,
-    /// Of these, how many are drawn by chance before the best are varied.
+    /// Number of these that are drawn by chance before the best are varied.
     pub drawn: usize,
-    /// Of the best, how many are solved with in full, plans verified.
+    /// Number of the best that are solved with in full, plans verified.
     pub solved: usize,
 }
 
@@ -21,10 +21,10 @@ impl DesignSettings {
     /// Three parts make a J, or a hook of two thirds of a metre.
     pub const PARTS: usize = 3;
 
-    /// As many take three to eleven seconds of two busy cores.
+    /// Default number of candidates: three to eleven seconds of two busy cores.
     pub const CANDIDATES: usize = 1000;
 
-    /// Of a thousand.
+    /// Share that is drawn, of a thousand candidates.
     const TRACED: usize = 150;
     const DRAWN: usize = 300;
 

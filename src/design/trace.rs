@@ -84,7 +84,7 @@ pub(super) fn traced(task: &Task, field: &CostToGo, parts: usize) -> Vec<Assembl
     all
 }
 
-/// What is in the way of a handle that makes one push.
+/// Obstructions of a handle that makes one push.
 struct Tracing<'a> {
     task: &'a Task,
     wanted: &'a Wanted,
@@ -92,9 +92,9 @@ struct Tracing<'a> {
     shift: Vector,
     /// Half of the object's extent across it, metres.
     half_width: f64,
-    /// Where the face is in the middle of its thickness.
+    /// Middle of the face in its thickness.
     face: Vector,
-    /// Where the handle ends.
+    /// End of the handle.
     foot: Vector,
     fixed: Vec<(Footprint, Pose)>,
     objects: Vec<(Footprint, Pose)>,

@@ -22,7 +22,7 @@ pub(super) struct Stop {
     /// The state to continue from, where it is known exactly.
     pub known: Option<State>,
     grip: (usize, u64),
-    /// What is pushed, and which way.
+    /// Pushed object and direction.
     way: (usize, u64),
     cell: (i64, i64),
 }
@@ -49,7 +49,7 @@ impl Stop {
         }
     }
 
-    /// The same stop, of the push with this index.
+    /// Returns this stop for the push with another index.
     pub fn of(self, extension: usize) -> Self {
         Self { extension, ..self }
     }

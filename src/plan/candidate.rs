@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Where a push of a candidate starts.
+/// Start of a candidate's push.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Start {
@@ -18,11 +18,11 @@ pub enum Start {
         /// contacting face, left of the direction positive, metres.
         offset: f64,
     },
-    /// At the robot's home, or where the last push ended.
+    /// Robot's home, or the end of the last push.
     Chained,
 }
 
-/// One push of a candidate.
+/// Push of a candidate.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CandidatePush {
     /// Index of its tool among those that were offered.
@@ -31,7 +31,7 @@ pub struct CandidatePush {
     pub grip_yaw: f64,
     /// Index of the object that a placed push is meant for.
     pub object: usize,
-    /// Where it starts.
+    /// Start.
     pub start: Start,
     /// Heading of the motion, radians from world +x.
     pub direction: f64,
@@ -52,12 +52,12 @@ impl CandidatePush {
 /// Pushes to make.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Candidate {
-    /// In order.
+    /// Pushes in order.
     pub pushes: Vec<CandidatePush>,
 }
 
 impl Candidate {
-    /// The same candidate with one more push.
+    /// Returns the candidate with one more push.
     pub fn then(&self, push: CandidatePush) -> Self {
         let mut next = self.clone();
         next.pushes.push(push);
@@ -74,7 +74,7 @@ impl Candidate {
         self.pushes.windows(2).all(|pair| pair[0].grip() == pair[1].grip())
     }
 
-    /// How often another tool is taken.
+    /// Returns the number of tool changes.
     pub fn tool_changes(&self) -> usize {
         self.pushes.windows(2).filter(|pair| pair[0].tool != pair[1].tool).count()
     }

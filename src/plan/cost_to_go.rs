@@ -37,7 +37,7 @@ const STEPS: [[i32; 2]; 16] = [
     [-1, -2],
 ];
 
-/// At most this many cells along a side; a larger scene gets coarser cells.
+/// Maximum number of cells along a side; a larger scene gets coarser cells.
 const MOST_CELLS: usize = 128;
 
 /// Room for ways around everything that matters, metres.
@@ -54,7 +54,7 @@ const HEADING_WEIGHT: f64 = 0.5;
 /// clearing it away.
 const ASIDE_WEIGHT: f64 = 4.0;
 
-/// What stands in the way is measured by this where no place is asked for, metres.
+/// Scale of obstructions where no place is asked for, metres.
 const FREE: f64 = 0.02;
 
 /// Distances to the goals for the centres of their objects.
@@ -63,9 +63,9 @@ pub struct CostToGo<'a> {
     task: &'a Task,
     /// The goals in the world, as things stand at the start.
     goals: Arc<[Goal]>,
-    /// One for every goal, if there are obstacles.
+    /// Grid of every goal, if there are obstacles.
     grids: Arc<[Option<Ways>]>,
-    /// What has to be free before the goal's object is pushed.
+    /// Region that must be free before the goal's object is pushed.
     corridor: Option<SweptRegion>,
 }
 
@@ -82,7 +82,7 @@ impl<'a> CostToGo<'a> {
         Self { task, grids: goals.iter().map(grid).collect(), goals: goals.into(), corridor: None }
     }
 
-    /// The same where this has to be free first.
+    /// Returns the field of a task in which this region must be free first.
     pub fn clearing(self, corridor: SweptRegion) -> Self {
         Self { corridor: Some(corridor), ..self }
     }

@@ -23,7 +23,7 @@ const SAME_PLACE: f64 = 1e-4;
 /// it only bounds what a file with thousands of directions or offsets can ask for.
 const MOST_PER_GRIP: usize = 20_000;
 
-/// How tools are held in a search.
+/// Grips of a search.
 #[derive(Clone, Debug)]
 pub(super) struct Grips {
     /// Each a tool and a grip yaw.
@@ -41,7 +41,7 @@ impl Grips {
         any.then(|| Self { changes: Some(changes), ..self.clone() })
     }
 
-    /// Those that may continue a node: all at the start.
+    /// Returns the grips that may continue a node: all at the start.
     fn next(&self, node: &Node) -> Vec<(usize, f64)> {
         let last = node.candidate.as_ref().and_then(|candidate| candidate.pushes.last());
         let (Some(last), Some(candidate)) = (last, &node.candidate) else {
@@ -63,9 +63,9 @@ pub(super) struct Extension {
     pub node: usize,
     /// The push, its length cut to what reach and obstacles allow.
     pub planned: CandidatePush,
-    /// The same with its start.
+    /// Push with its start.
     pub push: Push,
-    /// Where its score is kept.
+    /// Index of its score.
     pub scored: Option<usize>,
     /// Least cost left if the object were carried straight along: the order in which pushes are
     /// tried.

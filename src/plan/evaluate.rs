@@ -21,7 +21,7 @@ pub struct Evaluation {
     pub candidate: Candidate,
     /// Its pushes, as the end effector makes them.
     pub pushes: Vec<Push>,
-    /// By how much each push keeps the rules.
+    /// Margins by which each push keeps the rules.
     pub margins: Vec<Margins>,
     /// Predicted state at rest.
     pub outcome: State,
@@ -68,7 +68,7 @@ impl Evaluation {
         Plan { steps: self.candidate.pushes.iter().zip(&self.pushes).map(step).collect() }
     }
 
-    /// What its tools do, one after another.
+    /// Returns the motions of its tools in order.
     pub fn motions(&self, workspace: &Workspace) -> Vec<ToolMotion> {
         self.plan(workspace).slides(&self.tools(workspace)).unwrap_or_default()
     }

@@ -1,4 +1,4 @@
-//! How far outcomes are off from every goal, in units of the tolerances.
+//! Errors of outcomes relative to every goal, in units of the tolerances.
 
 use nalgebra::Vector3;
 
@@ -35,7 +35,7 @@ pub(super) fn apart(task: &Task, to: &[Vector3<f64>], from: &[Vector3<f64>]) -> 
     task.goals.iter().zip(to).zip(from).map(of).collect()
 }
 
-/// The same misses seen from `middles`, one for every goal.
+/// Returns errors relative to `middles`, one for every goal.
 pub(super) fn beside(misses: &[Vector3<f64>], middles: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     misses.iter().zip(middles).map(|(miss, middle)| miss + middle).collect()
 }

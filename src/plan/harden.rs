@@ -25,13 +25,13 @@ const CHILDREN: usize = 12;
 /// Rounds before half of them are given up.
 const ROUNDS: usize = 4;
 
-/// As many are left when the search ends.
+/// Number of candidates left when the search ends.
 const LEFT: usize = 6;
 
 /// Sizes of changes, in steps of the parameters; their logarithm is drawn evenly.
 const CHANGES: (f64, f64) = (0.2, 8.0);
 
-/// How much to look for what depends little on supports.
+/// Budgets of hardening.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HardenSettings {
     /// Candidates that are moved, each of another kind.

@@ -1,9 +1,9 @@
-//! Why a push cannot be made.
+//! Reasons why a push cannot be made.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// Why a push cannot be made.
+/// Reasons why a push cannot be made.
 #[derive(
     Clone, Copy, Debug, Error, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
 )]

@@ -10,11 +10,11 @@ use super::Candidate;
 pub(super) struct Node {
     /// The pushes so far; none at the start.
     pub candidate: Option<Candidate>,
-    /// Where everything is then; still moving in the chained form.
+    /// State then; still moving in the chained form.
     pub state: State,
-    /// Where the end effector is then.
+    /// End effector's position then.
     pub end: Option<Vector>,
-    /// Where small errors at the start lead instead, see `uncertainty`.
+    /// States that small errors at the start lead to instead, see `uncertainty`.
     pub others: Vec<State>,
     /// Room for where the object may be, metres.
     pub room: f64,

@@ -7,13 +7,13 @@ use crate::scene::State;
 use super::workspace::MIN_LENGTH;
 use super::{Candidate, Start, Workspace};
 
-/// One step of the lateral offset, metres.
+/// Step of the lateral offset, metres.
 pub(super) const OFFSET_STEP: f64 = 0.005;
 
-/// One step of the direction, radians: moves the end of a 0.1 m push by as much as an offset.
+/// Step of the direction, radians: moves the end of a 0.1 m push by as much as an offset.
 pub(super) const DIRECTION_STEP: f64 = 0.05;
 
-/// One step of the length, metres.
+/// Step of the length, metres.
 pub(super) const LENGTH_STEP: f64 = 0.005;
 
 /// A direction is turned by at most this against the one that was searched, radians (25
@@ -70,12 +70,12 @@ impl Parameters {
         Self(list)
     }
 
-    /// How many there are.
+    /// Returns their number.
     pub fn count(&self) -> usize {
         self.0.len()
     }
 
-    /// How far each may go down and up from `candidate`, in steps.
+    /// Returns the bounds of each below and above `candidate`, in steps.
     pub fn room(&self, candidate: &Candidate) -> Vec<(f64, f64)> {
         let range = |p: &Parameter| {
             let value = read(candidate, p);
@@ -98,7 +98,7 @@ impl Parameters {
     }
 }
 
-/// How far a direction is turned from the nearest one that the task allows, radians.
+/// Returns the angle to the nearest direction that the task allows, radians.
 fn turned(workspace: &Workspace, direction: f64) -> f64 {
     let allowed = workspace.task.pushes.directions.headings();
     let turns = allowed.iter().map(|heading| wrap_angle(direction - heading));

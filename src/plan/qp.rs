@@ -36,13 +36,13 @@ pub struct QpProblem {
     pub b: Vec<f64>,
 }
 
-/// How solving ended.
+/// Status of the solution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum QpStatus {
-    /// To full accuracy.
+    /// Solved to full accuracy.
     Solved,
-    /// To reduced accuracy; good enough for a step that is checked by rolling out.
+    /// Solved to reduced accuracy; good enough for a step that is checked by rolling out.
     AlmostSolved,
     /// No x satisfies the constraints.
     Infeasible,
@@ -57,7 +57,7 @@ pub enum QpStatus {
 /// The answer to a quadratic programme.
 #[derive(Clone, Debug, PartialEq)]
 pub struct QpSolution {
-    /// How solving ended.
+    /// Status of the solution.
     pub status: QpStatus,
     /// The minimiser; empty unless solved or almost solved.
     pub x: Vec<f64>,

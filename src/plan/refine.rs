@@ -59,7 +59,7 @@ const HOPE: f64 = 4.0;
 /// only between parameters that do not matter.
 const DAMPING: f64 = 1e-3;
 
-/// How much to refine.
+/// Budgets of refinement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RefineSettings {
     /// Rounds of fitting, solving and trying.

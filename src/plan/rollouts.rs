@@ -32,7 +32,7 @@ impl<'a> Rollouts<'a> {
         self.used += rollouts;
     }
 
-    /// Where planning starts, and under which physics everything is rolled out.
+    /// Returns the start of planning and the physics of all rollouts.
     pub fn situation(&self) -> &Situation {
         &self.situation
     }
@@ -54,7 +54,7 @@ impl<'a> Rollouts<'a> {
     }
 }
 
-/// One straight push that ends with waiting for rest.
+/// Returns a straight push that ends with waiting for rest.
 pub(super) fn single_push(tool: &Arc<Tool>, lift: f64, grip_yaw: f64, push: &Push) -> ToolMotion {
     ToolMotion::pushes(Arc::clone(tool), lift, grip_yaw, std::slice::from_ref(push), true)
 }

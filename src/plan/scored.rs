@@ -8,7 +8,7 @@ use super::{CandidatePush, Infeasible, Start};
 /// what a file with thousands of directions or offsets can ask for.
 const MOST: usize = 100_000;
 
-/// One way to push, over all states that the search tried it from.
+/// A kind of push, over all states that the search tried it from.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ScoredPush {
     /// Pushes of the sequences that end with it.
@@ -19,7 +19,7 @@ pub struct ScoredPush {
     pub grip_yaw: f64,
     /// Heading of the motion, radians from world +x.
     pub direction: f64,
-    /// Where it starts, as tried from the first state.
+    /// Start, as tried from the first state.
     pub start: Start,
     /// The best score that was predicted: error in units of the tolerance, behind all others where
     /// something could not pass (see [`super::is_behind`]). `None` if it was not rolled out, or
@@ -39,7 +39,7 @@ pub(super) struct Scores {
 }
 
 impl Scores {
-    /// What was found so far.
+    /// Returns the results so far.
     pub fn list(&self) -> &[ScoredPush] {
         &self.list
     }

@@ -35,18 +35,18 @@ const BATCH: usize = 256;
 /// Every how many frames a stop is offered to the beam, besides the best and the last one.
 const BEAM_STRIDE: usize = 5;
 
-/// How much to search.
+/// Budgets of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SearchSettings {
     /// Lateral offsets tried per contacting face, where the task lists none.
     pub offsets: usize,
     /// States from which sequences are continued.
     pub beam: usize,
-    /// Most rollouts for each further push of a sequence.
+    /// Maximum number of rollouts for each further push of a sequence.
     pub rollouts: usize,
     /// Scored candidates that are kept.
     pub kept: usize,
-    /// By how much the effect model is off at times, metres: room that later pushes get for it.
+    /// Error of the effect model at times, metres: room that later pushes get for it.
     pub model_error: f64,
 }
 
@@ -141,7 +141,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// How much it searches.
+    /// Returns its budgets.
     pub fn settings(&self) -> SearchSettings {
         self.settings
     }
@@ -156,7 +156,7 @@ impl<'a> Search<'a> {
         self.depth
     }
 
-    /// What the search cost so far.
+    /// Returns the cost so far.
     pub fn statistics(&self) -> &SearchStatistics {
         &self.statistics
     }

@@ -1,4 +1,4 @@
-//! What a search finds, and of which kinds it is.
+//! Results of a search, and their kinds.
 
 use super::Candidate;
 
@@ -12,7 +12,7 @@ pub struct SearchResult {
     pub score: f64,
 }
 
-/// Which of `found` are the best of different kinds, at most `count` of them: indices, in order.
+/// Returns the indices of the best of `found` of different kinds, at most `count`, in order.
 /// `found` is sorted, best first; variants of one another (see [`Candidate::is_variant_of`]) are
 /// of one kind.
 pub fn kinds(found: &[SearchResult], count: usize) -> Vec<usize> {

@@ -1,4 +1,4 @@
-//! What planning cost, and why candidates were dropped.
+//! Cost of planning, and reasons why candidates were dropped.
 
 use std::collections::BTreeMap;
 

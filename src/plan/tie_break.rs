@@ -22,7 +22,7 @@ const COUNTED: f64 = 0.01;
 /// What a plan costs besides its pushes; compared in this order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Cost {
-    /// How often another tool is taken.
+    /// Returns the number of tool changes.
     changes: usize,
     /// What its tools cost in the task, in thousandths.
     tools: u64,

@@ -1,4 +1,4 @@
-//! How far from its predicted place an object may be when a later push begins.
+//! Uncertainty of where an object is when a later push begins.
 //!
 //! An object that is a little off at the start is off by more after a push: boxes turn, cans roll
 //! along a face. So the states that the search continues from are rolled out with small errors as

@@ -54,28 +54,28 @@ const ROUNDING: f64 = 1e-9;
 /// Slack in the rules, metres: iterative closest points are not exact to the last digit.
 const SLACK: f64 = 1e-6;
 
-/// How far a push is from breaking each rule, metres; negative where it breaks one.
+/// Margins of a push to each rule, metres; negative where it breaks one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Margins {
-    /// Of the end effector at the start to the outer reach.
+    /// Margin of the end effector at the start to the outer reach.
     pub start: f64,
-    /// Of the end effector at the end to the outer reach.
+    /// Margin of the end effector at the end to the outer reach.
     pub end: f64,
-    /// Of the end effector's path to the inner reach.
+    /// Margin of the end effector's path to the inner reach.
     pub base: f64,
-    /// Of the moving tool to the obstacles, beyond [`OBSTACLE_CLEARANCE`].
+    /// Margin of the moving tool to the obstacles, beyond [`OBSTACLE_CLEARANCE`].
     pub obstacle: f64,
-    /// Of the tool set down to the objects, beyond [`SET_DOWN_CLEARANCE`] and the push's room.
+    /// Margin of the tool set down to the objects, beyond [`SET_DOWN_CLEARANCE`] and the push's room.
     pub object: f64,
-    /// Of the hand to all that is as high, beyond what is kept.
+    /// Margin of the hand to all that is as high, beyond its clearance.
     pub hand: f64,
 }
 
 impl Margins {
-    /// How many rules there are.
+    /// Number of rules.
     pub const COUNT: usize = 6;
 
-    /// All of them, in a fixed order.
+    /// Returns all margins, in a fixed order.
     pub fn list(&self) -> [f64; Self::COUNT] {
         [self.start, self.end, self.base, self.obstacle, self.object, self.hand]
     }
@@ -156,7 +156,7 @@ impl Workspace<'_> {
     /// Longest travel, at most `length` metres, that keeps reach and obstacle clearance.
     ///
     /// # Errors
-    /// Why there is none of at least [`MIN_LENGTH`].
+    /// Returns why there is none of at least [`MIN_LENGTH`].
     pub fn free_travel(
         &self,
         (tool, grip_yaw): (usize, f64),

@@ -23,7 +23,7 @@ pub(super) struct Verification<'a> {
     pub verified: usize,
     /// Plans that were replayed with perturbations.
     pub perturbed: usize,
-    /// Where nothing is to be verified: whether any plan would be worth it. The search ends with the first.
+    /// Whether any plan would be worth verifying, where nothing is verified. The search ends with the first.
     pub promising: Option<bool>,
 }
 

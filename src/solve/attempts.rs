@@ -37,14 +37,14 @@ pub(super) struct Attempt {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Replays {
     None,
-    /// In the planar engine alone.
+    /// Replays in the planar engine alone.
     InPlane,
     InBoth,
     /// Until the share of successes is clear.
     Settled,
 }
 
-/// All attempts so far, in the order in which they were made.
+/// The attempts so far, in the order in which they were made.
 #[derive(Default)]
 pub(super) struct Attempts {
     pub list: Vec<Attempt>,

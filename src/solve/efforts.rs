@@ -1,4 +1,4 @@
-//! What the efforts stand for: measured levels of planning.
+//! Efforts: measured levels of planning.
 //!
 //! `pushplan-lab tradeoff` measures robustness and cost of every level and says which of those on its
 //! front each effort is (`crates/lab/results/tradeoff.json`): of those in which the network decides. A test

@@ -8,7 +8,7 @@ use crate::asset::Faults;
 use crate::effect::ModelError;
 use crate::outcome::Warning;
 
-/// Why a task cannot even be tried. Not finding a plan is not an error.
+/// Errors of tasks that cannot be tried. Not finding a plan is not an error.
 #[derive(Error)]
 pub enum SolveError {
     /// The task names tools that the library does not have, or there are none.
@@ -20,7 +20,7 @@ pub enum SolveError {
     BadTask {
         /// Name of the task.
         task: String,
-        /// What is wrong with it.
+        /// Fault.
         what: String,
     },
     /// The effect model should not be trusted with this task, and was told to refuse then.
@@ -28,7 +28,7 @@ pub enum SolveError {
     Refused {
         /// Name of the task.
         task: String,
-        /// What puts it outside of what the model was trained on.
+        /// Warnings that put it outside the model's training range.
         warnings: Vec<Warning>,
     },
     /// The library was built around damaged weights.

@@ -1,4 +1,4 @@
-//! How good a verified plan is, and which of two is the better one.
+//! Grades of verified plans, and their order.
 
 use std::cmp::Ordering;
 
@@ -21,7 +21,7 @@ pub(crate) const WELL_INSIDE: f64 = 0.5;
 /// more often, 26.
 const STEADY: f64 = 0.9;
 
-/// What a verdict is worth, worst first.
+/// Classes of verdicts, worst first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Class {
     /// Does not work as written.
@@ -60,7 +60,7 @@ pub(crate) struct Grade {
 }
 
 impl Grade {
-    /// Of a plan with this verdict.
+    /// Grades a plan with this verdict.
     pub fn of(task: &Task, verdict: &Verdict) -> Self {
         let spatial = verdict.nominal(Engine::Spatial);
         let score = spatial.map_or(f64::INFINITY, |e| e.outcome.score(task));

@@ -1,4 +1,4 @@
-//! Why there is no plan: the one limit without which there would be one.
+//! Infeasibility: the one limit without which there would be a plan.
 
 use std::fmt;
 
@@ -12,39 +12,39 @@ use crate::scene::ArmFault;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Cause {
-    /// It takes more pushes.
+    /// More pushes are needed.
     Pushes {
-        /// As many may be made.
+        /// Number of pushes allowed.
         allowed: usize,
-        /// As many do.
+        /// Number of pushes needed.
         needed: usize,
     },
     /// A push would have to be longer.
     Length {
-        /// What the task says.
+        /// Length in the task.
         allowed: f64,
-        /// What it would have to say.
+        /// Length needed.
         needed: f64,
     },
     /// No push in an allowed direction leads there.
     Directions,
     /// The tool would have to be gripped at another turn.
     GripYaws {
-        /// One that does, radians.
+        /// Grip yaw needed, radians.
         needed: f64,
     },
     /// The end effector would have to reach farther.
     Far {
         /// The largest reach.
         allowed: f64,
-        /// What it would have to be.
+        /// Reach needed.
         needed: f64,
     },
     /// The end effector would have to come nearer to the base.
     Near {
         /// The smallest reach.
         allowed: f64,
-        /// What it would have to be.
+        /// Reach needed.
         needed: f64,
     },
     /// A tool that the task does not name would do.
@@ -52,12 +52,12 @@ pub enum Cause {
         /// Its name.
         needed: String,
     },
-    /// What hangs together with the goal's object can be pushed, and it cannot.
+    /// An object joined to the goal's object can be pushed, and it cannot.
     Joined {
         /// The object to name.
         needed: String,
     },
-    /// What is to be kept, or kept out of, is in the way.
+    /// An object to keep, or a region to keep out of, is in the way.
     Kept,
     /// The hand would meet something.
     Hand,
@@ -65,7 +65,7 @@ pub enum Cause {
     Base,
     /// Plans are predicted to reach the goal that the arm cannot carry out.
     Arm {
-        /// What it cannot do in the best of them.
+        /// Fault of the best of them.
         fault: ArmFault,
     },
     /// This obstacle is in the way.

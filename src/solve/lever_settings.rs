@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub struct LeverSettings {
     /// Candidates that are simulated coarsely.
     pub simulated: usize,
-    /// How often each of them is simulated with small errors as well.
+    /// Number of simulations of each with small errors.
     pub doubts: usize,
     /// Plans verified together.
     pub verified_at_once: usize,

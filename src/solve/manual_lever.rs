@@ -14,13 +14,13 @@ use crate::{
 /// A lever-up as it is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ManualLever {
-    /// Where the blade goes under.
+    /// Place where the blade goes under.
     pub place: ManualPlace,
-    /// How far the tip lies behind the edge, metres.
+    /// Depth of the tip behind the edge, metres.
     pub depth: f64,
     /// Turn, radians.
     pub angle: f64,
-    /// Where the axis lies.
+    /// Place of the axis.
     pub pivot: Pivot,
     /// Speed of the tip, m/s; the task's if not given.
     pub speed: Option<f64>,
@@ -35,7 +35,7 @@ pub enum ManualPlace {
     Along(f64),
 }
 
-/// Why no lever-up can be made of what is asked for.
+/// Errors of lever-ups that cannot be made.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum LeverActionError {
     /// An edge that the outline does not have.
@@ -43,7 +43,7 @@ pub enum LeverActionError {
     NoEdge {
         /// Its number.
         edge: usize,
-        /// How many there are.
+        /// Number of edges.
         edges: usize,
     },
     /// No axis follows from the plate.
@@ -55,7 +55,7 @@ pub enum LeverActionError {
 /// same: seeing what would happen is the point.
 ///
 /// # Errors
-/// Why there is no such lever-up.
+/// [`LeverActionError`] if there is no such lever-up.
 pub fn manual_lever(
     task: &Task,
     tool: &Arc<Tool>,

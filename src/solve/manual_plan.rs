@@ -16,13 +16,13 @@ use crate::{
     task::{Job, Plan, Push, PushForm, Task},
 };
 
-/// How far from the end of the last push the stated start of a chained one may be, metres.
+/// Maximum distance of a chained push's stated start from the end of the last push, metres.
 const SAME_PLACE: f64 = 1e-6;
 
-/// One push that is asked for.
+/// A push as a person asks for it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ManualPush {
-    /// Where it starts.
+    /// Start.
     pub start: ManualStart,
     /// Radians from world +x.
     pub direction: f64,
@@ -32,12 +32,12 @@ pub struct ManualPush {
     pub speed: Option<f64>,
 }
 
-/// Where a push starts.
+/// Start of a push.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ManualStart {
     /// The end effector's position, metres.
     At(Vector),
-    /// At home, or where the last push ended (chained pushes).
+    /// Home, or the end of the last push (chained pushes).
     Last,
     /// Just before this object, by the first part of the tool that can push it without breaking a
     /// rule, or else the first that can.
@@ -49,7 +49,7 @@ pub enum ManualStart {
     },
 }
 
-/// Why no plan can be made from what is asked for.
+/// Errors of pushes that cannot be made.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ActionError {
     /// A chained push with a start of its own.
@@ -74,7 +74,7 @@ pub enum ActionError {
         tool: String,
         /// The object's name.
         object: String,
-        /// Why the tool's last part cannot.
+        /// Reason why the tool's last part cannot.
         why: Infeasible,
     },
     /// A tool with a blade.
@@ -166,7 +166,7 @@ fn after(situation: &Situation, tool: &Arc<Tool>, push: &Plan, start: State) -> 
     Simulator::planar().run(&situation.scene, &job, Record::Outcome).outcome().clone()
 }
 
-/// Where the push starts, and the object that it is meant for.
+/// Returns the start of the push, and the object that it is meant for.
 fn start(
     task: &Task,
     (tool, grip_yaw): (&Arc<Tool>, f64),

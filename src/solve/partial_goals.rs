@@ -1,4 +1,4 @@
-//! Where not all of several goals can be met: the plan that meets those that weigh most.
+//! Plans that meet some of several goals: those that weigh most.
 
 use crate::asset::ToolLibrary;
 use crate::verify::{Verifier, VerifySettings};
@@ -9,7 +9,7 @@ use super::error::SolveError;
 use super::planner::{Planner, stated};
 use super::solution::{Partial, PlanStatus, Solution};
 
-/// Of more goals than this only all but one, and each alone, are tried: their sets double with each.
+/// Maximum number of goals of which all sets are tried; of more, all but one and each alone are tried.
 const ALL_SETS: usize = 6;
 
 /// Sets of goals that are tried, each as a task of its own: what meets none of these is worth little.

@@ -34,7 +34,7 @@ use super::settings::{Effort, Settings};
 /// ```
 pub struct Planner {
     model: Routed,
-    /// What screens for it, if that is another.
+    /// Screening model, if that is another.
     screen: Option<Routed>,
     outside: Outside,
     settings: Settings,
@@ -54,19 +54,19 @@ pub struct PlannerBuilder {
     fit: Option<TableFit>,
 }
 
-/// What an effect model says about a plan.
+/// Prediction of an effect model for a plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Prediction {
     /// Frame by frame.
     pub trajectory: Trajectory,
-    /// Where it ends.
+    /// Outcome at its end.
     pub outcome: Outcome,
-    /// What lowers the trust in it.
+    /// Warnings that lower the trust in it.
     pub warnings: Vec<Warning>,
 }
 
 impl PlannerBuilder {
-    /// How hard to try; [`Effort::Standard`] by default.
+    /// Sets the effort; [`Effort::Standard`] by default.
     pub fn effort(self, effort: Effort) -> Self {
         self.settings(effort.settings())
     }
@@ -130,10 +130,10 @@ impl Planner {
         Self::fitted(models, None)
     }
 
-    /// The same on a table of which a network has learnt something.
+    /// Starts building a planner for a table of which a network has learnt something.
     ///
     /// # Errors
-    /// As those of [`Self::with_models`]; a fit of another network.
+    /// [`ModelError`] as in [`Self::with_models`], or for a fit of another network.
     pub fn fitted(models: &Models, fit: Option<&TableFit>) -> Result<PlannerBuilder, ModelError> {
         let planner = Self::builder(EffectModels::fitted(&models.decided, fit)?);
         let planner = PlannerBuilder { fit: fit.cloned(), ..planner };
@@ -143,10 +143,10 @@ impl Planner {
         })
     }
 
-    /// The same planner after something else was learnt about the table.
+    /// Returns this planner with another fit of the table.
     ///
     /// # Errors
-    /// As those of [`Self::fitted`].
+    /// [`ModelError`] as in [`Self::fitted`].
     pub fn fitted_anew(&self, fit: &TableFit) -> Result<Self, ModelError> {
         let Self { outside, settings, seed, time_limit, .. } = *self;
         let built = Self::fitted(&self.models(), Some(fit))?
@@ -175,7 +175,7 @@ impl Planner {
         self.screen.as_ref().unwrap_or(&self.model)
     }
 
-    /// What it knows of the table.
+    /// Returns its fit of the table.
     pub fn fit(&self) -> Option<&TableFit> {
         self.fit.as_ref()
     }
@@ -192,7 +192,7 @@ impl Planner {
         Self { model, screen: None, settings, time_limit: None, fit: None, ..*self }
     }
 
-    /// What its models are.
+    /// Returns its models.
     pub fn models(&self) -> Models {
         Models::from(self.model.spec().clone()).screened_by(self.screen().spec().clone())
     }
@@ -202,7 +202,7 @@ impl Planner {
         &self.settings
     }
 
-    /// What the effect model predicts for a plan of pushes, made with those of `tools` that it names.
+    /// Predicts a plan of pushes, made with those of `tools` that it names.
     ///
     /// # Errors
     /// [`SolveError`] for bad input only.
@@ -294,7 +294,7 @@ impl Planner {
     }
 }
 
-/// What a task states, and whether it says what objects rest on.
+/// Returns the situation that a task states, and whether it states supports.
 pub(crate) fn stated(task: &Task) -> Situation {
     let mut situation = Situation::stated(&task.scene);
     if task.unknown.support {

@@ -17,9 +17,9 @@ enum Milestone {
     Found,
     /// So does the final model, after refinement.
     Refined,
-    /// It works as written in both engines, in some of the perturbed replays.
+    /// Works as written in both engines, in some of the perturbed replays.
     Works,
-    /// It passes.
+    /// Passes.
     Passes,
 }
 

@@ -1,4 +1,4 @@
-//! Which candidates are refined, and which are worth verifying.
+//! Selection of candidates to refine and of plans to verify.
 
 use crate::plan::{Candidate, Evaluation, SearchResult, is_behind, kinds};
 use crate::task::{Goal, Task};

@@ -23,7 +23,7 @@ use super::refinement::refined;
 /// Pushes that a wider task allows beyond its own.
 const MORE_PUSHES: usize = 2;
 
-/// What a push or a reach is multiplied by in a wider task.
+/// Factor of lengths and reaches in a wider task.
 const LONGER: f64 = 4.0;
 
 /// Directions and turns of the grip of a wider task.
@@ -32,7 +32,7 @@ const WAYS: usize = 16;
 /// Limits are reported in multiples of this, metres.
 const STEP: f64 = 0.01;
 
-/// At most this many obstacles are removed, one at a time, to find the one that is the cause.
+/// Maximum number of obstacles that are removed, one at a time, to find the one that is the cause.
 const OBSTACLES: usize = 8;
 
 /// A task with one limit wider, and what it means if that has a plan.
@@ -217,7 +217,7 @@ fn least(ways: &[Way], of: impl Fn(&Way) -> f64) -> f64 {
     (least / STEP).ceil() * STEP
 }
 
-/// What is rigidly joined to the goal's object, and where from it: it could be brought to the same place.
+/// Returns objects that are rigidly joined to the goal's object, with their poses relative to it.
 fn joined(task: &Task) -> Vec<(usize, Pose)> {
     if task.goals[0].is_relation() {
         return Vec::new();

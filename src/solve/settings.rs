@@ -1,4 +1,4 @@
-//! How hard to try: three efforts, and the budgets that a planner has.
+//! Efforts and budgets of a planner.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ use crate::plan::SearchSettings;
 
 use super::LeverSettings;
 
-/// How hard a planner tries.
+/// Effort of a planner.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
 )]
@@ -24,7 +24,7 @@ pub enum Effort {
 }
 
 impl Effort {
-    /// All of them, cheapest first.
+    /// The efforts, cheapest first.
     pub const ALL: [Effort; 3] = [Effort::Draft, Effort::Standard, Effort::Thorough];
 }
 
@@ -75,7 +75,7 @@ pub struct Settings {
     pub verify_batches: usize,
     /// Disturbed replays of the winning plan in each engine.
     pub disturbed: usize,
-    /// Those of lever-ups; measured files of pushes may lack them.
+    /// Budgets of lever-ups; measured files of pushes may lack them.
     #[serde(default)]
     pub levers: LeverSettings,
 }
@@ -91,7 +91,7 @@ impl Settings {
         self.verified_at_once.min((REPLAYED_AT_ONCE / objects.max(1)).max(2)).max(1)
     }
 
-    /// The same with this many disturbed replays of the winning plan, in each engine.
+    /// Returns these budgets with this many perturbed replays of the winning plan, in each engine.
     #[must_use]
     pub fn replaying(self, disturbed: usize) -> Self {
         Self { disturbed, levers: LeverSettings { disturbed, ..self.levers }, ..self }

@@ -17,7 +17,7 @@ use crate::{
 
 use super::Cause;
 
-/// How solving ended.
+/// Status of the solution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PlanStatus {
@@ -38,13 +38,13 @@ pub enum PlanStatus {
     FailedVerification,
 }
 
-/// What refinement did to a plan.
+/// Refinement of a plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Refinement {
     /// How far from where it was aimed the middle of the predicted ends on plausible supports lay
     /// as the search left it, metres.
     pub before: f64,
-    /// The same now.
+    /// Distance of that middle from its aim now.
     pub after: f64,
     /// Where the plan was aimed instead of the goal, metres, because its replay in 3-D missed the
     /// goal.
@@ -63,15 +63,15 @@ pub struct RankedPlan {
     /// steps the first that was offered.
     #[serde(with = "shared")]
     pub tools: Vec<Arc<Tool>>,
-    /// What the effect model predicts, frame by frame.
+    /// Predicted trajectory, frame by frame.
     pub predicted: Trajectory,
-    /// Where that ends.
+    /// Outcome at its end.
     pub outcome: Outcome,
     /// Whether it works in the simulator, if that was tried.
     pub verdict: Option<Verdict>,
-    /// What refinement did.
+    /// Effect of refinement.
     pub refinement: Refinement,
-    /// How the arm carries it out, where the task has one that can.
+    /// Motion of the arm, where the task has one that can carry it out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joints: Option<JointTrajectory>,
 }
@@ -110,10 +110,10 @@ impl RankedPlan {
     }
 }
 
-/// What looking for lever-ups cost.
+/// Cost of searching lever-ups.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LeverStatistics {
-    /// Of the last search.
+    /// Statistics of the last search.
     pub search: LeverSearchStatistics,
     /// Candidates that were simulated coarsely.
     pub simulated: usize,
@@ -136,16 +136,16 @@ pub struct Timing {
     pub total: f64,
 }
 
-/// What solving cost.
+/// Cost of solving.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Statistics {
-    /// Of the search.
+    /// Statistics of the search.
     pub search: SearchStatistics,
-    /// Of the refinement.
+    /// Statistics of the refinement.
     pub refinement: RefineStatistics,
-    /// All rollouts of the effect models.
+    /// Number of rollouts of the effect models.
     pub rollouts: usize,
-    /// Of these, how many are of the model that decides; all, where no other one screens.
+    /// Number of these by the final model; all, where no other one screens.
     #[serde(default)]
     pub decided: usize,
     /// Plans replayed in the simulator.
@@ -154,7 +154,7 @@ pub struct Statistics {
     pub depth: usize,
     /// Wall-clock times.
     pub timing: Timing,
-    /// Of lever-ups, where a task allows them.
+    /// Cost of lever-ups, where a task allows them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub levers: Option<LeverStatistics>,
 }
@@ -173,7 +173,7 @@ impl Statistics {
     }
 }
 
-/// What a plan is worth that meets some of several goals.
+/// Evidence for a plan that meets some of several goals.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Partial {
     /// The goals that it meets, by their indices.
@@ -185,12 +185,12 @@ pub struct Partial {
 /// The result of [`super::Planner::solve`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Solution {
-    /// How it ended.
+    /// Status.
     pub status: PlanStatus,
     /// Whether it was stopped, by its time limit or from outside, before the search was over: the
     /// plans are the best so far.
     pub stopped: bool,
-    /// What screened the many and what decided among the few.
+    /// Screening and final model.
     pub models: Models,
     /// Ranked plans, the one to use first. Empty only if no push can be made at all.
     pub plans: Vec<RankedPlan>,
@@ -198,15 +198,15 @@ pub struct Solution {
     pub tools: Vec<Tool>,
     /// Every way to push that the search considered, with the best that it leads to.
     pub candidates: Vec<ScoredPush>,
-    /// What it cost.
+    /// Cost.
     pub statistics: Statistics,
-    /// Which goals are met, where not all of several are.
+    /// Goals that are met, where not all of several are.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub partial: Option<Partial>,
-    /// Why there is no plan, where that was looked for.
+    /// Reason why there is no plan, where that was looked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cause: Option<Cause>,
-    /// What lowers the trust in the predictions of the first plan.
+    /// Warnings that lower the trust in the predictions of the first plan.
     pub warnings: Vec<Warning>,
 }
 

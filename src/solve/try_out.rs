@@ -1,4 +1,4 @@
-//! One batch of candidates: refinement, verification of the best in small groups, and retries.
+//! A batch of candidates: refinement, verification of the best in small groups, and retries.
 
 use crate::plan::is_behind;
 use crate::watch::Instant;

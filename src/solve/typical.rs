@@ -1,4 +1,4 @@
-//! What a model would be used for, before anything is searched.
+//! A typical push of a task, before anything is searched.
 
 use std::sync::Arc;
 

@@ -28,30 +28,30 @@ const LOST: f64 = 1.5;
 /// What is moved besides the leg's object counts like a miss by as many units, metres.
 const BESIDE: f64 = 0.02;
 
-/// How much longer than its leg a push may be, metres: the tool begins farther away.
+/// Length of a push beyond its leg, metres: the tool begins farther away.
 const LONGER: f64 = 0.05;
 
-/// How much to look for.
+/// Budgets of following legs.
 #[derive(Clone, Copy, Debug)]
 pub struct FollowSettings {
-    /// Of the search for each push.
+    /// Search for each push.
     pub search: SearchSettings,
     /// Candidates that are refined for each.
     pub candidates: usize,
-    /// By the model that screens.
+    /// Refinement with the screening model.
     pub refine: RefineSettings,
-    /// By the one that decides, if that is another.
+    /// Refinement with the final model, if that is another.
     pub decide: RefineSettings,
 }
 
-/// How far legs could be followed.
+/// Legs that could be followed.
 #[derive(Clone, Debug)]
 pub struct Followed {
     /// The pushes.
     pub candidate: Candidate,
     /// Legs that were followed to their ends.
     pub legs: usize,
-    /// Where everything is then.
+    /// State then.
     pub state: State,
 }
 

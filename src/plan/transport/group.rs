@@ -43,7 +43,7 @@ pub(super) struct Group {
     pub thing: usize,
     pub solids: Vec<Solid>,
     pub lattice: Grid,
-    /// Where it is to come to, and the place next to that.
+    /// Its goal, and the place next to that.
     pub goal: Option<(Vector, usize)>,
     /// For every place the gap to what stands still, at most [`ROOMY`]; negative where it cannot be.
     pub clear: Vec<f32>,
@@ -54,9 +54,9 @@ pub(super) struct Hold {
     /// Radians from world +x.
     pub direction: f64,
     pub step: [i32; 2],
-    /// What comes along.
+    /// Solids that come along.
     pub solids: Vec<Solid>,
-    /// For every place of the thing whether the tool can be there.
+    /// Whether the tool can be there, for every place of the group.
     pub free: Vec<bool>,
 }
 
@@ -177,7 +177,7 @@ fn clear(
     clear
 }
 
-/// How a tool with this grip yaw can be behind a thing, for every direction.
+/// Returns how a tool with this grip yaw can be behind a group, for every direction.
 pub(super) fn holds(
     workspace: &Workspace,
     pair: (usize, f64),
@@ -264,7 +264,7 @@ fn tool_solids(workspace: &Workspace, (tool, yaw): (usize, f64), effector: Vecto
     parts.chain(carried).collect()
 }
 
-/// For every place of a thing whether the tool can be there.
+/// Returns for every place of a group whether the tool can be there.
 fn free(
     workspace: &Workspace,
     situation: &Situation,

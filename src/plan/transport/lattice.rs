@@ -6,7 +6,7 @@ use crate::geometry::{Footprint, Grid, Pose, Vector, contact_points};
 /// pushed past each other.
 const SPACING: f64 = 0.01;
 
-/// At most this many places along a side; a larger scene gets coarser ones.
+/// Maximum number of places along a side; a larger scene gets coarser ones.
 const MOST_PLACES: usize = 256;
 
 /// A solid that moves along with a thing: one of its own, or of the tool behind it.
@@ -17,12 +17,12 @@ pub(super) struct Solid {
     pub pose: Pose,
     /// Heights above the table between which it is, metres.
     pub span: [f64; 2],
-    /// What it keeps clear of everything, metres.
+    /// Clearance to everything, metres.
     pub apart: f64,
 }
 
 impl Solid {
-    /// The same with the thing there.
+    /// Returns the solid with the group there.
     pub fn at(&self, position: Vector) -> Pose {
         Pose { position: self.pose.position + position, ..self.pose }
     }

@@ -20,7 +20,7 @@ pub(super) struct Taken {
     pub holds: Vec<Vec<bool>>,
 }
 
-/// One push: from a place, held so, to another place.
+/// Push from a place, with a hold, to another place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PathSegment {
     pub from: usize,
@@ -30,7 +30,7 @@ pub(super) struct PathSegment {
 
 /// Ways to places.
 pub(super) struct Paths {
-    /// For every place, in pushes.
+    /// Cost of every place, in pushes.
     pub cost: Vec<f64>,
     last: Vec<Option<(usize, usize)>>,
 }

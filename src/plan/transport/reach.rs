@@ -1,4 +1,4 @@
-//! What one grip of a tool can carry where, with everything else where it is.
+//! Reach of one grip of a tool that carries groups, with everything else at rest.
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::HashMap;
@@ -12,32 +12,32 @@ use super::group::{Group, Hold, groups, holds};
 use super::lattice::Solid;
 use super::path::{PathSegment, Paths, Taken};
 
-/// What things keep clear of each other, and of a tool that carries another, metres.
+/// Clearance between groups, and to a tool that carries another, metres.
 const BESIDE: f64 = 0.004;
 
-/// How densely ways are sampled for what stands beside them, in places.
+/// Distance between samples of paths for obstructions beside them, in places.
 const SAMPLE: usize = 3;
 
-/// One push that carries a thing straight along.
+/// Push that carries a group straight along.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Leg {
     /// Index of the object.
     pub object: usize,
     /// Radians from world +x.
     pub direction: f64,
-    /// From where, metres.
+    /// Start, metres.
     pub from: Vector,
-    /// Where to, metres.
+    /// End, metres.
     pub to: Vector,
     /// Whether that is the goal.
     pub last: bool,
 }
 
-/// What can be carried, with any tool.
+/// Groups that can be carried, with any tool.
 pub struct Groups(Vec<Group>);
 
 impl Groups {
-    /// Of a situation; `None` where a goal asks for more than to be carried somewhere.
+    /// Returns the groups of a situation; `None` where a goal asks for more than to be carried somewhere.
     pub fn of(workspace: &Workspace, situation: &Situation) -> Option<Self> {
         groups(workspace, situation).map(Self)
     }
@@ -49,7 +49,7 @@ pub struct Transport<'a> {
     situation: &'a Situation,
     pair: (usize, f64),
     pub(super) groups: &'a [Group],
-    /// Of every thing, once it is asked for.
+    /// Holds of every group, once they are asked for.
     holds: Vec<OnceCell<Vec<Hold>>>,
     longest: f64,
     marks: RefCell<HashMap<(usize, usize, usize), Rc<Marks>>>,
@@ -62,7 +62,7 @@ struct Marks {
     holds: Vec<Vec<usize>>,
 }
 
-/// How a thing would come to its goal if nothing else could stand in its way.
+/// Path of a group to its goal without obstructions.
 pub(super) struct Course {
     pub cost: f64,
     pub way: Vec<PathSegment>,
@@ -87,18 +87,18 @@ impl<'a> Transport<'a> {
         carrying.wanting(&start).iter().all(finds).then_some(carrying)
     }
 
-    /// What is left to do at least, in pushes.
+    /// Returns the least number of pushes left.
     pub fn least(&self) -> f64 {
         let start = self.start();
         self.wanting(&start).into_iter().map(|k| self.alone(k, start[k]).cost).sum()
     }
 
-    /// Where everything is at first.
+    /// Returns the places at the start.
     pub(super) fn start(&self) -> Vec<usize> {
         self.groups.iter().map(|group| group.lattice.nearest(group.lattice.origin)).collect()
     }
 
-    /// How the tool holds on to a thing.
+    /// Returns the holds of a group.
     pub(super) fn holds(&self, k: usize) -> &[Hold] {
         let group = &self.groups[k];
         self.holds[k]
@@ -111,7 +111,7 @@ impl<'a> Transport<'a> {
         (0..self.groups.len()).filter(off).collect()
     }
 
-    /// What a thing and the tool behind it pass, sampled: where the thing is, and the solids about that.
+    /// Returns samples of what a group and the tool behind it pass: positions of the group, and solids about these.
     pub(super) fn passed(&self, k: usize, way: &[PathSegment]) -> Vec<(Vector, &[Solid])> {
         let group = &self.groups[k];
         let mut passed = Vec::new();
@@ -130,7 +130,7 @@ impl<'a> Transport<'a> {
         passed
     }
 
-    /// What stands in a way.
+    /// Returns the obstructions of a path.
     pub(super) fn blocking(
         &self,
         k: usize,
@@ -193,14 +193,14 @@ impl<'a> Transport<'a> {
         Paths::from((&self.groups[k], self.holds(k)), start, taken, self.longest, enough)
     }
 
-    /// Where a thing cannot be for all others.
+    /// Returns the places that all others take from a group.
     pub(super) fn taken_by_others(&self, k: usize, places: &[usize]) -> Taken {
         let others: Vec<(usize, usize)> =
             places.iter().copied().enumerate().filter(|(other, _)| *other != k).collect();
         self.taken(k, &others)
     }
 
-    /// Where a thing cannot be for others at these places.
+    /// Returns the places that others at these places take from a group.
     pub(super) fn taken(&self, k: usize, others: &[(usize, usize)]) -> Taken {
         let count = self.groups[k].lattice.count();
         let mut all = Taken {
@@ -217,7 +217,7 @@ impl<'a> Transport<'a> {
         all
     }
 
-    /// The same for one of them.
+    /// Returns the places that one of them takes.
     fn marks(&self, k: usize, other: usize, place: usize) -> Rc<Marks> {
         let key = (k, other, place);
         if let Some(known) = self.marks.borrow().get(&key) {
@@ -258,7 +258,7 @@ impl<'a> Transport<'a> {
     }
 }
 
-/// All places of a stretch, both ends included.
+/// Returns all places of a segment, both ends included.
 fn places(group: &Group, hold: &Hold, stretch: &PathSegment) -> Vec<usize> {
     let mut places = vec![stretch.from];
     let mut at = stretch.from;

@@ -31,14 +31,14 @@ const ASTRAY: f64 = 1.0;
 /// Orders that are looked at: more than a plan of a dozen pushes needs.
 const MOST: usize = 120;
 
-/// Who has come where.
+/// Places of all groups in the course of a schedule.
 #[derive(Clone)]
 struct Node {
     places: Vec<usize>,
     moves: Vec<(usize, PathSegment)>,
     /// Pushes so far.
     cost: f64,
-    /// With what is left at least.
+    /// Cost with the least that is left.
     total: f64,
     /// Pushes left at least.
     left: usize,
@@ -79,7 +79,7 @@ impl Transport<'_> {
         found
     }
 
-    /// What may be done next.
+    /// Returns the next moves.
     fn children(&self, node: &Node) -> Vec<Node> {
         let mut children = Vec::new();
         let wanting = self.wanting(&node.places);
