@@ -10,8 +10,8 @@ use crate::{
 };
 
 use super::{
-    Assuming, EffectModel, LeverModel, LeverNetwork, LeverPrior, Levering, ModelError, Network, Prior,
-    Routed, Simulated, Still, UpTo,
+    Assuming, EffectModel, LeverModel, LeverNetwork, LeverPrior, Levering, ModelError, Network,
+    Prior, Routed, Simulated, Still, UpTo,
 };
 
 /// Where effect models come from.
