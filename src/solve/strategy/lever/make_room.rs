@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::asset::ToolLibrary;
 use crate::geometry::{Solid, Vector};
 use crate::outcome::Verdict;
-use crate::scene::{Obstacle, Plate};
+use crate::scene::Obstacle;
 use crate::solve::SolveError;
 use crate::solve::attempts::Attempt;
 use crate::solve::blackboard::Blackboard;
@@ -57,6 +57,7 @@ impl<'a> MakeRoom<'a> {
             let mut there = task.clone();
             there.goals[0].tolerance = f64::INFINITY;
             there.scene.objects[goal].pose.position = place;
+            there.scene.place_parts();
             if !is_free(&there) || promising(board, &there) == 0 {
                 continue;
             }
@@ -114,8 +115,8 @@ impl<'a> Strategy<'a> for MakeRoom<'a> {
 /// Returns `true` if the goal's object has room where it is put.
 fn is_free(task: &Task) -> bool {
     let (scene, own) = (&task.scene, task.plate());
-    let others = scene.objects.iter().enumerate().filter(|(k, _)| *k != task.goals[0].object);
-    let others = others.flat_map(|(_, object)| Plate::of(object).solids());
+    let others = scene.plates().enumerate().filter(|(k, _)| *k != task.goals[0].object);
+    let others = others.flat_map(|(_, plate)| plate.solids());
     let others: Vec<Solid> = others.chain(scene.obstacles.iter().map(Obstacle::solid)).collect();
     let clear = |solid: &Solid| others.iter().all(|other| solid.depth(other) <= 0.0);
     own.solids().iter().all(clear) && task.robot.reaches(own.pose.position)

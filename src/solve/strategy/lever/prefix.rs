@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::asset::ToolLibrary;
 use crate::geometry::Pose3;
 use crate::outcome::{Outcome, Record, Trajectory};
-use crate::scene::{LeverScene, Plate, Tool};
+use crate::scene::{LeverScene, Tool};
 use crate::sim::LeverSimulator;
 use crate::solve::SolveError;
 use crate::solve::attempts::Attempt;
@@ -41,7 +41,7 @@ impl Prefix {
 
 /// Returns the poses of all objects at the start.
 pub(super) fn start(task: &Task) -> Vec<Pose3> {
-    task.scene.objects.iter().map(|object| Plate::of(object).start()).collect()
+    task.scene.plates().map(|plate| plate.start()).collect()
 }
 
 /// Returns what is left of `task` to be pushed once all objects lie at `rests`, if it can be.
