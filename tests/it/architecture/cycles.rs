@@ -11,7 +11,7 @@ use std::path::Path;
 use super::{code_of, in_word, sources};
 
 /// Maximum number of cycles, and of files in one.
-const CYCLES: usize = 20;
+const CYCLES: usize = 15;
 const LARGEST: usize = 16;
 
 /// Maximum number of files with methods of one type.
