@@ -229,7 +229,7 @@ impl Grid {
         let outwards = stretch.side < 2;
         for (line, high) in [(stretch.from, false), (stretch.to, true)] {
             let end = if high { cells.to[along] } else { cells.from[along] };
-            // Beyond an inner corner of the body the piece goes on.
+            // Beyond an inner corner of the body the piece continues.
             if line == end && self.is_corner(stretch, line, high) {
                 let (right, upper) = if along == 1 { (outwards, high) } else { (high, outwards) };
                 piece.rim.corners[corner(right, upper)] = true;

@@ -54,7 +54,7 @@ pub(super) fn describe(
     step: &Step,
     graphs: &mut PartGraphs,
 ) -> f64 {
-    // As far as it would move if it went on.
+    // Displacement if its motion continued.
     let pace = (step.to - step.from) / step.last.max(1e-9);
     let going = PartState { way: state.way * pace, spin: state.spin * pace, ..*state };
     let reach = (REACH + going.fastest(bodies.reach)).min(FARTHEST);
@@ -133,7 +133,7 @@ struct Other {
     rub: f64,
 }
 
-/// Features of a cuboid of the body, which goes on like that.
+/// Features of a cuboid of the body, whose motion continues.
 fn node(
     part: &Part,
     first: bool,

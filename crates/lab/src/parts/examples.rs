@@ -20,7 +20,7 @@ const NOISE: [f64; 2] = [2e-5, 1e-3];
 /// A disturbance turns by so many radians a metre.
 const TURNS: f64 = 25.0;
 
-/// A rollout that is farther from the truth goes on from the truth, metres: from there no step leads back.
+/// A rollout that is farther from the truth continues from the truth, metres: from there no step leads back.
 const LOST: f64 = 8e-3;
 
 /// So many rollouts share the products of a step.

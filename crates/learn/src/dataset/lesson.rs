@@ -62,7 +62,7 @@ pub struct Lesson {
     pub moved: Vec<bool>,
     /// Window by window; of pushes whose joints were inferred together, as they were taken after that.
     pub windows: Vec<Testimony>,
-    /// What was heard of these pushes while they went on.
+    /// Evidence of these pushes during their motion.
     pub drafts: Vec<Draft>,
 }
 

@@ -50,7 +50,7 @@ const OFF_CENTRE: f64 = 0.8;
 const TRIES: usize = 60;
 const TRIES_UNTOUCHED: usize = 45;
 
-/// How far a long line goes on behind the farthest object, metres.
+/// Length of a long line beyond the farthest object, metres.
 const BEYOND: f64 = 0.15;
 
 /// Scattered objects and seven or eight strokes, each aimed at an object not touched so far.

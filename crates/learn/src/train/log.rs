@@ -41,14 +41,14 @@ impl<Score: Display> Display for Line<Score> {
     }
 }
 
-/// The open file, without lines past the checkpoint that a run goes on from.
+/// The open file, without lines past the checkpoint from which a run resumes.
 pub(super) struct Log {
     path: PathBuf,
     file: fs::File,
 }
 
 impl Log {
-    /// Opens that of a run that goes on from `step`; every line says its `step`.
+    /// Opens the log of a run that resumes at `step`; every line states its `step`.
     pub fn open(folder: &Path, step: u64) -> Result<Self, TrainError> {
         let path = folder.join("metrics.jsonl");
         let until = |line: &str| {

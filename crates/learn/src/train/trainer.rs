@@ -25,7 +25,7 @@ pub const REPLICAS: usize = 2;
 /// Steps after which a run looks whether it is to stop.
 const LOOK: u64 = 20;
 
-/// The file in a run's folder from which it goes on.
+/// The file in a run's folder from which it resumes.
 const CHECKPOINT: &str = "checkpoint.safetensors";
 
 /// File of the weights with the best held-out score.
@@ -65,7 +65,7 @@ pub enum TrainError {
     NotFinite(u64),
 }
 
-/// A run in its folder: `checkpoint.safetensors`, everything needed to go on to the same bits,
+/// A run in its folder: `checkpoint.safetensors`, everything needed to resume to the same bits,
 /// `metrics.jsonl`, `best.safetensors`, the weights with the best held-out score, and
 /// `last.safetensors`, those of the last evaluation.
 pub struct Trainer<'a, T: Trainable> {
