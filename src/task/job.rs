@@ -32,7 +32,7 @@ impl Job {
         }
     }
 
-    /// `motions` in turn, the first beginning in `situation`: see [`in_turn`].
+    /// `motions` in turn, the first beginning in `situation`: see [`in_turn`](crate::outcome::in_turn).
     pub fn sequence(situation: &Situation, motions: &[ToolMotion]) -> Vec<Self> {
         motions.iter().map(|motion| Self::new(situation, motion.clone())).collect()
     }

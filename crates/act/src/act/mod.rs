@@ -5,7 +5,7 @@
 //!
 //! ```
 //! use pushplan::{Effort, Planner, Task, ToolLibrary};
-//! use crate::{RunSettings, Runner, SimulatedWorld, Trace, hidden};
+//! use pushplan_act::{RunSettings, Runner, SimulatedWorld, Trace, hidden};
 //!
 //! let library = ToolLibrary::embedded()?;
 //! let task = Task::parse(include_str!("../../../../tasks/hidden-hinge.yaml"), "hidden-hinge.yaml")?;
