@@ -61,7 +61,7 @@ impl Planner {
         let known = self.solve_from(&situation, &all, library, watch)?;
         let mut design =
             Design { known, proposal: None, spent: Spent::default(), stopped: watch.cancelled() };
-        let bar = grade(task, &design.known);
+        let bar = grade(&design.known);
         if design.stopped || bar.is_some_and(|bar| bar.is_best()) {
             return Ok(design);
         }
@@ -91,7 +91,7 @@ impl Planner {
             };
             let proposal = proposal?;
             design.spent.solved += 1;
-            let worth = grade(task, &proposal.solution);
+            let worth = grade(&proposal.solution);
             if best.as_ref().is_none_or(|(best, _)| is_better(&worth, best)) {
                 best = Some((worth, proposal));
             }
@@ -126,9 +126,9 @@ fn named(seen: &Seen, task: &Task, library: &ToolLibrary) -> Option<Tool> {
 }
 
 /// Returns the grade of a solution's best plan, if it was verified.
-fn grade(task: &Task, solution: &Solution) -> Option<Grade> {
+fn grade(solution: &Solution) -> Option<Grade> {
     let verdict = solution.best()?.verdict.as_ref()?;
-    Some(Grade::of(task, verdict))
+    Some(Grade::of(verdict))
 }
 
 fn is_better(one: &Option<Grade>, other: &Option<Grade>) -> bool {

@@ -13,13 +13,14 @@ mod trajectory;
 mod verdict;
 mod warning;
 
+pub use crate::task::{Ending, Lift};
 pub use in_turn::in_turn;
 pub use lever::{
-    Ending, LEVER_FRAMES, LeverFault, LeverFrame, LeverRecord, LeverTrajectory, LeverWarning,
+    LEVER_FRAMES, LeverFault, LeverFrame, LeverRecord, LeverTrajectory, LeverWarning,
     has_slipped,
 };
 pub use push_fault::PushFault;
-pub use result::{Lying, Miss, Outcome};
-pub use trajectory::{Contact, Force, Frame, Lift, Record, Spread, Trajectory};
+pub use result::{Miss, Outcome};
+pub use trajectory::{Contact, Force, Frame, Record, Spread, Trajectory};
 pub use verdict::{Disturbance, Evidence, Reason, Verdict, never_on};
 pub use warning::Warning;

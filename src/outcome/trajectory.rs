@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::{Pose, Pose3, clearance};
 
 use super::Warning;
+use crate::task::Lift;
 use crate::scene::planar_only;
 use crate::scene::{ModelSpec, Part, Scene, State, Tool};
 
@@ -24,19 +25,6 @@ pub struct Frame {
     /// above.
     #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
     pub blade: Option<Pose3>,
-}
-
-/// What a lever-up has come to at the end of its turn.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Lift {
-    /// Index of the object that is levered.
-    pub object: usize,
-    /// How much higher its edge lies at the lever point than before, metres.
-    pub raised: f64,
-    /// Whether it lies on the blade.
-    pub held: bool,
-    /// How far it is tilted, radians.
-    pub tilt: f64,
 }
 
 /// The first frame in which two bodies touched.

@@ -167,7 +167,8 @@ impl Verdict {
             if nominal.outcome.reached {
                 continue;
             }
-            let Outcome { error, heading_error, .. } = nominal.outcome;
+            let error = nominal.outcome.error();
+            let heading_error = nominal.outcome.heading_error();
             return Some(match nominal.fault() {
                 Some(fault) => Reason::GoesWrong { engine, fault: fault.clone() },
                 None => Reason::Misses { engine, error, heading_error },

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use crate::geometry::{Footprint, Frontier, Grid, Pose, Vector, clearance, swept_clearance};
 use crate::{
     scene::{Obstacle, State},
-    task::{Goal, Task},
+    task::{Demand, End, Goal, Task},
 };
 
 use super::SweptRegion;
@@ -63,8 +63,8 @@ pub struct CostToGo<'a> {
     task: &'a Task,
     /// The goals in the world, as things stand at the start.
     goals: Arc<[Goal]>,
-    /// Grid of every goal, if there are obstacles.
-    grids: Arc<[Option<Ways>]>,
+    /// Grids of the demands of every goal, if there are obstacles.
+    grids: Arc<[Vec<Option<Ways>>]>,
     /// Region that must be free before the goal's object is pushed.
     corridor: Option<SweptRegion>,
 }
@@ -74,12 +74,14 @@ impl<'a> CostToGo<'a> {
     pub fn new(task: &'a Task) -> Self {
         let start = task.scene.start();
         let goals: Vec<Goal> = task.goals.iter().map(|goal| goal.in_world(&start)).collect();
-        let grid = |goal: &Goal| {
+        let grid = |goal: &Goal, demand: &Demand| {
             // Of a relation no single place is the right one.
-            let met = if goal.is_relation() { Vec::new() } else { in_the_way(task, goal) };
-            (!met.is_empty()).then(|| Ways::new(task, goal, &met))
+            let place = demand.kind().position()?;
+            let met = in_the_way(task, goal);
+            (!met.is_empty()).then(|| Ways::new(task, (goal.object, place), &met))
         };
-        Self { task, grids: goals.iter().map(grid).collect(), goals: goals.into(), corridor: None }
+        let of = |goal: &Goal| goal.demands.iter().map(|demand| grid(goal, demand)).collect();
+        Self { task, grids: goals.iter().map(of).collect(), goals: goals.into(), corridor: None }
     }
 
     /// Returns the field of a task in which this region must be free first.
@@ -125,22 +127,31 @@ impl<'a> CostToGo<'a> {
 
     /// The ways of all goals' objects, metres, each from where it is in `state`.
     fn ways(&self, state: &State) -> f64 {
-        let goals = self.goals.iter().zip(self.grids.iter());
-        goals.map(|(goal, grid)| distance(goal, grid, state)).sum()
+        let way = |(goal, grids): (&Goal, &Vec<Option<Grid>>)| {
+            let end = End::resting(goal.object, state);
+            let ways = goal.demands.iter().zip(grids);
+            ways.filter_map(|(demand, grid)| distance(demand, grid, &end)).reduce(f64::max)
+        };
+        self.goals.iter().zip(self.grids.iter()).map(|one| way(one).unwrap_or(0.0)).sum()
     }
 
     /// The way left and the turn left, in units of the tolerances, the larger of both, of all goals
     /// together; and how far what stands in the way has to go.
     pub fn cost(&self, state: &State) -> f64 {
-        let cost = |(goal, grid): (&Goal, &Option<Ways>)| {
-            let way = distance(goal, grid, state) / goal.tolerance;
-            match (goal.heading, goal.heading_error(state)) {
-                (Some((_, tolerance)), Some(error)) => way.max(HEADING_WEIGHT * error / tolerance),
-                _ => way,
-            }
+        let cost = |(goal, grids): (&Goal, &Vec<Option<Ways>>)| {
+            let end = End::resting(goal.object, state);
+            let costs = goal.demands.iter().zip(grids).flat_map(|(demand, grid)| {
+                let kind = demand.kind();
+                let way = distance(demand, grid, &end).zip(kind.tolerance());
+                let turn = kind.turned(&end).zip(kind.turn_tolerance());
+                let way = way.map(|(way, within)| way / within);
+                let turn = turn.map(|(turn, within)| HEADING_WEIGHT * turn.abs() / within);
+                way.into_iter().chain(turn)
+            });
+            costs.reduce(f64::max).unwrap_or(0.0)
         };
         let cost: f64 = self.goals.iter().zip(self.grids.iter()).map(cost).sum();
-        let tolerance = self.task.goals[0].tolerance;
+        let tolerance = self.task.goals[0].tolerance();
         let tolerance = if tolerance.is_finite() { tolerance } else { FREE };
         let depths = self.corridor.iter().flat_map(|corridor| corridor.depths(state));
         let aside: f64 = depths.map(|(_, depth)| depth / tolerance).sum();
@@ -149,18 +160,10 @@ impl<'a> CostToGo<'a> {
     }
 }
 
-/// Length of the way of a goal's object to it, metres.
-fn distance(goal: &Goal, grid: &Option<Ways>, state: &State) -> f64 {
-    if !goal.has_place() || goal.is_relation() {
-        return goal.error(state);
-    }
-    let position = state.poses[goal.object].position;
-    let to = goal.area.map_or(goal.position, |area| area.nearest(position));
-    let straight = (to - position).norm();
-    match grid {
-        Some(grid) => grid.distance(position, straight),
-        None => straight,
-    }
+/// Length of the way of a goal's object to the wanted place, metres, if one is asked for.
+fn distance(demand: &Demand, grid: &Option<Ways>, end: &End) -> Option<f64> {
+    let straight = demand.kind().off(end)?.norm();
+    Some(grid.as_ref().map_or(straight, |grid| grid.distance(end.pose().position, straight)))
 }
 
 /// The obstacles that a goal's object does not pass below.
@@ -181,17 +184,17 @@ struct Ways {
 }
 
 impl Ways {
-    fn new(task: &Task, wanted: &Goal, obstacles: &[&Obstacle]) -> Self {
-        let object = &task.scene.objects[wanted.object];
+    fn new(task: &Task, (object, wanted): (usize, Vector), obstacles: &[&Obstacle]) -> Self {
+        let object = &task.scene.objects[object];
         let radius = object.shape.footprint().inner_radius();
         let disc = Footprint::Disc { radius };
-        let (mut low, mut high) = (wanted.position, wanted.position);
+        let (mut low, mut high) = (wanted, wanted);
         let mut include = |position: Vector, reach: f64| {
             low = low.inf(&(position - Vector::repeat(reach)));
             high = high.sup(&(position + Vector::repeat(reach)));
         };
         include(object.pose.position, BORDER);
-        include(wanted.position, BORDER);
+        include(wanted, BORDER);
         for obstacle in obstacles {
             include(
                 obstacle.pose.position,
@@ -211,7 +214,7 @@ impl Ways {
                 })
             })
             .collect();
-        let goal = Pose { position: wanted.position, heading: 0.0 };
+        let goal = Pose { position: wanted, heading: 0.0 };
         let seen = |position: Vector| {
             let from = Pose { position, heading: 0.0 };
             obstacles.iter().all(|o| {
@@ -226,7 +229,7 @@ impl Ways {
             .map(|(cell, &free)| {
                 let centre = grid.position(cell);
                 let visible = free && seen(centre);
-                let way = (wanted.position - centre).norm();
+                let way = (wanted - centre).norm();
                 (if visible { way } else { f64::INFINITY }, visible)
             })
             .collect();

@@ -3,36 +3,46 @@
 use nalgebra::Vector3;
 
 use crate::{
+    geometry::Vector,
     scene::State,
-    task::{Goal, Task},
+    task::{Aspect, Demand, End, Task},
 };
 
-/// Where every goal's object is relative to its goal: x, y and the heading; zero where none is asked
-/// for.
+/// The offset from every pair of a position and a heading that goals ask for: x, y and the heading; zero
+/// where none is asked for.
 pub(super) fn goal_errors(task: &Task, outcome: &State) -> Vec<Vector3<f64>> {
-    let of = |goal: &Goal| {
-        let apart = goal.off(outcome) / goal.tolerance;
-        let turned = match (goal.heading, goal.turned(outcome)) {
-            (Some((_, tolerance)), Some(turned)) => turned / tolerance,
-            _ => 0.0,
-        };
-        Vector3::new(apart.x, apart.y, turned)
+    let of = |(object, aspect): (usize, Aspect)| {
+        let end = End::resting(object, outcome);
+        let off = |demand: &Demand| Some(demand.kind().off(&end)? / demand.kind().tolerance()?);
+        let turn = |demand: &Demand| Some(demand.kind().turned(&end)? / turn_tolerance(demand)?);
+        let apart = aspect.place.and_then(off).unwrap_or_else(Vector::zeros);
+        Vector3::new(apart.x, apart.y, aspect.turn.and_then(turn).unwrap_or(0.0))
     };
-    task.goals.iter().map(of).collect()
+    aspects(task).map(of).collect()
+}
+
+/// The positions and headings of all goals in pairs, each with the object.
+fn aspects(task: &Task) -> impl Iterator<Item = (usize, Aspect<'_>)> {
+    task.goals.iter().flat_map(|goal| goal.aspects().map(|aspect| (goal.object, aspect)))
+}
+
+fn turn_tolerance(demand: &Demand) -> Option<f64> {
+    demand.kind().turn_tolerance()
 }
 
 /// From the misses `from` to `to`, the shorter way round unless a joint with limits leaves one only.
 pub(super) fn apart(task: &Task, to: &[Vector3<f64>], from: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
-    let of = |((goal, to), from): ((&Goal, &Vector3<f64>), &Vector3<f64>)| {
+    let of = |(((_, aspect), to), from): (((usize, Aspect), &Vector3<f64>), &Vector3<f64>)| {
         let mut apart = to - from;
-        if let Some((_, tolerance)) = goal.heading {
-            let turn = apart.z * tolerance;
-            let turn = if goal.middle.is_some() { turn } else { goal.least_turn(turn) };
-            apart.z = turn / tolerance;
+        if let Some(facing) = aspect.turn.and_then(|demand| demand.kind().facing()) {
+            let turn = apart.z * facing.tolerance;
+            let limited = facing.limit_middle.is_some();
+            let turn = if limited { turn } else { facing.least_turn(turn) };
+            apart.z = turn / facing.tolerance;
         }
         apart
     };
-    task.goals.iter().zip(to).zip(from).map(of).collect()
+    aspects(task).zip(to).zip(from).map(of).collect()
 }
 
 /// Returns errors relative to `middles`, one for every goal.
@@ -47,15 +57,17 @@ pub(super) fn largest(misses: &[Vector3<f64>]) -> f64 {
 
 /// The largest distance from a goal, metres.
 pub(super) fn farthest(task: &Task, misses: &[Vector3<f64>]) -> f64 {
-    let off = task.goals.iter().zip(misses).map(|(goal, miss)| goal.tolerance * miss.xy().norm());
+    let off = aspects(task).zip(misses).filter_map(|((_, aspect), miss)| {
+        Some(aspect.place?.kind().tolerance()? * miss.xy().norm())
+    });
     off.fold(0.0, f64::max)
 }
 
 /// The numbers of misses that goals ask for, goal by goal: x, y and, where one is asked for, the heading.
 pub(super) fn asked(task: &Task, misses: &[Vector3<f64>]) -> Vec<f64> {
-    let of = |(goal, miss): (&Goal, &Vector3<f64>)| {
-        let count = if goal.heading.is_some() { 3 } else { 2 };
+    let of = |((_, aspect), miss): ((usize, Aspect), &Vector3<f64>)| {
+        let count = if aspect.turn.is_some() { 3 } else { 2 };
         (0..count).map(|k| miss[k]).collect::<Vec<_>>()
     };
-    task.goals.iter().zip(misses).flat_map(of).collect()
+    aspects(task).zip(misses).flat_map(of).collect()
 }

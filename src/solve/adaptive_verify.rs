@@ -57,7 +57,7 @@ impl<'a> Verification<'a> {
                 continue;
             }
             if verdict.works() {
-                working.push((Grade::of(task, &verdict), k));
+                working.push((Grade::of(&verdict), k));
             }
             attempts.list[k].verdict = Some(verdict);
         }
@@ -124,7 +124,7 @@ impl<'a> Verification<'a> {
         attempt.replays = replays;
         let Some(verdict) = attempt.verdict.take() else { return Class::Fails };
         let verdict = verifier.disturb(task, situation, &attempt.tools, &attempt.plan, verdict);
-        let class = Grade::of(task, &verdict).class;
+        let class = Grade::of(&verdict).class;
         attempt.verdict = Some(verdict);
         class
     }

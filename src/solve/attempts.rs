@@ -65,8 +65,9 @@ impl Attempt {
             refinement: Refinement {
                 before,
                 after,
-                aimed_at: (!task.goals.iter().eq(aims) && !aims[0].is_relation())
-                    .then(|| aims[0].position),
+                aimed_at: aims[0]
+                    .position()
+                    .filter(|_| !task.goals.iter().eq(aims) && !aims[0].is_relation()),
                 rounds: rounds.into_iter().skip(1).map(bare).collect(),
             },
             aims: aims.to_vec(),
@@ -167,7 +168,7 @@ impl Attempts {
     pub fn graded_best(&self, query: &Query) -> Option<(Grade, usize)> {
         let graded = self.list.iter().enumerate().filter_map(|(k, attempt)| {
             let replayed = attempt.verdict.as_ref().filter(|_| attempt.replays != Replays::None);
-            Some((Grade::of(query.task, replayed?), k))
+            Some((Grade::of(replayed?), k))
         });
         let better = |best: (Grade, usize), next: (Grade, usize)| {
             if next.0.compare(&best.0).is_gt() { next } else { best }

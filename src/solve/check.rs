@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use crate::{
-    scene::{Body, JointKind, Situation, Surface, Tool},
-    task::{Gap, Offsets, Task},
+    scene::{JointKind, Situation, Surface, Tool},
+    task::{Offsets, Task},
 };
 
 use super::SolveError;
@@ -75,32 +75,8 @@ pub(super) fn check(
         if task.goals.iter().take(k).any(|before| before.object == goal.object) {
             return fault(format!("object {} has two goals", goal.object));
         }
-        let positive = |value: f64| value.is_finite() && value > 0.0;
-        if goal.has_place() && !positive(goal.tolerance) {
-            let tolerance = goal.tolerance;
-            return fault(format!(
-                "the tolerance of the goal is {tolerance}, but must be a positive number"
-            ));
-        }
-        let heading =
-            goal.alike > 0 && goal.heading.is_none_or(|(h, t)| h.is_finite() && positive(t));
-        if !goal.has_place() && goal.heading.is_none() {
-            return fault("the goal asks for nothing".into());
-        }
-        let between =
-            |gap: &Gap| gap.min >= 0.0 && gap.max > gap.min && gap.to != Body::Object(goal.object);
-        if goal.gap.as_ref().is_some_and(|gap| !between(gap)) {
-            return fault("a gap is to something else, its limits are in order".into());
-        }
-        if goal.coverage.as_ref().is_some_and(|own| !(0.0 < own.share && own.share < 1.0)) {
-            return fault("the share to be covered lies between 0 and 1".into());
-        }
-        if goal.relative.is_some_and(|other| other >= scene.objects.len() || other == goal.object) {
-            return fault("a goal is relative to another object of the scene".into());
-        }
-        let mut numbers = goal.position.iter().chain(&goal.middle);
-        if !(numbers.all(|v| v.is_finite()) && heading) {
-            return fault("the goal must be finite, its heading tolerance positive".into());
+        if let Some(what) = goal.fault(scene) {
+            return fault(what);
         }
     }
     if !robot.home.iter().all(|v| v.is_finite()) {

@@ -61,9 +61,9 @@ pub(crate) struct Grade {
 
 impl Grade {
     /// Grades a plan with this verdict.
-    pub fn of(task: &Task, verdict: &Verdict) -> Self {
+    pub fn of(verdict: &Verdict) -> Self {
         let spatial = verdict.nominal(Engine::Spatial);
-        let score = spatial.map_or(f64::INFINITY, |e| e.outcome.score(task));
+        let score = spatial.map_or(f64::INFINITY, |e| e.outcome.score());
         let robustness = verdict.robustness.unwrap_or(1.0);
         let presses = |evidence: &Evidence| {
             evidence.warnings.iter().any(|warning| matches!(warning, Warning::HardPush { .. }))

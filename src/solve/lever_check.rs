@@ -28,13 +28,8 @@ pub(super) fn check_levers(
     if goal.object >= scene.objects.len() {
         return fault(format!("the goal names object {}, which does not exist", goal.object));
     }
-    if goal.outside.is_some_and(|obstacle| obstacle >= scene.obstacles.len()) {
-        return fault("the goal names an obstacle that does not exist".into());
-    }
-    let place = !goal.has_place()
-        || goal.position.iter().all(|v| v.is_finite()) && positive(goal.tolerance);
-    if !place || !goal.raised.is_none_or(f64::is_finite) || goal.heading.is_some() {
-        return fault("the goal must be finite, its tolerance positive, without a heading".into());
+    if let Some(what) = goal.fault(scene) {
+        return fault(what);
     }
     if scene.joints.iter().any(|joint| !scene.is_seam(joint))
         || !scene.frictions.is_empty()

@@ -1,7 +1,7 @@
 //! Selection of candidates to refine and of plans to verify.
 
 use crate::plan::{Candidate, Evaluation, SearchResult, is_behind, kinds};
-use crate::task::{Goal, Task};
+use crate::task::{Demand, End, Goal, Task};
 
 /// The best `count` found candidates of different kinds, then, if there are too few kinds, the next
 /// best ones; at most `most_behind` of them with something in the way. `found` is sorted, best
@@ -41,14 +41,17 @@ pub(super) fn is_worth_verifying(
     }
     let Some(error_p95) = error_p95 else { return true };
     let near = |goal: &Goal| {
-        let error_p95 = error_p95.max(HAIR * goal.tolerance);
-        let near = goal.error(&evaluation.outcome) <= goal.tolerance + error_p95;
+        let error_p95 = error_p95.max(HAIR * goal.tolerance());
         let radius = task.scene.objects[goal.object].shape.footprint().mean_radius();
-        let turned = match (goal.heading, goal.heading_error(&evaluation.outcome)) {
-            (Some((_, tolerance)), Some(error)) => error <= tolerance + error_p95 / radius,
-            _ => true,
-        };
-        near && turned || goal.coverage.is_some() && goal.reached(&evaluation.outcome)
+        let end = End::resting(goal.object, &evaluation.outcome);
+        goal.demands.iter().map(Demand::kind).all(|kind| {
+            let off = kind.off(&end).zip(kind.tolerance());
+            let near = off.is_none_or(|(off, within)| off.norm() <= within + error_p95);
+            let turn = kind.turned(&end).zip(kind.turn_tolerance());
+            let turned =
+                turn.is_none_or(|(turn, within)| turn.abs() <= within + error_p95 / radius);
+            near && turned || kind.is_met(&end)
+        })
     };
     task.goals.iter().all(near)
 }

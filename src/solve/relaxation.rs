@@ -11,7 +11,7 @@ use crate::plan::{Search, distance_to_origin, is_behind};
 use crate::watch::{Quiet, Watch};
 use crate::{
     scene::{JointKind, Obstacle, Robot, Tool},
-    task::{Directions, Plan, Task, ToolChoice},
+    task::{Demand, Directions, Plan, Task, ToolChoice},
 };
 
 use super::blackboard::Blackboard;
@@ -159,10 +159,13 @@ fn wider<'a>(task: &'a Task, tools: &[Arc<Tool>], library: &ToolLibrary) -> Vec<
         add(
             &|task| {
                 let goal = &mut task.goals[0];
-                let heading = goal.heading.map_or(0.0, |(heading, _)| heading);
-                let there = Pose { position: goal.position, heading } * pose;
-                (goal.object, goal.position) = (index, there.position);
-                goal.heading = goal.heading.map(|(_, tolerance)| (there.heading, tolerance));
+                let heading = goal.heading().map_or(0.0, |facing| facing.heading);
+                let position = goal.position().unwrap_or_default();
+                let there = Pose { position, heading } * pose;
+                goal.object = index;
+                goal.set_position(there.position);
+                let facing = goal.demands.iter_mut().filter_map(Demand::facing_mut);
+                facing.for_each(|facing| facing.heading = there.heading);
             },
             Box::new(move |_| Cause::Joined { needed: task.scene.objects[index].name.clone() }),
         );

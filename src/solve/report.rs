@@ -140,9 +140,11 @@ fn predicted(query: &Query, attempts: Vec<Attempt>) -> (Vec<RankedPlan>, Vec<War
 fn is_nearer(query: &Query, attempt: &Attempt) -> bool {
     let (task, start) = (query.task, &query.situation.start);
     // By the goal that asks for least, as scores are in units of tolerances.
-    let least = task.goals.iter().map(|goal| {
-        let turned = goal.heading.map_or(f64::INFINITY, |(_, tolerance)| TURNED / tolerance);
-        if goal.has_place() { (NEARER / goal.tolerance).min(turned) } else { turned }
+    let kinds = task.goals.iter().flat_map(|goal| &goal.demands).map(|demand| demand.kind());
+    let least = kinds.flat_map(|kind| {
+        let nearer = kind.tolerance().map(|tolerance| NEARER / tolerance);
+        let turned = kind.turn_tolerance().map(|tolerance| TURNED / tolerance);
+        nearer.into_iter().chain(turned)
     });
     let least = least.fold(f64::INFINITY, f64::min);
     bare(attempt.score) <= task.score(start) - least

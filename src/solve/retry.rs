@@ -6,8 +6,8 @@ use std::sync::Arc;
 use crate::geometry::Vector;
 use crate::outcome::{Verdict, Warning};
 use crate::plan::is_behind;
-use crate::scene::{Engine, State, Tool};
-use crate::task::{Goal, Task};
+use crate::scene::{Engine, Tool};
+use crate::task::{Demand, End, Goal, Task};
 
 use super::attempts::{Attempt, Attempts, Replays};
 use super::blackboard::{Blackboard, Candidates};
@@ -192,39 +192,43 @@ fn replayed_error(task: &Task, attempt: &Attempt) -> f64 {
     Engine::ALL.into_iter().map(missed).fold(0.0, f64::max)
 }
 
-/// Where to aim next, when a plan aimed at `aim` missed the goal: as far on the other side.
+/// The next target of each demand, when a plan aimed at `aim` missed the goal: as far on the other side.
 /// One step of iterative learning control (Arimoto et al. 1984, doi:10.1002/rob.4620010203) with
-/// the effect model's own slopes, for the middle of where it ends in both engines, disturbed or
-/// not. `None` if that is on the goal already.
+/// the effect model's own slopes, for the middle of the ends in both engines, disturbed or
+/// not. `None` if the plan ends on the goal already.
 fn aim(goal: &Goal, aim: &Goal, verdict: &Verdict) -> Option<Goal> {
+    let found = goal.demands.iter().zip(&aim.demands).map(|(demand, aim)| {
+        let (shift, turn) = mean_miss(goal.object, demand, verdict)?;
+        // From where it was aimed at last.
+        let next = demand.kind().aimed(aim, shift, turn);
+        let [place, angle] = [demand.kind().tolerance(), demand.kind().turn_tolerance()];
+        let off = angle.map_or(0.0, |tolerance| turn.abs() / tolerance);
+        Some((next, off.max(place.map_or(0.0, |tolerance| shift.norm() / tolerance))))
+    });
+    let found: Vec<(Demand, f64)> = found.collect::<Option<_>>()?;
+    let off = found.iter().map(|(_, off)| *off).fold(0.0, f64::max);
+    let demands = found.into_iter().map(|(next, _)| next).collect();
+    (off > ON_THE_GOAL).then_some(Goal { demands, ..*goal })
+}
+
+/// The mean offset from a demand in its own frame, metres, and the mean turn, radians, of the replays that
+/// count, each engine with equal weight; `None` if there are none.
+fn mean_miss(object: usize, demand: &Demand, verdict: &Verdict) -> Option<(Vector, f64)> {
     let (mut shift, mut turn, mut engines) = (Vector::zeros(), 0.0, 0.0);
     for engine in Engine::ALL {
         let all = verdict.nominal(engine).into_iter().chain(verdict.disturbed(engine));
-        let ends: Vec<&State> = all
+        let ends: Vec<End> = all
             .filter(|evidence| evidence.fault().is_none())
-            .map(|evidence| &evidence.outcome.state)
+            .map(|evidence| End::resting(object, &evidence.outcome.state))
             .collect();
         if !ends.is_empty() {
             let count = ends.len() as f64;
-            shift += ends.iter().map(|end| goal.off_as_seen(end)).sum::<Vector>() / count;
-            let turned = ends.iter().filter_map(|end| goal.turned(end));
-            turn += turned.sum::<f64>() / count;
+            shift += ends.iter().filter_map(|end| demand.off_as_seen(end)).sum::<Vector>() / count;
+            turn += ends.iter().filter_map(|end| demand.kind().turned(end)).sum::<f64>() / count;
             engines += 1.0;
         }
     }
-    if engines == 0.0 {
-        return None;
-    }
-    let (shift, turn) = (shift / engines, turn / engines);
-    let heading = match (goal.heading, aim.heading) {
-        (Some((_, tolerance)), Some((aimed, _))) => Some((aimed - turn, tolerance)),
-        _ => None,
-    };
-    let off = goal.heading.map_or(0.0, |(_, tolerance)| turn.abs() / tolerance);
-    let off = off.max(shift.norm() / goal.tolerance);
-    // From where it was aimed at last.
-    let aimed = goal.shifted(aim.position - goal.position - shift);
-    (off > ON_THE_GOAL).then_some(Goal { heading, ..aimed })
+    (engines > 0.0).then(|| (shift / engines, turn / engines))
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::Vector;
 
-use super::{Goal, LeverRules};
+use super::{Goal, LeverRules, ShownGoal};
 use crate::scene::{Arm, Plate, Scene, State, Unknowns};
 
 /// Which tools a task allows.
@@ -90,7 +90,7 @@ impl Task {
         }
     }
 
-    /// The task with a goal for one object more.
+    /// The task with one goal more; demands on an object that has a goal already are added to it.
     ///
     /// ```
     /// use pushplan::{Goal, Object, Robot, Scene, Task};
@@ -103,26 +103,13 @@ impl Task {
     /// ```
     pub fn and(mut self, goal: Goal) -> Self {
         self.scene.let_fall(&goal);
-        self.goals.push(goal);
+        goal.join(&mut self.goals);
         self
     }
 
-    /// All goals in the world as things stand at the start, for pictures: what asks for no place of its
-    /// own is shown where its object is.
-    pub fn shown_goals(&self) -> Vec<Goal> {
-        let start = self.scene.start();
-        let shown = |goal: &Goal| {
-            let mut goal = goal.in_world(&start);
-            if goal.is_relation() {
-                goal.tolerance = f64::INFINITY;
-            }
-            let position = match start.poses.get(goal.object) {
-                Some(pose) if !goal.has_place() => pose.position,
-                _ => goal.position,
-            };
-            Goal { position, ..goal }
-        };
-        self.goals.iter().map(shown).collect()
+    /// The marks of all goals in pictures, with everything at its start.
+    pub fn shown_goals(&self) -> Vec<ShownGoal> {
+        self.goals.iter().map(|goal| goal.shown(&self.scene)).collect()
     }
 
     /// The same task with other goals in their places; those that are missing stay.
@@ -185,10 +172,11 @@ impl Task {
     /// The task with lever-ups. Whether pushes may follow them is for [`Task::pushes`] to say.
     ///
     /// ```
+    /// use pushplan::task::{Demand, Flipped};
     /// use pushplan::{Goal, LeverRules, Object, PushRules, Robot, Scene, Task};
     ///
     /// let plate = Object::cuboid("plate", [0.12, 0.08, 0.008]).on_feet(0.006).at(0.5, 0.0, 0.0);
-    /// let goal = Goal { flipped: Some(true), ..Goal::of(0) };
+    /// let goal = Goal::of(0).with(Demand::Flipped(Flipped { flipped: true }));
     /// let task = Task::new("turn", Scene::new([plate]), Robot::reaching(0.1, 0.9), goal)
     ///     .levering(LeverRules::default())
     ///     .pushing(PushRules::none());

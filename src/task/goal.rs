@@ -1,64 +1,22 @@
-//! What must come of a plan: where an object lies at rest, and how.
-
-use std::f64::consts::PI;
+//! A goal: demands on the final state of one object.
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Pose, Shape, Vector, wrap_angle};
+use crate::geometry::{Pose, Shape, Vector};
+use crate::scene::{Body, Joint, Scene, State};
 
-use super::{Area, Coverage, Fall, Gap};
-use crate::scene::{Body, Joint, Scene, Span, State};
+use super::demand::{
+    Area, AtPlace, Coverage, Demand, Facing, Fall, Gap, InArea, Outside, ShownGoal,
+};
 
-/// Where an object must come to rest, and how; every stated demand counts.
+/// Demands on where and how one object ends; all of them count.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Goal {
     /// Index into [`Scene::objects`](crate::scene::Scene::objects).
     pub object: usize,
-    /// Wanted position of its centre, metres; of a [relation](Self::is_relation), how far the object may be
-    /// from where that is right.
-    pub position: Vector,
-    /// Largest distance that still counts as success, metres; infinite where it may lie anywhere.
-    #[serde(with = "anywhere")]
-    pub tolerance: f64,
-    /// Wanted heading and its tolerance, radians, where one is asked for.
-    pub heading: Option<(f64, f64)>,
-    /// Where the wanted heading is that of a joint with limits: the heading in the middle of what they allow,
-    /// radians. Headings are told from those a full turn away by being nearest to it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub middle: Option<f64>,
-    /// Where its centre may be instead of near the position, which is then the middle of it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub area: Option<Area>,
-    /// How far it is from another thing, instead of near the position.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub gap: Option<Box<Gap>>,
-    /// How much of its own outline at position and heading it covers, instead of both within tolerances.
-    /// Those are what search and refinement go by: each alone loses half of what may be missing.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub coverage: Option<Box<Coverage>>,
-    /// Over which edge of the table it is to fall, instead of coming to rest.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub fall: Option<Box<Fall>>,
-    /// Index of the object in whose frame position, heading and area are, wherever that has come to; in
-    /// the world where none is named.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub relative: Option<usize>,
-    /// The number of equal turns in a full turn after each of which the object looks the same, where
-    /// all those headings count as the wanted one; else 1.
-    #[serde(default = "one")]
-    pub alike: usize,
-    /// Index into [`Scene::obstacles`](crate::scene::Scene::obstacles): the object's centre lies outside of
-    /// it, seen from above.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub outside: Option<usize>,
-    /// At the end of a lever-up's turn the edge lies on the blade, this much higher than at its
-    /// start, metres.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub raised: Option<f64>,
-    /// It lies upside down, or on its underside.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub flipped: Option<bool>,
-    /// How much it counts where not all goals of a task can be met: those that weigh most together are.
+    /// The demands, at least one.
+    pub demands: Vec<Demand>,
+    /// Weight against other goals where not all of a task can be met.
     #[serde(default = "unit", skip_serializing_if = "is_unit")]
     pub weight: f64,
 }
@@ -71,56 +29,41 @@ fn is_unit(weight: &f64) -> bool {
     *weight == 1.0
 }
 
-fn one() -> usize {
-    1
+/// A position and a heading that are searched together, each of the demand that asks for it.
+#[derive(Clone, Copy, Debug)]
+pub struct Aspect<'a> {
+    /// The demand with the position.
+    pub place: Option<&'a Demand>,
+    /// The demand with the heading.
+    pub turn: Option<&'a Demand>,
 }
 
-/// JSON has no infinity.
-pub(super) mod anywhere {
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    pub fn serialize<S: Serializer>(tolerance: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-        tolerance.is_finite().then_some(*tolerance).serialize(serializer)
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-        Ok(Option::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
-    }
-}
-
+/// # Goals in code
 impl Goal {
     /// The centre of object `object` (an index into [`Scene::objects`](crate::scene::Scene::objects)) at
     /// (`x`, `y`), off by at most `tolerance`; all metres.
     pub fn new(object: usize, [x, y]: [f64; 2], tolerance: f64) -> Self {
-        Self { position: Vector::new(x, y), tolerance, ..Self::of(object) }
+        let position = Vector::new(x, y);
+        Self::of(object).with(Demand::Place(AtPlace { position, tolerance, relative: None }))
     }
 
     /// A goal of object `object` without any demand yet.
     ///
     /// ```
     /// use pushplan::Goal;
+    /// use pushplan::task::{Demand, Flipped};
     ///
-    /// let turned = Goal { flipped: Some(true), ..Goal::of(0) };
+    /// let turned = Goal::of(0).with(Demand::Flipped(Flipped { flipped: true }));
     /// assert!(turned.in_space() && !turned.has_place());
     /// ```
     pub fn of(object: usize) -> Self {
-        Self {
-            object,
-            position: Vector::zeros(),
-            tolerance: f64::INFINITY,
-            heading: None,
-            middle: None,
-            area: None,
-            gap: None,
-            coverage: None,
-            fall: None,
-            relative: None,
-            alike: 1,
-            outside: None,
-            raised: None,
-            flipped: None,
-            weight: 1.0,
-        }
+        Self { object, demands: Vec::new(), weight: 1.0 }
+    }
+
+    /// The goal with one demand more.
+    pub fn with(mut self, demand: Demand) -> Self {
+        self.demands.push(demand);
+        self
     }
 
     /// The centre of object `object` anywhere in an area.
@@ -134,12 +77,11 @@ impl Goal {
     /// assert!(goal.reached(&at(0.36, 0.19)) && !goal.reached(&at(0.34, 0.1)));
     /// ```
     pub fn within(object: usize, shape: Shape, pose: Pose) -> Self {
-        let area = Area { shape, pose };
-        let tolerance = area.depth();
-        Self { position: pose.position, tolerance, area: Some(area), ..Self::of(object) }
+        let area = InArea::new(Area { shape, pose });
+        Self::of(object).with(Demand::Area(Box::new(area)))
     }
 
-    /// Object `object` so far from another thing, wherever both come to.
+    /// Object `object` so far from another object or obstacle, wherever both come to.
     ///
     /// ```
     /// use pushplan::{Body, Gap, Goal, Object, Pose, Scene, State};
@@ -152,7 +94,7 @@ impl Goal {
     /// assert!(touching.reached(&at(-0.019)) && !touching.reached(&at(-0.01)));
     /// ```
     pub fn beside(object: usize, gap: Box<Gap>) -> Self {
-        Self { tolerance: gap.depth(), gap: Some(gap), ..Self::of(object) }
+        Self::of(object).with(Demand::Gap(gap))
     }
 
     /// Object `object` so that it covers at least `share` (0 to 1) of the outline that it has at `pose`, with
@@ -167,20 +109,15 @@ impl Goal {
     /// assert!(goal.reached(&at(0.509)) && !goal.reached(&at(0.511)));
     /// ```
     pub fn covering(scene: &Scene, object: usize, pose: Pose, share: f64) -> Option<Self> {
-        let coverage = Coverage::of(scene, object, share)?;
-        let (tolerance, turn) = coverage.tolerances();
-        let goal = Self::new(object, pose.position.into(), tolerance);
-        let goal = match turn {
-            Some(turn) => goal.facing(pose.heading, turn).looking_alike(scene),
-            None => goal,
-        };
-        Some(Self { coverage: Some(coverage), ..goal })
+        let coverage = Coverage::of(scene, object, pose, share)?;
+        Some(Self::of(object).with(Demand::Coverage(coverage)).looking_alike(scene))
     }
 
-    /// Object `object` off the table. What may fall in a scene is said there, see [`Scene::let_fall`].
+    /// Object `object` off the table. A scene states which objects may fall, see [`Scene::let_fall`].
     ///
     /// ```
-    /// use pushplan::{scene::TableTop, task::{Edge, Fall}};
+    /// use pushplan::scene::TableTop;
+    /// use pushplan::task::{Edge, Fall};
     /// use pushplan::{Goal, Object, Pose, Robot, Scene, State, Task, Vector};
     ///
     /// let mut scene = Scene::new([Object::cylinder("can", 0.04, 0.10).at(0.5, 0.1, 0.0)]);
@@ -191,90 +128,27 @@ impl Goal {
     /// assert!(task.reached(&State::at_rest(vec![Pose::new(0.5, 0.31, 0.0)])));
     /// ```
     pub fn falling(object: usize, fall: Box<Fall>) -> Self {
-        Self { tolerance: fall.depth(), fall: Some(fall), ..Self::of(object) }
+        Self::of(object).with(Demand::Fall(fall))
     }
 
-    /// The same in the frame of another object, wherever that has come to.
-    pub fn relative_to(self, other: usize) -> Self {
-        Self { relative: Some(other), ..self }
-    }
-
-    /// The same goal in the world, with everything where it is in `state`.
-    pub fn in_world(&self, state: &State) -> Self {
-        let Some(frame) = self.relative.and_then(|other| state.poses.get(other)) else {
-            return self.clone();
-        };
-        let position = match self.is_relation() {
-            true => self.position,
-            false => frame.point(self.position),
-        };
-        Self {
-            position,
-            heading: self.heading.map(|(heading, within)| (frame.heading + heading, within)),
-            middle: self.middle.map(|middle| frame.heading + middle),
-            area: self.area.map(|area| area.seen_from(frame)),
-            relative: None,
-            ..self.clone()
-        }
-    }
-
-    /// The same goal moved by `shift`, metres, of its own frame.
-    pub fn shifted(&self, shift: Vector) -> Self {
-        let area = self.area.map(|area| area.shifted(shift));
-        Self { position: self.position + shift, area, ..self.clone() }
-    }
-
-    /// A goal that is harder to reach: by these shares of tolerances (metres and radians) or, of an area,
-    /// by as much around it; at least half of each is left.
-    pub fn stricter(&self, place: f64, turn: f64) -> Self {
-        let less = |tolerance: f64, by: f64| (tolerance - by).max(0.5 * tolerance);
-        let area = self.area.map(|area| area.shrunk(place));
-        let gap = self.gap.as_ref().map(|gap| Box::new(gap.tighter(place)));
-        let fall = self.fall.as_ref().map(|fall| Box::new(fall.farther(place)));
-        let heading = self.heading.map(|(heading, tolerance)| (heading, less(tolerance, turn)));
-        let tolerance = less(self.tolerance, place);
-        let left = tolerance / self.tolerance;
-        let coverage = self.coverage.as_ref().map(|coverage| Box::new(coverage.stricter(left)));
-        Self { tolerance, heading, area, gap, coverage, fall, ..self.clone() }
-    }
-
-    /// The objects that it speaks of: its own, and the one to which there is to be a gap.
-    pub fn objects(&self) -> impl Iterator<Item = usize> {
-        let other = self.gap.as_ref().and_then(|gap| match gap.to {
-            Body::Object(other) => Some(other),
-            _ => None,
-        });
-        std::iter::once(self.object).chain(other)
-    }
-
-    /// Whether the object must come to a place.
-    pub fn has_place(&self) -> bool {
-        self.tolerance != f64::INFINITY
-    }
-
-    /// Whether it asks how the object is to something else, a gap to it or off the table, and for no place of
-    /// its own: the position is then an offset.
-    pub fn is_relation(&self) -> bool {
-        self.gap.is_some() || self.fall.is_some()
-    }
-
-    /// Whether it speaks of more than where the object lies in the plane.
-    pub fn in_space(&self) -> bool {
-        self.outside.is_some() || self.raised.is_some() || self.flipped.is_some()
-    }
-
-    /// Whether it speaks of how the object comes to lie.
-    pub fn turns(&self) -> bool {
-        self.flipped.is_some() || self.has_place()
+    /// Object `object` outside of an obstacle, an index into [`Scene::obstacles`]; `None` where it does not
+    /// exist.
+    pub fn outside(scene: &Scene, object: usize, obstacle: usize) -> Option<Self> {
+        Some(Self::of(object).with(Demand::Outside(Outside::of(scene, obstacle)?)))
     }
 
     /// The goal with a heading that may be off by at most `tolerance`, radians.
     pub fn facing(self, heading: f64, tolerance: f64) -> Self {
-        Self { heading: Some((heading, tolerance)), ..self }
+        self.with(Demand::Heading(Facing::new(heading, tolerance)))
     }
 
-    /// The goal at which every heading counts as the wanted one that looks the same on an object of
-    /// this `shape`, as in task files: any quarter turn of a square, any half turn of a rectangle.
+    /// The goal in the frame of another object, wherever that has come to.
+    pub fn relative_to(self, other: usize) -> Self {
+        self.mapped(|demand| demand.kind().relative_to(other))
+    }
+
+    /// The goal at which every heading counts that looks the same on an object of this `shape`, as in task
+    /// files: any quarter turn of a square, any half turn of a rectangle.
     ///
     /// ```
     /// use pushplan::{Goal, Pose, Shape, State};
@@ -285,11 +159,11 @@ impl Goal {
     /// assert!(!goal.reached(&turned) && goal.looking_like(&square).reached(&turned));
     /// ```
     pub fn looking_like(self, shape: &Shape) -> Self {
-        Self { alike: shape.footprint().symmetry().unwrap_or(1), ..self }
+        self.alike(shape.footprint().symmetry().unwrap_or(1))
     }
 
-    /// The same of the goal's object as it stands in `scene`: what is joined to something else, or has
-    /// several solids, looks the same after a full turn alone.
+    /// The goal with the [symmetry](Self::looking_like) of its object as it stands in `scene`: a joined
+    /// object, or one of several solids, looks the same after a full turn alone.
     pub fn looking_alike(self, scene: &Scene) -> Self {
         let joined = |joint: &Joint| joint.between.contains(&self.object);
         match scene.objects.get(self.object) {
@@ -298,12 +172,19 @@ impl Goal {
             {
                 self.looking_like(&object.shape)
             }
-            _ => Self { alike: 1, ..self },
+            _ => self.alike(1),
         }
     }
 
-    /// The same where a joint with limits holds the goal's object in `scene`, to the world or to what the
-    /// goal is relative to: the heading is then come to within the limits, if by the longer way.
+    /// The goal with this number of headings in a full turn that count alike.
+    pub fn alike(mut self, count: usize) -> Self {
+        let facing = self.demands.iter_mut().filter_map(Demand::facing_mut);
+        facing.for_each(|facing| facing.symmetry = count);
+        self
+    }
+
+    /// The goal where a joint with limits holds its object in `scene`, to the world or to the object that
+    /// the goal is relative to: the heading is reached within the limits, if by the longer way.
     ///
     /// ```
     /// use pushplan::{Goal, JointKind, Object, Pose, Scene, State, Vector};
@@ -318,31 +199,174 @@ impl Goal {
     /// assert!((off(&goal) - (std::f64::consts::TAU - 3.5)).abs() < 1e-9, "to the right");
     /// assert!((off(&goal.within_limits(&scene)) + 3.5).abs() < 1e-9, "it turns to the left alone");
     /// ```
-    pub fn within_limits(self, scene: &Scene) -> Self {
-        let Some((wanted, within)) = self.heading else { return self };
-        let middle = |span: Span| 0.5 * (span.low + span.high);
-        let start = |object: usize| scene.objects.get(object).map(|object| object.pose.heading);
-        let of = |object: usize| start(object).unwrap_or_default();
-        let middle = match self.relative {
-            None => {
-                let mount = scene.mounts.iter().find(|mount| mount.object == self.object);
-                let turns = mount.and_then(|mount| mount.kind.turns());
-                turns.map(|span| of(self.object) + middle(span))
+    pub fn within_limits(mut self, scene: &Scene) -> Self {
+        let facing = self.demands.iter_mut().filter_map(Demand::facing_mut);
+        facing.for_each(|facing| facing.limit(self.object, scene));
+        self
+    }
+
+    /// The goal without its demands on the position.
+    pub fn anywhere(mut self) -> Self {
+        self.demands.retain(|demand| demand.kind().tolerance().is_none());
+        self
+    }
+
+    /// Sets the point of its demands for a place, metres.
+    pub fn set_position(&mut self, to: Vector) {
+        for demand in &mut self.demands {
+            let shift = demand.kind().position().map(|position| to - position);
+            *demand = match (demand.clone(), shift) {
+                (Demand::Place(place), _) => Demand::Place(AtPlace { position: to, ..place }),
+                (other, Some(shift)) => other.kind().shifted(shift),
+                (other, None) => other,
+            };
+        }
+    }
+
+    /// Sets the tolerance of its demands for a place, metres.
+    pub fn set_tolerance(&mut self, to: f64) {
+        for demand in &mut self.demands {
+            if let Demand::Place(place) = demand {
+                place.tolerance = to;
             }
-            Some(other) => scene.joints.iter().find_map(|joint| {
-                // Joints count how far the second object has turned against the first.
-                let sign = match joint.between {
-                    [first, second] if [first, second] == [other, self.object] => 1.0,
-                    [first, second] if [first, second] == [self.object, other] => -1.0,
-                    _ => return None,
-                };
-                let start = of(self.object) - of(other);
-                Some(start + sign * middle(joint.kind.turns()?))
-            }),
+        }
+    }
+
+    /// Joins a goal to a list that has one goal for every object, each with all demands on it.
+    pub(super) fn join(self, goals: &mut Vec<Self>) {
+        match goals.iter_mut().find(|goal| goal.object == self.object) {
+            Some(goal) => goal.demands.extend(self.demands),
+            None => goals.push(self),
+        }
+    }
+
+    /// Joins goals so that there is one for every object, with all demands on it.
+    pub fn joined(goals: Vec<Self>) -> Vec<Self> {
+        let mut joined = Vec::with_capacity(goals.len());
+        goals.into_iter().for_each(|goal| goal.join(&mut joined));
+        joined
+    }
+
+    fn mapped(&self, with: impl Fn(&Demand) -> Demand) -> Self {
+        Self { demands: self.demands.iter().map(with).collect(), ..*self }
+    }
+
+    /// The goal in the world, with everything where it is in `state`.
+    pub fn in_world(&self, state: &State) -> Self {
+        self.mapped(|demand| demand.in_world(state))
+    }
+
+    /// The goal moved by `shift`, metres, of its own frame.
+    pub fn shifted(&self, shift: Vector) -> Self {
+        self.mapped(|demand| demand.kind().shifted(shift))
+    }
+
+    /// A goal that is harder to reach: by these shares of tolerances (metres and radians) or, of an area,
+    /// by as much around it; at least half of each is left.
+    pub fn stricter(&self, place: f64, turn: f64) -> Self {
+        self.mapped(|demand| demand.kind().stricter(place, turn))
+    }
+}
+
+/// # Properties
+impl Goal {
+    /// Its own object, and those to which it demands a gap.
+    pub fn objects(&self) -> impl Iterator<Item = usize> {
+        let others = self.demands.iter().filter_map(|demand| match demand.kind().to() {
+            Some(Body::Object(other)) => Some(other),
+            _ => None,
+        });
+        std::iter::once(self.object).chain(others)
+    }
+
+    /// Returns `true` if the object must come to a place.
+    pub fn has_place(&self) -> bool {
+        self.demands.iter().any(|demand| demand.kind().tolerance().is_some())
+    }
+
+    /// Returns `true` if it relates the object to something else, so that no single place is the right one.
+    pub fn is_relation(&self) -> bool {
+        self.demands.iter().any(|demand| demand.kind().is_relation())
+    }
+
+    /// Returns `true` if it is about more than the pose of the object in the plane.
+    pub fn in_space(&self) -> bool {
+        self.demands.iter().any(|demand| demand.kind().in_space())
+    }
+
+    /// Returns `true` if the object leaves the table.
+    pub fn falls(&self) -> bool {
+        self.demands.iter().any(|demand| demand.kind().falls())
+    }
+
+    /// The first of its wanted positions that is one point of a frame, or the centre of an area, metres.
+    pub fn position(&self) -> Option<Vector> {
+        self.demands.iter().find_map(|demand| demand.kind().position())
+    }
+
+    /// The smallest tolerance of its positions, metres; infinite where the object may lie anywhere.
+    pub fn tolerance(&self) -> f64 {
+        let tolerances = self.demands.iter().filter_map(|demand| demand.kind().tolerance());
+        tolerances.reduce(f64::min).unwrap_or(f64::INFINITY)
+    }
+
+    /// The first heading that it asks for.
+    pub fn heading(&self) -> Option<&Facing> {
+        self.demands.iter().find_map(|demand| demand.kind().facing())
+    }
+
+    /// The object in whose frame its first position or heading is.
+    pub fn relative(&self) -> Option<usize> {
+        self.demands.iter().find_map(|demand| demand.kind().relative())
+    }
+
+    /// Its positions and headings in pairs, as they are searched together; at least one pair.
+    pub fn aspects(&self) -> impl Iterator<Item = Aspect<'_>> {
+        let mut places = self.demands.iter().filter(|demand| demand.kind().tolerance().is_some());
+        let mut turns = self.demands.iter().filter(|demand| demand.kind().facing().is_some());
+        let count = places.clone().count().max(turns.clone().count()).max(1);
+        (0..count).map(move |_| Aspect { place: places.next(), turn: turns.next() })
+    }
+
+    /// The reason why no plan can be judged by it.
+    pub fn fault(&self, scene: &Scene) -> Option<String> {
+        if self.demands.is_empty() {
+            return Some("the goal asks for nothing".to_owned());
+        }
+        let lost = |other: usize| other >= scene.objects.len() || other == self.object;
+        if self.demands.iter().filter_map(|demand| demand.kind().relative()).any(lost) {
+            return Some("a goal is relative to another object of the scene".to_owned());
+        }
+        self.demands.iter().find_map(|demand| demand.kind().fault(self.object, scene))
+    }
+
+    /// The share of its own outline that the object must cover, where one is asked for.
+    pub fn wanted_share(&self) -> Option<f64> {
+        self.demands.iter().find_map(|demand| demand.kind().share())
+    }
+
+    /// Its demands in words, without the name of its object.
+    pub fn words(&self, scene: &Scene) -> String {
+        let (lifted, others): (Vec<&Demand>, Vec<&Demand>) =
+            self.demands.iter().partition(|demand| demand.kind().in_space());
+        let mut frames: Vec<usize> = Vec::new();
+        let mut phrase = |demand: &Demand| {
+            let other = demand.kind().relative().filter(|other| !frames.contains(other));
+            frames.extend(other);
+            let of = other.and_then(|other| scene.objects.get(other));
+            let of = of.map_or(String::new(), |other| format!(" as {} sees it", other.name));
+            format!("{}{of}", demand.kind().words(self.object, scene))
         };
-        let Some(middle) = middle else { return self };
-        let off = wanted - middle;
-        let wanted = if off.abs() > PI { middle + wrap_angle(off) } else { wanted };
-        Self { heading: Some((wanted, within)), middle: Some(middle), ..self }
+        lifted.into_iter().chain(others).map(&mut phrase).collect::<Vec<_>>().join(", ")
+    }
+
+    /// Its marks in pictures, with everything at its start.
+    pub fn shown(&self, scene: &Scene) -> ShownGoal {
+        let start = scene.start();
+        let goal = self.in_world(&start);
+        let own = || start.poses.get(self.object).map(|pose| pose.position);
+        let marks = goal.demands.iter().flat_map(|one| one.kind().marks(self.object, scene));
+        let centre = goal.position().or_else(own).unwrap_or_default();
+        ShownGoal { object: self.object, centre, marks: marks.collect() }
     }
 }

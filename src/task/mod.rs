@@ -4,15 +4,12 @@
 //! [`Motion`] is the path of a tool, a [`Job`] is a motion that begins in a situation. SI units and
 //! radians throughout. Nothing here reads files or simulates.
 
-mod area;
-mod coverage;
 mod definition;
-mod fall;
-mod gap;
+mod demand;
 mod goal;
+mod goal_error;
 mod job;
 mod lever;
-mod missed;
 mod motion;
 mod observation;
 mod plan;
@@ -20,12 +17,12 @@ mod push_rules;
 mod truth;
 mod way;
 
-pub use area::Area;
-pub use coverage::Coverage;
 pub use definition::{Task, ToolChoice};
-pub use fall::{Edge, Fall};
-pub use gap::Gap;
-pub use goal::Goal;
+pub use demand::{
+    Area, AtPlace, Coverage, Demand, Edge, End, Ending, Facing, Fall, Flipped, Gap, InArea, Kind,
+    Lift, Mark, Outside, Raised, ShownGoal,
+};
+pub use goal::{Aspect, Goal};
 pub use job::Job;
 pub use lever::{LeverJob, LeverRules, LeverUp, Pivot, Place, lever_frame};
 pub use motion::{

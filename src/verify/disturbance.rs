@@ -9,7 +9,7 @@ use rand_pcg::Pcg64;
 use crate::geometry::{Pose, Vector};
 use crate::{
     scene::{Object, Scene, Situation, Tool},
-    task::{Job, Task, ToolMotion},
+    task::{Goal, Job, Task, ToolMotion},
 };
 
 /// Largest shift of an object at the start along each axis, metres.
@@ -85,7 +85,7 @@ fn disturb(poses: &mut [Pose], group: &[usize], first: usize, shift: Vector, tur
 /// falls, unless something is to.
 pub(super) fn wary(task: &Task, scene: &Scene) -> Scene {
     let mut scene = scene.clone();
-    let falls = task.goals.iter().any(|goal| goal.fall.is_some());
+    let falls = task.goals.iter().any(Goal::falls);
     if let Some(top) = scene.table_top.as_mut().filter(|_| !falls) {
         top.size = top.size.map(|extent| (extent - 2.0 * EDGE).max(0.0));
     }

@@ -344,7 +344,7 @@ fn evidence(
     trajectory.warnings.extend(scene.not_kept(trajectory.outcome()));
     // What is to fall need not be told of.
     let wanted = |name: &str| {
-        let mut goals = task.goals.iter().filter(|goal| goal.fall.is_some());
+        let mut goals = task.goals.iter().filter(|goal| goal.falls());
         goals.any(|goal| scene.objects.get(goal.object).is_some_and(|object| object.name == name))
     };
     let told = |warning: &Warning| !matches!(warning, Warning::Fell { object } if wanted(object));

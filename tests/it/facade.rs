@@ -40,7 +40,7 @@ fn an_error_that_leaves_main_is_printed_as_text() {
     assert_eq!(format!("{boxed:?}"), text);
 
     let mut task = tasks().remove(0);
-    task.goals[0].tolerance = 0.0;
+    task.goals[0].set_tolerance(0.0);
     let library = ToolLibrary::embedded().unwrap();
     let refused: SolveError = planner().solve(&task, &library).unwrap_err();
     let text = "task `pull-back`: the tolerance of the goal is 0, but must be a positive number";
@@ -144,7 +144,7 @@ fn tasks_solved_together_end_as_tasks_solved_alone_for_any_number_of_threads() {
         }
     }
     let mut bad = tasks;
-    bad[1].goals[0].tolerance = f64::NAN;
+    bad[1].goals[0].set_tolerance(f64::NAN);
     let outcomes = planner.solve_all(&bad, &library);
     assert_eq!(outcomes.iter().map(Result::is_ok).collect::<Vec<_>>(), [true, false, true]);
 }

@@ -353,7 +353,7 @@ fn what_stands_in_the_way_of_a_plan_is_named() {
         assert!(first.starts_with(&format!("task: no plan: {cause}")), "{first}");
         // What is not clearly nearer than doing nothing is no plan to look at.
         let start = task.goals[0].error(&task.scene.start());
-        let nearer = |ranked: &RankedPlan| ranked.outcome.error < start - 5e-3;
+        let nearer = |ranked: &RankedPlan| ranked.outcome.error() < start - 5e-3;
         assert!(found.plans.iter().filter(|ranked| !ranked.plan.is_empty()).all(nearer));
         cause
     };

@@ -179,7 +179,7 @@ fn its_controls_work_and_nothing_leaves() {
     let report: Json = serde_json::from_slice(&output.stdout).expect("JSON alone");
     let plan = &solution.plans[other.expect("another")];
     let again = number(&report["effects"][0]["goal_error"]);
-    assert!((again - plan.outcome.error).abs() < 1e-9, "{command}: {again}");
+    assert!((again - plan.outcome.error()).abs() < 1e-9, "{command}: {again}");
 
     assert_eq!(browser.complaints(), Vec::<String>::new());
     let requests = browser.requests();

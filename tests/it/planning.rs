@@ -293,7 +293,7 @@ fn refinement_never_makes_a_candidate_worse() {
     let model = planar();
     for (k, goal) in [[0.62, 0.16], [0.45, -0.1], [0.42, 0.1], [0.3, 0.3]].into_iter().enumerate() {
         let mut task = task(can(0.5, 0.05), goal);
-        task.goals[0].tolerance = 0.01;
+        task.goals[0].set_tolerance(0.01);
         if k == 3 {
             task.pushes.form = PushForm::Chained;
             task.pushes.max_count = 2;

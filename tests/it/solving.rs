@@ -83,14 +83,14 @@ fn shipped(name: &str) -> (Task, ToolLibrary) {
 fn a_plan_that_ends_beside_the_goal_in_3d_is_aimed_as_far_on_the_other_side() {
     let (task, library) = shipped("pull-back.yaml");
     let off = Vector::new(0.02, 0.025);
-    assert!(off.norm() > task.goals[0].tolerance, "the first plans must fail");
+    assert!(off.norm() > task.goals[0].tolerance(), "the first plans must fail");
     let model = Beside(Simulated::new(Simulator::planar()), off);
     let solution = Planner::builder(model).build().solve(&task, &library).unwrap();
     assert_eq!(solution.status, PlanStatus::Solved);
     let best = solution.best().unwrap();
     let aim = best.refinement.aimed_at.expect("an aim next to the goal");
     // The two engines differ by millimetres on top of what the model is off by.
-    assert!((aim - task.goals[0].position - off).norm() < 0.01, "{aim:?}");
+    assert!((aim - task.goals[0].position().unwrap() - off).norm() < 0.01, "{aim:?}");
     let verdict = best.verdict.as_ref().unwrap();
     assert!(Engine::ALL.iter().all(|e| verdict.nominal(*e).is_some_and(|e| e.outcome.reached)));
 }
@@ -127,7 +127,7 @@ fn what_decides_mends_what_screens_and_has_the_last_word() {
     assert_eq!(solution.status, PlanStatus::Solved);
     let best = solution.best().unwrap();
     assert_eq!(best.refinement.aimed_at, None, "no replay had to tell how far it is off");
-    assert!(best.outcome.error < 0.3 * off.norm(), "{}", best.outcome.error);
+    assert!(best.outcome.error() < 0.3 * off.norm(), "{}", best.outcome.error());
     assert!(best.refinement.after < 0.3 * off.norm(), "{}", best.refinement.after);
     let [screened, decided] = [screened, decided].map(|count| count.load(Ordering::Relaxed));
     let statistics = &solution.statistics;
@@ -155,12 +155,12 @@ fn plans_that_only_work_in_the_model_fail_verification() {
     let (task, library) = shipped("pull-back.yaml");
     // One plan is verified: of many wishes some come true.
     let settings = Settings::FIRST_LOOK;
-    let planner = Planner::builder(Wishful(task.goals[0].position)).settings(settings).build();
+    let planner = Planner::builder(Wishful(task.goals[0].position().unwrap())).settings(settings).build();
     let solution = planner.solve(&task, &library).unwrap();
     assert_eq!(solution.status, PlanStatus::FailedVerification);
     let best = solution.best().unwrap();
     let verdict = best.verdict.as_ref().unwrap();
-    assert!(!verdict.passed && best.outcome.reached && best.outcome.error == 0.0);
+    assert!(!verdict.passed && best.outcome.reached && best.outcome.error() == 0.0);
     assert!(verdict.evidence.iter().all(|evidence| !evidence.outcome.reached));
     assert!(verdict.evidence.len() == 2 && verdict.robustness.is_none());
 }
@@ -168,20 +168,21 @@ fn plans_that_only_work_in_the_model_fail_verification() {
 #[test]
 fn without_a_way_to_the_goal_there_is_no_plan_but_a_nearest_one() {
     let (mut task, library) = shipped("pull-back.yaml");
-    task.goals[0].position = Vector::new(task.goals[0].position.x, 2.0);
+    let across = task.goals[0].position().unwrap().x;
+    task.goals[0].set_position(Vector::new(across, 2.0));
     let solution = planner().solve(&task, &library).unwrap();
     assert_eq!(solution.status, PlanStatus::NoPlan);
     let before = task.goals[0].error(&task.scene.start());
-    assert!(solution.best().unwrap().outcome.error < before - 0.05);
+    assert!(solution.best().unwrap().outcome.error() < before - 0.05);
     assert!(solution.plans.iter().all(|plan| plan.verdict.is_none()));
     let errors = solution.plans.windows(2);
-    assert!(errors.into_iter().all(|p| p[0].outcome.error <= p[1].outcome.error + 1e-3));
+    assert!(errors.into_iter().all(|p| p[0].outcome.error() <= p[1].outcome.error() + 1e-3));
 }
 
 #[test]
 fn a_goal_that_is_met_already_needs_no_push() {
     let (mut task, library) = shipped("pull-back.yaml");
-    task.goals[0].position = task.scene.objects[task.goals[0].object].pose.position;
+    task.goals[0].set_position(task.scene.objects[task.goals[0].object].pose.position);
     let solution = planner().solve(&task, &library).unwrap();
     assert_eq!(solution.status, PlanStatus::Solved);
     let best = solution.best().unwrap();
@@ -216,8 +217,8 @@ fn any_number_of_threads_gives_the_same_plans() {
 fn tasks_made_in_code_are_refused_when_they_make_no_sense() {
     let (task, library) = shipped("pull-back.yaml");
     let spoil: [fn(&mut Task); 11] = [
-        |task| task.goals[0].tolerance = f64::NAN,
-        |task| task.goals[0].position.x = f64::INFINITY,
+        |task| task.goals[0].set_tolerance(f64::NAN),
+        |task| task.goals[0].set_position(Vector::new(f64::INFINITY, 0.0)),
         |task| task.goals[0].object = 99,
         |task| task.pushes.length = 0.0,
         |task| task.pushes.speed = -1.0,
@@ -295,7 +296,7 @@ fn row(name: &str, solution: &Solution) -> String {
             .evidence
             .iter()
             .take(2)
-            .map(|evidence| format!("{:.1}", evidence.outcome.error * 1e3))
+            .map(|evidence| format!("{:.1}", evidence.outcome.error() * 1e3))
             .collect();
         format!("planar, 3-D {} mm, robust {:?}", errors.join(", "), verdict.robustness)
     });
@@ -313,7 +314,7 @@ fn row(name: &str, solution: &Solution) -> String {
         best.plan.grip_yaw().to_degrees(),
         best.plan.pushes().len(),
         best.refinement.before * 1e3,
-        best.outcome.error * 1e3,
+        best.outcome.error() * 1e3,
         replayed.unwrap_or_default(),
     )
 }

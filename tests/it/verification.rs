@@ -58,7 +58,7 @@ fn a_plan_that_works_passes_with_evidence_from_both_engines() {
     assert_eq!(verdict.evidence[0].engine, Engine::Planar);
     assert_eq!(verdict.evidence[1].engine, Engine::Spatial);
     assert!(verdict.evidence[..2].iter().all(|e| e.disturbance == Disturbance::Nominal));
-    assert!(verdict.evidence[..2].iter().all(|e| e.outcome.error < 5e-3));
+    assert!(verdict.evidence[..2].iter().all(|e| e.outcome.error() < 5e-3));
     assert_eq!(verdict.robustness, Some(1.0));
     // Draws differ, and the same seed draws the same.
     let outcome = |k: usize| &verdict.evidence[k].outcome;
@@ -80,7 +80,7 @@ fn a_plan_that_stops_short_fails() {
     let short = plan(vec![push([0.235, 0.0], 0.0, 0.05)]);
     let verdict = verifier.verify(&task(), &Situation::stated(&task().scene), &[paddle()], &short);
     assert!(!verdict.passed && verdict.robustness.is_none());
-    assert!((verdict.evidence[1].outcome.error - 0.105).abs() < 5e-3);
+    assert!((verdict.evidence[1].outcome.error() - 0.105).abs() < 5e-3);
 }
 
 #[test]
@@ -267,8 +267,8 @@ fn what_fails_in_the_plane_is_not_asked_in_3d() {
     });
     let (middle, apart) = ((ends[0] + ends[1]) / 2.0, (ends[0] - ends[1]).norm());
     let mut narrow = task();
-    narrow.goals[0].position = middle;
-    narrow.goals[0].tolerance = apart / 2.0 + 2e-5;
+    narrow.goals[0].set_position(middle);
+    narrow.goals[0].set_tolerance(apart / 2.0 + 2e-5);
     let verdict = verify(&narrow);
     let planar = matches!(verdict.reason, Some(Reason::Fragile { engine: Engine::Planar, .. }));
     assert!(planar, "{:?}", verdict.reason);

@@ -63,7 +63,7 @@ impl SolvedTask {
         Self {
             task: task.name.clone(),
             status: solution.status,
-            tolerance: Some(task.goals[0].tolerance).filter(|tolerance| tolerance.is_finite()),
+            tolerance: Some(task.goals[0].tolerance()).filter(|tolerance| tolerance.is_finite()),
             plan: best.map(|best| best.plan.clone()),
             predicted: best.map(|best| End::of(&best.outcome)),
             planar: end(Engine::Planar),
@@ -91,7 +91,7 @@ impl SolvedTask {
 impl End {
     /// The part of an outcome that is counted.
     pub fn of(outcome: &Outcome) -> Self {
-        let Outcome { error, heading_error, reached, .. } = *outcome;
-        Self { error, heading_error, reached }
+        let (error, heading_error) = (outcome.error(), outcome.heading_error());
+        Self { error, heading_error, reached: outcome.reached }
     }
 }

@@ -50,7 +50,7 @@ impl Solved {
             "tool": best.map(|best| best.plan.tools().join(", ")),
             "pushes": best.map(|best| best.plan.pushes()),
             "ends": best.map(|best| &best.outcome.state),
-            "error": best.map(|best| best.outcome.error),
+            "error": best.map(|best| best.outcome.error()),
             "seconds": self.solution.statistics.timing.total,
         })
         .to_string()

@@ -12,7 +12,7 @@ use pushplan::geometry::{Pose, Shape};
 use pushplan::{
     outcome::{Frame, Outcome, Trajectory},
     scene::{Blade, Object},
-    task::Step,
+    task::{Mark, Step},
 };
 
 use super::ExportError;
@@ -67,7 +67,7 @@ fn written(plan: &PlanFile, trajectory: &Trajectory) -> Result<Vec<u8>, mcap::Mc
         ("tool", plan.plan.tools().join(", ")),
         ("model", trajectory.by.to_string()),
         ("reached", outcome.reached.to_string()),
-        ("error_m", outcome.error.to_string()),
+        ("error_m", outcome.error().to_string()),
     ];
     let metadata = said.map(|(key, value)| (key.to_owned(), value)).into_iter().collect();
     file.writer.write_metadata(&Metadata { name: "pushplan".to_owned(), metadata })?;
@@ -141,18 +141,30 @@ fn entities(plan: &PlanFile) -> Vec<Json> {
         }));
         found.push(entity(&frame_of(k), &frame_of(k), &parts, TOOL));
     }
-    let goals = plan.task.shown_goals();
-    for (k, goal) in goals.iter().enumerate().filter(|(_, goal)| goal.has_place()) {
-        let disc = Shape::Cylinder { radius: goal.tolerance, height: DISC };
-        let there = Pose { position: goal.position, heading: 0.0 };
-        let (disc, there) = goal.area.map_or((disc, there), |area| (area.flat(DISC), area.pose));
+    for (k, goal) in plan.task.shown_goals().iter().enumerate() {
         let name = match k {
             0 => "goal".to_owned(),
             _ => format!("goal/{}", scene.objects[goal.object].name),
         };
-        found.push(entity(TABLE, &name, &[(disc, there, DISC / 2.0)], GOAL));
+        let sheets: Vec<_> = goal.marks.iter().filter_map(sheet).collect();
+        if !sheets.is_empty() {
+            found.push(entity(TABLE, &name, &sheets, GOAL));
+        }
     }
     found
+}
+
+/// A mark that is an area, as a sheet on the table.
+fn sheet(mark: &Mark) -> Option<(Shape, Pose, f64)> {
+    let (shape, pose) = match mark {
+        Mark::Disc { centre, radius } => {
+            let shape = Shape::Cylinder { radius: *radius, height: DISC };
+            (shape, Pose { position: *centre, heading: 0.0 })
+        }
+        Mark::Area(area) => (area.flat(DISC), area.pose),
+        _ => return None,
+    };
+    Some((shape, pose, DISC / 2.0))
 }
 
 /// The frame of the tool of this index.

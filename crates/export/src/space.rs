@@ -12,7 +12,7 @@ use pushplan::geometry::{Footprint, Pose, Pose3, Shape, Vector, Vector3};
 use pushplan::{
     outcome::LEVER_FRAMES,
     scene::{Blade, GRAVITY, LeverScene, Part, Plate, Slab, Tool},
-    task::{Goal, LeverJob, LeverMotion, Motion},
+    task::{AtPlace, Demand, Goal, LeverJob, LeverMotion, Motion, Outside},
 };
 
 use super::error::ExportError;
@@ -96,7 +96,7 @@ fn written(
     }
     numeric(&mut xml, &format!("levered plate/{}", scene.plates[watched].name), &[1.0]);
     if let Some(goal) = goal {
-        wanted(&mut xml, scene, goal);
+        wanted(&mut xml, goal);
     }
     xml.close();
     xml.open("asset", &[]);
@@ -174,20 +174,22 @@ fn step(xml: &mut Xml, scene: &LeverScene, k: usize, motion: &Motion) {
 }
 
 /// What must come of it.
-fn wanted(xml: &mut Xml, scene: &LeverScene, goal: &Goal) {
-    if goal.has_place() {
-        let at = goal.position;
-        numeric(xml, "goal place", &[at.x, at.y, goal.tolerance]);
-    }
-    if let Some(block) = goal.outside.and_then(|k| scene.blocks.get(k)) {
-        let (at, [x, y, _]) = (block.pose, block.size);
-        numeric(xml, "goal outside", &[at.position.x, at.position.y, at.heading, x, y]);
-    }
-    if let Some(height) = goal.raised {
-        numeric(xml, "goal raised", &[height]);
-    }
-    if let Some(flipped) = goal.flipped {
-        numeric(xml, "goal flipped", &[f64::from(u8::from(flipped))]);
+fn wanted(xml: &mut Xml, goal: &Goal) {
+    for demand in &goal.demands {
+        match demand {
+            Demand::Place(AtPlace { position, tolerance, .. }) => {
+                numeric(xml, "goal place", &[position.x, position.y, *tolerance]);
+            }
+            Demand::Outside(Outside { pose, size: [x, y, _], .. }) => {
+                let (at, heading) = (pose.position, pose.heading);
+                numeric(xml, "goal outside", &[at.x, at.y, heading, *x, *y]);
+            }
+            Demand::Raised(raised) => numeric(xml, "goal raised", &[raised.height]),
+            Demand::Flipped(own) => {
+                numeric(xml, "goal flipped", &[f64::from(u8::from(own.flipped))]);
+            }
+            _ => {}
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use pushplan::asset::PlanFile;
 use pushplan::geometry::Pose;
 use pushplan::{
     scene::{Body, Engine, Scene},
-    task::Gap,
+    task::{Demand, Fall, Gap},
 };
 
 use super::mjcf::object_name;
@@ -24,56 +24,21 @@ pub(super) fn wanted(xml: &mut Xml, file: &PlanFile) {
     for goal in file.task.goals.iter() {
         let name = &scene.objects[goal.object].name;
         // MJCF has no infinity; no table is as large.
-        let placed = goal.has_place() && !goal.is_relation();
-        let tolerance = if placed { goal.tolerance } else { ANYWHERE };
-        let mut wanted = vec![goal.position.x, goal.position.y, tolerance];
-        let alike = goal.alike as f64;
-        let heading = goal.heading.into_iter();
-        wanted.extend(heading.flat_map(|(heading, within)| [heading, within, alike]));
+        let placed = goal.position().filter(|_| !goal.is_relation());
+        let tolerance = placed.map_or(ANYWHERE, |_| goal.tolerance());
+        let position = placed.unwrap_or_default();
+        let mut wanted = vec![position.x, position.y, tolerance];
+        let heading = goal.heading().into_iter();
+        wanted.extend(heading.flat_map(|own| [own.heading, own.tolerance, own.symmetry as f64]));
         numeric(xml, &format!("goal of object/{name}"), &wanted);
-        if let Some(middle) = goal.middle {
+        if let Some(middle) = goal.heading().and_then(|facing| facing.limit_middle) {
             xml.comment(
                 "Headings are told from those a full turn away by being nearest to this one.",
             );
             numeric(xml, &format!("middle of object/{name}"), &[middle]);
         }
-        if let Some(area) = &goal.area {
-            xml.comment("Where it may lie instead: the corners of a region, x, y, x, y and so on.");
-            let corners = area.corners().into_iter().flat_map(|corner| [corner.x, corner.y]);
-            numeric(xml, &format!("region of object/{name}"), &corners.collect::<Vec<_>>());
-        }
-        if let Some(gap) = &goal.gap {
-            outlines(xml, scene, name, gap);
-        }
-        if let Some(coverage) = &goal.coverage {
-            xml.comment(
-                "The share of its own outline at the goal that it covers instead, and that outline in the \
-                 body's frame: corners of convex polygons that share no area.",
-            );
-            numeric(xml, &format!("coverage of object/{name}"), &[coverage.share]);
-            for (k, corners) in coverage.outline(&Pose::default()).iter().enumerate() {
-                let corners: Vec<f64> = corners.iter().flat_map(|at| [at.x, at.y]).collect();
-                numeric(xml, &format!("piece {} of object/{name}", k + 1), &corners);
-            }
-        }
-        if let Some(fall) = &goal.fall {
-            xml.comment(
-                "Its centre of mass in its own frame, x and y, and the edges over which it is to fall: the way \
-                 out, x and y, and how far along that the edge is.",
-            );
-            let centre = fall.centre(&Pose::default());
-            let edges = fall.edges().flat_map(|edge| {
-                let out = edge.outwards();
-                [out.x, out.y, fall.place(edge) + fall.by]
-            });
-            let numbers: Vec<f64> = [centre.x, centre.y].into_iter().chain(edges).collect();
-            numeric(xml, &format!("fall of object/{name}"), &numbers);
-            if let Some(span) = fall.between {
-                xml.comment("Between which places along that edge, x or y.");
-                numeric(xml, &format!("part of the edge of object/{name}"), &[span.low, span.high]);
-            }
-        }
-        if let Some(other) = goal.relative {
+        goal.demands.iter().for_each(|demand| one(xml, scene, name, demand));
+        if let Some(other) = goal.relative() {
             xml.comment("The body in whose frame all of this is.");
             let data = object_name(&scene.objects[other]);
             xml.leaf("text", &[("name", format!("frame of object/{name}")), ("data", data)]);
@@ -88,6 +53,50 @@ pub(super) fn wanted(xml: &mut Xml, file: &PlanFile) {
             let values = [pose.position.x, pose.position.y, pose.heading];
             numeric(xml, &format!("3-D replay of object/{}", object.name), &values);
         }
+    }
+}
+
+/// The numbers of a demand beyond position and heading.
+fn one(xml: &mut Xml, scene: &Scene, name: &str, demand: &Demand) {
+    match demand {
+        Demand::Area(own) => {
+            xml.comment("Where it may lie instead: the corners of a region, x, y, x, y and so on.");
+            let corners = own.area.corners().into_iter().flat_map(|corner| [corner.x, corner.y]);
+            numeric(xml, &format!("region of object/{name}"), &corners.collect::<Vec<_>>());
+        }
+        Demand::Gap(gap) => outlines(xml, scene, name, gap),
+        Demand::Coverage(coverage) => {
+            xml.comment(
+                "The share of its own outline at the goal that it covers instead, and that outline in the \
+                 body's frame: corners of convex polygons that share no area.",
+            );
+            numeric(xml, &format!("coverage of object/{name}"), &[coverage.share]);
+            for (k, corners) in coverage.outline(&Pose::default()).iter().enumerate() {
+                let corners: Vec<f64> = corners.iter().flat_map(|at| [at.x, at.y]).collect();
+                numeric(xml, &format!("piece {} of object/{name}", k + 1), &corners);
+            }
+        }
+        Demand::Fall(fall) => edges(xml, name, fall),
+        _ => {}
+    }
+}
+
+/// The edges over which an object falls.
+fn edges(xml: &mut Xml, name: &str, fall: &Fall) {
+    xml.comment(
+        "Its centre of mass in its own frame, x and y, and the edges over which it is to fall: the way \
+         out, x and y, and how far along that the edge is.",
+    );
+    let centre = fall.centre(&Pose::default());
+    let edges = fall.edges().flat_map(|edge| {
+        let out = edge.outwards();
+        [out.x, out.y, fall.place(edge) + fall.by]
+    });
+    let numbers: Vec<f64> = [centre.x, centre.y].into_iter().chain(edges).collect();
+    numeric(xml, &format!("fall of object/{name}"), &numbers);
+    if let Some(span) = fall.between {
+        xml.comment("Between which places along that edge, x or y.");
+        numeric(xml, &format!("part of the edge of object/{name}"), &[span.low, span.high]);
     }
 }
 

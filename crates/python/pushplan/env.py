@@ -69,7 +69,7 @@ class _TableEnv(gymnasium.Env[_Action, _Action]):
         self.render_mode = render_mode
         self._given = task
         self._picture = Picture(task) if render_mode == "rgb_array" else None
-        most = np.array([FAR, FAR, 1.0, 1.0] * len(task.objects) + [FAR] * (4 + more), dtype=np.float32)
+        most = np.array([FAR, FAR, 1.0, 1.0] * len(task.objects) + [FAR] * (5 * len(task.goal_objects) + more), dtype=np.float32)
         self.observation_space = gymnasium.spaces.Box(-most, most, dtype=np.float32)
         self._poses = task.start
         self._first = task.score(self._poses)
@@ -148,10 +148,12 @@ class _TableEnv(gymnasium.Env[_Action, _Action]):
 
     def _seen(self) -> _Action:
         x, y, heading = self._poses.T
-        goal = np.array(self.task.goal_position)
-        place = self._poses[self.task.objects.index(self.task.goal_object), :2]
         objects = np.stack([x, y, np.cos(heading), np.sin(heading)], axis=1)
-        return np.concatenate([objects.ravel(), goal, goal - place]).astype(np.float32)
+        names = self.task.objects
+        own = self._poses[[names.index(name) for name in self.task.goal_objects], :2]
+        off = self.task.goal_offsets(self._poses)
+        goals = np.concatenate([own - off[:, :2], -off], axis=1)
+        return np.concatenate([objects.ravel(), goals.ravel()]).astype(np.float32)
 
     def _info(self, refused: str | None) -> dict[str, Any]:
         return {"score": self.task.score(self._poses), "refused": refused}
@@ -160,14 +162,15 @@ class _TableEnv(gymnasium.Env[_Action, _Action]):
 class PushEnv(_TableEnv):
     """One push a step, with the tools, the rules and the goal of a task.
 
-    The tool comes down just before the goal's object and pushes it. An action is five numbers from
+    The tool comes down just before the object of the first goal that is not reached and pushes it. An action is five numbers from
     -1 to 1: which tool, which grip yaw (both cut into equal parts, in the order of ``tools`` and
     ``task.grip_yaws``), the direction (in half turns from world +x), the lateral offset of the object
     (in units of ``most_offset``), and the length (by how many halves of the task's it is longer).
     :meth:`action` makes one of metres and radians.
 
-    An observation is, for every object, x and y in metres and cosine and sine of its heading, then
-    the goal's x and y and the way from the object to the goal, in metres.
+    An observation is, for every object, x and y in metres and cosine and sine of its heading, then, for
+    every goal, the wanted place's x and y, the way from the object to it, in metres, and the turn to the
+    wanted heading, in radians.
 
     The reward is the share of the way to the goal that a push gains, and one for reaching it, less
     0.02 for the push. A push that cannot be made, or breaks a rule of the task, moves nothing;
@@ -243,11 +246,16 @@ class PushEnv(_TableEnv):
         truncated = self._made >= self.steps and not reached
         return self._seen(), gained - COST, reached, truncated, self._info(refused)
 
+    def _target(self) -> str:
+        """The object of the first goal that is not reached."""
+        goals = zip(self.task.goal_objects, self.task.reached(self._poses), strict=True)
+        return next((name for name, reached in goals if not reached), self.task.goal_object)
+
     def _plan(self, action: _Action) -> Plan:
         tool, grip, half, offset, longer = (float(number) for number in np.clip(action, -1.0, 1.0))
         yaws = self.task.grip_yaws
         push = Push.before(
-            self.task.goal_object,
+            self._target(),
             math.pi * half,
             offset * self.most_offset,
             self.task.push_length * (1.0 + 0.5 * longer),

@@ -169,7 +169,7 @@ impl PyPlan {
     /// Distance of the goal's object from the goal as predicted, metres.
     #[getter]
     fn error(&self) -> Option<f64> {
-        self.file.predicted.as_ref().map(|outcome| outcome.error)
+        self.file.predicted.as_ref().map(|outcome| outcome.error())
     }
 
     /// What the model predicts frame by frame; only of plans that `solve` returns.

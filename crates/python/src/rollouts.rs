@@ -184,8 +184,8 @@ impl Packed {
         let of = |value: &dyn Fn(&Outcome) -> f64| -> Vec<f64> {
             self.outcomes.iter().map(value).collect()
         };
-        let errors = of(&|outcome| outcome.error);
-        let headings = of(&|outcome| outcome.heading_error.unwrap_or(f64::NAN));
+        let errors = of(&|outcome| outcome.error());
+        let headings = of(&|outcome| outcome.heading_error().unwrap_or(f64::NAN));
         let reached: Vec<bool> = self.outcomes.iter().map(|outcome| outcome.reached).collect();
         Ok(Rollouts {
             poses: arrays::array(py, self.poses, [candidates, frames, objects, 3])?.unbind(),

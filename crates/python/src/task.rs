@@ -120,29 +120,36 @@ impl PyTask {
         &self.task.scene.objects[self.task.goals[0].object].name
     }
 
-    /// Wanted position of its centre, metres.
+    /// Names of the objects with goals, in the order of the goals.
+    #[getter]
+    fn goal_objects(&self) -> Vec<&str> {
+        let names = self.task.goals.iter().map(|goal| &self.task.scene.objects[goal.object].name);
+        names.map(String::as_str).collect()
+    }
+
+    /// Wanted position of the first goal at the start, metres.
     #[getter]
     fn goal_position(&self) -> (f64, f64) {
-        let goal = self.task.goals[0].position;
+        let goal = self.task.goals[0].place(&self.task.scene.start());
         (goal.x, goal.y)
     }
 
     /// Largest distance from the goal that still counts as success, metres.
     #[getter]
     fn tolerance(&self) -> f64 {
-        self.task.goals[0].tolerance
+        self.task.goals[0].tolerance()
     }
 
     /// Wanted heading, radians, where one is asked for.
     #[getter]
     fn goal_heading(&self) -> Option<f64> {
-        self.task.goals[0].heading.map(|(heading, _)| heading)
+        self.task.goals[0].heading().map(|facing| facing.heading)
     }
 
     /// Largest heading error that still counts as success, radians, where one is asked for.
     #[getter]
     fn heading_tolerance(&self) -> Option<f64> {
-        self.task.goals[0].heading.map(|(_, tolerance)| tolerance)
+        self.task.goals[0].heading().map(|facing| facing.tolerance)
     }
 
     /// Turns of the end effector against world +x that a plan may choose from, radians.
@@ -188,10 +195,32 @@ impl PyTask {
         Ok(Self { task: Arc::new(moved(&self.task, &poses)), source: self.source.clone() })
     }
 
-    /// How far the goal's object is from the goal with the objects at these poses, `[objects, 3]`, in
-    /// units of the tolerance, the larger of position and heading: at most 1 is success.
+    /// Error of the goals with the objects at rest at these poses, `[objects, 3]`, in units of the
+    /// tolerances, the largest of all demands of all goals: at most 1 is success.
     fn score(&self, poses: Numbers<'_>) -> PyResult<f64> {
-        Ok(self.task.goals[0].score(&State::at_rest(self.poses(&poses)?)))
+        Ok(self.task.score(&State::at_rest(self.poses(&poses)?)))
+    }
+
+    /// Whether each goal is reached with the objects at rest at these poses, `[objects, 3]`.
+    fn reached(&self, poses: Numbers<'_>) -> PyResult<Vec<bool>> {
+        let state = State::at_rest(self.poses(&poses)?);
+        Ok(self.task.goals.iter().map(|goal| goal.reached(&state)).collect())
+    }
+
+    /// Offsets from the goals with the objects at these poses, `[objects, 3]`, as `[goals, 3]`: x and y
+    /// from the nearest wanted place to the object, metres, and its turn from the wanted heading, radians;
+    /// 0 where none is asked for.
+    fn goal_offsets<'py>(
+        &self,
+        py: Python<'py>,
+        poses: Numbers<'_>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let state = State::at_rest(self.poses(&poses)?);
+        let offsets = self.task.goals.iter().flat_map(|goal| {
+            let (off, turn) = (goal.off(&state), goal.turned(&state).unwrap_or(0.0));
+            [off.x, off.y, turn]
+        });
+        arrays::array(py, offsets.collect(), [self.task.goals.len(), 3])
     }
 
     /// The keys of its file, from which `Task.of` makes it again.

@@ -83,13 +83,13 @@ impl PyTrajectory {
     /// Distance of the goal's object from the goal at the end, metres.
     #[getter]
     fn error(&self) -> f64 {
-        self.outcome.error
+        self.outcome.error()
     }
 
     /// Heading error at the end, radians, where a heading is asked for.
     #[getter]
     fn heading_error(&self) -> Option<f64> {
-        self.outcome.heading_error
+        self.outcome.heading_error()
     }
 
     /// Whether the goal is reached, at rest and with nothing gone wrong on the way.
@@ -113,7 +113,7 @@ impl PyTrajectory {
         let (by, frames) = (&self.trajectory.by, self.trajectory.frames.len());
         format!(
             "<Trajectory of {frames} frames by {by}: goal {reached}, off by {:.2} mm>",
-            1e3 * self.outcome.error
+            1e3 * self.outcome.error()
         )
     }
 

@@ -148,13 +148,13 @@ impl PyReplay {
     /// Distance of the goal's object from the goal at the end, metres.
     #[getter]
     fn error(&self) -> f64 {
-        self.evidence.outcome.error
+        self.evidence.outcome.error()
     }
 
     /// Heading error at the end, radians, where a heading is asked for.
     #[getter]
     fn heading_error(&self) -> Option<f64> {
-        self.evidence.outcome.heading_error
+        self.evidence.outcome.heading_error()
     }
 
     /// Whether the goal is reached, at rest and with nothing gone wrong on the way.

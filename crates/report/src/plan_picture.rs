@@ -102,16 +102,16 @@ fn still<'a>(
     motions: &'a [ToolMotion],
     replays: &'a Verdict,
 ) -> ScenePicture<'a> {
-    let mut errors = vec![format!("predicted {}", millimetres(plan.outcome.error))];
+    let mut errors = vec![format!("predicted {}", millimetres(plan.outcome.error()))];
     let mut tracks = Vec::new();
     // An object that does not move has no path to draw.
     for evidence in nominal(replays).filter(|_| !plan.plan.is_empty()) {
-        let (engine, error) = (engine_name(evidence.engine), evidence.outcome.error);
+        let (engine, error) = (engine_name(evidence.engine), evidence.outcome.error());
         errors.push(format!("{engine} {}", millimetres(error)));
         let source = Source::Simulated(evidence.engine);
         tracks.extend(evidence.trajectory.iter().map(|trajectory| Track { source, trajectory }));
     }
-    let allowed = millimetres(task.goals[0].tolerance);
+    let allowed = millimetres(task.goals[0].tolerance());
     tracks.push(Track { source: Source::Predicted, trajectory: &plan.predicted });
     ScenePicture {
         title: format!("{}: {}", task.name, plan_line(&plan.plan)),

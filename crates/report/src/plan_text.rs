@@ -1,9 +1,9 @@
 //! A plan and where it ends, in words and tables for the terminal.
 
-use pushplan::geometry::{Footprint, Vector, wrap_angle};
+use pushplan::geometry::{Vector, wrap_angle};
 use pushplan::{
-    outcome::{Lying, Outcome, Warning},
-    scene::{Engine, Span},
+    outcome::{Outcome, Warning},
+    scene::Engine,
     task::{Goal, LeverUp, Plan, Step, Task},
 };
 
@@ -114,16 +114,16 @@ pub(super) fn outcome_table<'a>(
     };
     let covered =
         |outcome: &Outcome| task.goals[0].covered(&outcome.state).map_or(NONE.to_owned(), percent);
-    let heading = |outcome: &Outcome| outcome.heading_error.map_or(NONE.to_owned(), degrees);
+    let heading = |outcome: &Outcome| outcome.heading_error().map_or(NONE.to_owned(), degrees);
     let outcomes: Vec<(String, &Outcome, Option<&Warning>)> = outcomes.collect();
-    if outcomes.iter().any(|(_, outcome, _)| outcome.lying.is_some()) {
-        return lying_table(outcomes, &end);
+    if outcomes.iter().any(|(_, outcome, _)| outcome.in_space(task)) {
+        return lying_table(task.goals[0].object, outcomes, &end);
     }
     if task.goals.len() > 1 {
         return goals_table(task, outcomes);
     }
     let position = |(_, outcome, _): &Row| end(outcome);
-    let error = |(_, outcome, _): &Row| millimetres(outcome.error);
+    let error = |(_, outcome, _): &Row| millimetres(outcome.error());
     let turned = |(_, outcome, _): &Row| heading(outcome);
     let share = |(_, outcome, _): &Row| covered(outcome);
     let there = |(_, outcome, fault): &Row| reached(outcome, *fault);
@@ -133,7 +133,7 @@ pub(super) fn outcome_table<'a>(
         ("error", Right, &error),
         ("heading error", Right, &turned),
     ];
-    if task.goals[0].coverage.is_some() {
+    if task.goals[0].covered(&task.scene.start()).is_some() {
         columns.push(("covered", Right, &share));
     }
     columns.push(("reached", Left, &there));
@@ -181,20 +181,20 @@ fn reached(outcome: &Outcome, fault: Option<&Warning>) -> String {
 
 /// How the goal object lies by several sources.
 fn lying_table(
+    object: usize,
     outcomes: Vec<(String, &Outcome, Option<&Warning>)>,
     end: &dyn Fn(&Outcome) -> String,
 ) -> Table {
-    let of = |outcome: &Outcome, told: &dyn Fn(&Lying) -> String| {
-        outcome.lying.as_ref().map_or(NONE.to_owned(), told)
+    let raised = |outcome: &Outcome| {
+        let raised = outcome.goals.iter().find_map(|goal| goal.raised);
+        millimetres(raised.unwrap_or(0.0))
     };
     Table::of(
         outcomes,
         &[
             ("", Left, &|(source, ..)| source.clone()),
-            ("edge raised", Right, &|(_, outcome, _)| {
-                of(outcome, &|lying| millimetres(lying.raised))
-            }),
-            ("at rest", Left, &|(_, outcome, _)| of(outcome, &|lying| lying.ending.to_string())),
+            ("edge raised", Right, &|(_, outcome, _)| raised(outcome)),
+            ("at rest", Left, &|(_, outcome, _)| outcome.side(object).to_string()),
             ("final position", Left, &|(_, outcome, _)| end(outcome)),
             ("reached", Left, &|(_, outcome, fault)| reached(outcome, *fault)),
         ],
@@ -217,76 +217,8 @@ pub(super) fn goal_line(task: &Task) -> String {
 
 fn one_goal(task: &Task, goal: &Goal) -> String {
     let name = task.scene.objects.get(goal.object).map_or("object", |object| &object.name);
-    let heading = goal.heading.map_or(String::new(), |(heading, tolerance)| {
-        let alike = match goal.alike {
-            1 => String::new(),
-            alike => format!(", or any of {alike} that look the same"),
-        };
-        let by = goal.middle.and_then(|_| goal.turned(&task.scene.start()));
-        let by = by.map_or(String::new(), |turn| format!(", a turn by {}", degrees(-turn)));
-        format!(", heading {} \u{00b1} {}{alike}{by}", degrees(heading), degrees(tolerance))
-    });
-    let mut demands = Vec::new();
-    if let Some(obstacle) = goal.outside.and_then(|k| task.scene.obstacles.get(k)) {
-        demands.push(format!("outside of {}", obstacle.name));
-    }
-    if let Some(height) = goal.raised {
-        demands.push(format!("edge raised by {}", millimetres(height)));
-    }
-    match goal.flipped {
-        Some(true) => demands.push("upside down".to_owned()),
-        Some(false) => demands.push("on its underside".to_owned()),
-        None => {}
-    }
-    let of = goal.relative.and_then(|other| task.scene.objects.get(other));
-    let of = of.map_or(String::new(), |other| format!(" as {} sees it", other.name));
-    let at = point(goal.position);
-    if let Some(gap) = &goal.gap {
-        let [min, max] = [gap.min, gap.max].map(millimetres);
-        let far = match (gap.min > 0.0, gap.max.is_finite()) {
-            (_, false) => format!("at least {min}"),
-            (false, true) => format!("at most {max}"),
-            (true, true) => format!("{min} to {max}"),
-        };
-        demands.push(format!("{far} from {}", gap.name(&task.scene)));
-    }
-    if let Some(fall) = &goal.fall {
-        let over = fall.over.map(|edge| format!(", over its {} edge", edge.name()));
-        let part = |span: Span| format!(" from {:.3} to {:.3} m", span.low, span.high);
-        let part = fall.between.map(part).unwrap_or_default();
-        demands.push(format!("off the table{}{part}", over.unwrap_or_default()));
-    }
-    if let Some(coverage) = &goal.coverage {
-        let turn = goal.heading.map(|(heading, _)| format!(", heading {}", degrees(heading)));
-        let share = percent(coverage.share);
-        demands.push(format!(
-            "covering {share} of its outline at {at}{of}{}",
-            turn.unwrap_or_default()
-        ));
-        return format!("{name} {}", demands.join(", "));
-    }
-    match (&goal.area, goal.has_place() && !goal.is_relation()) {
-        (Some(area), _) => {
-            let outline = match area.shape.footprint() {
-                Footprint::Disc { radius } => format!("a circle of {}", millimetres(radius)),
-                Footprint::Rectangle { half } => {
-                    let [x, y] = [half.x, half.y].map(|half| millimetres(2.0 * half));
-                    format!("a rectangle of {x} by {y}")
-                }
-                Footprint::Polygon(_) => "a polygon".to_owned(),
-            };
-            demands.push(format!("in {outline} about {at}{of}{heading}"));
-        }
-        (None, true) => {
-            demands.push(format!("at {at} within {}{of}{heading}", millimetres(goal.tolerance)));
-        }
-        (None, false) if goal.heading.is_some() => {
-            demands.push(format!("{}{of}", heading.trim_start_matches(", ")));
-        }
-        _ => {}
-    }
     let colon = if goal.in_space() { ":" } else { "" };
-    format!("{name}{colon} {}", demands.join(", "))
+    format!("{name}{colon} {}", goal.words(&task.scene))
 }
 
 /// A position on the table.

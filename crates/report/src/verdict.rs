@@ -95,39 +95,13 @@ pub(super) fn verdict_line(task: &Task, verdict: Option<&Verdict>) -> String {
         Some(Reason::GoesWrong { engine, fault }) => {
             format!("failed: in the {} simulation {fault}", engine_name(*engine))
         }
-        Some(Reason::Misses { engine, error, heading_error }) => {
-            let mut by = Vec::new();
-            let covered =
-                verdict.nominal(*engine).and_then(|e| task.goals[0].covered(&e.outcome.state));
-            if let (Some(covered), Some(asked)) = (covered, &task.goals[0].coverage) {
-                let [covered, asked] = [covered, asked.share].map(percent);
-                return format!(
-                    "failed: covers {covered} of its outline, not {asked}, in the {} simulation",
-                    engine_name(*engine)
-                );
-            }
-            if *error > task.goals[0].tolerance {
-                let allowed = millimetres(task.goals[0].tolerance);
-                by.push(format!("{} ({allowed} allowed)", millimetres(*error)));
-            }
-            if let (Some(turned), Some((_, allowed))) = (heading_error, task.goals[0].heading)
-                && *turned > allowed
-            {
-                by.push(format!("{} ({} allowed)", degrees(*turned), degrees(allowed)));
-            }
-            let ended = verdict.nominal(*engine).map_or(&[][..], |e| &e.outcome.further);
-            for (goal, miss) in task.goals.iter().skip(1).zip(ended) {
-                if miss.error > goal.tolerance {
-                    let name = task.scene.objects.get(miss.object).map_or("?", |o| &o.name);
-                    let [off, allowed] = [miss.error, goal.tolerance].map(millimetres);
-                    by.push(format!("{off} of {name} ({allowed} allowed)"));
-                }
-            }
-            let by = match by.is_empty() {
-                true => String::new(),
-                false => format!(" by {}", by.join(" and ")),
-            };
-            format!("failed: misses the goal{by} in the {} simulation", engine_name(*engine))
+        Some(Reason::Misses { engine, .. }) => {
+            let end = verdict.nominal(*engine).map(|evidence| &evidence.outcome);
+            format!(
+                "failed: {} in the {} simulation",
+                end.map_or("misses the goal".to_owned(), |end| misses(task, end)),
+                engine_name(*engine)
+            )
         }
         Some(Reason::NeverOn { engine, support, replays }) => format!(
             "fragile: works as written, but never where objects rest on {}: in {replays} of {replays} \
@@ -141,6 +115,35 @@ pub(super) fn verdict_line(task: &Task, verdict: Option<&Verdict>) -> String {
             engine_name(*engine),
             100.0 * wanted
         ),
+    }
+}
+
+/// By how much which goals are missed.
+fn misses(task: &Task, end: &Outcome) -> String {
+    let first = task.goals.first();
+    let share = first.and_then(|goal| goal.covered(&end.state).zip(goal.wanted_share()));
+    if let (Some((covered, asked)), [_]) = (share, &task.goals[..]) {
+        let [covered, asked] = [covered, asked].map(percent);
+        return format!("covers {covered} of its outline, not {asked},");
+    }
+    let mut by = Vec::new();
+    for (k, (goal, miss)) in task.goals.iter().zip(&end.goals).enumerate() {
+        let of = task.scene.objects.get(miss.object).filter(|_| k > 0);
+        let of = of.map_or(String::new(), |object| format!(" of {}", object.name));
+        if miss.error > goal.tolerance() {
+            let [off, allowed] = [miss.error, goal.tolerance()].map(millimetres);
+            by.push(format!("{off}{of} ({allowed} allowed)"));
+        }
+        if let (Some(turned), Some(facing)) = (miss.heading_error, goal.heading())
+            && turned > facing.tolerance
+        {
+            let [turned, allowed] = [turned, facing.tolerance].map(degrees);
+            by.push(format!("{turned}{of} ({allowed} allowed)"));
+        }
+    }
+    match by.is_empty() {
+        true => "misses the goal".to_owned(),
+        false => format!("misses the goal by {}", by.join(" and ")),
     }
 }
 
@@ -194,11 +197,8 @@ mod tests {
         let toppled = Warning::Toppled { object: "can".to_owned() };
         let outcome = Outcome {
             state: State::default(),
-            error: 0.1,
-            heading_error: None,
-            further: Vec::new(),
+            goals: Vec::new(),
             reached: false,
-            lying: None,
         };
         let evidence = |engine, warnings| Evidence {
             engine,

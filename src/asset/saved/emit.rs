@@ -4,8 +4,8 @@ use serde_json::{Value as Json, json};
 
 use super::things;
 use crate::asset::task::{
-    WORLD, area_of, emitted_coverage, emitted_fall, emitted_gap, emitted_levers, emitted_object,
-    emitted_obstacle, emitted_tools, name_of_surface,
+    WORLD, emitted_goals, emitted_levers, emitted_object, emitted_obstacle, emitted_tools,
+    name_of_surface,
 };
 use crate::geometry::{Pose, Shape, Vector};
 use crate::{
@@ -13,7 +13,7 @@ use crate::{
         Blade, DisjointSets, Hand, Joint, JointKind, Mount, Object, Obstacle, PairFriction, Robot,
         Scene, Span, Support, TableTop, Tool,
     },
-    task::{Directions, Goal, Offsets, PushForm, PushRules, Task},
+    task::{Directions, Offsets, PushForm, PushRules, Task},
 };
 
 /// The most pairs of parts that a tool file names.
@@ -49,10 +49,7 @@ pub(in crate::asset) fn task(task: &Task) -> Json {
         "scene": scene(&task.scene),
         "robot": robot,
         "tools": emitted_tools(task),
-        "goal": match &task.goals[..] {
-            [only] => goal(only, &task.scene),
-            all => all.iter().map(|one| goal(one, &task.scene)).collect(),
-        },
+        "goal": emitted_goals(&task.goals, &task.scene),
         "robustness": task.robustness,
     });
     if task.pushes.max_count > 0 {
@@ -244,47 +241,7 @@ pub(in crate::asset) fn pushes(rules: &PushRules) -> Json {
     pushes
 }
 
-fn goal(goal: &Goal, scene: &Scene) -> Json {
-    let mut json = json!({"object": scene.objects[goal.object].name});
-    if let Some(gap) = &goal.gap {
-        json["gap"] = emitted_gap(gap, scene);
-    } else if let Some(fall) = &goal.fall {
-        json["off_table"] = emitted_fall(fall);
-    } else if let Some(coverage) = &goal.coverage {
-        let heading = goal.heading.map_or(0.0, |(heading, _)| degrees(heading));
-        json["coverage"] = emitted_coverage(coverage, vector(goal.position), heading);
-    } else if let Some(area) = &goal.area {
-        json["region"] = posed(json!({"area": area_of(&area.shape)}), &area.pose);
-    } else if goal.has_place() {
-        json["position"] = json!(vector(goal.position));
-        json["tolerance"] = json!(goal.tolerance);
-    }
-    if goal.weight != 1.0 {
-        json["weight"] = json!(goal.weight);
-    }
-    if let Some(other) = goal.relative {
-        json["relative_to"] = json!(scene.objects[other].name);
-    }
-    if let Some(obstacle) = goal.outside {
-        json["outside"] = json!(scene.obstacles[obstacle].name);
-    }
-    if let Some(height) = goal.raised {
-        json["raised"] = json!(height);
-    }
-    if let Some(flipped) = goal.flipped {
-        json["flipped"] = json!(flipped);
-    }
-    if let (Some((heading, tolerance)), None) = (goal.heading, &goal.coverage) {
-        json["heading_deg"] = json!(degrees(heading));
-        json["heading_tolerance_deg"] = json!(degrees(tolerance));
-        if goal.alike != goal.clone().looking_alike(scene).alike {
-            json["symmetric"] = json!(false);
-        }
-    }
-    json
-}
-
-pub(super) fn posed(mut fields: Json, pose: &Pose) -> Json {
+pub(in crate::asset) fn posed(mut fields: Json, pose: &Pose) -> Json {
     fields["position"] = json!(vector(pose.position));
     fields["yaw_deg"] = json!(degrees(pose.heading));
     fields

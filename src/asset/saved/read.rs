@@ -110,10 +110,10 @@ impl<'a> Opened<'a> {
     pub fn check_outcome(&mut self, node: Option<&Node>, outcome: &Outcome) {
         self.check_state(node.and_then(|node| node.get("state")), &outcome.state);
         let (Some(node), Some(task)) = (node, &self.task) else { return };
-        let wanted: Vec<usize> = task.goals.iter().skip(1).map(|goal| goal.object).collect();
-        let found: Vec<usize> = outcome.further.iter().map(|miss| miss.object).collect();
+        let wanted: Vec<usize> = task.goals.iter().map(|goal| goal.object).collect();
+        let found: Vec<usize> = outcome.goals.iter().map(|miss| miss.object).collect();
         if wanted != found {
-            let message = format!("expected further ends of objects {wanted:?}, found {found:?}");
+            let message = format!("expected ends of objects {wanted:?}, found {found:?}");
             self.ledger.fault(node, message, "the file is damaged; make it again");
         }
     }

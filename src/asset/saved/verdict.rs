@@ -17,35 +17,22 @@ const MISS: Value = Value::Map(&[
         HEADING_ERROR,
         "Heading error, radians; by default none is asked for.",
     ),
+    Key::required("score", SCORE, "The demand that is met worst, at most 1 if it is met."),
+    Key::optional(
+        "raised",
+        REAL,
+        "Height by which a blade had lifted an edge at the end of its turn, metres; by default none did.",
+    ),
 ]);
 
 pub(super) const OUTCOME: Value = Value::Map(&[
     Key::required("state", STATE, "Final poses of all objects."),
-    Key::required("error", UNSIGNED, "Distance of the first goal's object from its goal, metres."),
-    Key::optional(
-        "heading_error",
-        HEADING_ERROR,
-        "Heading error, radians; by default none is asked for.",
-    ),
-    Key::optional(
-        "further",
-        Value::List { of: &MISS, items: "objects with goals", min: 0, max: 64 },
-        "The same of further goals' objects; by default there are none.",
+    Key::required(
+        "goals",
+        Value::List { of: &MISS, items: "goals", min: 0, max: 64 },
+        "Errors of the goals, in the order of the task.",
     ),
     Key::required("reached", Value::Switch, "Whether all goals are reached at rest."),
-    Key::optional(
-        "lying",
-        Value::Map(&[
-            Key::required("score", SCORE, "The demand that is met worst, at most 1 if it is met."),
-            Key::required("raised", REAL, "How much higher its edge lay at the end, metres."),
-            Key::required(
-                "ending",
-                Value::Word(&["back", "flipped", "leaning"]),
-                "How it lies at rest.",
-            ),
-        ]),
-        "How the goal object lies in space; by default nothing left the plane.",
-    ),
 ]);
 
 pub(super) const WARNINGS: Value =
@@ -104,7 +91,7 @@ const GOES_WRONG: Value = Value::Map(&[
 
 const MISSES: Value = Value::Map(&[
     Key::required("engine", ENGINE, "Which engine says so."),
-    Key::required("error", UNSIGNED, "Distance of the first goal's object from its goal, metres."),
+    Key::required("error", UNSIGNED, "Largest distance of an object from its goal, metres."),
     Key::optional(
         "heading_error",
         HEADING_ERROR,

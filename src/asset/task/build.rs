@@ -23,7 +23,7 @@ pub(super) fn task(root: &Node, file: &str, arm: Option<Standing>) -> Option<Tas
     let stem = || Path::new(file).file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let mut scene = scene(root.get("scene")?)?;
     let goals = goals::each(root.get("goal")?).iter().map(|node| goals::goal(node, &scene));
-    let goals: Vec<Goal> = goals.collect::<Option<_>>()?;
+    let goals = Goal::joined(goals.collect::<Option<Vec<Goal>>>()?);
     goals.first()?;
     let levers = levers::levers(root)?;
     let mut robot = match &arm {

@@ -3,12 +3,13 @@
 use serde_json::{Value as Json, json};
 
 use crate::asset::node::Node;
+use crate::asset::saved::emit::degrees;
 use crate::asset::spec::{ANGLE, Key, POSITION, Range, Value};
 use crate::asset::take::{angle, number_or, position};
 use crate::geometry::Pose;
 use crate::{
     scene::Scene,
-    task::{Coverage, Goal},
+    task::Coverage,
 };
 
 /// The share that Push-T asks for.
@@ -35,18 +36,19 @@ pub(super) const COVERAGE: Key = Key::optional(
      Push-T measures; by default any.",
 );
 
-/// The goal of `object` that asks for a coverage.
-pub(super) fn covering(node: &Node, object: usize, scene: &Scene) -> Option<Goal> {
+/// The coverage of a goal of `object`.
+pub(super) fn covering(node: &Node, object: usize, scene: &Scene) -> Option<Box<Coverage>> {
     let share = number_or(node, "share", SHARE)?;
     let heading = angle(node, "heading_deg", 0.0)?;
-    Goal::covering(scene, object, Pose { position: position(node)?, heading }, share)
+    Coverage::of(scene, object, Pose { position: position(node)?, heading }, share)
 }
 
-/// As in a file, where `heading_deg` is that of the goal, degrees.
-pub(in crate::asset) fn emitted_coverage(
-    coverage: &Coverage,
-    position: [f64; 2],
-    heading_deg: f64,
-) -> Json {
-    json!({"share": coverage.share, "position": position, "heading_deg": heading_deg})
+/// As in a file.
+pub(super) fn emitted_coverage(coverage: &Coverage) -> Json {
+    let position = coverage.place.position;
+    json!({
+        "share": coverage.share,
+        "position": [position.x, position.y],
+        "heading_deg": degrees(coverage.heading()),
+    })
 }

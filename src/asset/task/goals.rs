@@ -1,20 +1,23 @@
 //! Goals of a task file: a place, a region, a gap, a coverage, off the table, a heading, how far a joint has
 //! come.
 
+use serde_json::{Map, Value as Json, json};
+
 use crate::asset::node::{Content, Node};
+use crate::asset::saved::emit::{degrees, posed};
 use crate::asset::spec::{ANGLE, Key, POSITION, Range, SHIFT_LIMIT, Value};
 use crate::asset::strict::Ledger;
 use crate::asset::take::{angle, angle_of, name_of, number_or, position, shape, vector};
 use crate::geometry::{Footprint, Pose, clearance};
 use crate::{
     scene::{JointKind, Scene},
-    task::Goal,
+    task::{Area, AtPlace, Demand, Facing, Goal, InArea, Kind},
 };
 
-use super::coverage::{COVERAGE, covering};
-use super::falls::{OFF_TABLE, check_fall, fall};
-use super::gap::{GAP, check_gap, gap};
-use super::keep::{AREA, AREA_POSITION, AREA_YAW, area, check_area};
+use super::coverage::{COVERAGE, covering, emitted_coverage};
+use super::falls::{OFF_TABLE, check_fall, emitted_fall, fall};
+use super::gap::{GAP, check_gap, emitted_gap, gap};
+use super::keep::{AREA, AREA_POSITION, AREA_YAW, area, check_area, emitted_area as area_of};
 use super::lifting::{self, FLIPPED, OUTSIDE, RAISED, check_lifting, lifted};
 use super::mounts::moving;
 use super::parts::parts;
@@ -114,47 +117,120 @@ pub(super) fn each(node: &Node) -> &[Node] {
 pub(super) fn goal(node: &Node, scene: &Scene) -> Option<Goal> {
     let object = scene.object(node.get("object")?.text()?)?;
     let within = angle(node, "heading_tolerance_deg", default::HEADING_TOLERANCE)?;
-    let mut goal = match (node.get("region"), node.get("gap")) {
-        (Some(region), _) => {
-            let (shape, pose) = area(region)?;
-            Goal::within(object, shape, pose)
-        }
-        (None, Some(node)) => Goal::beside(object, gap(node, object, scene)?),
-        (None, None) => Goal::of(object),
-    };
+    let mut goal = Goal::of(object);
+    goal.weight = number_or(node, "weight", goal.weight)?;
+    if let Some(region) = node.get("region") {
+        let (shape, pose) = area(region)?;
+        goal = goal.with(Demand::Area(Box::new(InArea::new(Area { shape, pose }))));
+    }
+    if let Some(node) = node.get("gap") {
+        goal = goal.with(Demand::Gap(gap(node, object, scene)?));
+    }
     if let Some(node) = node.get("coverage") {
-        goal = covering(node, object, scene)?;
+        goal = goal.with(Demand::Coverage(covering(node, object, scene)?));
     }
     if let Some(node) = node.get("off_table") {
-        goal = Goal::falling(object, fall(node, object, scene)?);
+        goal = goal.with(Demand::Fall(fall(node, object, scene)?));
     }
-    goal.weight = number_or(node, "weight", goal.weight)?;
+    let tolerance = node.get("tolerance").and_then(Node::number);
     if node.get("position").is_some() {
-        goal.position = position(node)?;
-        goal.tolerance = node.get("tolerance")?.number()?;
+        let (position, tolerance) = (position(node)?, tolerance?);
+        goal = goal.with(Demand::Place(AtPlace { position, tolerance, relative: None }));
     }
     if node.get("heading_deg").is_some() {
-        goal.heading = Some((angle(node, "heading_deg", 0.0)?, within));
+        goal = goal.facing(angle(node, "heading_deg", 0.0)?, within);
     }
     if let Some(other) = node.get("relative_to") {
-        goal.relative = Some(scene.object(other.text()?)?);
+        goal = goal.relative_to(scene.object(other.text()?)?);
     }
     if let Some(turn) = node.get("joint_deg") {
-        let (there, other) = come(scene, object, angle_of(turn)?)?;
-        (goal.heading, goal.relative) = (Some((there.heading, within)), other);
+        let (there, relative) = come(scene, object, angle_of(turn)?)?;
+        goal = goal.with(Demand::Heading(Facing { relative, ..Facing::new(there.heading, within) }));
     }
     if let Some(shift) = node.get("joint") {
-        let (there, other) = come(scene, object, shift.number()?)?;
-        (goal.position, goal.relative) = (there.position, other);
-        goal.tolerance = node.get("tolerance")?.number()?;
+        let (there, relative) = come(scene, object, shift.number()?)?;
+        let (position, tolerance) = (there.position, tolerance?);
+        goal = goal.with(Demand::Place(AtPlace { position, tolerance, relative }));
     }
+    // Positions first, as plan files have them.
+    goal.demands.sort_by_key(|demand| demand.kind().tolerance().is_none());
     let symmetric = match node.get("symmetric") {
         Some(symmetric) => symmetric.switch()?,
         None => true,
     };
-    let looks = symmetric && goal.heading.is_some();
-    let goal = if looks { goal.looking_alike(scene) } else { goal };
+    let goal = if symmetric { goal.looking_alike(scene) } else { goal };
     lifted(node, scene, goal.within_limits(scene))
+}
+
+/// Goals as in a file: as many for one object as its demands need.
+pub(in crate::asset) fn emitted_goals(goals: &[Goal], scene: &Scene) -> Json {
+    let mut all: Vec<Json> = goals.iter().flat_map(|goal| emitted(goal, scene)).collect();
+    match all.len() {
+        1 => all.remove(0),
+        _ => Json::Array(all),
+    }
+}
+
+/// A goal as in a file, with another entry for each demand that has no room in the last one.
+fn emitted(goal: &Goal, scene: &Scene) -> Vec<Json> {
+    let name = &scene.objects[goal.object].name;
+    let mut entries: Vec<(Map<String, Json>, Vec<&Demand>)> = Vec::new();
+    for demand in &goal.demands {
+        let fields = keys(demand, goal, scene);
+        if !entries.last().is_some_and(|(_, held)| held.iter().all(|other| shares(demand, other))) {
+            let mut entry = Map::from_iter([("object".to_owned(), json!(name))]);
+            if goal.weight != 1.0 && entries.is_empty() {
+                entry.insert("weight".to_owned(), json!(goal.weight));
+            }
+            entries.push((entry, Vec::new()));
+        }
+        if let Some((entry, held)) = entries.last_mut() {
+            entry.extend(fields);
+            held.push(demand);
+        }
+    }
+    entries.into_iter().map(|(entry, _)| Json::Object(entry)).collect()
+}
+
+/// Returns `true` if two demands have room in one entry.
+fn shares(one: &Demand, other: &Demand) -> bool {
+    let framed = |kind: &dyn Kind| kind.position().is_some() || kind.facing().is_some();
+    let [a, b] = [one.kind(), other.kind()];
+    std::mem::discriminant(one) != std::mem::discriminant(other)
+        && !(a.tolerance().is_some() && b.tolerance().is_some())
+        && !(a.facing().is_some() && b.facing().is_some())
+        && !(framed(a) && framed(b) && a.relative() != b.relative())
+}
+
+/// The keys of a demand, one arm for each kind.
+fn keys(demand: &Demand, goal: &Goal, scene: &Scene) -> Map<String, Json> {
+    let mut json = match demand {
+        Demand::Place(place) => {
+            json!({"position": [place.position.x, place.position.y], "tolerance": place.tolerance})
+        }
+        Demand::Area(own) => {
+            json!({"region": posed(json!({"area": area_of(&own.area.shape)}), &own.area.pose)})
+        }
+        Demand::Heading(facing) => {
+            let [heading, within] = [facing.heading, facing.tolerance].map(degrees);
+            let mut json = json!({"heading_deg": heading, "heading_tolerance_deg": within});
+            let usual = goal.clone().looking_alike(scene);
+            if usual.heading().is_some_and(|usual| usual.symmetry != facing.symmetry) {
+                json["symmetric"] = json!(false);
+            }
+            json
+        }
+        Demand::Gap(gap) => json!({"gap": emitted_gap(gap, scene)}),
+        Demand::Coverage(coverage) => json!({"coverage": emitted_coverage(coverage)}),
+        Demand::Fall(fall) => json!({"off_table": emitted_fall(fall)}),
+        Demand::Outside(outside) => json!({"outside": outside.name}),
+        Demand::Raised(raised) => json!({"raised": raised.height}),
+        Demand::Flipped(flipped) => json!({"flipped": flipped.flipped}),
+    };
+    if let Some(other) = demand.kind().relative() {
+        json["relative_to"] = json!(scene.objects[other].name);
+    }
+    json.as_object().cloned().unwrap_or_default()
 }
 
 /// Where an object is once its joint has come this far, radians or metres: in the world, or in the frame

@@ -6,7 +6,7 @@ use crate::asset::spec::{Key, Range, Value};
 use crate::asset::strict::Ledger;
 use crate::asset::take::name_of;
 use crate::scene::Scene;
-use crate::task::Goal;
+use crate::task::{Demand, Flipped, Goal, Outside, Raised};
 
 /// An obstacle that the object leaves.
 pub(super) const OUTSIDE: Key = Key::optional(
@@ -48,13 +48,14 @@ pub(super) fn lifts(goal: &Node) -> bool {
 pub(super) fn lifted(node: &Node, scene: &Scene, mut goal: Goal) -> Option<Goal> {
     if let Some(name) = node.get("outside") {
         let name = name.text()?;
-        goal.outside = Some(scene.obstacles.iter().position(|obstacle| obstacle.name == name)?);
+        let obstacle = scene.obstacles.iter().position(|obstacle| obstacle.name == name)?;
+        goal = goal.with(Demand::Outside(Outside::of(scene, obstacle)?));
     }
     if let Some(height) = node.get("raised") {
-        goal.raised = Some(height.number()?);
+        goal = goal.with(Demand::Raised(Raised { height: height.number()? }));
     }
     if let Some(flipped) = node.get("flipped") {
-        goal.flipped = Some(flipped.switch()?);
+        goal = goal.with(Demand::Flipped(Flipped { flipped: flipped.switch()? }));
     }
     Some(goal)
 }

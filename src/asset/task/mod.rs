@@ -24,12 +24,10 @@ mod spec;
 mod tools;
 
 pub(super) use build::support as support_of;
-pub(super) use coverage::emitted_coverage;
-pub(super) use falls::emitted_fall;
 pub(super) use frictions::{FRICTIONS, name_of_surface};
-pub(super) use gap::emitted_gap;
+pub(super) use goals::emitted_goals;
 pub(super) use joints::joint as joint_of;
-pub(super) use keep::{emitted as region, emitted_area as area_of};
+pub(super) use keep::emitted as region;
 pub(super) use levers::emitted_levers;
 pub use load::{load_task, parse_task};
 pub(super) use load::{parse_with, scene_of, task_of};

@@ -91,15 +91,25 @@ fn unknown(unknown: &Node, scene: &Node, ledger: &mut Ledger) {
     }
 }
 
-/// No object has two goals.
+/// Keys of which all goals of one object have one: no two of them can hold at once.
+const ALONE: [&[&str]; 2] = [
+    &["position", "coverage", "off_table", "joint"],
+    &["heading_deg", "joint_deg", "coverage", "off_table"],
+];
+
+/// Several goals of one object do not contradict each other.
 fn one_each(goals: &[Node], ledger: &mut Ledger) {
     let name = |goal: &Node| goal.get("object").and_then(Node::text).map(str::to_owned);
     for (k, goal) in goals.iter().enumerate() {
-        if let Some(object) = name(goal)
-            && goals[..k].iter().any(|before| name(before).as_ref() == Some(&object))
-        {
-            let message = format!("`{object}` has two goals");
-            ledger.fault(goal, message, "keep one of them; a heading belongs to the position");
+        let Some(object) = name(goal) else { continue };
+        let has = |goal: &Node, keys: &[&str]| keys.iter().any(|key| goal.get(key).is_some());
+        let own = goals[..k].iter().filter(|before| name(before).as_ref() == Some(&object));
+        for before in own {
+            if ALONE.iter().any(|keys| has(goal, keys) && has(before, keys)) {
+                let message = format!("`{object}` has two goals that contradict each other");
+                ledger.fault(goal, message, "keep one of them");
+                break;
+            }
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::{
     task::{Goal, Task},
 };
 
-use super::Ending;
+use crate::task::Ending;
 use crate::scene::Plate;
 
 /// A plate whose lowest point is higher above the table lies on something else, metres.
@@ -34,16 +34,17 @@ impl Task {
     /// Seen from above objects are their outlines, on the points that carry them. Those that lie on
     /// something else are obstacles, and obstacles count as standing on the table.
     pub fn after(&self, rests: &[Pose3]) -> Option<Task> {
-        if !self.goals[0].has_place() || self.pushes.max_count == 0 {
+        let place = self.goals.first()?;
+        if self.pushes.max_count == 0 {
             return None;
         }
+        let (position, tolerance) = (place.position()?, place.tolerance());
         let mut scene = Scene::new([]).on_table(self.scene.table_friction);
         let mut goal = None;
         for (k, (plate, rest)) in self.scene.plates().zip(rests).enumerate() {
             match lying(&plate, rest).filter(|object| self.is_clear(object)) {
                 Some(object) => {
-                    if k == self.goals[0].object {
-                        let Goal { position, tolerance, .. } = self.goals[0];
+                    if k == place.object {
                         goal = Some(Goal::new(scene.objects.len(), position.into(), tolerance));
                     }
                     scene.objects.push(object);

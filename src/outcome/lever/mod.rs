@@ -6,7 +6,7 @@ mod fault;
 mod frame;
 mod trajectory;
 
-pub use ending::{Ending, LeverWarning};
+pub use ending::LeverWarning;
 pub use fault::LeverFault;
 pub use frame::{LeverFrame, LeverRecord};
 pub use trajectory::{LEVER_FRAMES, LeverTrajectory, has_slipped};

@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::Pose3;
 
-use super::{Ending, LeverWarning};
+use super::LeverWarning;
+use crate::task::Ending;
 
 /// Frames of a turn, at even times, the last one at its end.
 pub const LEVER_FRAMES: usize = 15;

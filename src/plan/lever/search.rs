@@ -150,11 +150,10 @@ impl LeverSearch<'_> {
 /// jams or is left undecided.
 pub fn merit(goal: &Goal, outcome: &Outcome, trajectory: &Trajectory) -> f64 {
     let tilt = trajectory.lifts.last().map_or(0.0, |lift| lift.tilt.to_degrees());
-    let (score, ending) =
-        outcome.lying.map_or((f64::MAX, Ending::Leaning), |lying| (lying.score, lying.ending));
+    let (score, ending) = (outcome.score(), outcome.side(goal.object));
     let [low, high] = UNDECIDED_DEG;
     let middle = 1.0 - (2.0 * tilt - low - high).abs() / (high - low);
-    let matters = goal.turns() || goal.outside.is_some();
+    let matters = goal.demands.iter().any(|demand| demand.kind().is_at_rest());
     let undecided = if matters { UNDECIDED * middle.max(0.0) } else { 0.0 };
     let slips = |warning: &Warning| matches!(warning, Warning::Slipped { .. });
     let slipped = if trajectory.warnings.iter().any(slips) { SLIPPED } else { 0.0 };

@@ -104,7 +104,7 @@ pub fn follow(
 fn towards(task: &Task, leg: &Leg, situation: &Situation, grip_yaw: f64) -> Task {
     let object = &task.scene.objects[leg.object];
     let own = task.goals.iter().find(|goal| leg.last && goal.object == leg.object);
-    let tolerance = own.map_or(NEAR, |goal| goal.tolerance.min(NEAR));
+    let tolerance = own.map_or(NEAR, |goal| goal.tolerance().min(NEAR));
     let goal = Goal::new(leg.object, [leg.to.x, leg.to.y], tolerance);
     let turns = !matches!(object.shape.footprint(), Footprint::Disc { .. });
     let goal = match turns {

@@ -3,7 +3,7 @@
 use crate::geometry::{Footprint, Grid, Pose, Vector, perpendicular};
 use crate::{
     scene::{Mover, Region, Scene, Situation, State},
-    task::Goal,
+    task::{Demand, End, Goal},
 };
 
 use super::lattice::{Extent, Solid};
@@ -77,11 +77,13 @@ pub(super) fn groups(workspace: &Workspace, situation: &Situation) -> Option<Vec
         .filter(|&k| !joined(k) && scene.objects[k].keep.is_none())
         .collect();
     for goal in &goals {
-        let turned = match (goal.heading, goal.heading_error(state)) {
-            (Some((_, tolerance)), Some(error)) => error > tolerance,
-            _ => false,
-        };
-        if turned || !goal.has_place() || goal.is_relation() || !loose.contains(&goal.object) {
+        let end = End::resting(goal.object, state);
+        let turned = goal.demands.iter().map(Demand::kind).any(|kind| {
+            let turn = kind.turned(&end).zip(kind.turn_tolerance());
+            turn.is_some_and(|(turn, tolerance)| turn.abs() > tolerance)
+        });
+        let places = goal.demands.iter().filter(|demand| demand.kind().tolerance().is_some());
+        if turned || places.count() != 1 || goal.is_relation() || !loose.contains(&goal.object) {
             return None;
         }
     }

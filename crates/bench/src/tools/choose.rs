@@ -25,8 +25,7 @@ const LOOKED_AT: usize = 16;
 /// Not pushing.
 pub fn nothing(task: &Task) -> Choice {
     let action = Action { pose: 0, form: PushForm::Chained, pushes: Vec::new() };
-    let start = task.scene.objects[task.goals[0].object].pose.position;
-    Choice { action, predicted: Some((start - task.goals[0].position).norm()) }
+    Choice { action, predicted: Some(task.goals[0].error(&task.scene.start())) }
 }
 
 /// The best action of `sequences` with one of `poses` for the goal of `task`, by where `model`

@@ -103,7 +103,7 @@ fn one(setup: &ReferenceSetup, model: &dyn EffectModel, seed: u64, index: usize)
     }
     let mut task = setup.task(start, goal);
     task.pushes.max_count = 1;
-    task.goals[0].tolerance = COARSE;
+    task.goals[0].set_tolerance(COARSE);
     let nothing = (goal - start).norm() <= COARSE;
     let choice = choose(setup, model, &task);
     let mut executions = Executions::default();
@@ -135,6 +135,6 @@ fn choose(setup: &ReferenceSetup, model: &dyn EffectModel, task: &Task) -> Optio
     let sequences = Rolling { setup, task, model, poses: &poses, steps: 1 }.shared();
     let (_, nearest) = sequences.best(goal, 1, &poses).pop()?;
     let best = rested(setup, model, task, vec![nearest]).pop()?;
-    let error = best.predicted.filter(|error| *error < (start - goal.position).norm())?;
+    let error = best.predicted.filter(|error| *error < goal.error(&task.scene.start()))?;
     Some((best.action, error))
 }

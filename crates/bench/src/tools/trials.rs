@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use rand::Rng;
 
+use crate::geometry::Vector;
 use crate::store::Seconds;
 use pushplan::{
     asset::ToolLibrary,
@@ -120,8 +121,13 @@ impl<'a> Trials<'a> {
         self.shared.executions.run(self.setup, self.task, engine, actions)
     }
 
+    /// The wanted position, metres.
+    fn wanted(&self) -> Vector {
+        self.task.goals[0].position().unwrap_or_default()
+    }
+
     fn executed(&self, landing: &Landing) -> Executed {
-        let error = (landing.at - self.task.goals[0].position).norm();
+        let error = (landing.at - self.wanted()).norm();
         Executed { error, sound: landing.sound }
     }
 
@@ -145,7 +151,7 @@ impl<'a> Trials<'a> {
         let pose = self.setup.pose(best.plan.tool())?;
         let pushes = best.plan.pushes().clone();
         let action = Action { pose, form: PushForm::Placed, pushes };
-        Some(Choice { action, predicted: Some(best.outcome.error) })
+        Some(Choice { action, predicted: Some(best.outcome.error()) })
     }
 
     /// A sequence and a stop, all equally likely; `None` if no pose can be set down.
@@ -179,7 +185,7 @@ impl<'a> Trials<'a> {
         let still = nothing(self.task).action;
         let best = best.into_iter().map(|(_, action)| action);
         // Stops are ranked by an estimate, the ends of whole sequences are known.
-        let goal = self.task.goals[0].position;
+        let goal = self.wanted();
         let ends =
             self.shared.played.ends().filter(|(action, _)| self.poses.contains(&action.pose));
         let end = ends.min_by(|a, b| (a.1 - goal).norm().total_cmp(&(b.1 - goal).norm()));

@@ -152,7 +152,7 @@ fn goal(scene: &Scene, object: usize, numbers: &[f64], shift: Vector) -> Option<
     };
     let goal = match heading {
         [heading, within, alike, ..] => {
-            Goal { alike: (*alike as usize).max(1), ..goal.facing(*heading, *within) }
+            goal.facing(*heading, *within).alike((*alike as usize).max(1))
         }
         [heading, within] => goal.facing(*heading, *within).looking_alike(scene),
         _ => goal,

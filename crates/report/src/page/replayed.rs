@@ -12,7 +12,7 @@ use pushplan::asset::{PLAN_VERSION, PlanFile};
 use pushplan::{
     outcome::{Outcome, Trajectory, Verdict},
     scene::{Engine, Tool},
-    task::{Job, Plan, Task, ToolMotion},
+    task::{Job, Mark, Plan, Task, ToolMotion},
 };
 
 use super::data::{self, Data, File, Layer, Replay, Standing, Stroke, length, pose};
@@ -61,11 +61,9 @@ pub(super) fn shown_replay(
     let mut replay = replay(layer, trajectory, reached)?;
     let goal = &task.goals[0];
     // The page measures distances from a place; from anything else they are told.
-    let told = goal.area.is_some()
-        || goal.coverage.is_some()
-        || goal.is_relation()
-        || goal.relative.is_some();
-    if told || !goal.has_place() {
+    let marks = goal.shown(&task.scene).marks;
+    let measured = marks.iter().filter(|mark| matches!(mark, Mark::Disc { .. })).count() == 1;
+    if !measured || goal.is_relation() || goal.relative().is_some() {
         replay.measure = sound(&trajectory.frames).map(|f| length(goal.error(&f.state))).collect();
     }
     // The parts of one tool are its nodes.
@@ -95,10 +93,10 @@ pub fn prediction_page(
     let mut ends = Vec::new();
     for (k, trajectory) in trajectories.iter().enumerate() {
         let outcome = Outcome::judge(&task.scene, task, trajectory);
-        let end = match (outcome.lying, outcome.reached) {
-            (None, _) => millimetres(outcome.error),
-            (Some(_), true) => "reaches the goal".to_owned(),
-            (Some(_), false) => "misses the goal".to_owned(),
+        let end = match (outcome.in_space(task), outcome.reached) {
+            (false, _) => millimetres(outcome.error()),
+            (true, true) => "reaches the goal".to_owned(),
+            (true, false) => "misses the goal".to_owned(),
         };
         ends.push(format!("{} {end}", trajectory.by));
         // A model that hands a job to an engine is still the one that predicts.
@@ -110,7 +108,7 @@ pub fn prediction_page(
     }
     page.verdict = match task.goals[0].has_place() {
         true => {
-            let allowed = millimetres(task.goals[0].tolerance);
+            let allowed = millimetres(task.goals[0].tolerance());
             format!("error: {}; allowed {allowed}", ends.join(", "))
         }
         false => ends.join(", "),

@@ -6,38 +6,51 @@ use crate::plan_text::goal_line;
 use pushplan::geometry::{Footprint, Pose, Shape, Vector};
 use pushplan::{
     scene::{self, Blade, Carried, Plate, SHOWN_HAND, Scene, Slab},
-    task::{Plan, Task},
+    task::{Mark, Plan, ShownGoal, Task},
 };
 
 use super::data::{Body, Goal, Outline, Stage, Tool, fine, length, point, pose};
 
 /// Scene, reach and goal of a task.
 pub fn stage(task: &Task) -> Stage {
-    let goal = |goal: &pushplan::task::Goal| Goal {
-        object: goal.object,
-        at: point(goal.position),
-        // In space something else is measured than the distance.
-        tolerance: match goal.has_place()
-            && goal.area.is_none()
-            && goal.coverage.is_none()
-            && !task.in_space()
-        {
-            true => length(goal.tolerance),
-            false => 0,
-        },
-        area: goal.area.map(|area| turned(outline(&area.shape), area.pose.heading)),
-        heading: goal.heading.map(|(heading, tolerance)| [fine(heading), fine(tolerance)]),
-        middle: goal.middle.map(fine),
-        alike: goal.alike,
-        words: goal_line(task),
-    };
     let shown = task.shown_goals();
+    let goal = |goal: &ShownGoal| drawn(goal, task);
     Stage {
         reach: [task.robot.reach_min, task.robot.reach_max].map(length).to_vec(),
         goal: shown.first().map(goal),
         further: shown.iter().skip(1).map(goal).collect(),
         ..table(&task.scene)
     }
+}
+
+/// The marks of a goal as the page draws them.
+fn drawn(shown: &ShownGoal, task: &Task) -> Goal {
+    let mut goal = Goal {
+        object: shown.object,
+        at: point(shown.centre),
+        tolerance: 0,
+        area: None,
+        heading: None,
+        middle: None,
+        alike: 1,
+        words: goal_line(task),
+    };
+    for mark in &shown.marks {
+        match mark {
+            // In space something else is measured than the distance.
+            Mark::Disc { radius, .. } if !task.in_space() => goal.tolerance = length(*radius),
+            Mark::Area(area) => {
+                goal.area = Some(turned(outline(&area.shape), area.pose.heading));
+            }
+            Mark::Headings { heading, tolerance, limit_middle, symmetry } => {
+                goal.heading = Some([fine(*heading), fine(*tolerance)]);
+                goal.middle = limit_middle.map(fine);
+                goal.alike = *symmetry;
+            }
+            _ => {}
+        }
+    }
+    goal
 }
 
 /// The same as JSON, for whoever draws it elsewhere as the page does.

@@ -6,7 +6,7 @@ use crate::svg::{Anchor, Font, Style, Svg};
 use pushplan::geometry::{Pose, Shape, Vector, wrap_angle};
 use pushplan::{
     scene::{Object, Robot, Scene},
-    task::Goal,
+    task::{Mark, ShownGoal},
 };
 
 use super::{legend::Sample, palette, view::View};
@@ -29,92 +29,85 @@ pub fn reach(svg: &mut Svg, view: &View, robot: &Robot) {
     svg.text(base + Vector::new(0.0, 18.0), "robot", font);
 }
 
-/// The area where the goal object may come to rest.
-pub fn goal_area(svg: &mut Svg, view: &View, goal: &Goal) {
-    match &goal.area {
-        Some(area) => {
-            view.footprint(svg, &area.shape.footprint(), &area.pose, palette::GOAL_AREA);
+/// The areas where a goal's object may come to rest.
+pub fn goal_area(svg: &mut Svg, view: &View, goal: &ShownGoal) {
+    for mark in &goal.marks {
+        if !matches!(mark, Mark::Outside(_)) {
+            area(svg, view, mark, palette::GOAL_AREA);
         }
-        None if goal.coverage.is_some() => outline(svg, view, goal, palette::GOAL_AREA),
-        None if goal.has_place() => {
-            svg.circle(view.map(goal.position), view.length(goal.tolerance), palette::GOAL_AREA);
-        }
-        None => {}
     }
 }
 
-/// Rim of the tolerance, centre cross and, where a heading is asked for, its wedges.
-pub fn goal(svg: &mut Svg, view: &View, goal: &Goal) {
-    let centre = view.map(goal.position);
-    outline(svg, view, goal, palette::GOAL_RIM);
-    let placed = goal.has_place() && goal.coverage.is_none();
-    let radius = match (&goal.area, placed) {
-        (Some(area), _) => {
-            view.footprint(svg, &area.shape.footprint(), &area.pose, palette::GOAL_RIM);
-            0.0
-        }
-        (None, true) => view.length(goal.tolerance),
-        (None, false) => 0.0,
-    };
-    if goal.area.is_none() && placed {
-        svg.circle(centre, radius, palette::GOAL_RIM);
+/// The rims of those areas, a cross in their middle, and all other marks.
+pub fn goal(svg: &mut Svg, view: &View, goal: &ShownGoal) {
+    let centre = view.map(goal.centre);
+    let dashed = palette::GOAL_RIM.dashed("6 3");
+    for mark in &goal.marks {
+        let outside = matches!(mark, Mark::Outside(_));
+        area(svg, view, mark, if outside { dashed } else { palette::GOAL_RIM });
     }
     let arm = 7.0;
     for side in [Vector::new(arm, 0.0), Vector::new(0.0, arm)] {
         svg.line(centre - side, centre + side, palette::GOAL_RIM);
     }
-    if let Some((heading, tolerance)) = goal.heading {
-        // Long enough to be seen beyond a small tolerance circle.
-        let length = radius.max(34.0) + 10.0;
-        let at = |angle: f64| centre + Vector::new(angle.cos(), -angle.sin()) * length;
-        // A wedge for each heading that counts.
-        for turn in (0..goal.alike).map(|k| TAU * k as f64 / goal.alike as f64) {
-            let wedge: Vec<Vector> = std::iter::once(centre)
-                .chain((0..=12).map(|k| at(heading + turn + tolerance * (k as f64 / 6.0 - 1.0))))
-                .collect();
-            svg.polygon(&wedge, Style::fill(palette::GOAL).opacity(0.22));
-        }
-        svg.arrow(centre, at(heading), 8.0, palette::GOAL, 1.6);
-    }
-}
-
-/// The outline that a goal's object is to cover.
-fn outline(svg: &mut Svg, view: &View, goal: &Goal, style: Style) {
-    let heading = goal.heading.map_or(0.0, |(heading, _)| heading);
-    let pose = Pose { position: goal.position, heading };
-    let pieces = goal.coverage.iter().flat_map(|coverage| coverage.outline(&pose));
-    for piece in pieces {
-        let corners: Vec<Vector> = piece.into_iter().map(|corner| view.map(corner)).collect();
-        svg.polygon(&corners, style);
-    }
-}
-
-/// The gap that a goal speaks of, as it is at the start.
-pub fn gap(svg: &mut Svg, view: &View, goal: &Goal, scene: &Scene) {
-    let object = scene.objects.get(goal.object);
-    let nearest = goal
-        .gap
-        .as_ref()
-        .zip(object)
-        .and_then(|(gap, object)| gap.nearest(&object.pose, &scene.start()));
-    if let Some(nearest) = nearest {
-        svg.line(view.map(nearest.on_first), view.map(nearest.on_second), palette::GOAL_MISS);
-    }
-}
-
-/// The edges of the table over which a goal's object is to fall.
-pub fn brink(svg: &mut Svg, view: &View, goal: &Goal) {
-    if let Some(fall) = &goal.fall {
-        for [from, to] in fall.edges().map(|edge| fall.ends(edge)) {
-            svg.line(view.map(from), view.map(to), palette::GOAL_RIM);
+    let radius = goal.marks.iter().find_map(|mark| match mark {
+        Mark::Disc { radius, .. } => Some(view.length(*radius)),
+        _ => None,
+    });
+    for mark in &goal.marks {
+        match mark {
+            Mark::Headings { heading, tolerance, symmetry, .. } => {
+                // Long enough to be seen beyond a small tolerance circle.
+                let length = radius.unwrap_or(0.0).max(34.0) + 10.0;
+                wedges(svg, (centre, length), (*heading, *tolerance, *symmetry));
+            }
+            Mark::Distance([from, to]) => {
+                svg.line(view.map(*from), view.map(*to), palette::GOAL_MISS);
+            }
+            Mark::Edge([from, to]) => svg.line(view.map(*from), view.map(*to), palette::GOAL_RIM),
+            _ => {}
         }
     }
 }
 
-/// Where a missed goal lies from where the object ended.
-pub fn miss(svg: &mut Svg, view: &View, goal: &Goal, end: Vector) {
-    if goal.has_place() {
-        let to = goal.area.map_or(goal.position, |area| area.nearest(end));
+/// A mark that covers an area.
+fn area(svg: &mut Svg, view: &View, mark: &Mark, style: Style) {
+    match mark {
+        Mark::Disc { centre, radius } => {
+            svg.circle(view.map(*centre), view.length(*radius), style);
+        }
+        Mark::Area(area) | Mark::Outside(area) => {
+            view.footprint(svg, &area.shape.footprint(), &area.pose, style);
+        }
+        Mark::Outline { pieces, .. } => {
+            for piece in pieces {
+                let corners: Vec<Vector> = piece.iter().map(|corner| view.map(*corner)).collect();
+                svg.polygon(&corners, style);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// A wedge for each heading that counts, and an arrow along the wanted one.
+fn wedges(
+    svg: &mut Svg,
+    (centre, length): (Vector, f64),
+    (heading, tolerance, symmetry): (f64, f64, usize),
+) {
+    let at = |angle: f64| centre + Vector::new(angle.cos(), -angle.sin()) * length;
+    for turn in (0..symmetry).map(|k| TAU * k as f64 / symmetry as f64) {
+        let wedge: Vec<Vector> = std::iter::once(centre)
+            .chain((0..=12).map(|k| at(heading + turn + tolerance * (k as f64 / 6.0 - 1.0))))
+            .collect();
+        svg.polygon(&wedge, Style::fill(palette::GOAL).opacity(0.22));
+    }
+    svg.arrow(centre, at(heading), 8.0, palette::GOAL, 1.6);
+}
+
+/// Lines from the end of a goal's object to the places that it missed.
+pub fn miss(svg: &mut Svg, view: &View, goal: &ShownGoal, end: Vector) {
+    for to in goal.marks.iter().filter_map(|mark| mark.missed(end)) {
         svg.line(view.map(end), view.map(to), palette::GOAL_MISS);
     }
 }
@@ -224,6 +217,7 @@ mod tests {
     use super::super::view::Bounds;
     use super::*;
     use pushplan::geometry::ConvexPolygon;
+    use pushplan::task::Goal;
 
     #[test]
     fn a_prism_has_its_corners_and_a_mark_ahead_and_a_goal_a_wedge_for_each_heading() {
@@ -246,9 +240,10 @@ mod tests {
 
         let square = Shape::Cuboid { size: [0.08, 0.08, 0.05] };
         let facing = Goal::new(0, [0.03, 0.02], 0.02).facing(0.2, 0.1);
+        let scene = Scene::new([Object::new("box", square)]);
         let wedges = |wanted: &Goal| {
             let mut svg = Svg::new(100.0, 100.0, "a goal");
-            goal(&mut svg, &view, wanted);
+            goal(&mut svg, &view, &wanted.shown(&scene));
             svg.finish().matches(r#"opacity="0.22""#).count()
         };
         assert_eq!((wedges(&facing), wedges(&facing.looking_like(&square))), (1, 4));

@@ -4,7 +4,7 @@ use pushplan::geometry::Vector;
 use pushplan::{
     outcome::Trajectory,
     scene::{Robot, Scene},
-    task::{Goal, ToolMotion},
+    task::{Mark, ShownGoal, ToolMotion},
 };
 
 use super::view::Bounds;
@@ -16,7 +16,7 @@ const FOLLOW: f64 = 1.0;
 /// Everything that must be seen.
 pub struct Extent<'a> {
     pub scene: &'a Scene,
-    pub goals: Vec<Goal>,
+    pub goals: Vec<ShownGoal>,
     pub robot: Option<&'a Robot>,
     pub motions: &'a [ToolMotion],
     pub trajectories: Vec<&'a Trajectory>,
@@ -35,10 +35,13 @@ impl Extent<'_> {
             bounds.add_body(&region.footprint(), &region.pose);
         }
         for goal in &self.goals {
-            match &goal.area {
-                Some(area) => bounds.add_body(&area.shape.footprint(), &area.pose),
-                None if goal.has_place() => bounds.add(goal.position, goal.tolerance),
-                None => bounds.add(goal.position, 0.0),
+            bounds.add(goal.centre, 0.0);
+            for mark in &goal.marks {
+                match mark {
+                    Mark::Area(area) => bounds.add_body(&area.shape.footprint(), &area.pose),
+                    Mark::Disc { centre, radius } => bounds.add(*centre, *radius),
+                    _ => {}
+                }
             }
         }
         if let Some(robot) = self.robot {

@@ -10,7 +10,7 @@ use pushplan::geometry::{Pose, Vector};
 use pushplan::{
     outcome::{Frame, Trajectory},
     scene::Object,
-    task::{Task, ToolMotion},
+    task::{Mark, Task, ToolMotion},
 };
 
 use super::{
@@ -111,8 +111,6 @@ impl MovingPicture<'_> {
         bodies::overhead(&mut stage.svg, &view, &self.task.scene);
         for goal in &self.task.shown_goals() {
             bodies::goal(&mut stage.svg, &view, goal);
-            bodies::gap(&mut stage.svg, &view, goal, &self.task.scene);
-            bodies::brink(&mut stage.svg, &view, goal);
         }
         self.story().reached(stage);
         stage.open_layer();
@@ -234,9 +232,11 @@ impl MovingPicture<'_> {
     }
 
     fn entries(&self) -> Vec<(Sample, String)> {
-        let goal = &self.task.goals[0];
-        let tolerance = match (&goal.area, goal.has_place() && !goal.is_relation()) {
-            (None, true) => format!("goal, tolerance {}", millimetres(goal.tolerance)),
+        let goals = self.task.shown_goals();
+        let tolerance = match goals.first().map(|goal| &goal.marks[..]) {
+            Some([Mark::Disc { radius, .. }, ..]) => {
+                format!("goal, tolerance {}", millimetres(*radius))
+            }
             _ => "goal".to_owned(),
         };
         let tool = Style::fill(palette::TOOL_FILL).outlined(palette::TOOL, 1.4);

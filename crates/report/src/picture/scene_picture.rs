@@ -7,7 +7,7 @@ use pushplan::geometry::{Pose, Vector};
 use pushplan::{
     outcome::Trajectory,
     scene::{Engine, Robot, Scene},
-    task::{Goal, ToolMotion},
+    task::{Mark, ShownGoal, ToolMotion},
 };
 
 use super::{
@@ -65,7 +65,7 @@ pub struct ScenePicture<'a> {
     /// Objects at their start, obstacles.
     pub scene: &'a Scene,
     /// Goal circles, and which objects are drawn as those that matter.
-    pub goals: Vec<Goal>,
+    pub goals: Vec<ShownGoal>,
     /// Reach of the end effector.
     pub robot: Option<&'a Robot>,
     /// Tool outlines and push arrows.
@@ -134,8 +134,6 @@ impl ScenePicture<'_> {
         }
         for goal in &self.goals {
             bodies::goal(svg, view, goal);
-            bodies::gap(svg, view, goal, self.scene);
-            bodies::brink(svg, view, goal);
         }
         for track in &self.tracks {
             self.track(svg, view, track);
@@ -161,8 +159,7 @@ impl ScenePicture<'_> {
             drawn[k] = true;
             strokes::path(svg, view, track.trajectory, k, style);
             bodies::final_object(svg, view, object, end, style);
-            let missed = |goal: &&Goal| goal.object == k && !goal.reached(&last.state);
-            if let Some(goal) = self.goals.iter().find(missed) {
+            if let Some(goal) = self.goals.iter().find(|goal| goal.object == k) {
                 bodies::miss(svg, view, goal, end.position);
             }
         }
@@ -205,13 +202,14 @@ impl ScenePicture<'_> {
             add(Sample::Way(style(track.source)), words.to_owned());
         }
         if let Some(goal) = self.goals.first() {
-            let heading = goal.heading.map_or(String::new(), |(_, tolerance)| {
-                format!(", \u{00b1}{:.0}\u{00b0}", tolerance.to_degrees())
+            let words = goal.marks.iter().map(|mark| match mark {
+                Mark::Disc { radius, .. } => format!(", tolerance {:.0} mm", radius * 1e3),
+                Mark::Headings { tolerance, .. } => {
+                    format!(", \u{00b1}{:.0}\u{00b0}", tolerance.to_degrees())
+                }
+                _ => String::new(),
             });
-            let words = match (&goal.area, goal.has_place()) {
-                (None, true) => format!("goal, tolerance {:.0} mm{heading}", goal.tolerance * 1e3),
-                _ => format!("goal{heading}"),
-            };
+            let words = format!("goal{}", words.collect::<String>());
             add(Sample::Ring(palette::GOAL_RIM), words);
         }
         if !self.motions.is_empty() {

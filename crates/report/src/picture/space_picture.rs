@@ -8,10 +8,10 @@ use pushplan::geometry::{Footprint, Pose3, Vector, Vector3, planar_hull};
 use pushplan::{
     outcome::{Frame, Trajectory},
     scene::{Blade, LeverScene, Part, Plate, Scene, Slab, Tool},
-    task::{Goal, LeverStep, Plan, Step, lever_frame},
+    task::{Goal, LeverStep, Mark, Plan, ShownGoal, Step, lever_frame},
 };
 
-use super::palette;
+use super::{bodies, palette};
 use super::view::{Bounds, View};
 
 /// Free space beside and above the plots, pixels.
@@ -248,17 +248,12 @@ impl SpacePicture<'_> {
     /// The obstacle that must be left, and where to.
     fn goal_above(&self, svg: &mut Svg, view: &View) {
         svg.open_clipped("goal-above", view.corner, view.size);
-        if let Some(block) = self.goal.outside.and_then(|k| self.scene.obstacles.get(k)) {
-            let [x, y] = [0.5 * block.size[0], 0.5 * block.size[1]];
-            let corners = [[-x, -y], [x, -y], [x, y], [-x, y]];
-            let corners = corners.map(|[x, y]| view.map(block.pose.point(Vector::new(x, y))));
-            svg.polygon(&corners, palette::GOAL_RIM.dashed("6 3"));
-        }
-        if self.goal.has_place() {
-            let (at, tolerance) = (self.goal.position, self.goal.tolerance);
-            svg.circle(view.map(at), view.length(tolerance), palette::GOAL_AREA);
-            svg.circle(view.map(at), view.length(tolerance), palette::GOAL_RIM);
-        }
+        let goal = self.goal.shown(self.scene);
+        let placed = |mark: &Mark| matches!(mark, Mark::Outside(_) | Mark::Disc { .. });
+        let marks = goal.marks.iter().filter(|mark| placed(mark)).cloned().collect();
+        let goal = ShownGoal { marks, ..goal };
+        bodies::goal_area(svg, view, &goal);
+        bodies::goal(svg, view, &goal);
         // The lever point, and the way that the blade goes.
         if let Some((step, scene)) = self.first() {
             let plate = &scene.plates[step.lever.plate];
@@ -276,8 +271,9 @@ impl SpacePicture<'_> {
 
     /// How high the edge must come.
     fn goal_beside(&self, svg: &mut Svg, view: &View) {
-        let Some(height) = self.goal.raised else { return };
-        let z = self.scene.objects.get(self.goal.object).map_or(0.0, |object| object.z) + height;
+        let marks = self.goal.shown(self.scene).marks.into_iter();
+        let height = |mark| if let Mark::Height(z) = mark { Some(z) } else { None };
+        let Some(z) = marks.filter_map(height).next() else { return };
         svg.open_clipped("goal-beside", view.corner, view.size);
         let ends = [-10.0, 10.0].map(|x| view.map(Vector::new(x, z)));
         svg.line(ends[0], ends[1], palette::GOAL_RIM.dashed("6 3"));

@@ -42,7 +42,7 @@ impl Story<'_> {
         let rest = stage.timeline.rest();
         let name =
             self.task.scene.objects.get(self.goal().object).map_or("object", |object| &object.name);
-        let within = millimetres(self.goal().tolerance);
+        let within = millimetres(self.goal().tolerance());
         let mut captions = vec![(0.0, format!("{name} must come within {within} of the goal"))];
         let count = self.strokes.len();
         let one = self.strokes.windows(2).all(|pair| pair[0].0.name == pair[1].0.name);
@@ -83,7 +83,7 @@ impl Story<'_> {
             format!("transform:scale({});opacity:{}", short(size, 2), short(shown, 2))
         });
         let place = stage.view.map(self.goal().place(&self.task.scene.start()));
-        let radius = stage.view.length(self.goal().tolerance).max(14.0);
+        let radius = stage.view.length(self.goal().tolerance()).max(14.0);
         stage.svg.open_moved("goal", place, 0.0);
         stage.svg.open_shown("ring", 0.0);
         stage.svg.circle(Vector::zeros(), radius, Style::stroke(palette::GOOD, 2.5));
@@ -94,7 +94,7 @@ impl Story<'_> {
     fn ending(&self, svg: &mut Svg, at: Vector) {
         let Some(last) = self.trajectory.frames.last() else { return };
         let error = millimetres(self.goal().error(&last.state));
-        let allowed = millimetres(self.goal().tolerance);
+        let allowed = millimetres(self.goal().tolerance());
         let (colour, words, mark): (_, _, &[[f64; 2]]) = if self.is_reached() {
             let tick = &[[-3.6, 0.2], [-1.2, 2.8], [3.8, -2.6]];
             (palette::GOOD, format!("reached: at rest {error} from the goal"), tick)

@@ -39,7 +39,7 @@ impl<'a> FollowUp<'a> {
 
     /// Searches and verifies lever-ups, with the place left to the pushes.
     fn levered(&self, board: &mut Blackboard<'a>) -> VecDeque<Attempt> {
-        let goal = Goal { tolerance: f64::INFINITY, ..self.task.goals[0].clone() };
+        let goal = self.task.goals[0].clone().anywhere();
         let lifted = Task { goals: vec![goal.clone()], ..self.task.clone() };
         let mut plans = lever_ups(board, &lifted, &self.prefix);
         let goal = Task { goals: vec![goal], ..board.query.task.clone() };

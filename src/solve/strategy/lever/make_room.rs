@@ -55,7 +55,7 @@ impl<'a> MakeRoom<'a> {
         {
             let place = task.scene.objects[goal].pose.position + displacement;
             let mut there = task.clone();
-            there.goals[0].tolerance = f64::INFINITY;
+            there.goals[0] = there.goals[0].clone().anywhere();
             there.scene.objects[goal].pose.position = place;
             there.scene.place_parts();
             if !is_free(&there) || promising(board, &there) == 0 {

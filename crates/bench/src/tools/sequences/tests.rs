@@ -63,14 +63,14 @@ fn the_best_stops_are_where_they_are_said_to_be() {
     let made = rested(&setup, model, &task, actions);
     assert_eq!(made.len(), 12);
     for (score, made) in scores.iter().zip(made) {
-        let (said, done) = (score * task.goals[0].tolerance, made.predicted.unwrap_or(f64::NAN));
+        let (said, done) = (score * task.goals[0].tolerance(), made.predicted.unwrap_or(f64::NAN));
         // Gliding on is estimated as free, and half a frame by a straight line.
         assert!((said - done).abs() < 1.5e-3, "{said} against {done}");
     }
     // No other stop is better: whole sequences are a coarse check of that.
-    let ends = whole.ends().map(|(_, end)| (end - task.goals[0].position).norm());
+    let ends = whole.ends().map(|(_, end)| (end - task.goals[0].place(&task.scene.start())).norm());
     let nearest = ends.fold(f64::INFINITY, f64::min);
-    assert!(scores[0] * task.goals[0].tolerance <= nearest);
+    assert!(scores[0] * task.goals[0].tolerance() <= nearest);
     let only = whole.best(&task.goals[0], usize::MAX, &poses[..1]);
     assert!(only.iter().all(|(_, action)| action.pose == poses[0]));
 }

@@ -13,7 +13,7 @@ use pushplan::internals::watch::Unwatched;
 use pushplan::internals::{
     outcome::{Outcome, Record},
     scene::{Obstacle, Robot, Scene, Situation, Tool},
-    task::{Goal, LeverJob, LeverMotion, LeverRules, Motion, PushRules, Task},
+    task::{Demand, Goal, LeverJob, LeverMotion, LeverRules, Motion, Outside, PushRules, Task},
 };
 use pushplan_bench::store::{Measured, Seconds};
 use pushplan_learn::dataset::{LEVERS_PER_SHAPE, LeverConfig, LeverPreset, lever_job};
@@ -69,7 +69,9 @@ impl LeverSuite {
     pub fn task(&self, index: usize) -> Task {
         let LeverJob { scene, lever } = self.drawn(index);
         let mut obstacles = scene.blocks.clone();
-        let goal = Goal { outside: Some(obstacles.len()), ..Goal::of(lever.plate) };
+        let Obstacle { name, size, pose, .. } = pocket(&scene.blocks);
+        let outside = Outside { name, size, pose };
+        let goal = Goal::of(lever.plate).with(Demand::Outside(outside));
         obstacles.push(pocket(&scene.blocks));
         let table = Scene::of_plates(scene.plates.iter().cloned()).unwrap_or_default();
         let table = table.on_table(scene.table_friction);

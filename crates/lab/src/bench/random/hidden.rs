@@ -39,8 +39,10 @@ impl HiddenTask {
     /// The same in another world.
     pub fn in_world(mut self, world: HiddenWorld) -> Self {
         self.truth.engine = world.engine;
-        self.task.goals[0].tolerance *= world.tolerance;
-        self.known.goals[0].tolerance *= world.tolerance;
+        for task in [&mut self.task, &mut self.known] {
+            let tolerance = world.tolerance * task.goals[0].tolerance();
+            task.goals[0].set_tolerance(tolerance);
+        }
         self
     }
 }

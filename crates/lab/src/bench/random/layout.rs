@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use pushplan::internals::geometry::{Footprint, Pose, Shape, Vector, clearance, swept_clearance};
 use pushplan::internals::{
     scene::{Joint, JointKind, Obstacle, Ranges, Robot, Scene, State},
-    task::{Area, Goal, Task},
+    task::{Demand, Goal, Task},
 };
 use pushplan_learn::dataset::{Crowd, Solids, random_scene};
 use rand::Rng;
@@ -68,15 +68,17 @@ pub(super) fn set_goals(task: &mut Task, ends: &State) {
     let start = task.scene.start();
     for goal in &mut task.goals {
         let end = round_pose(&seen(goal, ends));
-        if let Some(Area { shape, pose }) = goal.area {
-            let way = end.position - seen(goal, &start).position;
-            let position = (pose.position + way).map(|x| round(x, 1e4));
-            *goal = Goal::within(goal.object, shape, Pose { position, ..pose });
-        } else if goal.has_place() {
-            goal.position = end.position;
-        }
-        if let Some((_, tolerance)) = goal.heading {
-            goal.heading = Some((end.heading, tolerance));
+        let way = end.position - seen(goal, &start).position;
+        for demand in &mut goal.demands {
+            match demand {
+                Demand::Area(own) => {
+                    let at = own.area.pose.position + way;
+                    own.area.pose.position = at.map(|x| round(x, 1e4));
+                }
+                Demand::Place(place) => place.position = end.position,
+                Demand::Heading(facing) => facing.heading = end.heading,
+                _ => {}
+            }
         }
     }
 }
@@ -84,7 +86,7 @@ pub(super) fn set_goals(task: &mut Task, ends: &State) {
 /// Where a goal's object is, in the frame of what the goal is relative to.
 pub(super) fn seen(goal: &Goal, state: &State) -> Pose {
     let own = state.poses[goal.object];
-    goal.relative.map_or(own, |other| state.poses[other].inverse() * own)
+    goal.relative().map_or(own, |other| state.poses[other].inverse() * own)
 }
 
 /// A wall across the straight way of the goal object, on the other side of it than `corner`, where

@@ -76,7 +76,7 @@ fn pushes_of(
     let straight = kind.aside() > 0 && !is_aside;
     (0..DRAWS).find_map(|_| {
         let pushes = if is_aside { 1 } else { rng.random_range(least..=most) };
-        let way = task.goals[0].position - at;
+        let way = task.goals[0].place(&task.scene.start()) - at;
         let travel = match straight {
             true => {
                 let each = way.norm() / pushes as f64 + LATER_ROOM;

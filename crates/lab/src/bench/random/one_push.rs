@@ -55,7 +55,7 @@ pub fn random_task(library: &ToolLibrary, seed: u64, index: usize) -> Task {
         let (start, end) = (task.scene.objects[0].pose, made.outcome.poses[0]);
         let moved = (end.position - start.position).norm();
         if made.is_feasible() && made.is_sound() && moved > FARTHEST_TRIVIAL {
-            task.goals[0].position = end.position;
+            task.goals[0].set_position(end.position);
             return task;
         }
     }

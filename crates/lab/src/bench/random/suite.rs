@@ -172,7 +172,7 @@ impl RandomSuite {
     ) -> Option<Plan> {
         let object = task.goals[0].object;
         let start = task.scene.objects[object].pose;
-        let straight = Pose { position: task.goals[0].position, ..start };
+        let straight = Pose { position: task.goals[0].place(&task.scene.start()), ..start };
         let corner = corner(start.position, straight.position, candidate);
         for _ in 0..WALLS {
             let Some(wall) = wall(rng, &task.scene, object, corner, &straight) else { continue };
@@ -182,7 +182,7 @@ impl RandomSuite {
             let clear = keeps_clear(&workspace(task, &self.tools), candidate, &plan.pushes());
             let plan = clear.then(|| self.made(task, TaskKind::Obstacle, candidate)).flatten();
             // A wall that the object is pushed against would make another task than planned.
-            let kept = (task.goals[0].position - straight.position).norm() < 1e-3;
+            let kept = (task.goals[0].place(&task.scene.start()) - straight.position).norm() < 1e-3;
             match plan {
                 Some(plan) if kept => return Some(plan),
                 _ => *task = before,

@@ -171,7 +171,8 @@ impl<'a> TradeOff<'a> {
             }
             k => {
                 let mut made = self.suite.task(k - tasks)?;
-                made.task.goals[0].tolerance *= self.settings.tolerance;
+                let tolerance = self.settings.tolerance * made.task.goals[0].tolerance();
+                made.task.goals[0].set_tolerance(tolerance);
                 self.task(made.kind, &made.task)?
             }
         })

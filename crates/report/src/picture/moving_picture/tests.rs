@@ -35,13 +35,7 @@ fn picture_of(ways: &[[f64; 2]], placed: bool, warnings: Vec<Warning>) -> String
         warnings,
         ..Trajectory::new(pushplan::scene::ModelKind::PLANAR.into())
     };
-    let goal = Goal {
-        object: 0,
-        position: Vector::new(0.5, 0.0),
-        tolerance: 0.02,
-        heading: None,
-        ..Goal::of(0)
-    };
+    let goal = Goal::new(0, [0.5, 0.0], 0.02);
     let robot = Robot { home: Vector::zeros(), ..Robot::reaching(0.1, 0.9).without_body() };
     MovingPicture {
         title: "a test".to_owned(),

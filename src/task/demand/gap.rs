@@ -1,12 +1,13 @@
-//! How far apart two things are to be, seen from above: touching, beside each other, clear of each other.
+//! Demand: a gap between two objects, seen from above: touching, beside each other, clear of each other.
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{ContactPoint, Pose, Shape, contact_points};
+use crate::geometry::{ContactPoint, Pose, Shape, Vector, contact_points};
 
-use super::Area;
-use super::goal::anywhere;
 use crate::scene::{Body, Scene, State};
+
+use super::words::millimetres;
+use super::{Area, Demand, End, Kind, Mark, anywhere, less};
 
 /// Search and refinement aim at gaps this far inside of what is allowed, metres, or at the middle of what
 /// is narrower: simulations differ by millimetres.
@@ -24,6 +25,10 @@ pub struct Gap {
     pub max: f64,
     /// The solids of both, each in the frame of its own thing, an obstacle's in the world.
     solids: [Vec<(Shape, Pose)>; 2],
+    /// Error from the gaps that are aimed at that still counts as success, metres.
+    tolerance: f64,
+    /// Offset of the object from where its gap is right: a target of refinement, metres.
+    shift: Vector,
 }
 
 impl Gap {
@@ -43,7 +48,10 @@ impl Gap {
             }
             Body::Part(_) => return None,
         };
-        Some(Box::new(Self { to, min, max, solids: [scene.solids(object)?, other] }))
+        let solids = [scene.solids(object)?, other];
+        let mut gap = Self { to, min, max, solids, tolerance: 0.0, shift: Vector::zeros() };
+        gap.tolerance = gap.depth();
+        Some(Box::new(gap))
     }
 
     /// What the other thing is called.
@@ -97,16 +105,86 @@ impl Gap {
 
     /// How much larger a gap is than what lies so deep inside of the limits, metres; negative where it is
     /// smaller.
-    pub(super) fn beyond(&self, gap: f64, depth: f64) -> f64 {
+    fn beyond(&self, gap: f64, depth: f64) -> f64 {
         let low = if self.min > 0.0 { self.min + depth } else { f64::NEG_INFINITY };
         gap - gap.max(low).min(self.max - depth)
     }
 
     /// The same with limits that are tighter by `margin` metres, or by a quarter of what is between them.
-    pub(super) fn tighter(&self, margin: f64) -> Self {
+    fn tighter(&self, margin: f64) -> Self {
         let margin = margin.min(0.25 * (self.max - self.min));
         let min = if self.min > 0.0 { self.min + margin } else { 0.0 };
         Self { min, max: self.max - margin, ..self.clone() }
+    }
+}
+
+impl Gap {
+    fn nearest_shifted(&self, end: &End) -> Option<ContactPoint> {
+        let mut shifted = end.state.poses.get(end.object).copied()?;
+        shifted.position -= self.shift;
+        self.nearest(&shifted, end.state)
+    }
+}
+
+impl Kind for Gap {
+    fn demand(&self) -> Demand {
+        Demand::Gap(Box::new(self.clone()))
+    }
+
+    fn is_met(&self, end: &End) -> bool {
+        self.nearest_shifted(end).is_some_and(|nearest| self.holds(nearest.gap))
+    }
+
+    fn words(&self, _: usize, scene: &Scene) -> String {
+        let [min, max] = [self.min, self.max].map(millimetres);
+        let far = match (self.min > 0.0, self.max.is_finite()) {
+            (_, false) => format!("at least {min}"),
+            (false, true) => format!("at most {max}"),
+            (true, true) => format!("{min} to {max}"),
+        };
+        format!("{far} from {}", self.name(scene))
+    }
+
+    fn off(&self, end: &End) -> Option<Vector> {
+        let nearest = self.nearest_shifted(end);
+        let off = |nearest: ContactPoint| self.beyond(nearest.gap, self.depth()) * nearest.normal;
+        Some(nearest.map_or(Vector::zeros(), off))
+    }
+
+    fn tolerance(&self) -> Option<f64> {
+        Some(self.tolerance)
+    }
+
+    fn anchor(&self) -> Vector {
+        self.shift
+    }
+
+    fn stricter(&self, place: f64, _: f64) -> Demand {
+        let tolerance = less(self.tolerance, place);
+        Self { tolerance, ..self.tighter(place) }.demand()
+    }
+
+    fn shifted(&self, shift: Vector) -> Demand {
+        Self { shift: self.shift + shift, ..self.clone() }.demand()
+    }
+
+    fn to(&self) -> Option<Body> {
+        Some(self.to)
+    }
+
+    fn is_relation(&self) -> bool {
+        true
+    }
+
+    fn fault(&self, object: usize, _: &Scene) -> Option<String> {
+        let sound = self.min >= 0.0 && self.max > self.min && self.to != Body::Object(object);
+        (!sound).then(|| "a gap is to something else, its limits are in order".to_owned())
+    }
+
+    fn marks(&self, object: usize, scene: &Scene) -> Vec<Mark> {
+        let object = scene.objects.get(object);
+        let nearest = object.and_then(|object| self.nearest(&object.pose, &scene.start()));
+        nearest.map(|nearest| Mark::Distance([nearest.on_first, nearest.on_second])).into_iter().collect()
     }
 }
 

@@ -1,8 +1,12 @@
-//! A part of the table in which an object may come to rest anywhere.
+//! Demand: the centre of an object lies in an area of the table.
 
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Footprint, Pose, Shape, Vector, clearance, contact_points};
+use crate::scene::Scene;
+
+use super::words::{millimetres, point};
+use super::{Demand, End, Kind, Mark, less};
 
 /// Search and refinement aim at points at least this far inside, metres, or half-way to the middle of
 /// what is narrower: simulations differ by millimetres.
@@ -92,6 +96,99 @@ impl Area {
     /// The same seen from where `frame` stands.
     pub fn seen_from(self, frame: &Pose) -> Self {
         Self { pose: *frame * self.pose, ..self }
+    }
+}
+
+/// An area for the centre of an object.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct InArea {
+    /// The area.
+    pub area: Area,
+    /// Error from the points that are aimed at, deep enough inside, that still counts as success, metres.
+    pub tolerance: f64,
+    /// Index of the object in whose frame the area is; the world's by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub relative: Option<usize>,
+}
+
+impl InArea {
+    /// An area in the world.
+    pub fn new(area: Area) -> Self {
+        Self { area, tolerance: area.depth(), relative: None }
+    }
+
+    fn seen(&self, end: &End) -> Area {
+        let frame = self.relative.and_then(|other| end.state.poses.get(other));
+        frame.map_or(self.area, |frame| self.area.seen_from(frame))
+    }
+}
+
+impl Kind for InArea {
+    fn demand(&self) -> Demand {
+        Demand::Area(Box::new(self.clone()))
+    }
+
+    fn is_met(&self, end: &End) -> bool {
+        self.seen(end).holds(end.pose().position)
+    }
+
+    fn words(&self, _: usize, _: &Scene) -> String {
+        let outline = match self.area.shape.footprint() {
+            Footprint::Disc { radius } => format!("a circle of {}", millimetres(radius)),
+            Footprint::Rectangle { half } => {
+                let [x, y] = [half.x, half.y].map(|half| millimetres(2.0 * half));
+                format!("a rectangle of {x} by {y}")
+            }
+            Footprint::Polygon(_) => "a polygon".to_owned(),
+        };
+        format!("in {outline} about {}", point(self.area.pose.position))
+    }
+
+    fn off(&self, end: &End) -> Option<Vector> {
+        let at = end.pose().position;
+        Some(at - self.seen(end).nearest(at))
+    }
+
+    fn tolerance(&self) -> Option<f64> {
+        Some(self.tolerance)
+    }
+
+    fn position(&self) -> Option<Vector> {
+        Some(self.area.pose.position)
+    }
+
+    fn anchor(&self) -> Vector {
+        self.area.pose.position
+    }
+
+    fn stricter(&self, place: f64, _: f64) -> Demand {
+        let (area, tolerance) = (self.area.shrunk(place), less(self.tolerance, place));
+        Self { area, tolerance, ..self.clone() }.demand()
+    }
+
+    fn shifted(&self, shift: Vector) -> Demand {
+        Self { area: self.area.shifted(shift), ..self.clone() }.demand()
+    }
+
+    fn seen_from(&self, frame: &Pose) -> Demand {
+        Self { area: self.area.seen_from(frame), relative: None, ..self.clone() }.demand()
+    }
+
+    fn relative_to(&self, other: usize) -> Demand {
+        Self { relative: Some(other), ..self.clone() }.demand()
+    }
+
+    fn relative(&self) -> Option<usize> {
+        self.relative
+    }
+
+    fn fault(&self, _: usize, _: &Scene) -> Option<String> {
+        let sound = self.area.pose.is_finite() && self.tolerance.is_finite() && self.tolerance > 0.0;
+        (!sound).then(|| "the area of the goal must be finite".to_owned())
+    }
+
+    fn marks(&self, _: usize, _: &Scene) -> Vec<Mark> {
+        vec![Mark::Area(self.area)]
     }
 }
 

@@ -1,12 +1,14 @@
-//! Goals off the table: what is to fall over an edge, and over which.
+//! Demand: an object falls off the table, over any edge or a part of one.
 
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Pose, Vector};
 
-use super::goal::Goal;
 use crate::scene::is_zero;
 use crate::scene::{Scene, Span, State, TableTop};
+use crate::task::Goal;
+
+use super::{Demand, End, Kind, Mark, less};
 
 /// How far beyond the edge search and refinement aim to bring centres, and from the ends of the part of it
 /// that is asked for, metres: simulations differ by millimetres.
@@ -73,6 +75,10 @@ pub struct Fall {
     pub by: f64,
     /// The centre of mass in the object's frame, metres.
     centre: Vector,
+    /// Error from the places that are aimed at that still counts as success, metres.
+    tolerance: f64,
+    /// Offset of the centre from where it falls: a target of refinement, metres.
+    shift: Vector,
 }
 
 impl Fall {
@@ -80,12 +86,14 @@ impl Fall {
     pub fn of(scene: &Scene, object: usize, over: Option<Edge>) -> Option<Box<Self>> {
         let (top, pose) = (scene.table_top?, scene.objects.get(object)?.pose);
         let centre = pose.local_point(scene.centre(object, &scene.start()));
-        Some(Box::new(Self { top, over, between: None, by: 0.0, centre }))
+        let (shift, tolerance) = (Vector::zeros(), BEYOND);
+        Some(Box::new(Self { top, over, between: None, by: 0.0, centre, tolerance, shift }))
     }
 
     /// The same between these places along the edge alone, metres, as where a box stands below it.
     pub fn between(self, span: Span) -> Self {
-        Self { between: Some(span), ..self }
+        let fall = Self { between: Some(span), ..self };
+        Self { tolerance: fall.depth(), ..fall }
     }
 
     /// The edges over which it may fall.
@@ -118,19 +126,19 @@ impl Fall {
 
     /// How far a centre is beyond the edge that it is beyond farthest, metres, negative on the table; and
     /// the way out there.
-    pub(super) fn beyond(&self, centre: Vector) -> (f64, Vector) {
+    fn beyond(&self, centre: Vector) -> (f64, Vector) {
         let of = |edge: Edge| (edge.outwards().dot(&centre) - self.place(edge), edge.outwards());
         let farther = |a: (f64, Vector), b: (f64, Vector)| if b.0 > a.0 { b } else { a };
         self.edges().map(of).reduce(farther).unwrap_or((f64::NEG_INFINITY, Vector::zeros()))
     }
 
     /// Whether an object with its centre there falls where it is to.
-    pub(super) fn holds(&self, centre: Vector) -> bool {
+    fn holds(&self, centre: Vector) -> bool {
         self.beyond(centre).0 > self.by && self.aside(centre, 0.0) == Vector::zeros()
     }
 
     /// From the nearest place that is aimed at to a centre, metres.
-    pub(super) fn off(&self, centre: Vector) -> Vector {
+    fn missing(&self, centre: Vector) -> Vector {
         let (beyond, out) = self.beyond(centre);
         let depth = self.depth();
         (beyond - self.by - depth).min(0.0) * out + self.aside(centre, depth)
@@ -154,7 +162,7 @@ impl Fall {
 
     /// The same, by `margin` metres farther out and from the ends of the part of the edge; at least half of
     /// that is left.
-    pub(super) fn farther(&self, margin: f64) -> Self {
+    fn farther(&self, margin: f64) -> Self {
         let between = self.between.map(|span| {
             let less = margin.min(0.25 * span.width());
             Span::new(span.low + less, span.high - less)
@@ -163,10 +171,64 @@ impl Fall {
     }
 }
 
+impl Kind for Fall {
+    fn demand(&self) -> Demand {
+        Demand::Fall(Box::new(self.clone()))
+    }
+
+    fn is_met(&self, end: &End) -> bool {
+        self.holds(self.centre(end.pose()) - self.shift)
+    }
+
+    fn words(&self, _: usize, _: &Scene) -> String {
+        let over = self.over.map(|edge| format!(", over its {} edge", edge.name()));
+        let part = |span: Span| format!(" from {:.3} to {:.3} m", span.low, span.high);
+        let part = self.between.map(part).unwrap_or_default();
+        format!("off the table{}{part}", over.unwrap_or_default())
+    }
+
+    fn off(&self, end: &End) -> Option<Vector> {
+        Some(self.missing(self.centre(end.pose()) - self.shift))
+    }
+
+    fn tolerance(&self) -> Option<f64> {
+        Some(self.tolerance)
+    }
+
+    fn anchor(&self) -> Vector {
+        self.shift
+    }
+
+    fn stricter(&self, place: f64, _: f64) -> Demand {
+        Self { tolerance: less(self.tolerance, place), ..self.farther(place) }.demand()
+    }
+
+    fn shifted(&self, shift: Vector) -> Demand {
+        Self { shift: self.shift + shift, ..self.clone() }.demand()
+    }
+
+    fn is_relation(&self) -> bool {
+        true
+    }
+
+    fn falls(&self) -> bool {
+        true
+    }
+
+    fn fault(&self, _: usize, _: &Scene) -> Option<String> {
+        let sound = self.tolerance.is_finite() && self.tolerance > 0.0;
+        (!sound).then(|| "the part of the edge must be finite".to_owned())
+    }
+
+    fn marks(&self, _: usize, _: &Scene) -> Vec<Mark> {
+        self.edges().map(|edge| Mark::Edge(self.ends(edge))).collect()
+    }
+}
+
 impl Scene {
     /// Lets the goal's object fall, with all its parts, if it is to.
     pub fn let_fall(&mut self, goal: &Goal) {
-        if goal.fall.is_none() {
+        if !goal.falls() {
             return;
         }
         let solids: Vec<usize> = self.parts_of(goal.object).chain([goal.object]).collect();

@@ -1,0 +1,274 @@
+//! Demands on where and how an object ends: one file per kind, dispatched here.
+//!
+//! A kind answers everything about itself through [`Kind`]: the offset and turn that refinement removes,
+//! the score that the search minimises, stricter and shifted copies, words and marks for reports. A new
+//! kind is a file here, a variant of [`Demand`] with its arm, and its keys in `asset/task/goals.rs`.
+
+mod area;
+mod coverage;
+mod fall;
+mod flipped;
+mod gap;
+mod heading;
+mod mark;
+mod outside;
+mod place;
+mod raised;
+mod words;
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::{Pose, Vector};
+use crate::scene::{Body, Scene, State};
+
+pub use area::{Area, InArea};
+pub use coverage::Coverage;
+pub use fall::{Edge, Fall};
+pub use flipped::{Ending, Flipped};
+pub use gap::Gap;
+pub use heading::Facing;
+pub use mark::{Mark, ShownGoal};
+pub use outside::Outside;
+pub use place::AtPlace;
+pub use raised::{Lift, Raised};
+
+/// A demand on the final state of a goal's object.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Demand {
+    /// Its centre lies near a point.
+    Place(AtPlace),
+    /// Its centre lies in an area.
+    Area(Box<InArea>),
+    /// It points along a heading; a joint's angle is a heading too.
+    Heading(Facing),
+    /// It is so far from another object or an obstacle.
+    Gap(Box<Gap>),
+    /// It covers a share of its own outline at a pose.
+    Coverage(Box<Coverage>),
+    /// It falls off the table.
+    Fall(Box<Fall>),
+    /// Its centre lies outside of an obstacle, seen from above.
+    Outside(Outside),
+    /// Its edge lies on a blade, lifted.
+    Raised(Raised),
+    /// It lies upside down, or on its underside.
+    Flipped(Flipped),
+}
+
+/// The final state that a demand on one object is judged by.
+#[derive(Clone, Copy, Debug)]
+pub struct End<'a> {
+    /// Index of the goal's object into [`Scene::objects`].
+    pub object: usize,
+    /// Poses at rest, in the plane or in space.
+    pub state: &'a State,
+    /// The last lift of the object, if a blade lifted it.
+    pub lift: Option<Lift>,
+}
+
+impl<'a> End<'a> {
+    /// The end of an object that no blade has lifted.
+    pub fn resting(object: usize, state: &'a State) -> Self {
+        Self { object, state, lift: None }
+    }
+
+    /// The pose of the object, seen from above.
+    pub fn pose(&self) -> &Pose {
+        &self.state.poses[self.object]
+    }
+}
+
+/// Interface of all kinds of demands. A kind implements what applies to it; the defaults are those of a
+/// kind that asks for neither a position nor a heading and that search cannot approach.
+pub trait Kind {
+    /// Converts back to a [`Demand`].
+    fn demand(&self) -> Demand;
+
+    /// Returns `true` if the demand is satisfied.
+    fn is_met(&self, end: &End) -> bool;
+
+    /// Returns a phrase for reports, without the name of the object.
+    fn words(&self, object: usize, scene: &Scene) -> String;
+
+    /// Returns the offset of the object from the nearest wanted position, metres in world axes, or `None`
+    /// if no position is asked for.
+    fn off(&self, _end: &End) -> Option<Vector> {
+        None
+    }
+
+    /// Returns the turn of the object from the wanted heading, radians to the left, or `None` if no
+    /// heading is asked for.
+    fn turned(&self, _end: &End) -> Option<f64> {
+        None
+    }
+
+    /// Returns the largest allowed [offset](Self::off), metres.
+    fn tolerance(&self) -> Option<f64> {
+        None
+    }
+
+    /// Returns the largest allowed [turn](Self::turned), radians.
+    fn turn_tolerance(&self) -> Option<f64> {
+        self.facing().map(|facing| facing.tolerance)
+    }
+
+    /// Returns the error in units of the tolerance: at most 1 if the demand is satisfied.
+    fn score(&self, end: &End) -> f64 {
+        let place = self.off(end).zip(self.tolerance()).map(|(off, within)| off.norm() / within);
+        let turn = self.turned(end).zip(self.turn_tolerance());
+        let turn = turn.map(|(turn, within)| turn.abs() / within);
+        let worst = place.into_iter().chain(turn).reduce(f64::max);
+        worst.unwrap_or(if self.is_met(end) { 0.0 } else { 2.0 })
+    }
+
+    /// Returns the wanted position where it is one point of the demand's own frame, the centre of an area
+    /// included, metres.
+    fn position(&self) -> Option<Vector> {
+        None
+    }
+
+    /// Returns the heading that it asks for.
+    fn facing(&self) -> Option<&Facing> {
+        None
+    }
+
+    /// Returns the share of the wanted outline that is covered, if one is asked for.
+    fn covered(&self, _end: &End) -> Option<f64> {
+        None
+    }
+
+    /// Returns the share of the wanted outline that must be covered.
+    fn share(&self) -> Option<f64> {
+        None
+    }
+
+    /// Returns a demand that is harder by these margins, metres and radians; at least half of each
+    /// tolerance is left.
+    fn stricter(&self, _place: f64, _turn: f64) -> Demand {
+        self.demand()
+    }
+
+    /// Returns the demand moved by a shift, metres in its own frame.
+    fn shifted(&self, _shift: Vector) -> Demand {
+        self.demand()
+    }
+
+    /// Returns the next target of refinement after a plan aimed at `aim` has missed this demand by `shift`,
+    /// metres in its own frame, and `turn`, radians.
+    fn aimed(&self, aim: &Demand, shift: Vector, _turn: f64) -> Demand {
+        self.shifted(aim.kind().anchor() - self.anchor() - shift)
+    }
+
+    /// Returns the point that [shifts](Self::shifted) move, metres in the demand's own frame.
+    fn anchor(&self) -> Vector {
+        Vector::zeros()
+    }
+
+    /// Returns the demand as seen from where `frame` stands.
+    fn seen_from(&self, _frame: &Pose) -> Demand {
+        self.demand()
+    }
+
+    /// Returns the demand with its position and heading in the frame of object `other`.
+    fn relative_to(&self, _other: usize) -> Demand {
+        self.demand()
+    }
+
+    /// Returns the object in whose frame it is; the world's by default.
+    fn relative(&self) -> Option<usize> {
+        None
+    }
+
+    /// Returns the other body to which it relates the object.
+    fn to(&self) -> Option<Body> {
+        None
+    }
+
+    /// Returns `true` if it relates the object to something else: no single position is then wanted.
+    fn is_relation(&self) -> bool {
+        false
+    }
+
+    /// Returns `true` if it is about more than the pose in the plane.
+    fn in_space(&self) -> bool {
+        false
+    }
+
+    /// Returns `true` if it is judged once everything rests.
+    fn is_at_rest(&self) -> bool {
+        true
+    }
+
+    /// Returns `true` if the object leaves the table.
+    fn falls(&self) -> bool {
+        false
+    }
+
+    /// Returns the reason why no plan can be judged by it.
+    fn fault(&self, _object: usize, _scene: &Scene) -> Option<String> {
+        None
+    }
+
+    /// Returns marks for pictures, in world coordinates with everything at its start.
+    fn marks(&self, _object: usize, _scene: &Scene) -> Vec<Mark> {
+        Vec::new()
+    }
+}
+
+impl Demand {
+    /// Returns the kind behind its interface.
+    pub fn kind(&self) -> &dyn Kind {
+        match self {
+            Self::Place(kind) => kind,
+            Self::Area(kind) => &**kind,
+            Self::Heading(kind) => kind,
+            Self::Gap(kind) => &**kind,
+            Self::Coverage(kind) => &**kind,
+            Self::Fall(kind) => &**kind,
+            Self::Outside(kind) => kind,
+            Self::Raised(kind) => kind,
+            Self::Flipped(kind) => kind,
+        }
+    }
+
+    /// Returns the heading that it asks for, to be changed.
+    pub fn facing_mut(&mut self) -> Option<&mut Facing> {
+        match self {
+            Self::Heading(facing) => Some(facing),
+            Self::Coverage(coverage) => coverage.facing.as_mut(),
+            _ => None,
+        }
+    }
+
+    /// Returns the same demand in the world, with everything where it is in `state`.
+    pub fn in_world(&self, state: &State) -> Self {
+        let frame = self.kind().relative().and_then(|other| state.poses.get(other));
+        frame.map_or_else(|| self.clone(), |frame| self.kind().seen_from(frame))
+    }
+
+    /// Returns [`Kind::off`] along the axes of the demand's own frame, metres.
+    pub fn off_as_seen(&self, end: &End) -> Option<Vector> {
+        let off = self.kind().off(end)?;
+        let frame = self.kind().relative().and_then(|other| end.state.poses.get(other));
+        Some(frame.map_or(off, |frame| frame.local_vector(off)))
+    }
+}
+
+/// The margin that is left of a tolerance: at least half of it.
+fn less(tolerance: f64, by: f64) -> f64 {
+    (tolerance - by).max(0.5 * tolerance)
+}
+
+/// Serialisation of a length that may be infinite, which JSON does not have.
+mod anywhere {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(tolerance: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+        tolerance.is_finite().then_some(*tolerance).serialize(serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+        Ok(Option::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
+    }
+}

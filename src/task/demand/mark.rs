@@ -1,0 +1,67 @@
+//! Marks of goals in pictures, as plain data: exporters draw them without knowing the kinds of demands.
+
+use crate::geometry::Vector;
+
+use super::Area;
+
+/// A mark on the table, in world coordinates, metres and radians.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Mark {
+    /// A disc in which a centre must lie.
+    Disc {
+        /// The wanted position.
+        centre: Vector,
+        /// The tolerance.
+        radius: f64,
+    },
+    /// An area in which a centre must lie.
+    Area(Area),
+    /// An area that a centre must leave.
+    Outside(Area),
+    /// An outline that must be covered: convex polygons.
+    Outline {
+        /// The wanted position.
+        centre: Vector,
+        /// The polygons.
+        pieces: Vec<Vec<Vector>>,
+    },
+    /// Headings about the wanted position.
+    Headings {
+        /// The wanted heading.
+        heading: f64,
+        /// The largest turn from it.
+        tolerance: f64,
+        /// The middle of what a joint's limits allow.
+        limit_middle: Option<f64>,
+        /// The number of headings that count alike.
+        symmetry: usize,
+    },
+    /// A distance that must come within limits.
+    Distance([Vector; 2]),
+    /// A part of an edge of the table that must be crossed.
+    Edge([Vector; 2]),
+    /// A height above the table that an edge must reach.
+    Height(f64),
+}
+
+/// The marks of a goal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShownGoal {
+    /// Index of the goal's object.
+    pub object: usize,
+    /// Middle of the marks: a wanted position, or that of the object at the start, metres.
+    pub centre: Vector,
+    /// The marks.
+    pub marks: Vec<Mark>,
+}
+
+impl Mark {
+    /// Returns the position, metres, that a centre at `point` has missed.
+    pub fn missed(&self, point: Vector) -> Option<Vector> {
+        match self {
+            Self::Disc { centre, radius } if (point - centre).norm() > *radius => Some(*centre),
+            Self::Area(area) if !area.holds(point) => Some(area.nearest(point)),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! Demand: the edge of an object lies on a blade at the end of its turn, lifted.
+
+use serde::{Deserialize, Serialize};
+
+use crate::scene::Scene;
+
+use super::words::millimetres;
+use super::{Demand, End, Kind, Mark};
+
+/// Height by which an edge that is not yet high enough counts as missed once more, metres.
+const STEP: f64 = 0.01;
+
+/// The state of an object at the end of a lever-up's turn.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Lift {
+    /// Index of the object that is levered.
+    pub object: usize,
+    /// Height of its edge at the lever point above that before, metres.
+    pub raised: f64,
+    /// Whether it lies on the blade.
+    pub held: bool,
+    /// Its tilt, radians.
+    pub tilt: f64,
+}
+
+/// A height to which a blade lifts an edge.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Raised {
+    /// Height above that at the start, metres.
+    pub height: f64,
+}
+
+impl Kind for Raised {
+    fn demand(&self) -> Demand {
+        Demand::Raised(self.clone())
+    }
+
+    fn is_met(&self, end: &End) -> bool {
+        self.score(end) <= 1.0
+    }
+
+    fn words(&self, _: usize, _: &Scene) -> String {
+        format!("edge raised by {}", millimetres(self.height))
+    }
+
+    fn score(&self, end: &End) -> f64 {
+        let (found, held) = end.lift.map_or((0.0, false), |lift| (lift.raised, lift.held));
+        let missing = (self.height - found) / STEP;
+        if held { 1.0 + missing } else { 2.0 + missing.max(0.0) }
+    }
+
+    fn in_space(&self) -> bool {
+        true
+    }
+
+    fn is_at_rest(&self) -> bool {
+        false
+    }
+
+    fn fault(&self, _: usize, _: &Scene) -> Option<String> {
+        (!self.height.is_finite()).then(|| "the height of the goal must be finite".to_owned())
+    }
+
+    fn marks(&self, object: usize, scene: &Scene) -> Vec<Mark> {
+        let z = scene.objects.get(object).map_or(0.0, |object| object.z);
+        vec![Mark::Height(z + self.height)]
+    }
+}
