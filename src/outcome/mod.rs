@@ -16,8 +16,7 @@ mod warning;
 pub use crate::task::{Ending, Lift};
 pub use in_turn::in_turn;
 pub use lever::{
-    LEVER_FRAMES, LeverFault, LeverFrame, LeverRecord, LeverTrajectory, LeverWarning,
-    has_slipped,
+    LEVER_FRAMES, LeverFault, LeverFrame, LeverRecord, LeverTrajectory, LeverWarning, has_slipped,
 };
 pub use push_fault::PushFault;
 pub use result::{Miss, Outcome};

@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::{Pose, Pose3, clearance};
 
 use super::Warning;
-use crate::task::Lift;
 use crate::scene::planar_only;
 use crate::scene::{ModelSpec, Part, Scene, State, Tool};
+use crate::task::Lift;
 
 /// One recorded instant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -3,8 +3,8 @@
 use crate::geometry::Vector;
 use crate::scene::State;
 
-use super::demand::{Demand, End, Lift};
 use super::Goal;
+use super::demand::{Demand, End, Lift};
 
 impl Goal {
     fn offs(&self, state: &State) -> impl Iterator<Item = (Vector, f64)> {

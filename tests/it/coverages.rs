@@ -39,7 +39,7 @@ fn enough_of_the_outline_is_covered_in_every_engine() {
         let solution = solved(&task);
         assert_eq!(solution.status, PlanStatus::Solved, "{goal}");
         let verdict = solution.plans[0].verdict.as_ref().expect("replayed");
-        let share = task.goals[0].coverage.as_ref().expect("a coverage").share;
+        let share = task.goals[0].wanted_share().expect("a coverage");
         for engine in Engine::ALL {
             for evidence in verdict.nominal(engine).into_iter().chain(verdict.disturbed(engine)) {
                 let covered = task.goals[0].covered(&evidence.outcome.state).expect("a coverage");
@@ -73,7 +73,7 @@ fn it_is_read_as_it_is_written_and_a_plan_file_keeps_it() {
         (TEE, "{position: [0.4, 0.05], heading_deg: -125}", 0.95),
     ] {
         let task = task(object, goal);
-        assert_eq!(task.goals[0].coverage.as_ref().map(|coverage| coverage.share), Some(share));
+        assert_eq!(task.goals[0].wanted_share(), Some(share));
         let again = Task::parse(&task.to_yaml().expect("as text"), "coverage.yaml").expect("sound");
         assert_eq!(again, task);
         let json = serde_json::to_string(&task).expect("as JSON");

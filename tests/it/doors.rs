@@ -61,8 +61,8 @@ fn joints_to_the_world_are_written_as_they_were_read() {
     assert_eq!(axis, Vector::new(-1.0, 0.0));
     let again = Task::parse(&task.to_yaml().expect("YAML"), "furniture.yaml").expect("a task");
     assert_eq!(again.scene, task.scene);
-    let (goal, kept) = (task.goals[0].heading.expect("a heading"), again.goals[0].heading);
-    assert!((goal.0 - 65f64.to_radians()).abs() < 1e-12 && kept == Some(goal));
+    let (goal, kept) = (task.goals[0].heading().expect("a heading"), again.goals[0].heading());
+    assert!((goal.heading - 65f64.to_radians()).abs() < 1e-12 && kept == Some(goal));
 }
 
 #[test]

@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use pushplan::task::{Demand, Flipped};
 use pushplan::{
     EffectModel, Effort, Error, Goal, Job, LeverRules, Object, Outcome, Part, Pivot, PlanStatus,
     Planner, Pose, PushRules, Record, Robot, Scene, Simulated, Simulator, Solution, SolveError,
@@ -59,7 +60,7 @@ fn an_error_that_leaves_main_is_printed_as_text() {
 fn a_lever_up_is_planned_verified_and_written_like_a_push() {
     let library = ToolLibrary::embedded().unwrap();
     let plate = Object::cuboid("plate", [0.12, 0.08, 0.008]).mass(0.1).on_feet(0.006);
-    let goal = Goal { flipped: Some(true), ..Goal::of(0) };
+    let goal = Goal::of(0).with(Demand::Flipped(Flipped { flipped: true }));
     let scene = Scene::new([plate.at(0.5, 0.0, 0.0)]);
     let task = Task::new("turn", scene, Robot::reaching(0.1, 0.9), goal)
         .choosing(["screwdriver"])

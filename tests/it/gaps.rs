@@ -3,7 +3,7 @@
 use pushplan::solve::PlanStatus;
 use pushplan::{
     scene::{Body, Engine, State},
-    task::Task,
+    task::{Demand, Task},
 };
 
 use crate::judged::{file, solved, works_in_mujoco};
@@ -34,7 +34,7 @@ goal: {{object: box, {goal}}}
 
 /// The gap that the goal speaks of, metres.
 fn gap(task: &Task, state: &State) -> f64 {
-    let gap = task.goals[0].gap.as_ref().expect("a goal of a gap");
+    let [Demand::Gap(gap), ..] = &task.goals[0].demands[..] else { panic!("a goal of a gap") };
     gap.nearest(&state.poses[task.goals[0].object], state).expect("both exist").gap
 }
 
@@ -79,7 +79,7 @@ fn it_is_read_as_it_is_written_and_a_plan_file_keeps_it() {
         ("gap: {to: mug, min: 0.01, max: 0.04}, heading_deg: 30", Body::Object(1)),
     ] {
         let task = task([0.6, -0.1], goal);
-        assert_eq!(task.goals[0].gap.as_ref().map(|gap| gap.to), Some(to));
+        assert_eq!(task.goals[0].demands[0].kind().to(), Some(to));
         let again = Task::parse(&task.to_yaml().expect("as text"), "gap.yaml").expect("sound");
         assert_eq!(again, task);
         let json = serde_json::to_string(&task).expect("as JSON");

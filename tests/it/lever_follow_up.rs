@@ -176,7 +176,8 @@ fn a_plan_pushes_levers_and_pushes_again() {
     let levering = Plan { steps: vec![Step::LeverUp(levering)] };
     let whole = first.then(levering).then(pushed(there.position.x, 0.02, 0.10));
     let mut task = task();
-    task.goals[0].position.x = 0.66;
+    let place = task.goals[0].position().unwrap();
+    task.goals[0].set_position(Vector::new(0.66, place.y));
     let verdict = verify(&task, &whole);
     assert!(verdict.passed, "{:?}", verdict.reason);
     let trajectory = verdict.evidence[0].trajectory.as_ref().expect("frame by frame");

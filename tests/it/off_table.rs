@@ -6,10 +6,16 @@ use pushplan::{EffectModel, Job, Obstacle, Pose, Push, Simulated, Simulator, Too
 use pushplan::{
     outcome::{Record, Warning},
     scene::{Engine, Rate, Situation, Span, State},
-    task::{Edge, Task},
+    task::{Demand, Edge, Fall, Task},
 };
 
 use crate::judged::{file, solved, works_in_mujoco};
+
+/// The fall that the first goal asks for.
+fn fall(task: &Task) -> &Fall {
+    let [Demand::Fall(fall)] = &task.goals[0].demands[..] else { panic!("a fall") };
+    fall
+}
 
 /// A box and a can on a table that ends 40 cm to either side; `goal` is the task's.
 fn task(goal: &str) -> Task {
@@ -47,7 +53,7 @@ fn things_are_pushed_over_the_edge_that_is_asked_for() {
             let nominal = verdict.nominal(engine).expect("replayed");
             let gone = |k: &usize| !top.holds(nominal.outcome.state.poses[*k].position);
             assert_eq!([0, 1].into_iter().filter(gone).collect::<Vec<_>>(), off, "{goal}");
-            if let Some(span) = task.goals[0].fall.as_ref().and_then(|fall| fall.between) {
+            if let Some(span) = fall(&task).between {
                 assert!(span.contains(nominal.outcome.state.poses[0].position.x), "{goal}");
             }
             // What is wanted is no news.
@@ -137,7 +143,7 @@ fn it_is_read_as_it_is_written_and_a_plan_file_keeps_it() {
         ("right", Some(Edge::Right)),
     ] {
         let task = task(&format!("{{object: box, off_table: {word}}}"));
-        assert_eq!(task.goals[0].fall.as_ref().map(|fall| fall.over), Some(over));
+        assert_eq!(fall(&task).over, over);
         assert!(task.scene.objects[0].may_fall && !task.scene.objects[1].may_fall);
         let again = Task::parse(&task.to_yaml().expect("as text"), "fall.yaml").expect("sound");
         assert_eq!(again, task);
@@ -145,7 +151,7 @@ fn it_is_read_as_it_is_written_and_a_plan_file_keeps_it() {
         assert_eq!(serde_json::from_str::<Task>(&json).expect("the same"), task);
     }
     let task = task("{object: box, off_table: {edge: far, between: [-0.1, 0.25]}}");
-    let fall = task.goals[0].fall.as_ref().expect("a fall");
+    let fall = fall(&task);
     assert_eq!((fall.over, fall.between), (Some(Edge::Far), Some(Span::new(-0.1, 0.25))));
     let again = Task::parse(&task.to_yaml().expect("as text"), "fall.yaml").expect("sound");
     assert_eq!(again, task);

@@ -361,7 +361,7 @@ fn error_at(goal: &Goal, trajectory: &Trajectory, time: f64) -> f64 {
             at(next - 1) + (at(next) - at(next - 1)) * ((time - a) / (b - a))
         }
     };
-    (position - goal.position).norm()
+    (position - goal.position().unwrap()).norm()
 }
 
 fn number(value: &Json) -> f64 {

@@ -23,7 +23,7 @@ fn a_plan_counts_only_if_it_reaches_all_of_them() {
     let best = &solution.plans[0];
     for evidence in &best.verdict.as_ref().unwrap().evidence[..2] {
         assert!(task.goals.iter().all(|goal| goal.reached(&evidence.outcome.state)));
-        let [further] = evidence.outcome.further[..] else { panic!("two goals") };
+        let [_, further] = evidence.outcome.goals[..] else { panic!("two goals") };
         assert_eq!(further.object, 1);
         assert!(further.error <= 0.02 && further.heading_error.unwrap() < 10f64.to_radians());
     }
@@ -107,7 +107,7 @@ fn where_not_all_goals_can_be_met_the_plan_is_partial_and_never_solved() {
     assert!(!verdict.passed && !verdict.works());
     // It met what it says it meets, in both engines.
     for evidence in &verdict.evidence {
-        assert!(!evidence.outcome.reached && evidence.outcome.further[0].error < 0.02);
+        assert!(!evidence.outcome.reached && evidence.outcome.goals[1].error < 0.02);
     }
 }
 

@@ -155,7 +155,8 @@ fn plans_that_only_work_in_the_model_fail_verification() {
     let (task, library) = shipped("pull-back.yaml");
     // One plan is verified: of many wishes some come true.
     let settings = Settings::FIRST_LOOK;
-    let planner = Planner::builder(Wishful(task.goals[0].position().unwrap())).settings(settings).build();
+    let planner =
+        Planner::builder(Wishful(task.goals[0].position().unwrap())).settings(settings).build();
     let solution = planner.solve(&task, &library).unwrap();
     assert_eq!(solution.status, PlanStatus::FailedVerification);
     let best = solution.best().unwrap();
@@ -182,7 +183,8 @@ fn without_a_way_to_the_goal_there_is_no_plan_but_a_nearest_one() {
 #[test]
 fn a_goal_that_is_met_already_needs_no_push() {
     let (mut task, library) = shipped("pull-back.yaml");
-    task.goals[0].set_position(task.scene.objects[task.goals[0].object].pose.position);
+    let start = task.scene.objects[task.goals[0].object].pose.position;
+    task.goals[0].set_position(start);
     let solution = planner().solve(&task, &library).unwrap();
     assert_eq!(solution.status, PlanStatus::Solved);
     let best = solution.best().unwrap();

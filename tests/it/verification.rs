@@ -62,7 +62,7 @@ fn a_plan_that_works_passes_with_evidence_from_both_engines() {
     assert_eq!(verdict.robustness, Some(1.0));
     // Draws differ, and the same seed draws the same.
     let outcome = |k: usize| &verdict.evidence[k].outcome;
-    assert!(outcome(2).error != outcome(3).error);
+    assert!(outcome(2).error() != outcome(3).error());
     assert_eq!(
         verdict,
         verifier.verify(&task(), &Situation::stated(&task().scene), &[paddle()], &good)

@@ -52,7 +52,7 @@ pub fn task(task: Task) {
     match planner.solve(&alone, &library) {
         Ok(solution) => {
             for ranked in &solution.plans {
-                assert!(ranked.outcome.lying.is_some_and(|lying| lying.score.is_finite()));
+                assert!(ranked.outcome.score().is_finite());
             }
         }
         Err(refused) => panic!("a task file that cannot be tried: {refused}"),
@@ -68,7 +68,7 @@ pub fn plan(file: PlanFile) {
         let verifier = Verifier::new(VerifySettings { disturbed: 1, seed: 1 });
         let situation = Situation::stated(&file.task.scene);
         let verdict = verifier.verify(&file.task, &situation, &file.tools, &file.plan);
-        assert!(verdict.evidence.iter().all(|evidence| evidence.outcome.error.is_finite()));
+        assert!(verdict.evidence.iter().all(|evidence| evidence.outcome.error().is_finite()));
     }
 }
 

@@ -72,7 +72,7 @@ pub fn task(task: Task) {
     match planner.solve(&task, &library) {
         Ok(solution) => {
             for plan in &solution.plans {
-                assert!(plan.outcome.state.is_finite() && plan.outcome.error.is_finite());
+                assert!(plan.outcome.state.is_finite() && plan.outcome.error().is_finite());
                 let (task, tools) = (task.clone(), plan.tools.clone());
                 let predicted = Some(plan.outcome.clone());
                 let plan = plan.plan.clone();

@@ -195,11 +195,7 @@ mod tests {
     fn a_warning_of_both_engines_is_said_once() {
         let landed = || Warning::SetDownOn { object: "can".to_owned(), stroke: 1 };
         let toppled = Warning::Toppled { object: "can".to_owned() };
-        let outcome = Outcome {
-            state: State::default(),
-            goals: Vec::new(),
-            reached: false,
-        };
+        let outcome = Outcome { state: State::default(), goals: Vec::new(), reached: false };
         let evidence = |engine, warnings| Evidence {
             engine,
             disturbance: Disturbance::Nominal,

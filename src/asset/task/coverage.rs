@@ -7,10 +7,7 @@ use crate::asset::saved::emit::degrees;
 use crate::asset::spec::{ANGLE, Key, POSITION, Range, Value};
 use crate::asset::take::{angle, number_or, position};
 use crate::geometry::Pose;
-use crate::{
-    scene::Scene,
-    task::Coverage,
-};
+use crate::{scene::Scene, task::Coverage};
 
 /// The share that Push-T asks for.
 const SHARE: f64 = 0.95;

@@ -145,7 +145,8 @@ pub(super) fn goal(node: &Node, scene: &Scene) -> Option<Goal> {
     }
     if let Some(turn) = node.get("joint_deg") {
         let (there, relative) = come(scene, object, angle_of(turn)?)?;
-        goal = goal.with(Demand::Heading(Facing { relative, ..Facing::new(there.heading, within) }));
+        goal =
+            goal.with(Demand::Heading(Facing { relative, ..Facing::new(there.heading, within) }));
     }
     if let Some(shift) = node.get("joint") {
         let (there, relative) = come(scene, object, shift.number()?)?;

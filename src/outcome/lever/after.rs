@@ -7,8 +7,8 @@ use crate::{
     task::{Goal, Task},
 };
 
-use crate::task::Ending;
 use crate::scene::Plate;
+use crate::task::Ending;
 
 /// A plate whose lowest point is higher above the table lies on something else, metres.
 const ON_TABLE: f64 = 1e-3;

@@ -183,7 +183,8 @@ impl Kind for InArea {
     }
 
     fn fault(&self, _: usize, _: &Scene) -> Option<String> {
-        let sound = self.area.pose.is_finite() && self.tolerance.is_finite() && self.tolerance > 0.0;
+        let sound =
+            self.area.pose.is_finite() && self.tolerance.is_finite() && self.tolerance > 0.0;
         (!sound).then(|| "the area of the goal must be finite".to_owned())
     }
 

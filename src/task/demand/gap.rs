@@ -184,7 +184,10 @@ impl Kind for Gap {
     fn marks(&self, object: usize, scene: &Scene) -> Vec<Mark> {
         let object = scene.objects.get(object);
         let nearest = object.and_then(|object| self.nearest(&object.pose, &scene.start()));
-        nearest.map(|nearest| Mark::Distance([nearest.on_first, nearest.on_second])).into_iter().collect()
+        nearest
+            .map(|nearest| Mark::Distance([nearest.on_first, nearest.on_second]))
+            .into_iter()
+            .collect()
     }
 }
 

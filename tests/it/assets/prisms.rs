@@ -131,8 +131,9 @@ parts:
 #[test]
 fn headings_that_look_the_same_count_alike_unless_the_goal_says_otherwise() {
     let heading = ", heading_deg: 30, heading_tolerance_deg: 5";
-    let alike =
-        |shape: &str, more: &str| read(shape, "", &format!("{heading}{more}")).goals[0].alike;
+    let alike = |shape: &str, more: &str| {
+        read(shape, "", &format!("{heading}{more}")).goals[0].heading().unwrap().symmetry
+    };
     let square = "{cuboid: {size: [0.08, 0.08, 0.05]}}";
     assert_eq!(alike(square, ""), 4);
     assert_eq!(alike(square, ", symmetric: true"), 4);

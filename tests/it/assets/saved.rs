@@ -24,19 +24,14 @@ pub fn plan_file(name: &str) -> PlanFile {
     let push = Push { start: Vector::new(0.1, 0.2 / 3.0), direction: 1.1, length: 0.2, speed: 0.1 };
     let (yaw, rules) = (90f64.to_radians(), &task.pushes);
     let plan = Plan::pushing(&tool.name, yaw, rules.form, rules.lift, [push; 2]);
-    let further = task.goals.iter().skip(1).map(|goal| Miss {
+    let goals = task.goals.iter().map(|goal| Miss {
         object: goal.object,
-        error: 0.2,
-        heading_error: None,
-    });
-    let outcome = Outcome {
-        state: task.scene.start(),
         error: 0.1,
         heading_error: Some(0.2),
-        further: further.collect(),
-        reached: false,
-        lying: None,
-    };
+        score: 2.5,
+        raised: None,
+    });
+    let outcome = Outcome { state: task.scene.start(), goals: goals.collect(), reached: false };
     let evidence = Evidence {
         engine: Engine::Spatial,
         disturbance: Disturbance::Nominal,

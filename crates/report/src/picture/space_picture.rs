@@ -11,8 +11,8 @@ use pushplan::{
     task::{Goal, LeverStep, Mark, Plan, ShownGoal, Step, lever_frame},
 };
 
-use super::{bodies, palette};
 use super::view::{Bounds, View};
+use super::{bodies, palette};
 
 /// Free space beside and above the plots, pixels.
 const LEFT: f64 = 52.0;

@@ -46,23 +46,27 @@ pub struct TaskCell {
 const TASKS: [(&str, Expected, Change); 20] = [
     ("an ordinary one", Expected::Solved(1), |_| {}),
     ("goal at the start", Expected::Solved(0), |task| {
-        task.goals[0].position = task.scene.objects[0].pose.position;
+        let at = task.scene.objects[0].pose.position;
+        task.goals[0].set_position(at);
     }),
     ("goal and heading at the start, 1000 turns on", Expected::Solved(0), |task| {
         let pose = task.scene.objects[0].pose;
-        task.goals[0].position = pose.position;
-        task.goals[0].heading = Some((pose.heading + 1000.0 * std::f64::consts::TAU, 0.1));
+        task.goals[0].set_position(pose.position);
+        let turned = pose.heading + 1000.0 * std::f64::consts::TAU;
+        task.goals[0] = task.goals[0].clone().facing(turned, 0.1);
     }),
-    ("goal 1e6 m away", Expected::Unsolved, |task| task.goals[0].position = Vector::new(1e6, 0.0)),
+    ("goal 1e6 m away", Expected::Unsolved, |task| {
+        task.goals[0].set_position(Vector::new(1e6, 0.0))
+    }),
     ("goal 1e6 m away, tolerance 1e7 m", Expected::Solved(0), |task| {
-        task.goals[0].position = Vector::new(1e6, 0.0);
-        task.goals[0].tolerance = 1e7;
+        task.goals[0].set_position(Vector::new(1e6, 0.0));
+        task.goals[0].set_tolerance(1e7);
     }),
     ("goal 1e150 m away", Expected::Unsolved, |task| {
-        task.goals[0].position = Vector::new(1e150, 0.0)
+        task.goals[0].set_position(Vector::new(1e150, 0.0))
     }),
-    ("tolerance 1e-9 m", Expected::Unsolved, |task| task.goals[0].tolerance = 1e-9),
-    ("tolerance 1e-300 m", Expected::Unsolved, |task| task.goals[0].tolerance = 1e-300),
+    ("tolerance 1e-9 m", Expected::Unsolved, |task| task.goals[0].set_tolerance(1e-9)),
+    ("tolerance 1e-300 m", Expected::Unsolved, |task| task.goals[0].set_tolerance(1e-300)),
     ("reach of 1 mm", Expected::Unsolved, |task| {
         task.robot.reach_min = 0.0;
         task.robot.reach_max = 0.001;
@@ -70,11 +74,12 @@ const TASKS: [(&str, Expected, Change); 20] = [
     ("everything 1 km from the base", Expected::Unsolved, |task| {
         let far = Vector::new(1000.0, 0.0);
         task.scene.objects[0].pose.position += far;
-        task.goals[0].position += far;
+        let place = task.goals[0].position().unwrap();
+        task.goals[0].set_position(place + far);
     }),
     ("walled in", Expected::Unsolved, |task| {
         let at = task.scene.objects[0].pose.position;
-        task.goals[0].position = at + Vector::new(0.3, 0.0);
+        task.goals[0].set_position(at + Vector::new(0.3, 0.0));
         for (k, (x, y)) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)].iter().enumerate() {
             let size = [0.02 + 0.3 * f64::abs(*y), 0.02 + 0.3 * f64::abs(*x), 0.2];
             let pose = Pose { position: at + 0.13 * Vector::new(*x, *y), heading: 0.0 };
@@ -100,8 +105,10 @@ const TASKS: [(&str, Expected, Change); 20] = [
         task.scene.table_friction = 0.0;
     }),
     ("mass 1e-6 kg", Expected::Anything, |task| task.scene.objects[0].mass = 1e-6),
-    ("goal that is not a number", Expected::Refused, |task| task.goals[0].position.x = f64::NAN),
-    ("infinite tolerance", Expected::Refused, |task| task.goals[0].tolerance = f64::INFINITY),
+    ("goal that is not a number", Expected::Refused, |task| {
+        task.goals[0].set_position(Vector::new(f64::NAN, 0.0))
+    }),
+    ("infinite tolerance", Expected::Refused, |task| task.goals[0].set_tolerance(f64::INFINITY)),
     ("friction that is not a number", Expected::Refused, |task| {
         task.scene.table_friction = f64::NAN
     }),
@@ -128,7 +135,7 @@ fn judged(name: &'static str, expected: Expected, solution: Option<Solution>) ->
     let status = solution.as_ref().map(|solution| solution.status);
     let pushes = best.map(|plan| plan.plan.pushes().len());
     let finite =
-        best.is_none_or(|plan| plan.outcome.error.is_finite() && plan.outcome.state.is_finite());
+        best.is_none_or(|plan| plan.outcome.error().is_finite() && plan.outcome.state.is_finite());
     let sound = match (expected, status) {
         (Expected::Refused, status) => status.is_none(),
         (_, None) => false,
@@ -142,7 +149,7 @@ fn judged(name: &'static str, expected: Expected, solution: Option<Solution>) ->
         name,
         status,
         pushes,
-        error: best.map(|plan| plan.outcome.error),
+        error: best.map(|plan| plan.outcome.error()),
         rollouts: solution.as_ref().map_or(0, |solution| solution.statistics.rollouts),
         sound: sound && finite,
     }
