@@ -3,7 +3,7 @@
 use pushplan::solve::PlanStatus;
 use pushplan::{
     scene::{Body, Engine, State},
-    task::{Demand, Task},
+    task::{Demand, End, Task},
 };
 
 use crate::judged::{file, solved, works_in_mujoco};
@@ -120,4 +120,44 @@ fn what_is_fragile_is_brought_to_touch_without_pushing_on() {
     assert!(Engine::ALL.iter().all(|engine| {
         verdict.nominal(*engine).and_then(|one| one.force).is_some_and(|force| force.lasting < 3.0)
     }));
+}
+
+/// A block that must come near to a wall and stay away from a lamp: two demands of one kind.
+const BOTH: &str = "
+scene:
+  objects:
+    - {name: block, shape: {cuboid: {size: [0.08, 0.06, 0.06]}}, mass: 0.4, friction: 0.4, position: [0.50, -0.10], yaw_deg: 20}
+    - {name: lamp, shape: {cylinder: {radius: 0.05, height: 0.20}}, mass: 1.2, friction: 0.5, position: [0.60, 0.08]}
+  obstacles:
+    - {name: wall, size: [0.02, 0.8, 0.2], position: [0.78, 0.0]}
+robot: {reach: {min: 0.2, max: 0.9}}
+tools: all
+pushes: {directions: 8}
+keep: {objects: [lamp]}
+goal:
+  - {object: block, gap: {to: wall, min: 0.03, max: 0.06}}
+  - {object: block, gap: {to: lamp, min: 0.10}}
+";
+
+#[test]
+fn one_object_keeps_two_gaps_at_once() {
+    let task = Task::parse(BOTH, "both.yaml").unwrap_or_else(|faults| panic!("{faults}"));
+    let [goal] = &task.goals[..] else { panic!("one goal of one object") };
+    let to: Vec<_> = goal.demands.iter().map(|demand| demand.kind().to()).collect();
+    assert_eq!(to, [Some(Body::Obstacle(0)), Some(Body::Object(1))]);
+    let again = Task::parse(&task.to_yaml().expect("as text"), "both.yaml").expect("sound");
+    assert_eq!(again, task);
+    // Near the wall alone is not enough.
+    let mut state = task.scene.start();
+    state.poses[0] = pushplan::Pose::new(0.695, 0.08, 0.0);
+    let [near, far] = &goal.demands[..] else { panic!("two demands") };
+    let end = End::resting(0, &state);
+    assert!(near.kind().is_met(&end) && !far.kind().is_met(&end));
+    assert!(!task.reached(&state) && task.score(&state) > 1.0);
+
+    let solution = solved(&task);
+    assert_eq!(solution.status, PlanStatus::Solved);
+    for evidence in &solution.plans[0].verdict.as_ref().expect("replayed").evidence[..2] {
+        assert!(evidence.outcome.reached && task.reached(&evidence.outcome.state));
+    }
 }

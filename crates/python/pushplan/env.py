@@ -152,8 +152,8 @@ class _TableEnv(gymnasium.Env[_Action, _Action]):
         names = self.task.objects
         own = self._poses[[names.index(name) for name in self.task.goal_objects], :2]
         off = self.task.goal_offsets(self._poses)
-        goals = np.concatenate([own - off[:, :2], -off], axis=1)
-        return np.concatenate([objects.ravel(), goals.ravel()]).astype(np.float32)
+        goals = np.concatenate([own - off[:, :2], -off[:, :2]], axis=1)
+        return np.concatenate([objects.ravel(), -off[:, 2], goals.ravel()]).astype(np.float32)
 
     def _info(self, refused: str | None) -> dict[str, Any]:
         return {"score": self.task.score(self._poses), "refused": refused}
@@ -169,8 +169,8 @@ class PushEnv(_TableEnv):
     :meth:`action` makes one of metres and radians.
 
     An observation is, for every object, x and y in metres and cosine and sine of its heading, then, for
-    every goal, the wanted place's x and y, the way from the object to it, in metres, and the turn to the
-    wanted heading, in radians.
+    every goal, the turn to the wanted heading in radians, then, for every goal, the wanted place's x and y
+    and the way from the object to it, in metres.
 
     The reward is the share of the way to the goal that a push gains, and one for reaching it, less
     0.02 for the push. A push that cannot be made, or breaks a rule of the task, moves nothing;

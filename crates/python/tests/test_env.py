@@ -114,6 +114,23 @@ def test_goals_are_drawn_and_pictures_show_what_moved(task: pushplan.Task) -> No
         pushplan.env.PushEnv(two, goal_spread=0.01)
 
 
+def test_with_one_of_two_goals_met_nothing_is_reached() -> None:
+    task = pushplan.Task.example("two-places")
+    poses = task.start
+    off = task.goal_offsets(poses)
+    assert off.shape == (2, 3) and task.goal_objects[0] == task.goal_object
+    poses[task.objects.index(task.goal_objects[0]), :2] -= off[0, :2]
+    poses[task.objects.index(task.goal_objects[0]), 2] -= off[0, 2]
+    assert task.reached(poses) == [True, False] and task.score(poses) > 1.0
+    env = pushplan.env.PushEnv(task.at(poses))
+    seen, info = env.reset(seed=0)
+    assert info["score"] > 1.0 and seen.shape == env.observation_space.shape
+    assert np.linalg.norm(seen[-2:]) > task.tolerance
+    # A push beside it, which reaches nothing.
+    _, reward, reached, _, _ = env.step(env.action(env.tools[0].name, math.pi, length=0.5 * task.push_length))
+    assert not reached and reward < 1.0
+
+
 @pytest.mark.filterwarnings("error")
 def test_a_push_is_steered_piece_by_piece(task: pushplan.Task) -> None:
     check_env(gymnasium.make("pushplan/Steer-v0", task=task, hand=(0.3, -0.1)).unwrapped)

@@ -163,6 +163,32 @@ def test_a_run_is_cancelled_and_either_side_starts_again(context: None) -> None:
     turning.stop()
 
 
+def test_a_task_with_one_of_two_goals_met_is_not_reached() -> None:
+    two: Any = json.loads(json.dumps(TASK))
+    [can] = two["scene"]["objects"]
+    two["scene"]["objects"] = [can, {**can, "name": "cup", "position": [0.45, -0.1]}]
+    two["goal"] = [
+        {"object": "can", "position": [0.45, 0.1], "tolerance": 0.02},
+        {"object": "cup", "position": [0.55, -0.1], "tolerance": 0.02},
+    ]
+    task = pushplan.Task.of(two)
+
+    class Still(ros.Node):  # type: ignore[misc]
+        """A node that sees the start and makes no plan."""
+
+        def __init__(self) -> None:
+            self.tries = 0
+
+        def _look(self, given: pushplan.Task, since: float) -> pushplan.Task:
+            return given
+
+        def _say(self, state: str, **more: Any) -> dict[str, Any]:
+            return {"state": state, **more}
+
+    assert Still()._run_through(task)["reached"] is False
+    assert Still()._run_through(task.at(np.array([[0.45, 0.1, 0.0], [0.55, -0.1, 0.0]])))["reached"]
+
+
 @pytest.fixture(scope="module")
 def types(tmp_path_factory: pytest.TempPathFactory) -> Any:
     """The action `Push`, whose types are generated and compiled here."""
