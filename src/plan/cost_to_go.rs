@@ -127,7 +127,7 @@ impl<'a> CostToGo<'a> {
 
     /// The ways of all goals' objects, metres, each from where it is in `state`.
     fn ways(&self, state: &State) -> f64 {
-        let way = |(goal, grids): (&Goal, &Vec<Option<Grid>>)| {
+        let way = |(goal, grids): (&Goal, &Vec<Option<Ways>>)| {
             let end = End::resting(goal.object, state);
             let ways = goal.demands.iter().zip(grids);
             ways.filter_map(|(demand, grid)| distance(demand, grid, &end)).reduce(f64::max)
