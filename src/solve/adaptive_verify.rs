@@ -133,7 +133,7 @@ impl<'a> Verification<'a> {
     /// which the others that seem no better need not be.
     fn keep_best(&self, attempts: &mut Attempts) {
         attempts.best = loop {
-            match attempts.graded_best(&self.query) {
+            match attempts.graded_best() {
                 Some((_, k)) if attempts.list[k].replays == Replays::InPlane => {
                     self.complete(&mut attempts.list[k]);
                 }

@@ -102,7 +102,7 @@ impl Attempt {
         tools: Vec<Arc<Tool>>,
         (trajectory, outcome): (Trajectory, Outcome),
     ) -> Self {
-        let error = outcome.error;
+        let error = outcome.error();
         Self { prediction: Some((trajectory, outcome)), ..Self::new(plan, tools, error) }
     }
 
@@ -165,7 +165,7 @@ impl Attempts {
     }
 
     /// Returns the best of the attempts that were replayed with perturbations; the first of equal ones.
-    pub fn graded_best(&self, query: &Query) -> Option<(Grade, usize)> {
+    pub fn graded_best(&self) -> Option<(Grade, usize)> {
         let graded = self.list.iter().enumerate().filter_map(|(k, attempt)| {
             let replayed = attempt.verdict.as_ref().filter(|_| attempt.replays != Replays::None);
             Some((Grade::of(replayed?), k))

@@ -6,7 +6,6 @@ use crate::plan::NEAR;
 use crate::{
     outcome::{Evidence, Verdict, Warning},
     scene::Engine,
-    task::Task,
 };
 
 use super::PlanStatus;

@@ -29,7 +29,7 @@ pub(super) type Kind = (usize, usize, usize, usize);
 pub(super) fn verify_plans(board: &mut Blackboard, mut batch: LeverBatch) {
     verify_in_groups(board, board.query.task, &mut batch);
     board.attempts.list.extend(batch.into_iter().map(|plan| plan.attempt));
-    board.attempts.best = board.attempts.graded_best(&board.query);
+    board.attempts.best = board.attempts.graded_best();
 }
 
 /// Verifies the promising plans in groups by the goal of `task`, until one passes.

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use rand::Rng;
 
-use crate::geometry::Vector;
 use crate::store::Seconds;
+use pushplan::geometry::Vector;
 use pushplan::{
     asset::ToolLibrary,
     effect::{EffectModel, Simulated},

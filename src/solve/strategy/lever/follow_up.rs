@@ -10,7 +10,7 @@ use crate::solve::blackboard::Blackboard;
 use crate::solve::grade::Class;
 use crate::solve::lever_batch::{LeverPlan, verify_in_groups};
 use crate::solve::solving::{Batch, Strategy};
-use crate::task::{Goal, Task};
+use crate::task::Task;
 
 use super::prefix::{Prefix, pushed, pushing_task, start};
 use super::search::lever_ups;
