@@ -2,11 +2,14 @@
 
 use std::collections::HashSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::ROOT;
 
 mod cycles;
+mod reading;
+
+use reading::{code_of, imports, names, sources};
 
 /// The rooms of a crate in order, each with those that it imports from: all of them stand before it.
 /// What is not listed is not allowed, and what nobody needs any more is struck from the list.
@@ -333,57 +336,6 @@ fn folders_begin_with_a_table_of_contents() {
     }
 }
 
-/// The code of a file, without comments. A test module counts too: it would tie the rooms just as
-/// well.
-fn code_of(text: &str) -> String {
-    let code = |line: &str| line.split("//").next().unwrap_or_default().to_owned() + "\n";
-    text.lines().map(code).collect()
-}
-
-/// What stands after `crate::` in the code of a file, in order; `crate::{a::b, c}` names several.
-fn imports(text: &str, start: &str) -> Vec<String> {
-    let code = code_of(text);
-    let mut found = Vec::new();
-    for after in code.split(start).skip(1) {
-        let Some(list) = after.strip_prefix('{') else {
-            found.push(first_word(after));
-            continue;
-        };
-        // Names stand at the depth of the list itself.
-        let (mut depth, mut item) = (1, String::new());
-        for c in list.chars() {
-            depth += i32::from(c == '{') - i32::from(c == '}');
-            if depth == 0 || depth == 1 && c == ',' {
-                found.push(first_word(item.trim()));
-                item.clear();
-            } else {
-                item.push(c);
-            }
-            if depth == 0 {
-                break;
-            }
-        }
-    }
-    // After the last comma of a list stands nothing.
-    found.retain(|name| !name.is_empty());
-    found
-}
-
-/// Whether code names something of the crate `name`.
-fn names(code: &str, name: &str) -> bool {
-    let path = format!("{name}::");
-    let inner = |c| in_word(c) || c == ':';
-    code.match_indices(&path).any(|(at, _)| !code[..at].ends_with(inner))
-}
-
-fn first_word(text: &str) -> String {
-    text.chars().take_while(|c| in_word(*c)).collect()
-}
-
-fn in_word(c: char) -> bool {
-    c.is_alphanumeric() || c == '_'
-}
-
 /// The crate is a room if it has none; else `src/plan/qp.rs` is in the room `plan`, and a file with the name of a room is one; `src/lib.rs` and
 /// `src/main.rs` are in none.
 fn room_of(path: &Path) -> Option<String> {
@@ -395,26 +347,4 @@ fn room_of(path: &Path) -> Option<String> {
     let first = Path::new(parts.next()?.as_os_str()).file_stem()?.to_str()?.to_owned();
     let listed = rooms.iter().any(|(room, _)| *room == first);
     (listed || parts.next().is_some()).then_some(first)
-}
-
-/// Every Rust file under `folder`, with its path relative to the repository.
-fn sources(folder: &str) -> Vec<(PathBuf, String)> {
-    let root = Path::new(ROOT);
-    let mut found = Vec::new();
-    let mut folders = vec![root.join(folder)];
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(&folder).expect("a folder of the repository") {
-            let path = entry.expect("an entry").path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|end| end == "rs") {
-                let text = fs::read_to_string(&path).expect("a source file");
-                let path = path.strip_prefix(root).expect("inside the repository").to_path_buf();
-                found.push((path, text));
-            }
-        }
-    }
-    assert!(!found.is_empty());
-    found.sort();
-    found
 }
