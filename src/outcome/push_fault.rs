@@ -22,6 +22,8 @@ pub enum PushFault {
     Length(f64),
     /// It is faster than the task says, m/s.
     Speed(f64),
+    /// It takes longer than [`Push::LONGEST`](crate::task::Push::LONGEST), seconds.
+    TooLong(f64),
 }
 
 impl fmt::Display for PushFault {
@@ -56,6 +58,7 @@ impl fmt::Display for PushFault {
                 write!(f, "is {:.1} mm long, longer than the task allows", length * 1e3)
             }
             Self::Speed(speed) => write!(f, "goes at {speed} m/s, faster than the task says"),
+            Self::TooLong(duration) => write!(f, "takes {duration:.0} s, too long to be replayed"),
         }
     }
 }

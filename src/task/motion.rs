@@ -37,6 +37,15 @@ pub struct Push {
 }
 
 impl Push {
+    /// Longest duration of a push that is replayed, seconds: the slowest and longest one that a task file
+    /// allows takes 300.
+    pub const LONGEST: f64 = 301.0;
+
+    /// Duration, seconds.
+    pub fn duration(&self) -> f64 {
+        self.length / self.speed
+    }
+
     /// Unit vector of the motion.
     pub fn heading(&self) -> Vector {
         Vector::new(self.direction.cos(), self.direction.sin())
@@ -67,12 +76,7 @@ impl Stroke {
     /// A push with `tool`, held at `grip_yaw` (radians).
     pub fn push(tool: &Tool, grip_yaw: f64, push: &Push, settle: bool) -> Self {
         let pose = |position| tool.pose(Pose { position, heading: grip_yaw });
-        Self {
-            from: pose(push.start),
-            to: pose(push.end()),
-            duration: push.length / push.speed,
-            settle,
-        }
+        Self { from: pose(push.start), to: pose(push.end()), duration: push.duration(), settle }
     }
 
     /// Travel of the tool frame, metres.

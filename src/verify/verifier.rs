@@ -17,7 +17,7 @@ use crate::{
 use super::arm::arm_faults;
 use super::clear;
 use super::disturbance::{disturbed, lifted, wary};
-use super::rules::broken_rules;
+use super::rules::{broken_rules, unplayable};
 use super::space;
 
 /// Processor time of a time step for each object, seconds: with one object 1 and 6 us were measured,
@@ -107,7 +107,7 @@ impl<'a> Verifier<'a> {
     /// About how long verifying a plan takes on one core, seconds: right to within a factor of
     /// three unless everything is pushed into everything.
     pub fn seconds(&self, scene: &Scene, plan: &Plan) -> f64 {
-        let pushing = plan.push_steps().map(|step| step.push.length / step.push.speed);
+        let pushing = plan.push_steps().map(|step| step.push.duration());
         let levering = plan.lever_steps().map(|step| step.lever.duration());
         let moving: f64 = pushing.chain(levering).sum();
         let each = [(&self.planar, PLANAR_STEP), (&self.spatial, SPATIAL_STEP)];
@@ -127,21 +127,15 @@ impl<'a> Verifier<'a> {
         plan: &Plan,
     ) -> Verdict {
         let scene = &*situation.scene;
+        if let Some(fault) = unplayable(scene, tools, plan) {
+            return Verdict::judge(vec![fault], Vec::new(), task.robustness);
+        }
+        let mut forbidden = broken_rules(task, scene, tools, plan);
         if in_space(task, plan) {
-            if let Some(fault) = space::unplayable(scene, tools, plan) {
-                return Verdict::judge(vec![fault], Vec::new(), task.robustness);
-            }
-            let forbidden = space::broken_rules(task, scene, tools, plan);
             let evidence = self.replay_in_space(task, situation, (tools, plan), None);
             return Verdict::judge(forbidden, vec![evidence], task.robustness);
         }
-        let Some(motions) = plan.slides(tools) else {
-            let named =
-                |name: &&&str| tools.iter().any(|tool| tool.name == **name && tool.pushes());
-            let missing = plan.tools().into_iter().find(|name| !named(&name)).unwrap_or_default();
-            let missing = Warning::ForbiddenTool { tool: missing.to_owned() };
-            return Verdict::judge(vec![missing], Vec::new(), task.robustness);
-        };
+        let motions = plan.slides(tools).unwrap_or_default();
         let jobs = Job::sequence(situation, &motions);
         let mut evidence: Vec<Evidence> = [&self.spatial, &self.planar]
             .into_par_iter()
@@ -149,9 +143,10 @@ impl<'a> Verifier<'a> {
             .collect();
         // The planar engine is the one that people compare predictions with: it comes first.
         evidence.reverse();
-        let mut forbidden = broken_rules(task, scene, tools, plan);
-        let asked = (task, situation);
-        forbidden.extend(arm_faults(asked, &motions[0].tool, plan, &evidence, self.joints));
+        if let Some(first) = motions.first() {
+            let asked = (task, situation);
+            forbidden.extend(arm_faults(asked, &first.tool, plan, &evidence, self.joints));
+        }
         Verdict::judge(forbidden, evidence, task.robustness)
     }
 

@@ -11,7 +11,7 @@ use pushplan::solve::{Effort, PlanStatus, Planner};
 use pushplan::verify::{Verifier, VerifySettings};
 use pushplan::watch::Unwatched;
 use pushplan::{
-    outcome::{LeverFault, Reason, Record, Trajectory, Verdict, Warning},
+    outcome::{PushFault, Reason, Record, Trajectory, Verdict, Warning},
     scene::{Engine, GRAVITY, LeverScene, Situation, Tool},
     task::{LeverUp, Place, Plan, Push, PushForm, PushRules, Step, Task, ToolChoice},
 };
@@ -157,7 +157,7 @@ fn what_pushes_must_not_do_is_found() {
     let none = task().pushing(PushRules::none());
     assert!(forbidden(&none, plan(0.02, 0.12)).contains(&many(0)));
     let endless = changed(plan(0.02, 0.12), |push| push.speed = 1e-4);
-    let too_long = Warning::CannotLever { step: 1, fault: LeverFault::TooLong };
+    let too_long = Warning::ForbiddenPush { push: 1, fault: PushFault::TooLong(1200.0) };
     assert_eq!(forbidden(&task(), endless), [too_long]);
 }
 

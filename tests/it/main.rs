@@ -50,6 +50,7 @@ mod plan_page;
 mod planning;
 mod prisms;
 mod program;
+mod push_rules;
 mod raised;
 mod random_network;
 mod random_regulator;

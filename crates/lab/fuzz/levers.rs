@@ -60,7 +60,7 @@ pub fn task(task: Task) {
 }
 
 pub fn plan(file: PlanFile) {
-    let pushing = file.plan.push_steps().map(|step| step.push.length / step.push.speed);
+    let pushing = file.plan.push_steps().map(|step| step.push.duration());
     let levering = file.plan.lever_steps().map(|step| step.lever.duration());
     let span: f64 = pushing.chain(levering).sum();
     let small = file.task.scene.objects.len() + file.task.scene.obstacles.len() < CROWD;

@@ -4,7 +4,7 @@
 use crate::geometry::{ConvexPolygon, Pose, Pose3, Vector, Vector3, clearance};
 use crate::{
     scene::{MAX_FEET, Object, Obstacle, Scene, Support, Unknowns, carries},
-    task::{Goal, Task},
+    task::{Goal, PushRules, Task},
 };
 
 use crate::scene::Plate;
@@ -39,6 +39,11 @@ impl Task {
             return None;
         }
         let (position, tolerance) = (place.position()?, place.tolerance());
+        // Between a lever-up and a push the tool is changed.
+        let tool_changes = match (self.pushes.tool_changes, &self.levers) {
+            (Some(allowed), Some(_)) => Some(allowed.checked_sub(1)?),
+            (stated, _) => stated,
+        };
         let mut scene = Scene::new([]).on_table(self.scene.table_friction);
         let mut goal = None;
         for (k, (plate, rest)) in self.scene.plates().zip(rests).enumerate() {
@@ -62,7 +67,7 @@ impl Task {
             robot: self.robot,
             tool_costs: self.tool_costs.clone(),
             tools: self.tools.clone(),
-            pushes: self.pushes.clone(),
+            pushes: PushRules { tool_changes, ..self.pushes.clone() },
             levers: None,
             goals: vec![goal?],
             robustness: self.robustness,

@@ -1,0 +1,117 @@
+//! Rules of lever-ups: the task's ranges, the free height below the edge, and the way of the blade.
+
+use crate::geometry::{Pose, Solid, Vector3};
+use crate::outcome::LeverFault;
+use crate::scene::{LeverScene, Robot, Scene, Tool};
+use crate::task::{LeverRules, LeverStep, LeverUp, Pivot, Task};
+
+use super::{SLACK, reach};
+
+/// Depth to which a blade may touch and scratch a fixed body, metres.
+const SCRATCH: f64 = 3e-4;
+
+/// Number of poses at which the blade is checked during the turn.
+const LOOKS: usize = 48;
+
+/// Returns the part of a lever-up that makes no sense in a scene, so that it cannot even be replayed.
+pub(super) fn nonsense(scene: &Scene, step: &LeverStep) -> Option<LeverFault> {
+    nonsensical(scene, &step.lever, step.expected)
+        .map(|what| LeverFault::ForbiddenLever { what: what.to_owned() })
+}
+
+fn nonsensical(scene: &Scene, lever: &LeverUp, expected: Option<Pose>) -> Option<&'static str> {
+    let corners = scene.edges(lever.plate);
+    if corners == 0 {
+        return Some("object");
+    }
+    let on_edge = (0.0..=1.0).contains(&lever.place.fraction);
+    if lever.place.edge >= corners || !on_edge || !expected.is_none_or(|pose| pose.is_finite()) {
+        return Some("place");
+    }
+    let numbers = [lever.depth, lever.pivot, lever.angle, lever.speed, lever.hold, lever.retreat];
+    let moves = lever.speed > 0.0 && lever.angle > 0.0 && lever.hold >= 0.0 && lever.retreat >= 0.0;
+    (!moves || !numbers.iter().all(|v| v.is_finite())).then_some("motion")
+}
+
+/// Returns the faults of a lever-up.
+pub(super) fn faults(task: &Task, scene: &Scene, tool: &Tool, step: &LeverStep) -> Vec<LeverFault> {
+    if let Some(fault) = nonsense(scene, step) {
+        return vec![fault];
+    }
+    let lever = &step.lever;
+    let mut seen = LeverScene::with(scene, tool);
+    if let Some(expected) = step.expected {
+        seen.plates[lever.plate].pose = expected;
+    }
+    let plate = &seen.plates[lever.plate];
+    let corners = plate.corners();
+    let mut found = outside_of_rules(task, lever);
+    let next = corners[(lever.place.edge + 1) % corners.len()];
+    let side = (next - corners[lever.place.edge]).norm();
+    if side * lever.place.fraction.min(1.0 - lever.place.fraction) < LeverRules::CORNER - SLACK {
+        found.push(LeverFault::NearCorner);
+    }
+    if seen.blade.thickness > plate.clearance + SLACK {
+        found.push(LeverFault::TooThick);
+    }
+    found.extend(on_the_way(&task.robot, &seen, lever));
+    found
+}
+
+/// Returns the values of a lever-up that the task does not allow.
+fn outside_of_rules(task: &Task, lever: &LeverUp) -> Vec<LeverFault> {
+    let rules = task.lever_rules();
+    let pivot = rules.pivots.iter().any(|pivot| match pivot {
+        Pivot::Auto => lever.pivot > 0.0,
+        Pivot::At(distance) => (distance - lever.pivot).abs() <= SLACK,
+    });
+    let within = |value: f64, [low, high]: [f64; 2]| value >= low - SLACK && value <= high + SLACK;
+    let allowed = [
+        (task.levers.is_some(), "motion"),
+        (task.wants(lever.plate), "object"),
+        (within(lever.depth, rules.depth), "depth"),
+        (within(lever.angle, rules.angle), "angle"),
+        (pivot, "pivot"),
+        (lever.speed <= rules.speed + SLACK, "speed"),
+    ];
+    let forbidden = allowed.into_iter().filter(|(allowed, _)| !allowed);
+    forbidden.map(|(_, what)| LeverFault::ForbiddenLever { what: what.to_owned() }).collect()
+}
+
+/// Returns the faults of the blade's motion, each once.
+fn on_the_way(robot: &Robot, scene: &LeverScene, lever: &LeverUp) -> Vec<LeverFault> {
+    let blocks: Vec<(&str, Solid)> =
+        scene.blocks.iter().map(|block| (block.name.as_str(), block.solid())).collect();
+    let blade = &scene.blade;
+    let mut found: Vec<LeverFault> = Vec::new();
+    let mut note = |fault: LeverFault| {
+        if !found.contains(&fault) {
+            found.push(fault);
+        }
+    };
+    // In from behind, then the turn and the way back.
+    let (lying, span) = (lever.blade(scene, 0.0), lever.duration());
+    let coming = (0..LOOKS).map(|k| {
+        let mut pose = lying;
+        let left = lever.retreat * (1.0 - k as f64 / LOOKS as f64);
+        pose.position -= pose.rotation * Vector3::x() * left;
+        pose
+    });
+    let going = (0..=2 * LOOKS).map(|k| lever.blade(scene, span * k as f64 / (2 * LOOKS) as f64));
+    for pose in coming.chain(going) {
+        reach::blade_out_of_reach(robot, blade, &pose).into_iter().for_each(&mut note);
+        let solid = Solid::cuboid([blade.length, blade.width, blade.thickness], &pose);
+        if solid.lowest() < -SCRATCH {
+            note(LeverFault::BelowTable);
+        }
+        for (name, block) in &blocks {
+            if block.depth(&solid) > SCRATCH {
+                note(LeverFault::Meets { body: (*name).to_owned() });
+            }
+            if robot.hand.is_some() && block.depth(&blade.fingers(&pose)) > SCRATCH {
+                note(LeverFault::HandMeets { body: (*name).to_owned() });
+            }
+        }
+    }
+    found
+}
