@@ -10,8 +10,8 @@ use crate::{
 };
 
 use super::{
-    Assuming, EffectModel, LeverModel, LeverNetwork, LeverPrior, Levering, ModelError, Network,
-    Prior, Routed, Simulated, Still, UpTo,
+    Assuming, ByMotion, EffectModel, LeverNetwork, LeverPrior, ModelError, Network, Prior, Routed,
+    Simulated, Still, UpTo,
 };
 
 /// Where effect models come from.
@@ -69,12 +69,12 @@ impl EffectModels {
 /// A part that takes lever-ups as well: by the network of lever-ups where it is one, else by their
 /// prior. A weights file of lever-ups is one of those alone, and pushes are the prior's.
 fn levering(part: &ModelPart, fit: Option<&TableFit>) -> Result<Arc<dyn EffectModel>, ModelError> {
-    let levers: Arc<dyn LeverModel> = match &part.kind {
+    let levers: Arc<dyn EffectModel> = match &part.kind {
         ModelKind::Simulated { engine: Engine::Spatial, .. } => return self::part(part, fit),
         ModelKind::Network { weights: Some(file), .. } => {
             if let Ok(levers) = LeverNetwork::load(Path::new(file)) {
                 let (prior, levers) = (Arc::new(Prior::default()), Arc::new(levers));
-                return Ok(Arc::new(Levering::new(prior, levers)));
+                return Ok(Arc::new(ByMotion::new(prior, levers)));
             }
             Arc::new(LeverPrior::default())
         }
@@ -84,7 +84,7 @@ fn levering(part: &ModelPart, fit: Option<&TableFit>) -> Result<Arc<dyn EffectMo
         },
         _ => Arc::new(LeverPrior::default()),
     };
-    Ok(Arc::new(Levering::new(self::part(part, fit)?, levers)))
+    Ok(Arc::new(ByMotion::new(self::part(part, fit)?, levers)))
 }
 
 fn load(file: Option<&str>) -> Result<PredictorWeights, ModelError> {

@@ -6,6 +6,7 @@
 
 mod assuming;
 mod build;
+mod by_motion;
 mod error;
 mod lever;
 mod measured;
@@ -22,10 +23,11 @@ mod up_to;
 pub use crate::task::Job;
 pub use assuming::{Assuming, shifted_start};
 pub use build::EffectModels;
+pub use by_motion::ByMotion;
 pub use error::ModelError;
 pub use lever::{
-    LeverInputs, LeverModel, LeverNetwork, LeverNetworkError, LeverPrior, LeverTrust, LeverView,
-    Levering, PriorSettings, SimulatedLevers, lever_action, lever_features, lever_inputs,
+    LeverInputs, LeverNetwork, LeverNetworkError, LeverPrior, LeverView, PriorSettings,
+    lever_action, lever_features, lever_inputs,
 };
 pub use measured::{PRIOR_RANGES, Quantiles};
 pub use model::EffectModel;

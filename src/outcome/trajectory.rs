@@ -8,7 +8,7 @@ use crate::geometry::{Pose, Pose3, clearance};
 use super::Warning;
 use crate::scene::planar_only;
 use crate::scene::{ModelSpec, Part, Scene, State, Tool};
-use crate::task::Lift;
+use crate::task::{Job, Lift};
 
 /// One recorded instant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -119,6 +119,13 @@ impl Trajectory {
     pub fn standing(by: ModelSpec, tool: Pose, state: State) -> Self {
         let frame = Frame { time: 0.0, stroke: 0, tool, state, blade: None };
         Self { frames: vec![frame], ..Self::new(by) }
+    }
+
+    /// Returns the answer of a model that does not know the motion of `job`: everything stays where it is.
+    pub fn declined(by: &ModelSpec, job: &Job) -> Self {
+        let mut declined = Self::standing(by.clone(), Pose::default(), job.start.clone());
+        declined.warnings.push(Warning::Declined { model: by.clone() });
+        declined
     }
 
     /// This and what came after it, which began as this ended; `strokes` were made before.

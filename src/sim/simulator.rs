@@ -3,7 +3,7 @@
 use crate::geometry::Pose;
 use crate::watch::{Unwatched, Watch};
 use crate::{
-    outcome::{Record, Trajectory, Warning, in_turn},
+    outcome::{Record, Trajectory, in_turn},
     scene::{Engine, LeverScene, ModelKind, ModelSpec, Rate, Scene},
     task::{Job, Motion},
 };
@@ -167,10 +167,7 @@ impl Simulator {
     /// Plays a job that leaves the plane, or begins out of it.
     fn in_space(&self, scene: &Scene, job: &Job, record: Record, watch: &dyn Watch) -> Trajectory {
         if !self.takes(job) || !job.motion.fits(scene) {
-            let tool = Pose::default();
-            let mut declined = Trajectory::standing(self.spec(), tool, job.start.clone());
-            declined.warnings.push(Warning::Declined { model: self.spec() });
-            return declined;
+            return Trajectory::declined(&self.spec(), job);
         }
         let planned = LeverScene::with(scene, job.motion.tool());
         let simulator = LeverSimulator { rate: self.rate };

@@ -10,6 +10,7 @@
 pub mod cli;
 pub mod dataset;
 pub mod judge;
+pub mod lever_model;
 pub mod network;
 #[doc(hidden)]
 pub mod report;

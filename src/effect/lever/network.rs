@@ -1,14 +1,18 @@
 //! Trained networks as models of lever-ups.
 
 use std::path::Path;
+use std::sync::LazyLock;
 
 use rayon::prelude::*;
 use thiserror::Error;
 
+use crate::effect::{EffectModel, Trust};
 use crate::network::{LeverCell, LeverSizes, LeverWeights, WeightsError};
-use crate::{outcome::LeverTrajectory, scene::LeverFeatures, task::LeverJob};
+use crate::outcome::{LeverTrajectory, Record, Trajectory};
+use crate::scene::{LeverFeatures, ModelKind, ModelSpec, Scene};
+use crate::task::{Job, LeverJob};
 
-use super::{LeverInputs, LeverModel, LeverPrior, LeverTrust, PriorSettings, lever_inputs};
+use super::{LeverInputs, LeverPrior, PriorSettings, courses, lever_inputs};
 
 /// Why weights of lever-ups cannot be used.
 #[derive(Debug, Error)]
@@ -80,31 +84,45 @@ impl LeverNetwork {
         let told = self.cell.predict(&inputs.still, &inputs.moving);
         inputs.answer(&told, job, prior)
     }
-}
 
-impl LeverModel for LeverNetwork {
-    fn name(&self) -> String {
+    /// Returns a name that tells networks of a comparison apart.
+    pub fn describe(&self) -> String {
         let prior = if self.prior.is_some() { "prior + " } else { "" };
         let feedback = if self.cell.feeds_back() { ", fed back" } else { "" };
         format!("{prior}LSTM, {}{feedback}", self.features)
     }
 
-    fn trust(&self, job: &LeverJob) -> LeverTrust {
-        // It has learned of plates on a plain table.
-        let alone = job.scene.plates.len() == 1 && job.scene.blocks.is_empty();
-        if alone { LeverTrust::Mine { p95: None } } else { LeverTrust::NotMine }
+    /// Returns `true` for the lever-ups that it has learned: of plates on a plain table.
+    pub fn knows(&self, job: &LeverJob) -> bool {
+        job.scene.plates.len() == 1 && job.scene.blocks.is_empty()
     }
 
-    fn rollout(&self, jobs: &[LeverJob]) -> Vec<LeverTrajectory> {
+    /// Predicts lever-ups until everything rests.
+    pub fn courses(&self, jobs: &[LeverJob]) -> Vec<LeverTrajectory> {
         match &self.prior {
             Some(prior) => {
-                let said = prior.rollout(jobs);
+                let courses = prior.courses(jobs);
                 jobs.par_iter()
-                    .zip(&said)
-                    .map(|(job, said)| self.predict(job, Some(said)))
+                    .zip(&courses)
+                    .map(|(job, course)| self.predict(job, Some(course)))
                     .collect()
             }
             None => jobs.par_iter().map(|job| self.predict(job, None)).collect(),
         }
+    }
+}
+
+impl EffectModel for LeverNetwork {
+    fn spec(&self) -> &ModelSpec {
+        static SPEC: LazyLock<ModelSpec> = LazyLock::new(|| ModelKind::NETWORK.into());
+        &SPEC
+    }
+
+    fn trust(&self, scene: &Scene, job: &Job) -> Trust {
+        courses::trust(scene, job, |job| self.knows(job))
+    }
+
+    fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
+        courses::rollout(self.spec(), (scene, jobs), record, |jobs| self.courses(jobs))
     }
 }

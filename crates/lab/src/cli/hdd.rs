@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use pushplan::internals::effect::{LeverModel, LeverPrior, PriorSettings, SimulatedLevers};
+use pushplan::internals::effect::{LeverPrior, PriorSettings};
 use pushplan::internals::scene::LeverFeatures;
 use pushplan::internals::sim::LeverSimulator;
 use pushplan_command::error::CliError;
@@ -13,6 +13,7 @@ use pushplan_command::interrupt;
 use pushplan_command::session::Session;
 use pushplan_learn::cli::generate::data_error;
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverPreset};
+use pushplan_learn::lever_model::{LeverModel, SimulatedLevers};
 
 use crate::bench::{LeverBaseline, Neighbour, drive_report};
 use crate::cli::levers::Named;

@@ -4,9 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Args;
-use pushplan::internals::effect::{
-    LeverModel, LeverNetwork, LeverPrior, LeverTrust, PriorSettings, SimulatedLevers,
-};
+use pushplan::internals::effect::{LeverNetwork, LeverPrior, PriorSettings};
 use pushplan::internals::sim::LeverSimulator;
 use pushplan::internals::{outcome::LeverTrajectory, scene::LeverFeatures, task::LeverJob};
 use pushplan_command::error::CliError;
@@ -18,6 +16,7 @@ use pushplan_command::words::words;
 use pushplan_learn::cli::generate::data_error;
 use pushplan_learn::cli::words::LEVER_PRESETS;
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPart, LeverPreset};
+use pushplan_learn::lever_model::{LeverModel, SimulatedLevers};
 
 use crate::bench::{LeverBaseline, Neighbour, lever_report, load_lever};
 use crate::report::levers_document;
@@ -162,8 +161,8 @@ impl LeverModel for Named {
         format!("{}, {}", self.network.name(), self.path)
     }
 
-    fn trust(&self, job: &LeverJob) -> LeverTrust {
-        if self.among_blocks { LeverTrust::Mine { p95: None } } else { self.network.trust(job) }
+    fn takes(&self, job: &LeverJob) -> bool {
+        self.among_blocks || self.network.takes(job)
     }
 
     fn rollout(&self, jobs: &[LeverJob]) -> Vec<LeverTrajectory> {

@@ -1,12 +1,11 @@
 //! Networks that see images as models of lever-ups.
 
-use pushplan::internals::effect::{
-    LeverInputs, LeverModel, LeverNetwork, LeverNetworkError, LeverPrior, LeverTrust,
-};
+use pushplan::internals::effect::{LeverInputs, LeverNetwork, LeverNetworkError, LeverPrior};
 use pushplan::internals::network::{
     LeverCell, LeverSizes, LeverWeights, Parameters, Statistics, tanh,
 };
 use pushplan::internals::{outcome::LeverTrajectory, scene::LeverFeatures, task::LeverJob};
+use pushplan_learn::lever_model::LeverModel;
 use rayon::prelude::*;
 
 use super::{ImageFeatures, ImageSizes, ImageWeights, image_code, image_inputs};
@@ -70,10 +69,9 @@ impl LeverModel for ImageNetwork {
         format!("{prior}LSTM, {}{feedback}", self.features)
     }
 
-    fn trust(&self, job: &LeverJob) -> LeverTrust {
+    fn takes(&self, job: &LeverJob) -> bool {
         // It has learned of plates on a plain table.
-        let alone = job.scene.plates.len() == 1 && job.scene.blocks.is_empty();
-        if alone { LeverTrust::Mine { p95: None } } else { LeverTrust::NotMine }
+        job.scene.plates.len() == 1 && job.scene.blocks.is_empty()
     }
 
     fn rollout(&self, jobs: &[LeverJob]) -> Vec<LeverTrajectory> {

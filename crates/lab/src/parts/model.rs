@@ -2,9 +2,10 @@
 
 use rayon::prelude::*;
 
-use pushplan::internals::effect::{LeverModel, LeverPrior, LeverTrust, PriorSettings};
+use pushplan::internals::effect::{LeverPrior, PriorSettings};
 use pushplan::internals::network::Forward;
 use pushplan::internals::{outcome::LeverTrajectory, task::LeverJob};
+use pushplan_learn::lever_model::LeverModel;
 
 use super::card::PartsWeights;
 use super::course::LeverCourse;
@@ -56,9 +57,8 @@ impl LeverModel for LeverParts {
         format!("{prior}propagation network, parts")
     }
 
-    fn trust(&self, job: &LeverJob) -> LeverTrust {
-        let takes = LeverCourse::new(job, None).is_some() && !job.scene.blocks.is_empty();
-        if takes { LeverTrust::Mine { p95: None } } else { LeverTrust::NotMine }
+    fn takes(&self, job: &LeverJob) -> bool {
+        LeverCourse::new(job, None).is_some() && !job.scene.blocks.is_empty()
     }
 
     fn rollout(&self, jobs: &[LeverJob]) -> Vec<LeverTrajectory> {

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use candle_core::{Device, Tensor};
-use pushplan::effect::{LeverInputs, LeverModel};
+use pushplan::effect::LeverInputs;
 use pushplan::network::{
     Card, LEVER_ENDS, LeverCard, LeverSizes, LeverTold, Parameters, Statistics, WeightsError,
 };
@@ -23,6 +23,7 @@ use pushplan_lab::image::{
     ImageWeights, image_inputs, train_image,
 };
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
+use pushplan_learn::lever_model::LeverModel;
 use pushplan_learn::network::LeverTensors;
 use pushplan_learn::train::{Descent, LeverSettings};
 use rand::{Rng, SeedableRng};

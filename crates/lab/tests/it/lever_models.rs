@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use pushplan::effect::{
-    LeverInputs, LeverModel, LeverNetwork, LeverPrior, LeverTrust, SimulatedLevers,
-};
+use pushplan::effect::{LeverInputs, LeverNetwork, LeverPrior};
 use pushplan::geometry::{Pose, Pose3, Vector};
 use pushplan::network::{LeverCard, LeverWeights, Parameters, Statistics, lever_layout};
 use pushplan::sim::LeverSimulator;
@@ -17,6 +15,7 @@ use pushplan_lab::bench::{
     LeverBaseline, Setting, convergence, drive_report, lever_report, point_report,
 };
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
+use pushplan_learn::lever_model::{LeverModel, SimulatedLevers};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -141,7 +140,7 @@ fn the_prior_knows_the_pocket_of_a_drive_and_its_limits() {
     assert_eq!(prior.rollout(&jobs), pool.install(|| prior.rollout(&jobs)));
 
     // Not among blocks with other plates than cuboids, and networks not among blocks at all.
-    let trust = |job: &LeverJob, model: &dyn LeverModel| model.trust(job) != LeverTrust::NotMine;
+    let trust = |job: &LeverJob, model: &dyn LeverModel| model.takes(job);
     assert!(trust(&jobs[0], &prior));
     assert!(!trust(&jobs[0], &LeverNetwork::shipped().expect("sound weights")));
     let mut scene = LeverScene::clone(&jobs[0].scene);

@@ -1,6 +1,5 @@
 //! The network of parts: symmetry, threads, and what its file must be.
 
-use pushplan::effect::{LeverModel, LeverTrust};
 use pushplan::network::{
     Config, LeverWeights, Normaliser, Parameters, PredictorWeights, WeightsError,
 };
@@ -9,6 +8,7 @@ use pushplan::watch::Unwatched;
 use pushplan_lab::bench::load_lever;
 use pushplan_lab::parts::{LeverCourse, LeverParts, PARTS, PartGraphs, PartsCard, PartsWeights};
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
+use pushplan_learn::lever_model::LeverModel;
 
 use super::lever_models::is_symmetric;
 
@@ -62,8 +62,8 @@ fn what_is_predicted_together_or_on_more_threads_has_the_same_bits() {
 fn plates_that_are_no_cuboids_are_left_to_others() {
     let model = LeverParts::new(&random(false));
     let plates = jobs(LeverPreset::Varied, 9);
-    assert!(plates.iter().all(|job| model.trust(job) == LeverTrust::NotMine));
-    assert!(jobs(LeverPreset::Drive, 4).iter().all(|job| model.trust(job) != LeverTrust::NotMine));
+    assert!(plates.iter().all(|job| !model.takes(job)));
+    assert!(jobs(LeverPreset::Drive, 4).iter().all(|job| model.takes(job)));
     // Still answered, by the prior.
     assert_eq!(model.rollout(&plates), LeverParts::PRIOR.rollout(&plates));
 }

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use pushplan::effect::{LeverModel, LeverPrior};
+use pushplan::effect::LeverPrior;
 use pushplan::network::{Buffers, Config, Forward, Normaliser, Parameters};
 use pushplan::task::LeverJob;
 use pushplan::watch::{Unwatched, Watch};
@@ -15,6 +15,7 @@ use pushplan_lab::parts::{
 };
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
 use pushplan_learn::judge::lever_error;
+use pushplan_learn::lever_model::LeverModel;
 use pushplan_learn::network::{Inputs, Predictor};
 
 use crate::until::Until;

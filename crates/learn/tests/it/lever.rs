@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use candle_core::{Device, Tensor};
-use pushplan::effect::{LeverInputs, LeverModel, LeverNetwork};
+use pushplan::effect::{LeverInputs, LeverNetwork};
 use pushplan::network::{
     LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverSizes, LeverWeights, Parameters, Statistics,
     fresh_lever, lever_layout,
@@ -14,6 +14,7 @@ use pushplan::{outcome::LEVER_FRAMES, scene::LeverFeatures, task::LeverJob};
 use pushplan_bench::store::FolderLock;
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
 use pushplan_learn::judge::lever_error;
+use pushplan_learn::lever_model::LeverModel;
 use pushplan_learn::network::{LeverGraph, LeverTensors};
 use pushplan_learn::train::{LeverSettings, train_lever};
 use rand::{Rng, SeedableRng};

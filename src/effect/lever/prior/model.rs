@@ -1,14 +1,15 @@
 //! The prior as a model of lever-ups.
 
+use std::sync::LazyLock;
+
 use rayon::prelude::*;
 
-use crate::effect::{LeverModel, LeverTrust};
+use crate::effect::lever::courses;
+use crate::effect::{EffectModel, Trust};
 use crate::geometry::Pose3;
-use crate::{
-    outcome::LeverTrajectory,
-    scene::{ModelKind, ModelSpec},
-    task::LeverJob,
-};
+use crate::outcome::{LeverTrajectory, Record, Trajectory};
+use crate::scene::{ModelKind, ModelSpec, Scene};
+use crate::task::{Job, LeverJob};
 
 use super::march::Marcher;
 use super::settings::PriorSettings;
@@ -32,40 +33,38 @@ impl LeverPrior {
     fn settings_for(&self, setup: &Setup) -> PriorSettings {
         if setup.blocks.is_empty() { self.settings } else { self.settings.among_blocks() }
     }
-}
 
-impl LeverModel for LeverPrior {
-    fn name(&self) -> String {
-        let PriorSettings { step, sweeps, inertia, .. } = self.settings;
-        let usual = PriorSettings::default();
-        let mut name = if inertia { "prior" } else { "prior from rest" }.to_owned();
-        if step != usual.step {
-            name += &format!(",step=1/{:.0}", 1.0 / step);
-        }
-        if inertia && sweeps != usual.sweeps {
-            name += &format!(",sweeps={sweeps}");
-        }
-        name
-    }
-
-    fn spec(&self) -> ModelSpec {
-        ModelKind::PRIOR.into()
-    }
-
-    fn trust(&self, job: &LeverJob) -> LeverTrust {
-        let [plate] = &job.scene.plates[..] else { return LeverTrust::NotMine };
+    /// Returns `true` for the lever-ups that it computes: of one object, and among blocks only of one
+    /// whose solids are cuboids.
+    pub fn knows(&self, job: &LeverJob) -> bool {
+        let [plate] = &job.scene.plates[..] else { return false };
         // Contacts with blocks are found between cuboids.
         let cuboids = || plate.slabs.iter().all(|slab| slab.rectangle().is_some());
-        let takes = job.scene.blocks.is_empty() || cuboids();
-        if takes { LeverTrust::Mine { p95: None } } else { LeverTrust::NotMine }
+        job.scene.blocks.is_empty() || cuboids()
     }
 
-    fn rollout(&self, jobs: &[LeverJob]) -> Vec<LeverTrajectory> {
+    /// Computes lever-ups until everything rests.
+    pub fn courses(&self, jobs: &[LeverJob]) -> Vec<LeverTrajectory> {
         jobs.par_iter()
             .map_init(Marcher::default, |marcher, job| {
                 let setup = Setup::new(job);
                 marcher.march(&setup, &self.settings_for(&setup))
             })
             .collect()
+    }
+}
+
+impl EffectModel for LeverPrior {
+    fn spec(&self) -> &ModelSpec {
+        static SPEC: LazyLock<ModelSpec> = LazyLock::new(|| ModelKind::PRIOR.into());
+        &SPEC
+    }
+
+    fn trust(&self, scene: &Scene, job: &Job) -> Trust {
+        courses::trust(scene, job, |job| self.knows(job))
+    }
+
+    fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
+        courses::rollout(self.spec(), (scene, jobs), record, |jobs| self.courses(jobs))
     }
 }

@@ -1,6 +1,5 @@
 //! Errors of models of lever-ups on those that none was made from.
 
-use pushplan::internals::effect::{LeverModel, LeverTrust};
 use pushplan::internals::{
     outcome::{Ending, LeverTrajectory},
     task::LeverJob,
@@ -8,6 +7,7 @@ use pushplan::internals::{
 use pushplan_act::judge::Summary;
 use pushplan_learn::dataset::{LeverEpisode, LeverPreset};
 use pushplan_learn::judge::{LeverError, lever_error};
+use pushplan_learn::lever_model::LeverModel;
 use serde::{Deserialize, Serialize};
 
 use super::super::cpu_clock::timed;
@@ -98,7 +98,7 @@ pub fn lever_report(
 }
 
 fn row(model: &dyn LeverModel, episodes: &[LeverEpisode]) -> LeverRow {
-    let takes = |job: &LeverJob| model.trust(job) != LeverTrust::NotMine;
+    let takes = |job: &LeverJob| model.takes(job);
     let (mine, jobs): (Vec<&LeverEpisode>, Vec<LeverJob>) = episodes
         .iter()
         .map(|episode| (episode, episode.job()))

@@ -1,6 +1,6 @@
 //! Models of lever-ups without physics: what any other must beat.
 
-use pushplan::internals::effect::{LeverModel, LeverTrust, LeverView, lever_features};
+use pushplan::internals::effect::{LeverView, lever_features};
 use pushplan::internals::geometry::Pose3;
 use pushplan::internals::seeded::generator;
 use pushplan::internals::{
@@ -9,6 +9,7 @@ use pushplan::internals::{
     task::LeverJob,
 };
 use pushplan_learn::dataset::LeverEpisode;
+use pushplan_learn::lever_model::LeverModel;
 use rand::Rng;
 use rayon::prelude::*;
 
@@ -121,8 +122,8 @@ impl LeverModel for LeverBaseline {
         }
     }
 
-    fn trust(&self, _: &LeverJob) -> LeverTrust {
-        LeverTrust::Mine { p95: None }
+    fn takes(&self, _: &LeverJob) -> bool {
+        true
     }
 
     fn rollout(&self, jobs: &[LeverJob]) -> Vec<LeverTrajectory> {

@@ -1,10 +1,10 @@
 //! Errors of models of boards that are levered out of drives (Tekden 2020, section 8.5).
 
-use pushplan::internals::effect::{LeverModel, LeverTrust};
 use pushplan::internals::{outcome::LeverTrajectory, scene::LeverScene, task::LeverJob};
 use pushplan_act::judge::Summary;
 use pushplan_learn::dataset::{LEVERS_PER_SHAPE, LeverEpisode};
 use pushplan_learn::judge::{LeverError, lever_error};
+use pushplan_learn::lever_model::LeverModel;
 use serde::{Deserialize, Serialize};
 
 use super::accuracy::on_one_core;
@@ -64,7 +64,7 @@ pub fn drive_report(
 }
 
 fn row(model: &dyn LeverModel, episodes: &[&LeverEpisode]) -> DriveRow {
-    let takes = |job: &LeverJob| model.trust(job) != LeverTrust::NotMine;
+    let takes = |job: &LeverJob| model.takes(job);
     let (mine, jobs): (Vec<&LeverEpisode>, Vec<LeverJob>) = episodes
         .iter()
         .map(|episode| (*episode, episode.job()))
@@ -118,7 +118,7 @@ mod tests {
         let config = LeverConfig { seed: 3, episodes: 12, preset: LeverPreset::Drive };
         let episodes: Vec<LeverEpisode> =
             (0..12).map(|index| LeverEpisode::draw(&config, index)).collect();
-        let fine = pushplan::internals::effect::SimulatedLevers {
+        let fine = pushplan_learn::lever_model::SimulatedLevers {
             simulator: pushplan::internals::sim::LeverSimulator::FINE,
         };
         let still = super::super::LeverBaseline::still();

@@ -3,7 +3,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use pushplan::internals::effect::{LeverModel, LeverNetwork, LeverNetworkError};
+use pushplan::internals::effect::{LeverNetwork, LeverNetworkError};
+use pushplan_learn::lever_model::LeverModel;
 
 use crate::image::{ImageNetwork, ImageWeights};
 use crate::parts::{LeverParts, PartsWeights};

@@ -5,12 +5,12 @@
 
 use std::f64::consts::TAU;
 
-use pushplan::internals::effect::LeverModel;
 use pushplan::internals::geometry::{Pose3, Vector, Vector3};
 use pushplan::internals::{
     outcome::LeverTrajectory,
     task::{LeverJob, LeverUp, Place},
 };
+use pushplan_learn::lever_model::LeverModel;
 
 /// Spacing of the first places, metres.
 const SPACING: f64 = 0.01;

@@ -1,10 +1,10 @@
 //! How well the lever point is inferred from the first frames, and what it says of the rest.
 
-use pushplan::internals::effect::LeverModel;
 use pushplan::internals::geometry::Pose3;
 use pushplan::internals::outcome::LEVER_FRAMES;
 use pushplan_act::judge::Summary;
 use pushplan_learn::dataset::{LeverEpisode, LeverPreset};
+use pushplan_learn::lever_model::LeverModel;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 

@@ -1,7 +1,8 @@
 //! Lever-ups as examples, and side by side as tensors.
 
+use crate::lever_model::LeverModel;
 use candle_core::{Device, Result, Tensor};
-use pushplan::internals::effect::{LeverInputs, LeverModel, LeverNetwork, LeverView, lever_inputs};
+use pushplan::internals::effect::{LeverInputs, LeverNetwork, LeverView, lever_inputs};
 use pushplan::internals::network::{LEVER_POSE, LeverSizes, Statistics};
 use pushplan::internals::outcome::{Ending, LEVER_FRAMES};
 use rayon::prelude::*;

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use pushplan::internals::effect::{LeverModel, LeverNetwork};
+use crate::lever_model::LeverModel;
+use pushplan::internals::effect::LeverNetwork;
 use pushplan::internals::network::{LeverCard, LeverWeights, Parameters, Statistics, fresh_lever};
 use pushplan::internals::seeded::generator;
 use pushplan::internals::task::LeverJob;
