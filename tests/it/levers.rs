@@ -178,6 +178,25 @@ fn faults_of_files_say_what_and_where() {
     "#);
 }
 
+/// A rectangle that is turned over keeps its heading or is turned by half a turn, and both look the same.
+#[test]
+fn a_lever_up_can_be_asked_for_a_heading() {
+    let asked = |heading: f64| {
+        let goal = format!("flipped: true, heading_deg: {heading}, heading_tolerance_deg: 12");
+        let task = Task::parse(&PLATE.replace("flipped: true", &goal), "plate.yaml");
+        let task = task.unwrap_or_else(|faults| panic!("{faults}"));
+        let again = Task::parse(&task.to_yaml().expect("numbers"), "plate.yaml").expect("sound");
+        assert_eq!(again, task);
+        planner(Effort::Draft).solve(&task, &library()).expect("a sound task")
+    };
+    let solution = asked(180.0);
+    assert_eq!(solution.status, PlanStatus::Solved);
+    let best = solution.best().expect("a plan");
+    let verdict = best.verdict.as_ref().expect("a verdict");
+    assert!(verdict.passed && best.outcome.heading_error <= Some(12_f64.to_radians()));
+    assert_ne!(asked(45.0).status, PlanStatus::Solved);
+}
+
 #[test]
 fn what_no_robot_can_do_is_refused_in_words() {
     let mut task = Task::parse(PLATE, "plate.yaml").expect("sound");

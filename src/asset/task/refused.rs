@@ -29,7 +29,7 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
     for goal in goals {
         let places = ["region", "gap", "coverage", "off_table", "joint_deg", "joint"];
         refuse(Some(goal), &places, NOT_PLANNED, ledger);
-        refuse(Some(goal), &["heading_deg", "relative_to", "weight"], NOT_PLANNED, ledger);
+        refuse(Some(goal), &["relative_to", "weight"], NOT_PLANNED, ledger);
     }
     inner("objects").map(Node::items).unwrap_or_default().iter().for_each(|o| object(o, ledger));
     if let [_, second, ..] = goals {

@@ -50,7 +50,15 @@ impl Task {
             match lying(&plate, rest).filter(|object| self.is_clear(object)) {
                 Some(object) => {
                     if k == place.object {
-                        goal = Some(Goal::new(scene.objects.len(), position.into(), tolerance));
+                        let there = Goal::new(scene.objects.len(), position.into(), tolerance);
+                        // The outline that is pushed is unturned where it rests.
+                        let turned = rest.from_above().heading;
+                        goal = Some(match place.heading() {
+                            Some(wanted) => there
+                                .facing(wanted.heading - turned, wanted.tolerance)
+                                .alike(wanted.symmetry),
+                            None => there,
+                        });
                     }
                     scene.objects.push(object);
                 }
