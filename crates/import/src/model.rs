@@ -128,6 +128,13 @@ pub struct Material {
     pub rank: i64,
 }
 
+impl Material {
+    /// The material of a solid whose body states its mass.
+    pub fn of_body(friction: Option<f64>) -> Self {
+        Self { weight: Weight::OfBody, friction, rank: 0 }
+    }
+}
+
 /// What a solid weighs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Weight {

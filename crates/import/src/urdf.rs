@@ -12,7 +12,7 @@ use nalgebra::{Isometry3, Matrix3, Point3, Translation3, Vector3};
 use roxmltree::Node;
 
 use super::mesh::{Counted, Mesh, load};
-use super::model::{Body, Material, Model, Motion, Outline, Solid, Weight};
+use super::model::{Body, Material, Model, Motion, Outline, Solid};
 use super::rubbing::{Gazebo, drake, friction, gazebo};
 use super::turns;
 use super::xml::{Source, element, elements};
@@ -247,7 +247,7 @@ fn solids<'a>(
             place: source.place(collision),
             outline,
             pose: pose * own,
-            material: Material { weight: Weight::OfBody, friction, rank: 0 },
+            material: Material::of_body(friction),
             touches: true,
         });
     }

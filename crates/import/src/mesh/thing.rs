@@ -6,7 +6,7 @@ use std::sync::Arc;
 use nalgebra::{Isometry3, Point3};
 
 use crate::Language;
-use crate::model::{Body, Material, Model, Motion, Outline, Place, Solid, Weight};
+use crate::model::{Body, Material, Model, Motion, Outline, Place, Solid};
 use pushplan::asset::{Fault, Faults};
 use pushplan::geometry::convex_parts;
 
@@ -74,7 +74,7 @@ pub(crate) fn model(path: &Path, _: Language, unit: f64) -> Result<(Model, Vec<S
         place,
         outline: Outline::Mesh(Arc::new(mesh)),
         pose: Isometry3::identity(),
-        material: Material { weight: Weight::OfBody, friction: None, rank: 0 },
+        material: Material::of_body(None),
         touches: true,
     };
     let solids = match parts(&mesh) {
