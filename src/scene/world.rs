@@ -36,6 +36,9 @@ pub struct Object {
     /// default.
     #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
     pub max_force: Option<f64>,
+    /// Red, green and blue in pictures and other programs, each from 0 to 1; by default that of its role.
+    #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
+    pub color: Option<[f64; 3]>,
     /// Free height below its edge, metres: what a blade that goes under it has. An object whose
     /// underside is no higher above the table stands on feet of this height at its corners; a
     /// higher one lies on obstacles.
@@ -81,6 +84,7 @@ impl Object {
             keep: None,
             may_fall: false,
             max_force: None,
+            color: None,
             clearance: 0.0,
             z: 0.0,
             whole: None,

@@ -268,7 +268,12 @@ fn body(xml: &mut Xml, scene: &Scene, node: &Node<'_>) {
     if let Shape::Prism { base, height } = &shape {
         mesh::inertial(xml, base, *height, rise, object.mass);
     }
-    solid(xml, name, &shape, &Pose::default(), rise, (object.mass, object.friction));
+    let material = (object.mass, object.friction);
+    let mut geom = solid_keys(name, &shape, &Pose::default(), rise, material);
+    if let Some([red, green, blue]) = scene.objects[scene.thing(node.object)].color {
+        geom.push(("rgba", numbers(&[red, green, blue, 1.0])));
+    }
+    xml.leaf("geom", &geom);
     let feet = feet(scene, node.object);
     let stands = scene.mount(node.object).is_none();
     for (index, (at, _)) in feet.each().enumerate().filter(|_| stands) {
@@ -325,8 +330,19 @@ pub(super) fn solid(
     shape: &Shape,
     pose: &Pose,
     height: f64,
-    (mass, friction): (f64, f64),
+    material: (f64, f64),
 ) {
+    xml.leaf("geom", &solid_keys(name, shape, pose, height, material));
+}
+
+/// Attributes of a solid's geom.
+fn solid_keys(
+    name: String,
+    shape: &Shape,
+    pose: &Pose,
+    height: f64,
+    (mass, friction): (f64, f64),
+) -> Vec<(&'static str, String)> {
     let (kind, (key, value)) = match *shape {
         Shape::Cylinder { radius, height } => {
             ("cylinder", ("size", numbers(&[radius, height / 2.0])))
@@ -338,7 +354,7 @@ pub(super) fn solid(
     attributes.extend(placed(pose, height));
     attributes.push(("mass", numbers(&[mass])));
     attributes.push(("friction", numbers(&[friction])));
-    xml.leaf("geom", &attributes);
+    attributes
 }
 
 fn placed(pose: &Pose, height: f64) -> [(&'static str, String); 2] {

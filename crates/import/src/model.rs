@@ -126,12 +126,14 @@ pub struct Material {
     pub friction: Option<f64>,
     /// Of two solids the one with the higher rank says how they rub.
     pub rank: i64,
+    /// Red, green and blue from 0 to 1, if the file has them.
+    pub color: Option<[f64; 3]>,
 }
 
 impl Material {
     /// The material of a solid whose body states its mass.
     pub fn of_body(friction: Option<f64>) -> Self {
-        Self { weight: Weight::OfBody, friction, rank: 0 }
+        Self { weight: Weight::OfBody, friction, rank: 0, color: None }
     }
 }
 

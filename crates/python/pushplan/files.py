@@ -115,6 +115,7 @@ class ObjectKeys(TypedDict):
     support: NotRequired[Union[Literal["even", "corners"], SupportKeys]]
     may_fall: NotRequired[bool]
     max_force: NotRequired[float]
+    color: NotRequired[Numbers]
     parts: NotRequired[Sequence[ObjectPartKeys]]
     clearance: NotRequired[float]
     z: NotRequired[float]

@@ -7,7 +7,7 @@ use crate::asset::field::{Field, fault, keys, read, write};
 use crate::asset::node::Node;
 use crate::asset::saved::emit;
 use crate::asset::saved::things::drawn;
-use crate::asset::spec::{ANGLE, FRICTION, Key, MASS, PLACED_SHAPE, POSITION, Value};
+use crate::asset::spec::{ANGLE, FRICTION, Key, MASS, PLACED_SHAPE, POSITION, Range, Value, numbers};
 use crate::asset::take::{name_of, placed, shape};
 use crate::geometry::Shape;
 use crate::scene::{Object, Scene, Whole};
@@ -17,12 +17,19 @@ use super::parts::PARTS;
 use super::plates::{CLEARANCE, Z};
 use super::spec::{FORCE, OBJECT_NAME, OBJECT_SUPPORT};
 
+const SHARE: Value = Value::Number(Range {
+    what: "a share of a colour",
+    low: 0.0,
+    high: 1.0,
+    advice: "white is [1, 1, 1], red is [1, 0, 0]",
+});
+
 /// An object in a task file.
 pub(super) const OBJECT: Value = Value::Map(&KEYS);
 
 static KEYS: [Key; FIELDS.len()] = keys(&FIELDS);
 
-const FIELDS: [Field<Object>; 12] = [
+const FIELDS: [Field<Object>; 13] = [
     Field {
         key: OBJECT_NAME,
         read: |_, node, object| Some(object.name = node.text()?.to_owned()),
@@ -88,6 +95,22 @@ const FIELDS: [Field<Object>; 12] = [
         read: |_, node, object| Some(object.max_force = Some(node.number()?)),
         write: |object| object.max_force.map(|force| json!(force)),
         fault: |object| object.max_force.and_then(positive),
+    },
+    Field {
+        key: Key::optional(
+            "color",
+            numbers(&SHARE, 3),
+            "Red, green and blue, each from 0 to 1, for simulators and viewers; by default their own.",
+        ),
+        read: |_, node, object| {
+            let [red, green, blue] = node.items() else { return None };
+            Some(object.color = Some([red.number()?, green.number()?, blue.number()?]))
+        },
+        write: |object| object.color.map(|color| json!(color)),
+        fault: |object| {
+            let inside = |share: &f64| (0.0..=1.0).contains(share);
+            (!object.color.iter().flatten().all(inside)).then_some("must be of numbers from 0 to 1")
+        },
     },
     Field {
         key: CLEARANCE,

@@ -76,6 +76,7 @@ fn same_scene(a: &Scene, b: &Scene, what: &str) {
         same_pose(&object.pose, &other.pose, &what);
         near(object.mass, other.mass, &what);
         near(object.friction, other.friction, &what);
+        assert_eq!(object.color, other.color, "{what}");
         // A prism's corners may begin at another one.
         let feet: Vec<(Vector, f64)> = other.feet().each().collect();
         assert_eq!(object.feet().count, feet.len(), "{what}");
@@ -135,7 +136,8 @@ fn every_shipped_task_comes_back_with_its_sizes_masses_frictions_and_places() {
     };
     let tasks: Vec<Task> = tasks.into_iter().filter(simple).collect();
     assert!(tasks.len() > 10);
-    for task in tasks {
+    for mut task in tasks {
+        task.scene.objects[0].color = Some([0.2, 0.4, 0.6]);
         let text = mjcf(&plan(task.clone(), stick)).unwrap();
         let (model, _, notes) =
             parse(&text, "scene.xml").unwrap_or_else(|faults| panic!("{faults}"));

@@ -135,7 +135,8 @@ pub(super) fn draft(
             support
         }
     };
-    Some((Object { support, mass, friction, pose, ..Object::new(name, shape) }, low))
+    let color = solid.material.color;
+    Some((Object { support, mass, friction, pose, color, ..Object::new(name, shape) }, low))
 }
 
 /// The shape of a solid whose centre of mass is `at`; none, with a fault, if it has none.

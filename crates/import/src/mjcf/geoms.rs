@@ -181,7 +181,13 @@ impl<'a> Context<'a> {
             Some(rank) => source.number(rank)? as i64,
             None => 0,
         };
-        Some(Material { weight, friction: Some(friction), rank })
+        let color = match find("rgba") {
+            Some(rgba) => source.numbers(rgba).map(|[red, green, blue, _]: [f64; 4]| {
+                [red, green, blue].map(|share| share.clamp(0.0, 1.0))
+            }),
+            None => None,
+        };
+        Some(Material { weight, friction: Some(friction), rank, color })
     }
 
     fn outline(
