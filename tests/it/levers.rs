@@ -197,6 +197,30 @@ fn a_lever_up_can_be_asked_for_a_heading() {
     assert_ne!(asked(45.0).status, PlanStatus::Solved);
 }
 
+/// What only stands beside is an object as in a task of pushes.
+#[test]
+fn cans_and_mugs_may_stand_beside_what_is_levered() {
+    let objects = "    - {name: can, shape: {cylinder: {radius: 0.03, height: 0.1}}, mass: 0.3, friction: 0.4, \
+position: [0.5, 0.3]}
+    - name: mug
+      shape: {cylinder: {radius: 0.04, height: 0.09}}
+      parts: [{shape: {cuboid: {size: [0.02, 0.01, 0.05]}}, position: [0.048, 0], z: 0.02}]
+      mass: 0.3
+      friction: 0.4
+      position: [0.5, -0.3]
+";
+    let text = PLATE.replace("robot:", &format!("{objects}robot:"));
+    let task = Task::parse(&text, "plate.yaml").unwrap_or_else(|faults| panic!("{faults}"));
+    assert_eq!(task.scene.plates().count(), 3);
+    let again = Task::parse(&task.to_yaml().expect("numbers"), "plate.yaml").expect("sound");
+    assert_eq!(again, task);
+    let solution = planner(Effort::Draft).solve(&task, &library()).expect("a sound task");
+    assert_eq!(solution.status, PlanStatus::Solved);
+    let close = text.replace("[0.5, 0.3]", "[0.5, 0.06]");
+    let faults = Task::parse(&close, "plate.yaml").expect_err("no room").to_string();
+    assert!(faults.contains("`can` overlaps `plate`"), "{faults}");
+}
+
 #[test]
 fn what_no_robot_can_do_is_refused_in_words() {
     let mut task = Task::parse(PLATE, "plate.yaml").expect("sound");

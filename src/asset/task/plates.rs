@@ -7,9 +7,8 @@ use crate::asset::take::{angle, pose, position, triple, vector};
 use crate::geometry::{ConvexPolygon, Pose, Shape, Solid, Vector, centroid, common_area, cross};
 use crate::scene::{Object, Obstacle, Plate, Scene, Slab, Whole, carries};
 
-use super::object::object;
 use super::obstacles::obstacle;
-use super::parts::{part_name, parts, rise, shares};
+use super::parts::{self, part_name, rise, shares};
 
 /// A centre of mass that is nearer to the origin of its frame is there, metres: sums of corners
 /// that were written about it do not come to zero exactly.
@@ -100,7 +99,7 @@ pub(super) fn solids(node: &Node, object: Object, index: usize) -> Option<Vec<Ob
     corners.iter_mut().for_each(|corner| *corner -= named);
     let mut slabs = vec![Slab { corners, bottom: 0.0, height }];
     let mut others = Vec::new();
-    for (k, part) in parts(node).iter().enumerate() {
+    for (k, part) in parts::parts(node).iter().enumerate() {
         let drawn = Drawn::read(part.get("shape")?)?;
         let turn = Pose { position: Vector::zeros(), heading: angle(part, "yaw_deg", 0.0)? };
         let (shift, bottom) = (position(part)? - named, rise(part, height)?);
@@ -140,12 +139,6 @@ pub(super) fn solids(node: &Node, object: Object, index: usize) -> Option<Vec<Ob
     Some(solids)
 }
 
-/// The object as one body.
-fn plate(node: &Node) -> Option<Plate> {
-    let solids = solids(node, object(node)?, 0)?;
-    Some(Plate::of(&Scene::new(solids), 0))
-}
-
 /// Notes faults between the heights of an object.
 pub(super) fn heights(object: &Node, ledger: &mut Ledger) {
     if let (Some(clearance), Some(node)) = (object.get("clearance"), object.get("z"))
@@ -159,13 +152,13 @@ pub(super) fn heights(object: &Node, ledger: &mut Ledger) {
 
 /// Notes what shares space in three dimensions, and what nothing holds.
 pub(super) fn bodies(objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) {
-    let plates: Vec<Option<Plate>> = objects.iter().map(plate).collect();
+    let Some(solids) = parts::objects(objects) else { return };
+    let plates: Vec<Plate> = Scene::new(solids).plates().collect();
     let blocks: Vec<Option<Obstacle>> = obstacles.iter().map(obstacle).collect();
     for (k, (node, plate)) in objects.iter().zip(&plates).enumerate() {
-        let Some(plate) = plate else { continue };
         let place = node.get("position").unwrap_or(node);
         let own = plate.solids();
-        let earlier = plates[..k].iter().flatten().map(|other| (&other.name, other.solids()));
+        let earlier = plates[..k].iter().map(|other| (&other.name, other.solids()));
         let fixed = blocks.iter().flatten().map(|block| (&block.name, vec![block.solid()]));
         for (name, others) in earlier.chain(fixed) {
             let deep = |a: &Solid| others.iter().any(|b| a.depth(b) > SLACK);

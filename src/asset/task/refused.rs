@@ -2,6 +2,7 @@
 
 use crate::asset::node::{Content, Node};
 use crate::asset::strict::Ledger;
+use crate::asset::take::name_of;
 
 use super::{goals, parts, plates};
 
@@ -31,22 +32,44 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
         refuse(Some(goal), &places, NOT_PLANNED, ledger);
         refuse(Some(goal), &["relative_to", "weight"], NOT_PLANNED, ledger);
     }
-    inner("objects").map(Node::items).unwrap_or_default().iter().for_each(|o| object(o, ledger));
+    let objects = inner("objects").map(Node::items).unwrap_or_default();
+    objects.iter().for_each(|one| object(one, ledger));
+    for wanted in goals.iter().filter_map(|goal| goal.get("object")?.text()) {
+        let levered = objects.iter().find(|object| name_of(object) == Some(wanted));
+        if let Some(object) = levered.filter(|object| !plates::is_plate(object)) {
+            let advice = "6 mm of feet are `clearance: 0.006`; `z` alone is a plate on obstacles";
+            ledger.fault(object, "this object has neither `clearance` nor `z`", advice);
+        }
+    }
     if let [_, second, ..] = goals {
         ledger.fault(second, "lever-ups have one goal", "keep one of them");
     }
 }
 
 fn object(object: &Node, ledger: &mut Ledger) {
-    if !plates::is_plate(object) {
-        let advice = "6 mm of feet are `clearance: 0.006`; `z` alone is a plate on obstacles";
-        ledger.fault(object, "this object has neither `clearance` nor `z`", advice);
+    refuse(Some(object), &["may_fall", "max_force"], STANDS, ledger);
+    let is_plate = plates::is_plate(object);
+    let friction = object.get("friction").and_then(Node::number);
+    support(object, ledger);
+    if is_plate {
+        solid(object, ledger);
     }
-    refuse(Some(object), &["support", "may_fall", "max_force"], STANDS, ledger);
-    solid(object, ledger);
     for part in parts::parts(object) {
-        refuse(Some(part), &["mass", "friction", "support"], ALIKE, ledger);
-        solid(part, ledger);
+        refuse(Some(part), &["mass"], ALIKE, ledger);
+        if part.get("friction").is_some_and(|own| own.number() != friction) {
+            refuse(Some(part), &["friction"], ALIKE, ledger);
+        }
+        support(part, ledger);
+        if is_plate {
+            solid(part, ledger);
+        }
+    }
+}
+
+/// In three dimensions an object stands on its corners, or on its underside.
+fn support(body: &Node, ledger: &mut Ledger) {
+    if body.get("support").is_some_and(|support| support.text() != Some("even")) {
+        refuse(Some(body), &["support"], STANDS, ledger);
     }
 }
 
