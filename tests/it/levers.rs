@@ -210,6 +210,7 @@ position: [0.5, 0.3]}
       position: [0.5, -0.3]
 ";
     let text = PLATE.replace("robot:", &format!("{objects}robot:"));
+    let text = format!("{text}keep: {{objects: [can, mug]}}\n");
     let task = Task::parse(&text, "plate.yaml").unwrap_or_else(|faults| panic!("{faults}"));
     assert_eq!(task.scene.plates().count(), 3);
     let again = Task::parse(&task.to_yaml().expect("numbers"), "plate.yaml").expect("sound");

@@ -22,7 +22,6 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
     let inner = |key| root.get("scene").and_then(|scene| scene.get(key));
     let arm = "lever-ups are planned for a hand, not for the joints of an arm";
     refuse(root.get("robot"), &["urdf"], arm, ledger);
-    refuse(Some(root), &["keep"], "nothing watches other objects while one is levered", ledger);
     refuse(Some(root), &["keep_out"], "nothing watches regions while an object is levered", ledger);
     refuse(root.get("scene"), &["joints", "frictions", "push_height"], FREE, ledger);
     refuse(inner("table"), &["size"], "nothing watches the table's end here", ledger);
