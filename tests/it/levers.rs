@@ -193,7 +193,7 @@ fn a_lever_up_can_be_asked_for_a_heading() {
     assert_eq!(solution.status, PlanStatus::Solved);
     let best = solution.best().expect("a plan");
     let verdict = best.verdict.as_ref().expect("a verdict");
-    assert!(verdict.passed && best.outcome.heading_error <= Some(12_f64.to_radians()));
+    assert!(verdict.passed && best.outcome.heading_error() <= Some(12_f64.to_radians()));
     assert_ne!(asked(45.0).status, PlanStatus::Solved);
 }
 
