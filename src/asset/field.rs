@@ -41,6 +41,12 @@ pub(super) fn read<T>(fields: &[Field<T>], map: &Node, mut value: T) -> Option<T
     Some(value)
 }
 
+/// Puts a value, unless it is faulty, into its place.
+pub(super) fn set<V>(place: &mut V, value: Option<V>) -> Option<()> {
+    *place = value?;
+    Some(())
+}
+
 /// Writes a value as the map that [`read`] takes.
 pub(super) fn write<T>(fields: &[Field<T>], value: &T) -> Json {
     let name = |field: &Field<T>| field.key.name.to_owned();

@@ -32,7 +32,7 @@ fn turn_tolerance(demand: &Demand) -> Option<f64> {
 
 /// From the misses `from` to `to`, the shorter way round unless a joint with limits leaves one only.
 pub(super) fn apart(task: &Task, to: &[Vector3<f64>], from: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
-    let of = |(((_, aspect), to), from): (((usize, Aspect), &Vector3<f64>), &Vector3<f64>)| {
+    let of = |aspect: Aspect, to: &Vector3<f64>, from: &Vector3<f64>| {
         let mut apart = to - from;
         if let Some(facing) = aspect.turn.and_then(|demand| demand.kind().facing()) {
             let turn = apart.z * facing.tolerance;
@@ -42,7 +42,8 @@ pub(super) fn apart(task: &Task, to: &[Vector3<f64>], from: &[Vector3<f64>]) -> 
         }
         apart
     };
-    aspects(task).zip(to).zip(from).map(of).collect()
+    let all = aspects(task).zip(to).zip(from);
+    all.map(|(((_, aspect), to), from)| of(aspect, to, from)).collect()
 }
 
 /// Returns errors relative to `middles`, one for every goal.

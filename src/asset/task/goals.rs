@@ -6,23 +6,18 @@ use serde_json::{Map, Value as Json, json};
 use crate::asset::node::{Content, Node};
 use crate::asset::saved::emit::{degrees, posed};
 use crate::asset::spec::{ANGLE, Key, POSITION, Range, SHIFT_LIMIT, Value};
-use crate::asset::strict::Ledger;
-use crate::asset::take::{angle, angle_of, name_of, number_or, position, shape, vector};
-use crate::geometry::{Footprint, Pose, clearance};
+use crate::asset::take::{angle, angle_of, number_or, position};
+use crate::geometry::Pose;
 use crate::{
     scene::{JointKind, Scene},
     task::{Area, AtPlace, Demand, Facing, Goal, InArea, Kind},
 };
 
 use super::coverage::{COVERAGE, covering, emitted_coverage};
-use super::falls::{OFF_TABLE, check_fall, emitted_fall, fall};
-use super::gap::{GAP, check_gap, emitted_gap, gap};
-use super::keep::{AREA, AREA_POSITION, AREA_YAW, area, check_area, emitted_area as area_of};
-use super::lifting::{self, FLIPPED, OUTSIDE, RAISED, check_lifting, lifted};
-use super::mounts::moving;
-use super::parts::parts;
-use super::plates::is_plate;
-use super::rules::{SLACK, body, known_object, passes};
+use super::falls::{OFF_TABLE, emitted_fall, fall};
+use super::gap::{GAP, emitted_gap, gap};
+use super::keep::{AREA, AREA_POSITION, AREA_YAW, area, emitted_area as area_of};
+use super::lifting::{FLIPPED, OUTSIDE, RAISED, lifted};
 use super::spec::default;
 
 /// One goal.
@@ -256,196 +251,4 @@ fn come(scene: &Scene, object: usize, by: f64) -> Option<(Pose, Option<usize>)> 
         _ => Pose { heading: frame.heading + by, ..frame },
     };
     Some((there, Some(other)))
-}
-
-/// Notes what is wrong with a goal.
-pub(super) fn check(goal: &Node, scene: &Node, ledger: &mut Ledger) {
-    let section = |key| scene.get(key).map(Node::items).unwrap_or_default();
-    let (objects, obstacles) = (section("objects"), section("obstacles"));
-    demands(goal, ledger);
-    if let Some(region) = goal.get("region") {
-        check_area(region, ledger);
-    }
-    let Some(name) = goal.get("object") else { return };
-    if let Some(gap) = goal.get("gap") {
-        check_gap(gap, name, [objects, obstacles], ledger);
-    }
-    check_fall(goal, name, scene, ledger);
-    check_lifting(goal, [objects, obstacles], ledger);
-    let Some(object) = known_object(name, objects, obstacles, ledger) else { return };
-    let relative = goal.get("relative_to");
-    let other = relative.and_then(|other| known_object(other, objects, obstacles, ledger));
-    if let Some(node) = relative.filter(|_| other.is_some_and(|other| other.id == object.id)) {
-        let advice = "name another object, or leave it out for the world";
-        ledger.fault(node, "an object is always where it is to itself", advice);
-    }
-    by_joint(goal, name, scene, ledger);
-    let solid = object.get("shape").and_then(shape);
-    // A levered object may come to lie on top of something.
-    if let Some(solid) = solid.as_ref().filter(|_| !is_plate(object)) {
-        // In the frame of the goal: what does not move, or what it is relative to.
-        let fixed = obstacles.iter().filter(|fixed| !passes(object, fixed, SLACK));
-        let there: Vec<(&Node, Footprint, Pose)> = match (relative, other) {
-            (None, _) => fixed
-                .filter_map(|fixed| body(fixed).map(|(solid, pose)| (fixed, solid, pose)))
-                .collect(),
-            (Some(_), Some(other)) if other.id != object.id => {
-                let solid = other.get("shape").and_then(shape);
-                solid.map(|solid| (other, solid.footprint(), Pose::default())).into_iter().collect()
-            }
-            _ => Vec::new(),
-        };
-        room_at_the_goal(goal, (name, &solid.footprint()), &there, ledger);
-    }
-    let round = solid.is_some_and(|solid| solid.is_cylinder()) && parts(object).is_empty();
-    if let (Some(heading), true) = (goal.get("heading_deg"), round) {
-        ledger.fault(
-            heading,
-            "a cylinder looks the same at every heading, so it cannot have a heading goal",
-            "remove `heading_deg`, or make the object a cuboid",
-        );
-    }
-}
-
-/// A goal asks for something, and for nothing twice.
-fn demands(goal: &Node, ledger: &mut Ledger) {
-    let has = |key: &str| goal.get(key).is_some();
-    for (key, of, what) in [
-        ("heading_tolerance_deg", ["heading_deg", "joint_deg"], "a heading tolerance"),
-        ("symmetric", ["heading_deg", "heading_deg"], "`symmetric`"),
-        ("tolerance", ["position", "joint"], "a tolerance"),
-    ] {
-        if let Some(node) = goal.get(key).filter(|_| !of.iter().any(|of| has(of))) {
-            let needed = if key == "tolerance" { "position" } else { "heading" };
-            let message = format!("{what} without a {needed}");
-            ledger.fault(node, message, format!("add `{}`, or remove it", of[0]));
-        }
-    }
-    for key in ["position", "joint"] {
-        if let (Some(node), false) = (goal.get(key), has("tolerance")) {
-            let message = format!("`{key}` needs a `tolerance`");
-            ledger.fault(node, message, "add `tolerance: 0.02`, in metres");
-        }
-    }
-    let places = ["position", "region", "gap", "coverage", "joint", "off_table"]
-        .into_iter()
-        .filter(|key| has(key));
-    let turns = ["heading_deg", "joint_deg"].into_iter().filter(|key| has(key));
-    let (places, turns): (Vec<_>, Vec<_>) = (places.collect(), turns.collect());
-    for twice in [&places, &turns].into_iter().filter(|keys| keys.len() > 1) {
-        let message = format!("`{}` and `{}` ask for the same", twice[0], twice[1]);
-        ledger.fault(goal.get(twice[1]).unwrap_or(goal), message, "keep one of them");
-    }
-    for key in ["off_table", "coverage"] {
-        if let (Some(node), Some(turn)) = (goal.get(key), turns.first()) {
-            let message = format!("`{key}` does not go together with `{turn}`");
-            let advice = "keep one of them; a coverage has a heading of its own";
-            ledger.fault(node, message, advice);
-        }
-    }
-    if places.is_empty() && turns.is_empty() && !lifting::lifts(goal) {
-        // A misspelt key is one fault, not two.
-        let strange = goal.pairs().iter().any(|(key, _)| {
-            !matches!(&GOAL, Value::Map(keys) if keys.iter().any(|known| key.text() == Some(known.name)))
-        });
-        if !strange {
-            let advice = "add `position: [x, y]` and `tolerance`, `region`, `gap`, `coverage`, `off_table`, \
-                          `heading_deg`, `joint_deg`, `joint`, `outside`, `raised` or `flipped`";
-            ledger.fault(goal, "this goal asks for nothing", advice);
-        }
-    }
-}
-
-/// An object whose joint is to come somewhere has one of the right kind.
-fn by_joint(goal: &Node, object: &Node, scene: &Node, ledger: &mut Ledger) {
-    let joints = scene.get("joints").map(Node::items).unwrap_or_default();
-    for (key, kind) in [("joint_deg", "revolute"), ("joint", "prismatic")] {
-        let Some(node) = goal.get(key) else { continue };
-        let own = joints.iter().filter(|joint| {
-            let between = joint.get("between").map(Node::items).unwrap_or_default();
-            between.iter().any(|name| name.text() == object.text())
-                && joint.get("kind").and_then(Node::text) != Some("fixed")
-        });
-        let own: Vec<&Node> = own.collect();
-        let name = object.text().unwrap_or("?");
-        match own[..] {
-            [joint] if joint.get("kind").and_then(Node::text) == Some(kind) => {
-                within_limits(node, (object, joint), scene, ledger);
-            }
-            [_] => {
-                let message = format!("the joint of `{name}` is not {kind}");
-                let advice = "turns are asked for by `joint_deg`, shifts by `joint`";
-                ledger.fault(node, message, advice);
-            }
-            [] => {
-                let message = format!("`{name}` has no joint that moves");
-                ledger.fault(node, message, "name an object that a joint of the scene lets move");
-            }
-            _ => {
-                let message =
-                    format!("`{name}` has several joints, so it is not clear which is meant");
-                ledger.fault(node, message, "ask for a position or a heading instead");
-            }
-        }
-        if let Some(other) = goal.get("relative_to") {
-            let advice = "leave it out: a joint counts against what it joins";
-            ledger.fault(other, format!("`{key}` is relative to something already"), advice);
-        }
-    }
-}
-
-/// A joint does not come farther than its limits.
-fn within_limits(
-    wanted: &Node,
-    (object, joint): (&Node, &Node),
-    scene: &Node,
-    ledger: &mut Ledger,
-) {
-    let section = |key| scene.get(key).map(Node::items).unwrap_or_default();
-    let limits = joint.get("limits").or_else(|| joint.get("limits_deg"));
-    let [Some(low), Some(high)] =
-        [0, 1].map(|k| limits.and_then(|limits| limits.items().get(k)).and_then(Node::number))
-    else {
-        return;
-    };
-    let to_world = moving(joint, section("objects"), section("obstacles")).is_some();
-    let between = joint.get("between").map(Node::items).unwrap_or_default();
-    let first = between.first().and_then(Node::text) == object.text();
-    // Limits are those of the second object against the first.
-    let (low, high) = if first && !to_world { (-high, -low) } else { (low, high) };
-    if wanted.number().is_some_and(|wanted| wanted < low || wanted > high) {
-        let name = object.text().unwrap_or("?");
-        let message = format!("the joint of `{name}` only comes from {low} to {high}");
-        ledger.fault(wanted, message, "ask for less, or widen the joint's limits");
-    }
-}
-
-/// A goal at which the object would be inside something that is there, however it is turned and wherever
-/// within the tolerance it lies.
-fn room_at_the_goal(
-    goal: &Node,
-    (name, object): (&Node, &Footprint),
-    there: &[(&Node, Footprint, Pose)],
-    ledger: &mut Ledger,
-) {
-    let place = match goal.get("coverage").and_then(|coverage| coverage.get("position")) {
-        Some(node) => Some((node, 0.0)),
-        None => goal.get("position").zip(goal.get("tolerance").and_then(Node::number)),
-    };
-    let Some((node, tolerance)) = place else { return };
-    let Some(at) = vector(node).map(|position| Pose { position, heading: 0.0 }) else { return };
-    let core = Footprint::Disc { radius: object.inner_radius() - tolerance - SLACK };
-    if core.inner_radius() <= 0.0 {
-        return;
-    }
-    for (other, solid, pose) in there {
-        if clearance((&core, &at), (solid, pose), SLACK) <= 0.0 {
-            let [object, other] = [name.text(), name_of(other)].map(|n| n.unwrap_or("?"));
-            ledger.fault(
-                node,
-                format!("at the goal `{object}` would be inside `{other}`"),
-                "move the goal or the obstacle, or allow a larger tolerance",
-            );
-        }
-    }
 }

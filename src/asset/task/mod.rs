@@ -7,6 +7,7 @@ mod emit;
 mod falls;
 mod frictions;
 mod gap;
+mod goal_rules;
 mod goals;
 mod joints;
 mod keep;

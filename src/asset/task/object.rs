@@ -1,13 +1,15 @@
 //! The keys of an object, one entry each. A new property of objects is an entry here, a field of
 //! [`Object`], and whatever uses it.
 
-use serde_json::json;
+use serde_json::{Value as Json, json};
 
-use crate::asset::field::{Field, fault, keys, read, write};
+use crate::asset::field::{Field, fault, keys, read, set, write};
 use crate::asset::node::Node;
 use crate::asset::saved::emit;
 use crate::asset::saved::things::drawn;
-use crate::asset::spec::{ANGLE, FRICTION, Key, MASS, PLACED_SHAPE, POSITION, Range, Value, numbers};
+use crate::asset::spec::{
+    ANGLE, FRICTION, Key, MASS, PLACED_SHAPE, POSITION, Range, Value, numbers,
+};
 use crate::asset::take::{name_of, placed, shape};
 use crate::geometry::Shape;
 use crate::scene::{Object, Scene, Whole};
@@ -32,13 +34,13 @@ static KEYS: [Key; FIELDS.len()] = keys(&FIELDS);
 const FIELDS: [Field<Object>; 13] = [
     Field {
         key: OBJECT_NAME,
-        read: |_, node, object| Some(object.name = node.text()?.to_owned()),
+        read: |_, node, object| set(&mut object.name, node.text().map(str::to_owned)),
         write: |object| Some(json!(object.name)),
         fault: |_| None,
     },
     Field {
         key: Key::required("shape", PLACED_SHAPE, "The object's solid, standing upright."),
-        read: |_, node, object| Some(object.shape = shape(node)?),
+        read: |_, node, object| set(&mut object.shape, shape(node)),
         write: |object| {
             Some(if object.in_space() { drawn(&object.shape) } else { emit::shape(&object.shape) })
         },
@@ -54,7 +56,7 @@ const FIELDS: [Field<Object>; 13] = [
     Field { key: PARTS, read: |_, _, _| Some(()), write: |_| None, fault: |_| None },
     Field {
         key: Key::required("mass", MASS, "Mass in kg, parts included."),
-        read: |_, node, object| Some(object.mass = node.number()?),
+        read: |_, node, object| set(&mut object.mass, node.number()),
         write: |object| Some(json!(object.mass)),
         fault: |object| positive(object.mass),
     },
@@ -64,14 +66,14 @@ const FIELDS: [Field<Object>; 13] = [
             FRICTION,
             "Friction value; the coefficient of a pair is the mean of the two values.",
         ),
-        read: |_, node, object| Some(object.friction = node.number()?),
+        read: |_, node, object| set(&mut object.friction, node.number()),
         write: |object| Some(json!(object.friction)),
         fault: |object| from_zero(object.friction),
     },
     Field {
         key: OBJECT_SUPPORT,
         // Points are written in the frame of the solid's corners.
-        read: |map, _, object| Some(object.support = support(map)?),
+        read: |map, _, object| set(&mut object.support, support(map)),
         write: |object| (!object.in_space()).then(|| emit::support(&object.support)),
         fault: |_| None,
     },
@@ -81,8 +83,8 @@ const FIELDS: [Field<Object>; 13] = [
             Value::Switch,
             "Whether it may topple or be pushed off the table; default false.",
         ),
-        read: |_, node, object| Some(object.may_fall = node.switch()?),
-        write: |object| object.may_fall.then(|| json!(true)),
+        read: |_, node, object| set(&mut object.may_fall, node.switch()),
+        write: |object| object.may_fall.then_some(Json::Bool(true)),
         fault: |_| None,
     },
     Field {
@@ -92,7 +94,7 @@ const FIELDS: [Field<Object>; 13] = [
             "Largest force in newtons with which a tool may press on it, parts included, for longer than an \
              impact; by default any.",
         ),
-        read: |_, node, object| Some(object.max_force = Some(node.number()?)),
+        read: |_, node, object| set(&mut object.max_force, node.number().map(Some)),
         write: |object| object.max_force.map(|force| json!(force)),
         fault: |object| object.max_force.and_then(positive),
     },
@@ -104,7 +106,8 @@ const FIELDS: [Field<Object>; 13] = [
         ),
         read: |_, node, object| {
             let [red, green, blue] = node.items() else { return None };
-            Some(object.color = Some([red.number()?, green.number()?, blue.number()?]))
+            object.color = Some([red.number()?, green.number()?, blue.number()?]);
+            Some(())
         },
         write: |object| object.color.map(|color| json!(color)),
         fault: |object| {
@@ -114,19 +117,19 @@ const FIELDS: [Field<Object>; 13] = [
     },
     Field {
         key: CLEARANCE,
-        read: |_, node, object| Some(object.clearance = node.number()?),
+        read: |_, node, object| set(&mut object.clearance, node.number()),
         write: |object| object.in_space().then(|| json!(object.clearance)),
         fault: |object| from_zero(object.clearance),
     },
     Field {
         key: Z,
-        read: |_, node, object| Some(object.z = node.number()?),
+        read: |_, node, object| set(&mut object.z, node.number()),
         write: |object| object.in_space().then(|| json!(object.z)),
         fault: |object| from_zero(object.z),
     },
     Field {
         key: Key::required("position", POSITION, "Centre at the start, [x, y] in metres."),
-        read: |map, _, object| Some(object.pose = placed(map)?),
+        read: |map, _, object| set(&mut object.pose, placed(map)),
         write: |object| Some(json!([object.pose.position.x, object.pose.position.y])),
         fault: |object| (!object.pose.is_finite()).then_some("must be finite"),
     },

@@ -15,8 +15,8 @@ use crate::{
 use super::spec::REACH_KEY;
 use super::tools::{check_free, check_tools};
 use super::{
-    build, frictions, goals, joints, keep as regions, levers, obstacles as fixed, parts, plates,
-    refused,
+    build, frictions, goal_rules, goals, joints, keep as regions, levers, obstacles as fixed,
+    parts, plates, refused,
 };
 
 /// Bodies may sink into each other by this much before it is a fault, metres: the rounding of
@@ -61,7 +61,7 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
         levers::check_follow_up(pushes, section("goal"), ledger);
     }
     let goals = goals::each(section("goal"));
-    goals.iter().for_each(|one| goals::check(one, scene, ledger));
+    goals.iter().for_each(|one| goal_rules::check(one, scene, ledger));
     one_each(goals, ledger);
     keep(section("keep"), goals, objects, ledger);
     on_table(scene, goals, ledger);
