@@ -13,10 +13,8 @@ use rapier3d_f64::prelude::{
 };
 
 use crate::geometry::{Pose, Vector, wrap_angle};
-use crate::{
-    scene::{Body, Feet, GRAVITY, Physics, Scene, State, Velocity},
-    task::{FrameStep, ToolMotion},
-};
+use crate::scene::{Body, Feet, GRAVITY, Physics, Scene, State, Velocity};
+use crate::task::{FrameStep, ToolMotion};
 
 use super::asleep::Asleep;
 use super::drive::World;

@@ -6,6 +6,7 @@ use crate::asset::strict::Ledger;
 use crate::asset::take::{name_of, shape, vector};
 use crate::geometry::{Footprint, Pose, clearance};
 
+use super::bodies::{SLACK, body, known_object, passes};
 use super::falls::check_fall;
 use super::gap::check_gap;
 use super::goals::GOAL;
@@ -14,7 +15,6 @@ use super::lifting::{self, check_lifting};
 use super::mounts::moving;
 use super::parts::parts;
 use super::plates::is_plate;
-use super::rules::{SLACK, body, known_object, passes};
 
 /// Notes what is wrong with a goal.
 pub(super) fn check(goal: &Node, scene: &Node, ledger: &mut Ledger) {

@@ -11,8 +11,8 @@ use crate::asset::take::{angle_of, name_of, vector};
 use crate::geometry::{Footprint, Pose, Vector, clearance};
 use crate::scene::{DisjointSets, Joint, JointKind, Object, Span};
 
+use super::bodies::{body, known_object};
 use super::mounts;
-use super::rules::{body, known_object};
 
 /// The most objects that one group of joints may hold.
 const GROUP: usize = 12;

@@ -10,7 +10,7 @@ use crate::asset::take::{name_of, pose, vector};
 use crate::geometry::{ConvexPolygon, MAX_CORNERS, Pose, Shape};
 use crate::scene::Region;
 
-use super::rules::body;
+use super::bodies::body;
 
 /// Height of a region as a solid, metres: no height matters.
 const HEIGHT: f64 = 1.0;

@@ -1,6 +1,7 @@
 //! Task files, of pushes and lever-ups: their keys, their reading, and the rules that span several keys.
 
 mod blades;
+mod bodies;
 mod build;
 mod coverage;
 mod emit;

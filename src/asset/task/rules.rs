@@ -5,23 +5,20 @@ use crate::asset::fault::did_you_mean;
 use crate::asset::node::Node;
 use crate::asset::prism;
 use crate::asset::strict::Ledger;
-use crate::asset::take::{name_of, number_or, placed, shape, triple, unique_names, vector};
-use crate::geometry::{Footprint, Pose, Shape, clearance};
+use crate::asset::take::{name_of, number_or, shape, unique_names, vector};
+use crate::geometry::clearance;
 use crate::{
     scene::{Support, carries},
     task::{PushForm, PushRules},
 };
 
+use super::bodies::{SLACK, body, passes};
 use super::spec::REACH_KEY;
 use super::tools::{check_free, check_tools};
 use super::{
     build, frictions, goal_rules, goals, joints, keep as regions, levers, obstacles as fixed,
     parts, plates, refused,
 };
-
-/// Bodies may sink into each other by this much before it is a fault, metres: the rounding of
-/// sizes written in whole millimetres and turned by degrees.
-pub(super) const SLACK: f64 = 1e-4;
 
 /// The largest ratio of two objects' masses. At 1000 a simulated body sinks 41 mm into its
 /// neighbour unless contacts are stiffened, which beyond that no longer helps.
@@ -220,32 +217,6 @@ fn overlaps(objects: &[(Node, usize)], obstacles: &[Node], slack: f64, ledger: &
     }
 }
 
-/// Whether one of two bodies ends below the other.
-pub(super) fn passes(one: &Node, other: &Node, slack: f64) -> bool {
-    let heights = heights(one).zip(heights(other));
-    let ends_below = |one: [f64; 2], other: [f64; 2]| other[0] > 0.0 && one[1] - slack <= other[0];
-    heights.is_some_and(|(one, other)| ends_below(one, other) || ends_below(other, one))
-}
-
-/// The heights above the table between which a body is, metres.
-fn heights(node: &Node) -> Option<[f64; 2]> {
-    let height = match node.get("shape") {
-        Some(solid) => shape(solid)?.height(),
-        None => triple(node, "size")?[2],
-    };
-    let low = fixed::height(node.get("position")?, 0.0)?;
-    Some([low, low + height])
-}
-
-/// What a body covers, and where.
-pub(super) fn body(node: &Node) -> Option<(Footprint, Pose)> {
-    let shape = match node.get("shape") {
-        Some(node) => shape(node)?,
-        None => Shape::Cuboid { size: triple(node, "size")? },
-    };
-    Some((shape.footprint(), placed(node)?))
-}
-
 /// The points under an object must carry it.
 fn stands(object: &Node, ledger: &mut Ledger) {
     if let (Some(node), Some(Support::Points(points))) =
@@ -381,25 +352,4 @@ fn push_rules(pushes: &Node, objects: &[Node], ledger: &mut Ledger) {
             "lower `lift` below the objects' height",
         );
     }
-}
-
-/// The object that `name` names; notes a fault if there is none.
-pub(super) fn known_object<'a>(
-    name: &Node,
-    objects: &'a [Node],
-    obstacles: &[Node],
-    ledger: &mut Ledger,
-) -> Option<&'a Node> {
-    let wanted = name.text()?;
-    let found = objects.iter().find(|object| name_of(object) == Some(wanted));
-    if found.is_none() {
-        if obstacles.iter().any(|obstacle| name_of(obstacle) == Some(wanted)) {
-            let message = format!("`{wanted}` is an obstacle, fixed to the table");
-            ledger.fault(name, message, "name an object; objects can be pushed");
-        } else {
-            let advice = did_you_mean(wanted, objects.iter().filter_map(name_of));
-            ledger.fault(name, format!("no object is called `{wanted}`"), advice);
-        }
-    }
-    found
 }
