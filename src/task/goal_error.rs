@@ -78,6 +78,7 @@ impl Goal {
     pub fn score_after(&self, state: &State, lift: Option<Lift>) -> f64 {
         let end = End { object: self.object, state, lift };
         let scores = self.demands.iter().map(|demand| demand.kind().score(&end));
-        scores.reduce(f64::max).unwrap_or(0.0)
+        // A score that is no number is never hidden by another.
+        scores.fold(0.0, |a: f64, b: f64| if a.is_nan() || a >= b { a } else { b })
     }
 }
