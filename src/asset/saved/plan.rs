@@ -1,5 +1,6 @@
 //! Plan files.
 
+use std::borrow::Cow;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -67,6 +68,7 @@ impl PlanFile {
     /// # Errors
     /// All faults of the text, each with its place.
     pub fn parse(text: &str, file: &str) -> Result<Self, Faults> {
+        let text = &without_earlier_ends(text);
         let mut opened = Opened::new(file, text, &PLAN_FILE)?;
         opened.ledger.sound()?;
         let own: Own = opened.typed()?;
@@ -150,5 +152,21 @@ impl Serialize for PlanFile {
             task: emit::task(&self.task),
         }
         .serialize(serializer)
+    }
+}
+
+/// Returns a plan without ends that state the error of one first goal, the form before goals were a list:
+/// `verify` finds them again.
+fn without_earlier_ends(text: &str) -> Cow<'_, str> {
+    let ends = ["predicted", "verdict"];
+    if text.contains("\"goals\"") || !ends.iter().any(|key| text.contains(key)) {
+        return text.into();
+    }
+    match serde_json::from_str::<serde_json::Map<String, serde_json::Value>>(text) {
+        Ok(mut map) => {
+            ends.iter().for_each(|key| drop(map.remove(*key)));
+            serde_json::Value::Object(map).to_string().into()
+        }
+        Err(_) => text.into(),
     }
 }
