@@ -346,7 +346,7 @@ fn control_characters_are_shown_and_not_sent_to_the_terminal() {
     t.yaml:4:7: error: missing key `mass`
       help: Mass in kg, parts included.
     t.yaml:4:68: error: unknown key `ma\u001b[31mss`
-      help: use `name`, `shape`, `parts`, `mass`, `friction`, `support`, `may_fall`, `max_force`, `clearance`, `z`, `position` or `yaw_deg`
+      help: use `name`, `shape`, `parts`, `mass`, `friction`, `support`, `may_fall`, `max_force`, `color`, `clearance`, `z`, `position` or `yaw_deg`
     t.yaml:15:16: error: expected a name, found the text "can\u202e\u000at.yaml:1:1: error: forged"
       help: use letters, digits, `-` and `_`, at most 64
     "#);
