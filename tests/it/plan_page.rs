@@ -273,8 +273,8 @@ fn an_action_and_a_task_of_a_benchmark_have_pages() {
     // Another task was not measured, and one that was changed since not as it is now.
     let other = ["bench", "report", &run, "--page", "tasks/pull-back-twice.yaml", "--out", &out];
     assert_eq!(exit_code(&other), 2);
-    let text =
-        std::fs::read_to_string(task).expect("a task").replace("friction: 0.4", "friction: 0.1");
+    let text = std::fs::read_to_string(Path::new(crate::ROOT).join(task)).expect("a task");
+    let text = text.replace("friction: 0.4", "friction: 0.1");
     let changed = within("pull-back.yaml");
     std::fs::write(&changed, text).expect("a file");
     assert_eq!(exit_code(&["bench", "report", &run, "--page", &changed, "--out", &out]), 2);
