@@ -13,7 +13,7 @@ use super::Parameters;
 pub struct ParameterError {
     /// Which.
     pub name: String,
-    /// What is wrong.
+    /// Description of the fault.
     pub fault: &'static str,
 }
 

@@ -1,5 +1,4 @@
-//! Acting on what is not known: the closed loop over a [`World`], what it believes of objects, and how well
-//! models predict what was seen.
+//! Closed loop over a [`World`], beliefs about objects, and errors of models against observations.
 //!
 //! - [`judge`]: errors of predictions against recorded and simulated motion,
 //! - [`fit`]: frictions, supports and an adapted network from recordings of a table,

@@ -15,7 +15,7 @@ pub enum CliError {
     /// Arguments that only make sense together, or not at all, for this task.
     #[error("{message}\n  help: {advice}")]
     Usage {
-        /// What is wrong.
+        /// Description of the fault.
         message: String,
         /// What to try.
         advice: String,

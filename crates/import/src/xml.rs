@@ -66,7 +66,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// What was read; `None`, with its fault, if that failed.
+    /// Content of the file; `None`, with its fault, if it could not be read.
     pub fn sound<T>(&mut self, read: Result<T, Flaw>) -> Option<T> {
         let note = |Flaw { at, message, advice }: Flaw| {
             let place = self.text.place(at);

@@ -16,9 +16,9 @@ const DEEPEST: usize = 16;
 /// What keeps a file from being read, and what to do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refused {
-    /// What is wrong.
+    /// Description of the fault.
     pub message: String,
-    /// What to do.
+    /// Remedy.
     pub advice: String,
 }
 

@@ -7,9 +7,9 @@ use roxmltree::{Attribute, Node};
 pub struct Flaw {
     /// Byte of the text at which it begins.
     pub at: usize,
-    /// What is wrong.
+    /// Description of the fault.
     pub message: String,
-    /// What to do.
+    /// Remedy.
     pub advice: String,
 }
 
@@ -66,7 +66,7 @@ pub fn numbers<const N: usize>(attribute: Attribute) -> Result<[f64; N], Flaw> {
 /// Reads one number of an attribute.
 ///
 /// # Errors
-/// Those of [`numbers`].
+/// Numbers as read by [`numbers`].
 pub fn number(attribute: Attribute) -> Result<f64, Flaw> {
     numbers::<1>(attribute).map(|[number]| number)
 }

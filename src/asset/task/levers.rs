@@ -90,7 +90,7 @@ const PIVOT_NUMBER: Value = Value::Number(Range {
     advice: "16 cm in front of the edge is 0.16, 12 mm behind it -0.012",
 });
 
-/// How far a blade goes under an edge.
+/// Range of depths of a blade under an edge.
 const DEPTH: Value = Value::Number(Range {
     what: "a depth in metres",
     low: 0.002,
