@@ -2,11 +2,11 @@
 //!
 //! Each imports only from rooms before it, in this order:
 //!
-//! geometry, scene, task, outcome, arm, recording, asset, sim, contact, graph, network, rollout, effect,
+//! geometry, scene, task, outcome, recording, asset, sim, contact, graph, network, rollout, effect,
 //! plan, verify, solve, design
 
 #[doc(inline)]
 pub use crate::{
-    arm, asset, contact, design, effect, geometry, graph, network, outcome, plan, recording,
-    rollout, scene, seeded, sim, solve, task, verify, watch,
+    asset, contact, design, effect, geometry, graph, network, outcome, plan, recording, rollout,
+    scene, seeded, sim, solve, task, verify, watch,
 };

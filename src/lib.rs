@@ -51,15 +51,10 @@
 //! Lengths are metres, angles radians, masses kilograms and times seconds throughout; the table is
 //! the plane z = 0 with z up, and x points forward from the robot's base at the origin.
 //!
-//! # Features
+//! # Dependencies
 //!
-//! It is on by default, and none of its crates needs a C compiler. CI counts the crates that are left
-//! without it, at most 120, with `cargo tree -p pushplan -e normal,build --no-default-features --prefix
-//! none --no-dedupe | sort -u | wc -l`.
-//!
-//! | feature | what it adds |
-//! |---|---|
-//! | `formats` | arms of URDF files |
+//! None of its crates needs a C compiler. CI counts them, at most 120, with `cargo tree -p pushplan -e
+//! normal,build --prefix none --no-dedupe | sort -u | wc -l`.
 //!
 //! # Crates that build on it
 //!
@@ -68,6 +63,7 @@
 //!
 //! | crate | what it adds |
 //! |---|---|
+//! | `pushplan-arm` | robot arms: call `pushplan_arm::install()`, and tasks may name a URDF |
 //! | `pushplan-act` | the closed loop, beliefs about objects, fits from recordings |
 //! | `pushplan-bench` | tool selection and task suites, kept and resumed |
 //! | `pushplan-report` | pages, pictures, tables |
@@ -87,8 +83,6 @@
 mod error;
 pub mod internals;
 
-#[doc(hidden)]
-pub mod arm;
 #[doc(hidden)]
 pub mod asset;
 #[doc(hidden)]

@@ -12,8 +12,6 @@ mod example;
 mod fault;
 mod field;
 mod folder;
-#[cfg(feature = "formats")]
-pub mod foreign;
 mod kind;
 mod library;
 mod node;

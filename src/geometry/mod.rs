@@ -10,7 +10,6 @@ mod convex;
 mod cuboids;
 mod flat;
 mod grid;
-mod hull;
 mod outline;
 mod planar_hull;
 mod polygon;
@@ -30,7 +29,6 @@ pub use contact::{ContactPoint, Follows, Placed, contact_points, contact_points_
 pub use convex::{convex_hull, convex_parts};
 pub use cuboids::{Box3, BoxContact};
 pub use grid::{Frontier, Grid};
-pub use hull::{Hull, PlacedHull};
 pub use outline::{Extent, OutlinePiece, outline};
 pub use planar_hull::planar_hull;
 pub use polygon::{ConvexPolygon, MAX_CORNERS, PolygonError, centroid};

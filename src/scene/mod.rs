@@ -4,7 +4,7 @@
 //! objects and a belief about them. Goals and motions are in `task`, results in `outcome`. SI units and
 //! radians throughout. Nothing here reads files, simulates or searches.
 
-mod arm;
+mod arm_fault;
 mod balance;
 mod body;
 mod drag;
@@ -15,6 +15,7 @@ mod groups;
 mod guess;
 mod hand;
 mod joint;
+mod joint_trajectory;
 mod lever;
 mod model;
 mod mount;
@@ -42,9 +43,7 @@ mod unknowns;
 mod whole;
 mod world;
 
-pub use arm::{
-    Arm, ArmBody, ArmFault, ArmJoint, JointPoint, JointTrajectory, MAX_JOINTS, Places, ToolMount,
-};
+pub use arm_fault::ArmFault;
 pub use balance::carries;
 pub use body::{Body, TOUCHING};
 pub use drag::Drag;
@@ -55,6 +54,7 @@ pub use groups::RigidGroups;
 pub use guess::NEARLY_TOUCHING;
 pub use hand::{Carried, Hand, SHOWN_HAND};
 pub use joint::{Joint, JointKind};
+pub use joint_trajectory::{JointPoint, JointTrajectory, MAX_JOINTS};
 pub use lever::{Blade, LeverFeatures, LeverScene, Plate, Slab, Weight};
 pub use model::{
     Assumptions, CORRECTED, Engine, FRAME_TRAVEL, JointBelief, ModelKind, ModelPart, ModelSpec,

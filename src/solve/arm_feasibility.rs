@@ -1,6 +1,5 @@
 //! Feasibility of plans for a robot arm: an infeasible plan is not verified.
 
-use crate::arm::follow;
 use crate::plan::Evaluation;
 use crate::scene::{ArmFault, JointTrajectory};
 use crate::verify;
@@ -18,7 +17,7 @@ pub(super) fn arm_fault(query: &Query, evaluation: &Evaluation) -> Option<ArmFau
     let mut states = vec![query.situation.start.clone(); plan.steps.len()];
     states.push(evaluation.outcome.clone());
     let scene = &*query.situation.scene;
-    follow(task, (arm, scene), &tools[0], &plan, &states).err().map(|(_, fault)| fault)
+    arm.follow(task, scene, &tools[0], &plan, &states).err().map(|(_, fault)| fault)
 }
 
 /// Returns the arm's motion for a plan, if the task has an arm.

@@ -3,13 +3,15 @@
 use super::PushRules;
 use crate::scene::Robot;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Vector;
 
+use super::arm::{self, RobotArm};
 use super::{Goal, LeverRules, ShownGoal};
-use crate::scene::{Arm, Plate, Scene, State, Unknowns};
+use crate::scene::{Plate, Scene, State, Unknowns};
 
 /// Which tools a task allows.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -36,8 +38,8 @@ pub struct Task {
     /// The robot.
     pub robot: Robot,
     /// Its arm, if that is known.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub arm: Option<Box<Arm>>,
+    #[serde(default, skip_serializing_if = "Option::is_none", with = "arm")]
+    pub arm: Option<Arc<dyn RobotArm>>,
     /// Allowed tools.
     pub tools: ToolChoice,
     /// Cost of using a tool, by its name; 0 where it is not named. Of equally good plans with as many pushes
@@ -128,8 +130,8 @@ impl Task {
     /// Whether the end effector can stand at `position` (metres), turned by `yaw` (radians), as far as that
     /// is cheap to tell.
     pub fn stands(&self, position: Vector, yaw: f64) -> bool {
-        let allows = |arm: &Arm| arm.places.allow(position, yaw);
-        self.robot.reaches(position) && self.arm.as_deref().is_none_or(allows)
+        self.robot.reaches(position)
+            && self.arm.as_deref().is_none_or(|arm| arm.allows(position, yaw))
     }
 
     /// Whether an object (an index into [`Scene::objects`]) has a goal.

@@ -4,6 +4,7 @@
 //! [`Motion`] is the path of a tool, a [`Job`] is a motion that begins in a situation. SI units and
 //! radians throughout. Nothing here reads files or simulates.
 
+mod arm;
 mod definition;
 mod demand;
 mod goal;
@@ -17,6 +18,7 @@ mod push_rules;
 mod truth;
 mod way;
 
+pub use arm::{ArmReader, ArmRefusal, ArmSource, Followed, RobotArm, StatedArm, read_arms_with};
 pub use definition::{Task, ToolChoice};
 pub use demand::{
     Area, AtPlace, Coverage, Demand, Edge, End, Ending, Facing, Fall, Flipped, Gap, InArea, Kind,
@@ -34,3 +36,5 @@ pub use plan::{LeverStep, Plan, PushStep, Step};
 pub use push_rules::{Directions, Offsets, PushForm, PushRules};
 pub use truth::Truth;
 pub use way::Way;
+
+pub(crate) use arm::read_arm;

@@ -3,11 +3,10 @@
 
 use std::sync::Arc;
 
-use crate::arm::{Followed, follow, judge};
 use crate::{
     outcome::{Evidence, Warning},
     scene::{Engine, JointTrajectory, Situation, State, Tool},
-    task::{Plan, Task},
+    task::{Followed, Plan, Task},
 };
 
 /// Where objects are before the first push of a plan and after each, by a replay in 3-D.
@@ -33,7 +32,7 @@ pub fn joints(
 ) -> Option<Followed> {
     let arm = task.arm.as_deref()?;
     let states = states(situation, plan, evidence);
-    Some(follow(task, (arm, &situation.scene), tool, plan, &states))
+    Some(arm.follow(task, &situation.scene, tool, plan, &states))
 }
 
 /// What the arm cannot do of a plan.
@@ -55,7 +54,7 @@ pub(super) fn arm_faults(
     let faults = match made {
         Ok(path) => {
             let states = states(situation, plan, evidence);
-            judge((arm, &situation.scene), tool, plan, &states, &path)
+            arm.judge(&situation.scene, tool, plan, &states, &path)
         }
         Err(fault) => vec![fault],
     };

@@ -16,13 +16,14 @@ use reading::{code_of, imports, names, sources};
 type Rooms = &'static [(&'static str, &'static str)];
 
 /// The folder of a crate, the prefix of its rooms in [`DOORS`], and the rooms; one without rooms is a room itself.
-const HOUSES: [(&str, &str, Rooms); 9] = [
+const HOUSES: [(&str, &str, Rooms); 10] = [
     ("src", "", &ROOMS),
     (
         "crates/act/src",
         "act/",
         &[("judge", ""), ("fit", "judge"), ("belief", ""), ("act", "judge fit belief")],
     ),
+    ("crates/arm/src", "arm", &[]),
     ("crates/bench/src", "bench", &[]),
     ("crates/report/src", "report", &[]),
     ("crates/import/src", "import", &[]),
@@ -55,14 +56,13 @@ const HOUSES: [(&str, &str, Rooms); 9] = [
     ),
 ];
 
-const ROOMS: [(&str, &str); 17] = [
+const ROOMS: [(&str, &str); 16] = [
     ("geometry", ""),
     ("scene", "geometry"),
     ("task", "geometry scene"),
     ("outcome", "geometry scene task"),
-    ("arm", "geometry scene task"),
     ("recording", "geometry scene task outcome"),
-    ("asset", "geometry scene task outcome arm recording"),
+    ("asset", "geometry scene task outcome recording"),
     ("sim", "geometry scene task outcome"),
     ("contact", "geometry scene task"),
     ("graph", "geometry scene task outcome contact"),
@@ -71,22 +71,23 @@ const ROOMS: [(&str, &str); 17] = [
     ("effect", "geometry scene task outcome sim graph network rollout"),
     ("plan", "geometry scene task outcome effect"),
     // Not `plan`: the check shares no code with what it checks.
-    ("verify", "geometry scene task outcome arm sim"),
-    ("solve", "geometry scene task outcome arm asset sim effect plan verify"),
+    ("verify", "geometry scene task outcome sim"),
+    ("solve", "geometry scene task outcome asset sim effect plan verify"),
     ("design", "geometry scene task asset effect plan solve"),
 ];
 
 /// Crates that carry the core outward, each with those of them and the rooms of the core that it imports
 /// from: extras stand before what imports them, so none of them imports the command.
-const EXTRAS: [(&str, &str, &str); 6] = [
+const EXTRAS: [(&str, &str, &str); 7] = [
     ("import", "", "geometry scene task asset"),
-    ("export", "", "geometry scene task outcome arm asset"),
+    ("arm", "import", "geometry scene task asset"),
+    ("export", "arm", "geometry scene task outcome asset"),
     ("act", "", "geometry scene task outcome recording asset sim network effect solve"),
     ("bench", "act", "geometry scene task outcome asset sim effect solve"),
     ("report", "act bench", "geometry scene task outcome recording asset graph plan solve design"),
     (
         "command",
-        "act bench report export import",
+        "act arm bench report export import",
         "geometry scene task outcome recording asset sim network effect verify solve \
          design",
     ),
@@ -96,7 +97,7 @@ const EXTRAS: [(&str, &str, &str); 6] = [
 /// touching anything else.
 const DOORS: [(&str, &str); 30] = [
     ("parry2d_f64", "geometry"),
-    ("parry3d_f64", "geometry"),
+    ("parry3d_f64", "geometry arm"),
     ("pushplan_models", "effect act/belief"),
     ("pushplan_page", "report export"),
     ("pushplan_three", "report"),
@@ -106,9 +107,9 @@ const DOORS: [(&str, &str); 30] = [
     ("rapier2d", "sim"),
     ("rapier3d_f64", "sim"),
     ("nalgebra", "geometry arm contact act/fit act/belief plan import lab/bench"),
-    ("roxmltree", "asset import"),
-    ("stl_io", "asset"),
-    ("tobj", "asset"),
+    ("roxmltree", "arm import"),
+    ("stl_io", "import"),
+    ("tobj", "import"),
     ("mcap", "export"),
     ("zip", "learn/dataset"),
     ("candle_core", "learn/network learn/train lab/image lab/parts"),

@@ -63,6 +63,7 @@ const ROBOT: &str = "{urdf: six.urdf, flange: tool0, tool_mount: {length: 0.1}}"
 
 /// A folder with the arm and a task of a robot.
 fn folder(robot: &str) -> TempDir {
+    pushplan_arm::install();
     let folder = TempDir::new().expect("a folder");
     write(folder.path(), "six.urdf", URDF);
     write(folder.path(), "push.yaml", &TASK.replace("ROBOT", robot));
@@ -98,7 +99,8 @@ fn a_plan_of_an_arm_carries_its_joints_and_verifies_without_the_urdf() {
     let joints = file.joints.as_ref().expect("a motion of joints");
     assert_eq!(joints.joints, ["turn", "shoulder", "elbow", "wrist1", "wrist2", "wrist3"]);
     assert_eq!(joints.pushes.len(), file.plan.steps.len());
-    let arm = file.task.arm.as_deref().expect("an arm");
+    let arm = file.task.arm.as_deref().and_then(|arm| arm.downcast::<pushplan_arm::Arm>());
+    let arm = arm.expect("an arm");
     // It begins and ends at home, where the next plan begins.
     assert_eq!(joints.points[0].positions, arm.home);
     assert_eq!(joints.points[joints.points.len() - 1].positions, arm.home);

@@ -26,7 +26,9 @@ pub fn start() {
 /// The shipped tools.
 fn library() -> Result<&'static ToolLibrary, String> {
     static LIBRARY: OnceLock<Result<ToolLibrary, String>> = OnceLock::new();
-    let library =
-        LIBRARY.get_or_init(|| ToolLibrary::embedded().map_err(|error| error.to_string()));
+    let library = LIBRARY.get_or_init(|| {
+        pushplan_arm::install();
+        ToolLibrary::embedded().map_err(|error| error.to_string())
+    });
     library.as_ref().map_err(Clone::clone)
 }

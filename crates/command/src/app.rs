@@ -81,6 +81,7 @@ pub fn start<C: Parser>(
             return if wrong { exit_code::USAGE } else { exit_code::DONE };
         }
     };
+    pushplan_arm::install();
     let done = interrupt::install()
         .and_then(|()| Session::start(global(&cli)))
         .and_then(|session| execute(&cli, &session));

@@ -4,9 +4,9 @@
 //! Solids weigh [`DENSITY`], gravity is made up for as controllers of arms do, and every joint has two
 //! servos, of position and of speed, which are told both: what is left to follow is what pushes back.
 
-use pushplan::arm::above;
-use pushplan::geometry::{Hull, Pose, Pose3, Vector3};
-use pushplan::scene::{Arm, ArmBody, JointTrajectory, Robot, Scene, Tool};
+use pushplan::geometry::{Pose, Pose3, Vector3};
+use pushplan::scene::{JointTrajectory, Robot, Scene, Tool};
+use pushplan_arm::{Arm, ArmBody, Hull, above};
 
 use super::pairs::Pair;
 use super::space::placed;

@@ -18,9 +18,10 @@
 use pushplan::asset::PlanFile;
 use pushplan::geometry::{Pose, Shape};
 use pushplan::{
-    scene::{Arm, Feet, GRAVITY, JointTrajectory, Object, Robot, Scene, TableTop, Tool},
+    scene::{Feet, GRAVITY, JointTrajectory, Object, Robot, Scene, TableTop, Tool},
     task::ToolMotion,
 };
+use pushplan_arm::Arm;
 
 use super::ExportError;
 use super::arm;
@@ -83,7 +84,7 @@ pub fn mjcf(file: &PlanFile) -> Result<String, ExportError> {
         return plan_mjcf(file);
     }
     let motions = file.plan.slides(&file.tools).ok_or(ExportError::Tools)?;
-    let holder = match (file.task.arm.as_deref(), &file.joints) {
+    let holder = match (file.task.arm.as_deref().and_then(|arm| arm.downcast()), &file.joints) {
         (Some(arm), Some(path)) => Holder::Arm(arm, path),
         _ => Holder::Lifting(&file.task.robot),
     };

@@ -16,6 +16,7 @@
 mod convert;
 mod crowd;
 mod fault;
+pub mod foreign;
 mod mesh;
 mod mjcf;
 mod model;

@@ -9,7 +9,7 @@ use super::model::Model;
 use super::spliced::{Spliced, document};
 use super::xml::Source;
 use super::{mesh, mjcf, urdf};
-use pushplan::asset::foreign::Files;
+use crate::foreign::Files;
 
 /// The language of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -8,7 +8,7 @@ use pushplan::asset::{self, Fault, Faults};
 
 use super::crowd::crowded;
 use super::model::Place;
-use pushplan::asset::foreign::Files;
+use crate::foreign::Files;
 
 /// The most files that are included, and the most bytes of all together.
 const MOST: usize = 200;

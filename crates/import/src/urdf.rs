@@ -16,8 +16,8 @@ use super::model::{Body, Material, Model, Motion, Outline, Solid};
 use super::rubbing::{Gazebo, drake, friction, gazebo};
 use super::turns;
 use super::xml::{Source, element, elements};
-use pushplan::asset::foreign::Files;
-use pushplan::asset::foreign::urdf::{self as foreign, Geometry, Origin, end, limit};
+use crate::foreign::Files;
+use crate::foreign::urdf::{self as foreign, Geometry, Origin, end, limit};
 
 /// The link that stands for the world.
 const WORLD: &str = Body::WORLD;

@@ -5,8 +5,8 @@ use roxmltree::{Attribute, Node};
 use super::fault::Ledger;
 use super::model::Place;
 use super::spliced::Spliced;
-use pushplan::asset::foreign::xml::{self, Flaw};
-pub(super) use pushplan::asset::foreign::xml::{element, elements};
+use crate::foreign::xml::{self, Flaw};
+pub(super) use crate::foreign::xml::{element, elements};
 
 /// A file that is being read.
 pub(super) struct Source<'a> {

@@ -52,6 +52,7 @@ struct Arguments {
 }
 
 fn main() -> ExitCode {
+    pushplan_arm::install();
     let arguments = Arguments::parse();
     let targets = match arguments.target.is_empty() {
         true => Target::ALL.to_vec(),

@@ -71,6 +71,7 @@ mod _native {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        pushplan_arm::install();
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

@@ -1,16 +1,16 @@
 //! From the keys of a robot to its arm.
 
+use std::path::Path;
+use std::sync::Arc;
+
 use serde_json::{Number, Value as Json};
 
-use crate::arm::{Ring, find_places, pairs, usual_home};
 use crate::asset::node::{Content, Node};
 use crate::asset::strict::Ledger;
 use crate::asset::take::{angle, number_or};
 use crate::geometry::{Pose, Pose3};
-use crate::{
-    scene::{Arm, Places, Robot, ToolMount},
-    task::PushRules,
-};
+use crate::scene::Robot;
+use crate::task::{ArmRefusal, ArmSource, PushRules, RobotArm, StatedArm, read_arm};
 
 /// From the flange to the tool's underside where a task does not say it, metres: a gripper.
 const LENGTH: f64 = 0.15;
@@ -20,12 +20,6 @@ const OWN: [&str; 2] = ["reach", "hand"];
 
 /// Keys that only say something of an arm.
 const OF_URDF: [&str; 2] = ["flange", "tool_mount"];
-
-/// An arm, and the ring in which it holds tools, metres.
-pub(in crate::asset) struct Standing {
-    pub arm: Box<Arm>,
-    pub ring: Ring,
-}
 
 /// Notes what does not go together in a robot; whether it is an arm.
 pub(in crate::asset) fn check(robot: &Node, ledger: &mut Ledger) -> bool {
@@ -75,80 +69,31 @@ pub(in crate::asset) fn arm(
     pushes: Option<&Node>,
     file: &str,
     ledger: &mut Ledger,
-) -> Option<Standing> {
+) -> Option<Arc<dyn RobotArm>> {
     let which = robot.get("urdf").or(robot.get("arm"))?;
-    let read = match robot.get("urdf") {
-        Some(urdf) => from_urdf(robot, urdf.text()?, file),
-        None => embedded(which),
+    let source = match robot.get("urdf") {
+        Some(urdf) => urdf_of(robot, urdf.text()?, file),
+        None => ArmSource::Saved(json(which)),
     };
-    let noted = |(message, advice): Wrong, ledger: &mut Ledger| {
-        ledger.fault(which, message, advice);
-        None
-    };
-    let mut arm = match read {
-        Ok(arm) => Box::new(arm),
-        Err(wrong) => return noted(wrong, ledger),
-    };
-    let again = || "the file is damaged or of another version; make it again".to_owned();
-    let stated = robot.get("home").map(|home| {
+    let home = robot.get("home").map(|home| {
         home.items().iter().map(|one| one.number().unwrap_or(f64::NAN)).collect::<Vec<f64>>()
     });
-    if let Some(home) = &stated {
-        if home.len() != arm.joints.len() {
-            let names: Vec<&str> = arm.joints.iter().map(|joint| &*joint.name).collect();
-            let message =
-                format!("`home` has {} numbers, and the arm {} joints", home.len(), names.len());
-            let advice = format!("write one for each of {}, radians", names.join(", "));
-            ledger.fault(robot.get("home")?, message, advice);
-            return None;
-        }
-        arm.home.clone_from(home);
-    }
-    if let Some(fault) = arm.fault() {
-        let advice = if robot.get("urdf").is_some() { String::new() } else { again() };
-        return noted((fault, advice), ledger);
-    }
-    if robot.get("urdf").is_some() {
-        arm.pairs = pairs(&arm);
-    }
     let lift = match pushes {
         Some(pushes) => number_or(pushes, "lift", PushRules::LIFT)?,
         None => PushRules::LIFT,
     };
-    let known = Some(arm.places.clone()).filter(Places::known);
-    let Some(places) = known.or_else(|| find_places(&arm, lift)) else {
-        let length = arm.mount.length;
-        let message = format!(
-            "this arm holds no tool over the table, with its flange {:.2} m above it and pointing down",
-            length + lift
-        );
-        let advice = "the z axis of `flange` points out of it; look at `base` and `tool_mount` too";
-        return noted((message, advice.into()), ledger);
-    };
-    let ring = places.ring;
-    arm.places = places;
-    if stated.is_none() && robot.get("urdf").is_some() {
-        let travel = number_or(robot, "travel", Robot::TRAVEL)?;
-        if let Some(home) = usual_home(&arm, ring, travel) {
-            arm.home = home;
+    let travel = number_or(robot, "travel", Robot::TRAVEL)?;
+    match read_arm(&StatedArm { source, home, lift, travel }) {
+        Ok(arm) => Some(arm),
+        Err(ArmRefusal { message, advice, at_home }) => {
+            let place = robot.get("home").filter(|_| at_home).unwrap_or(which);
+            ledger.fault(place, message, advice);
+            None
         }
     }
-    Some(Standing { arm, ring })
 }
 
-/// What is wrong, and what to do.
-pub(super) type Wrong = (String, String);
-
-/// The arm that a plan file holds.
-fn embedded(node: &Node) -> Result<Arm, Wrong> {
-    let advice = || "the file is damaged or of another version; make it again".to_owned();
-    serde_json::from_value(json(node)).map_err(|error| (format!("no arm: {error}"), advice()))
-}
-
-#[cfg(feature = "formats")]
-fn from_urdf(robot: &Node, urdf: &str, file: &str) -> Result<Arm, Wrong> {
-    let path = std::path::Path::new(file).with_file_name("").join(urdf);
-    let chain = super::urdf::chain(&path, robot.get("flange").and_then(Node::text).unwrap_or(""))?;
+fn urdf_of<'a>(robot: &'a Node, urdf: &str, file: &str) -> ArmSource<'a> {
     let number = |node: Option<&Node>, key: &str, default: f64| {
         node.and_then(|node| number_or(node, key, default)).unwrap_or(default)
     };
@@ -156,19 +101,13 @@ fn from_urdf(robot: &Node, urdf: &str, file: &str) -> Result<Arm, Wrong> {
         |node: Option<&Node>| node.and_then(|node| angle(node, "yaw_deg", 0.0)).unwrap_or(0.0);
     let (base, mount) = (robot.get("base"), robot.get("tool_mount"));
     let stand = Pose { heading: turn(base), ..Pose::default() };
-    Ok(Arm {
+    ArmSource::Urdf {
+        path: Path::new(file).with_file_name("").join(urdf),
+        flange: robot.get("flange").and_then(Node::text).unwrap_or(""),
         base: Pose3::upright(stand, number(base, "height", 0.0)),
-        mount: ToolMount { length: number(mount, "length", LENGTH), yaw: turn(mount) },
-        ..chain
-    })
-}
-
-#[cfg(not(feature = "formats"))]
-fn from_urdf(_: &Node, _: &str, _: &str) -> Result<Arm, Wrong> {
-    let _ =
-        (angle, LENGTH, ToolMount { length: LENGTH, yaw: 0.0 }, Pose::default(), Pose3::default());
-    let advice = "build it with the feature `formats`";
-    Err(("this program was built without reading URDF".into(), advice.into()))
+        length: number(mount, "length", LENGTH),
+        yaw: turn(mount),
+    }
 }
 
 fn json(node: &Node) -> Json {

@@ -1,13 +1,8 @@
-//! The arm of a task's robot: from the URDF that it names, or as plan files hold it.
-//!
-//! A URDF is read as far as an arm needs it: the chain of joints from its root to the flange, their
-//! limits, and the collision solids of links that move with them. What else hangs there, such as a
-//! gripper beyond the flange, is not. Without the feature `formats` only plan files have arms.
+//! The keys of an arm: of the URDF that a task names, or the arm that a plan file holds. The registered
+//! reader makes the arm of them, see [`read_arms_with`](crate::task::read_arms_with).
 
 mod build;
 mod spec;
-#[cfg(feature = "formats")]
-mod urdf;
 
-pub(super) use build::{Standing, arm, check};
+pub(super) use build::{arm, check};
 pub(super) use spec::{ARM, BASE, FLANGE, HOME, TOOL_MOUNT, URDF};

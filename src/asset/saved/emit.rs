@@ -22,7 +22,7 @@ const MAX_NAMED: usize = 64;
 /// A task as in a task file.
 pub(in crate::asset) fn task(task: &Task) -> Json {
     let mut robot = match &task.arm {
-        Some(arm) => json!({"arm": arm}),
+        Some(arm) => json!({"arm": arm.to_json()}),
         None => json!({"reach": {"min": task.robot.reach_min, "max": task.robot.reach_max}}),
     };
     if let Some(force) = task.robot.max_force {

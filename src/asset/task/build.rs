@@ -1,9 +1,8 @@
 //! From a checked tree to a [`Task`].
 
 use std::path::Path;
+use std::sync::Arc;
 
-use crate::arm::{flange, frames};
-use crate::asset::arm::Standing;
 use crate::asset::node::{Content, Node};
 use crate::asset::prism::origin;
 use crate::asset::take::{name_of, number_or, vector};
@@ -11,7 +10,7 @@ use crate::asset::text::apart_by_name;
 use crate::geometry::Vector;
 use crate::{
     scene::{Hand, Joint, Obstacle, Robot, Scene, Support, TableTop, Unknowns},
-    task::{Directions, Goal, Offsets, PushForm, PushRules, Task},
+    task::{Directions, Goal, Offsets, PushForm, PushRules, RobotArm, Task},
 };
 
 use super::spec::default;
@@ -19,7 +18,7 @@ use super::tools::{costs, tools};
 use super::{frictions, goals, joints, keep, levers, mounts, obstacles, parts};
 
 /// The task, or `None` if anything needed is missing or was faulty.
-pub(super) fn task(root: &Node, file: &str, arm: Option<Standing>) -> Option<Task> {
+pub(super) fn task(root: &Node, file: &str, arm: Option<Arc<dyn RobotArm>>) -> Option<Task> {
     let stem = || Path::new(file).file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let mut scene = scene(root.get("scene")?)?;
     let goals = goals::each(root.get("goal")?).iter().map(|node| goals::goal(node, &scene));
@@ -27,7 +26,7 @@ pub(super) fn task(root: &Node, file: &str, arm: Option<Standing>) -> Option<Tas
     goals.first()?;
     let levers = levers::levers(root)?;
     let mut robot = match &arm {
-        Some(arm) => standing(root.get("robot")?, arm)?,
+        Some(arm) => standing(root.get("robot")?, &**arm)?,
         None => robot(root.get("robot")?)?,
     };
     // Lever-ups reach close to the base, and most of their robots state none.
@@ -50,7 +49,7 @@ pub(super) fn task(root: &Node, file: &str, arm: Option<Standing>) -> Option<Tas
         scene,
         unknown: unknown(root)?,
         robot,
-        arm: arm.map(|arm| arm.arm),
+        arm,
         tools: tools(root.get("tools")?),
         tool_costs: costs(root.get("tools")?),
         pushes: match root.get("pushes") {
@@ -177,14 +176,13 @@ fn robot(node: &Node) -> Option<Robot> {
 }
 
 /// The robot that an arm is: its reach is the ring in which it holds tools.
-fn standing(node: &Node, standing: &Standing) -> Option<Robot> {
-    let Standing { arm, ring: [near, far] } = standing;
-    let home = flange(arm, &frames(arm, &arm.home)).position;
+fn standing(node: &Node, arm: &dyn RobotArm) -> Option<Robot> {
+    let [near, far] = arm.ring();
     Some(Robot {
-        home: home.xy(),
+        home: arm.home(),
         max_force: max_force(node)?,
         travel: number_or(node, "travel", Robot::TRAVEL)?,
-        ..Robot::reaching(*near, *far)
+        ..Robot::reaching(near, far)
     })
 }
 

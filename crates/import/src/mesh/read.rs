@@ -4,7 +4,7 @@ use std::path::Path;
 
 use nalgebra::Point3;
 
-use pushplan::asset::foreign::{self, Refused};
+use crate::foreign::{self, Refused};
 
 /// Corners, in the unit of the file, and triangles that name them.
 type Triangles = (Vec<Point3<f64>>, Vec<[u32; 3]>);

@@ -5,11 +5,11 @@ use std::collections::HashMap;
 use nalgebra::Isometry3;
 use roxmltree::Node;
 
+use crate::foreign::Files;
 use crate::model::{Model, Motion, Place};
 use crate::read::parsed;
 use crate::xml::Source;
 use pushplan::asset::Fault;
-use pushplan::asset::foreign::Files;
 
 /// The most bodies that a model has with those that it attaches.
 const MOST: usize = 5000;

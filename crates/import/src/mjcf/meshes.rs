@@ -8,11 +8,11 @@ use std::sync::Arc;
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion};
 use roxmltree::{Attribute, Node};
 
+use crate::foreign::Files;
 use crate::mesh::{Counted, Mesh, load};
 use crate::model::Outline;
 use crate::turns;
 use crate::xml::Source;
-use pushplan::asset::foreign::Files;
 
 use super::defaults::Lookup;
 use super::geoms::Context;

@@ -4,9 +4,9 @@ use std::collections::HashSet;
 
 use roxmltree::Node;
 
+use crate::foreign::Files;
 use crate::model::{Body, Model};
 use crate::xml::{Source, elements};
-use pushplan::asset::foreign::Files;
 use pushplan::scene::GRAVITY;
 
 use super::attach::Models;

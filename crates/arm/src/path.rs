@@ -1,8 +1,9 @@
 //! Pieces of the way of an arm: straight lines of the flange, straight lines of the joints, and what time
 //! they take.
 
-use crate::geometry::Pose3;
-use crate::scene::{Arm, ArmFault, JointPoint};
+use super::model::Arm;
+use pushplan::geometry::Pose3;
+use pushplan::scene::{ArmFault, JointPoint};
 
 use super::inverse::{NEAR, inverse};
 use super::kinematics::{dexterity, flange, frames};
@@ -69,7 +70,7 @@ pub(super) fn why(arm: &Arm, at: &[f64]) -> ArmFault {
 /// The same posture with joints turned by whole turns, as near to another as their limits allow.
 pub(super) fn unwound(arm: &Arm, posture: &[f64], near: &[f64]) -> Vec<f64> {
     use std::f64::consts::TAU;
-    let turned = |((joint, at), near): ((&crate::scene::ArmJoint, &f64), &f64)| {
+    let turned = |((joint, at), near): ((&crate::model::ArmJoint, &f64), &f64)| {
         if joint.slides {
             return *at;
         }
@@ -98,7 +99,7 @@ impl<'a> Pieces<'a> {
 
     /// Joints on a straight line to other positions, as fast as half of their speed allows.
     pub fn swing(&mut self, to: &[f64]) {
-        let took = |((joint, a), b): ((&crate::scene::ArmJoint, &f64), &f64)| {
+        let took = |((joint, a), b): ((&crate::model::ArmJoint, &f64), &f64)| {
             let speed = SHARE * joint.max_speed.unwrap_or(USUAL_SPEED / SHARE);
             1.5 * (b - a).abs() / speed
         };

@@ -1,7 +1,9 @@
 //! What an arm with a tool runs into: itself, the table, and what stands there.
 
-use crate::geometry::{Hull, PlacedHull, Pose3, Vector3};
-use crate::scene::{Arm, Object, Robot, Scene, State, Tool};
+use super::hull::{Hull, PlacedHull};
+use super::model::Arm;
+use pushplan::geometry::{Pose3, Vector3};
+use pushplan::scene::{Object, Robot, Scene, State, Tool};
 
 use super::inverse::start;
 use super::kinematics::{flange, frames};

@@ -4,8 +4,10 @@ use std::f64::consts::{PI, TAU};
 
 use rayon::prelude::*;
 
-use crate::geometry::{Pose, Pose3, Vector, Vector3};
-use crate::scene::{Arm, Places, Scene};
+use super::model::Arm;
+use super::places::Places;
+use pushplan::geometry::{Pose, Pose3, Vector, Vector3};
+use pushplan::scene::Scene;
 
 use super::inverse::{NEAR, inverse, near, postures};
 use super::kinematics::{dexterity, frames};

@@ -2,12 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Hull, Pose3, Turn3, Vector3};
+use pushplan::geometry::{Pose3, Turn3, Vector3};
+use pushplan::scene::MAX_JOINTS;
 
-use super::Places;
-
-/// Most joints that move.
-pub const MAX_JOINTS: usize = 16;
+use super::hull::Hull;
+use super::places::Places;
 
 /// Most points of a solid, and most solids of a body.
 const MOST: usize = 64;

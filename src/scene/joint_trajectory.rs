@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+/// Most joints that move.
+pub const MAX_JOINTS: usize = 16;
+
 /// The joints at an instant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

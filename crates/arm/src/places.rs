@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::geometry::Vector;
+use pushplan::geometry::Vector;
 
 /// No arm over a table reaches farther, metres.
 const FARTHEST: f64 = 10.0;

@@ -3,7 +3,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use crate::geometry::Vector3;
+use pushplan::geometry::Vector3;
 
 use super::{Files, Refused};
 

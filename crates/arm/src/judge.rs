@@ -2,11 +2,10 @@
 
 use std::sync::Arc;
 
-use crate::geometry::{Pose3, Vector3};
-use crate::{
-    scene::{Arm, ArmFault, JointTrajectory, Scene, State, Tool},
-    task::{Plan, PushForm, PushStep},
-};
+use super::model::Arm;
+use pushplan::geometry::{Pose3, Vector3};
+use pushplan::scene::{ArmFault, JointTrajectory, Scene, State, Tool};
+use pushplan::task::{Plan, PushForm, PushStep};
 
 use super::kinematics::{dexterity, flange, frames};
 use super::path::DEXTERITY;
@@ -137,7 +136,7 @@ fn off_line(step: &PushStep, pose: &Pose3) -> f64 {
 
 /// How far a pose is from where the tool is to be, held as the push says.
 fn off_pose(step: &PushStep, pose: &Pose3, position: Vector3) -> f64 {
-    let held = Pose3::upright(crate::geometry::Pose::new(0.0, 0.0, step.grip_yaw), 0.0);
+    let held = Pose3::upright(pushplan::geometry::Pose::new(0.0, 0.0, step.grip_yaw), 0.0);
     (pose.position - position).norm() + ARM * pose.angle_to(&held)
 }
 

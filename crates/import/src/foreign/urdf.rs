@@ -2,7 +2,7 @@
 
 use roxmltree::Node;
 
-use crate::geometry::Vector3;
+use pushplan::geometry::Vector3;
 
 use super::xml::{Flaw, element, elements, number, numbers};
 

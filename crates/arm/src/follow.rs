@@ -8,11 +8,11 @@
 
 use std::sync::Arc;
 
-use crate::geometry::{PlacedHull, Pose3};
-use crate::{
-    scene::{Arm, ArmFault, JointTrajectory, Object, Scene, State, Tool},
-    task::{Plan, PushForm, PushStep, Stroke, Task},
-};
+use super::hull::PlacedHull;
+use super::model::Arm;
+use pushplan::geometry::Pose3;
+use pushplan::scene::{ArmFault, JointTrajectory, Object, Scene, State, Tool};
+use pushplan::task::{Followed, Plan, PushForm, PushStep, Stroke, Task};
 
 use super::inverse::postures;
 use super::path::{GENTLE, Pieces, flange_at, line, unwound};
@@ -27,9 +27,6 @@ const ABOVE: f64 = 0.02;
 
 /// Postures that a push may begin in, at most.
 const POSTURES: usize = 10;
-
-/// What became of a plan: its trajectory, or the push that cannot be made and why.
-pub type Followed = Result<JointTrajectory, (usize, ArmFault)>;
 
 /// How the joints of `arm` carry out the pushes of a plan; `states` say where objects are before the
 /// first push and after each, as far as that is known.
@@ -51,7 +48,7 @@ pub fn follow(
     let mut pushes = Vec::new();
     let steps: Vec<&PushStep> = plan.push_steps().collect();
     for (k, (step, stroke)) in steps.iter().zip(&motion.strokes).enumerate() {
-        let at = |pose: &crate::geometry::Pose, height: f64| {
+        let at = |pose: &pushplan::geometry::Pose, height: f64| {
             Pose3::upright(*pose * tool.grip, height) * mount
         };
         let state = |k: usize| states.get(k).or(states.last());
@@ -270,6 +267,6 @@ fn swept(
 fn facing(arm: &Arm, posture: &[f64], target: &Pose3) -> Vec<f64> {
     let mut turned = posture.to_vec();
     let angle = |pose: &Pose3| pose.position.y.atan2(pose.position.x);
-    turned[0] += crate::geometry::wrap_angle(angle(target) - angle(&flange_at(arm, posture)));
+    turned[0] += pushplan::geometry::wrap_angle(angle(target) - angle(&flange_at(arm, posture)));
     turned
 }

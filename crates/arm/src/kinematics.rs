@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix6, Matrix6xX, Vector6};
 
-use crate::geometry::{Pose3, Vector3};
-use crate::scene::Arm;
+use super::model::Arm;
+use pushplan::geometry::{Pose3, Vector3};
 
 /// What a turn counts against a shift, metres: a tool's part is about as far from the flange.
 const LEVER: f64 = 0.2;

@@ -8,7 +8,7 @@ use parry3d_f64::query::details::distance_support_map_support_map;
 use parry3d_f64::shape::SupportMap;
 use serde::{Deserialize, Serialize};
 
-use super::{Footprint, Matrix3, Pose3, Vector3};
+use pushplan::geometry::{Footprint, Matrix3, Pose3, Vector3};
 
 /// Corners of a mesh are kept in this many directions, evenly spread, and looked at in as many.
 const KEPT: usize = 48;

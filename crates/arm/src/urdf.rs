@@ -5,14 +5,16 @@ use std::path::Path;
 
 use roxmltree::{Document, Node};
 
-use crate::asset::foreign::urdf::{Geometry, Origin, axis, end, geometry, limit, origin};
-use crate::asset::foreign::xml::{Flaw, element, elements};
-use crate::asset::foreign::{Files, load};
-use crate::asset::text::read_text;
-use crate::geometry::{Footprint, Hull, Pose3, Turn3, Vector3};
-use crate::scene::{Arm, ArmBody, ArmJoint, Places, ToolMount};
+use super::hull::Hull;
+use super::model::{Arm, ArmBody, ArmJoint, ToolMount};
+use super::places::Places;
+use pushplan::asset::read_text;
+use pushplan::geometry::{Footprint, Pose3, Turn3, Vector3};
+use pushplan_import::foreign::urdf::{Geometry, Origin, axis, end, geometry, limit, origin};
+use pushplan_import::foreign::xml::{Flaw, element, elements};
+use pushplan_import::foreign::{Files, load};
 
-use super::build::Wrong;
+use super::read::Wrong;
 
 /// No length and no corner of a mesh is larger, in metres or the mesh's own unit.
 const FARTHEST: f64 = 1e5;
@@ -27,7 +29,7 @@ struct File<'a> {
 
 /// The arm in a file from its root to the link `flange`; it stands at the origin, and what is mounted on
 /// it is not known yet. At home its joints are in the middle of their limits.
-pub(super) fn chain(path: &Path, flange: &str) -> Result<Arm, Wrong> {
+pub(crate) fn chain(path: &Path, flange: &str) -> Result<Arm, Wrong> {
     let (_, text) = read_text(path).map_err(|fault| (fault.to_string(), String::new()))?;
     let document = Document::parse(&text).map_err(|error| {
         (format!("{}: no XML: {error}", path.display()), "is this the right file?".to_owned())

@@ -5,8 +5,8 @@
 
 use nalgebra::{DVector, Matrix6, Vector6};
 
-use crate::geometry::Pose3;
-use crate::scene::Arm;
+use super::model::Arm;
+use pushplan::geometry::Pose3;
 
 use super::kinematics::{flange, frames, jacobian, twist};
 
@@ -156,8 +156,9 @@ fn keep(arm: &Arm, at: &mut [f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Turn3, Vector3};
-    use crate::scene::{ArmBody, ArmJoint, Places, ToolMount};
+    use crate::model::{ArmBody, ArmJoint, ToolMount};
+    use crate::places::Places;
+    use pushplan::geometry::{Turn3, Vector3};
 
     /// Six joints like those of a small arm, 0.3 m and 0.3 m long.
     fn arm() -> Arm {

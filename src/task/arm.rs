@@ -1,0 +1,161 @@
+//! Arms as the core sees them: where they hold tools, and how their joints carry plans out.
+//!
+//! The core has no arm of its own. A crate that has one registers its reader with [`read_arms_with`], and
+//! from then on task and plan files may state such an arm.
+
+use std::any::Any;
+use std::fmt::Debug;
+use std::path::PathBuf;
+use std::sync::{Arc, OnceLock};
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde_json::Value as Json;
+
+use super::{Plan, PushRules, Task};
+use crate::geometry::{Pose3, Vector};
+use crate::scene::{ArmFault, JointTrajectory, Robot, Scene, State, Tool};
+
+/// A trajectory of an arm's joints that carries a plan out, or the first push that none can make and the reason.
+pub type Followed = Result<JointTrajectory, (usize, ArmFault)>;
+
+/// A robot arm that holds tools over the table.
+pub trait RobotArm: Any + Debug + Send + Sync {
+    /// Returns the least and the largest distance from the base at which it holds a tool, metres.
+    fn ring(&self) -> [f64; 2];
+
+    /// Returns the position above which its flange is when a plan begins, metres.
+    fn home(&self) -> Vector;
+
+    /// Returns `false` where it certainly cannot hold a tool at a position (metres) with its end effector
+    /// turned by `yaw` (radians): a cheap test for searches.
+    fn allows(&self, position: Vector, yaw: f64) -> bool;
+
+    /// Returns what is inconsistent in its description, if anything.
+    fn fault(&self) -> Option<String>;
+
+    /// Plans how its joints carry out the pushes of a plan; `states` are those of the objects before the
+    /// first push and after each, as far as they are known.
+    ///
+    /// # Errors
+    /// The first push that no posture carries out, and the reason.
+    fn follow(
+        &self,
+        task: &Task,
+        scene: &Scene,
+        tool: &Arc<Tool>,
+        plan: &Plan,
+        states: &[State],
+    ) -> Followed;
+
+    /// Returns the first fault of every push that a trajectory does not carry out; `states` as in
+    /// [`RobotArm::follow`].
+    fn judge(
+        &self,
+        scene: &Scene,
+        tool: &Arc<Tool>,
+        plan: &Plan,
+        states: &[State],
+        path: &JointTrajectory,
+    ) -> Vec<(usize, ArmFault)>;
+
+    /// Returns the arm in the form in which plan files hold it.
+    fn to_json(&self) -> Json;
+}
+
+impl dyn RobotArm {
+    /// Returns the arm as its own type.
+    pub fn downcast<T: RobotArm>(&self) -> Option<&T> {
+        (self as &dyn Any).downcast_ref()
+    }
+}
+
+impl PartialEq for dyn RobotArm {
+    fn eq(&self, other: &Self) -> bool {
+        self.to_json() == other.to_json()
+    }
+}
+
+/// The source of an arm's description.
+#[derive(Clone, Debug)]
+pub enum ArmSource<'a> {
+    /// A URDF file.
+    Urdf {
+        /// Its path.
+        path: PathBuf,
+        /// The link on which tools are mounted.
+        flange: &'a str,
+        /// The pose of its root in the world.
+        base: Pose3,
+        /// From the flange to the tool's underside, metres.
+        length: f64,
+        /// Turn of the tool about the flange's z axis, radians.
+        yaw: f64,
+    },
+    /// The form in which plan files hold it, see [`RobotArm::to_json`].
+    Saved(Json),
+}
+
+/// The description of an arm in a file.
+#[derive(Clone, Debug)]
+pub struct StatedArm<'a> {
+    /// Its source.
+    pub source: ArmSource<'a>,
+    /// Joint positions at which plans begin, radians or metres; by default its own.
+    pub home: Option<Vec<f64>>,
+    /// Height of the tool above the table while it pushes, metres.
+    pub lift: f64,
+    /// Height at which tools travel, metres.
+    pub travel: f64,
+}
+
+/// The reason why there is no such arm.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ArmRefusal {
+    /// Description of the fault.
+    pub message: String,
+    /// Remedy.
+    pub advice: String,
+    /// Whether the fault is in the stated home.
+    pub at_home: bool,
+}
+
+/// A function that reads arms.
+pub type ArmReader = fn(&StatedArm) -> Result<Arc<dyn RobotArm>, ArmRefusal>;
+
+/// One reader for the whole program: files are read in many places.
+static READER: OnceLock<ArmReader> = OnceLock::new();
+
+/// Registers the reader of arms; only the first one counts.
+pub fn read_arms_with(reader: ArmReader) {
+    let _ = READER.set(reader);
+}
+
+/// Reads an arm with the registered reader.
+pub(crate) fn read_arm(stated: &StatedArm) -> Result<Arc<dyn RobotArm>, ArmRefusal> {
+    let none = || ArmRefusal {
+        message: "this program reads no arms".into(),
+        advice: "register a reader of arms first, such as that of the crate `pushplan-arm`".into(),
+        at_home: false,
+    };
+    READER.get().ok_or_else(none)?(stated)
+}
+
+pub(super) fn serialize<S: Serializer>(
+    arm: &Option<Arc<dyn RobotArm>>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    arm.as_ref().map(|arm| arm.to_json()).serialize(serializer)
+}
+
+pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<Arc<dyn RobotArm>>, D::Error> {
+    let Some(json) = Option::<Json>::deserialize(deserializer)? else { return Ok(None) };
+    let stated = StatedArm {
+        source: ArmSource::Saved(json),
+        home: None,
+        lift: PushRules::LIFT,
+        travel: Robot::TRAVEL,
+    };
+    read_arm(&stated).map(Some).map_err(|refusal| serde::de::Error::custom(refusal.message))
+}
