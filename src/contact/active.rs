@@ -7,6 +7,10 @@
 //! answers.
 
 use nalgebra::{Vector2, Vector3};
+use pushplan_kernel::{
+    Tally,
+    settings::{ROUNDS, TOGETHER},
+};
 
 use super::{
     blocks::{Blocks, NOBODY},
@@ -14,18 +18,8 @@ use super::{
     eliminated::Eliminated,
     elimination::solve_in_place,
     index::GroupIndex,
-    tally::Tally,
     unknown::Unknown,
 };
-
-/// Most rounds in which all constraints may change what they do. After these, and as soon as a set
-/// comes again, only the one that is farthest off may: all at once go in circles where objects jam.
-pub(super) const TOGETHER: usize = 6;
-
-/// Most rounds. Of 100 drawn sets in a jam 74 are found with 12, 82 with 16 and 87 with 24; in
-/// crowds with joints 24 do not find more than 12. A tenth of the time there went into looking,
-/// before circles were noticed.
-pub(super) const ROUNDS: usize = 16;
 
 /// Most equations at once: what many objects that jam would need is cheaper by iteration.
 const MOST: usize = 64;

@@ -5,11 +5,11 @@ use crate::{
     scene::{DisjointSets, State},
     task::FrameStep,
 };
+use pushplan_kernel::Motion;
 
 use super::{
     bodies::{Bodies, Partner},
     index::{AwakeIndex, ListIndex},
-    motion::Motion,
     points::Contact,
     subset::Subset,
 };

@@ -9,8 +9,9 @@
 //! other is followed piece by piece.
 
 use crate::scene::Velocity;
+use pushplan_kernel::Motion;
 
-use super::{bodies::Movable, motion::Motion};
+use super::bodies::Movable;
 
 /// Most pieces that a frame is cut into while an object slides and spins through it.
 const PIECES: usize = 12;

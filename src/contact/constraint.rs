@@ -2,19 +2,9 @@
 //! meet a contact alone.
 
 use nalgebra::{Matrix2, Vector2, Vector3};
+use pushplan_kernel::settings::{GIVE, MIN_COMPLIANCE, OPEN};
 
 use super::{index::GroupIndex, unknown::Unknown};
-
-/// Share of its own effect, without joints, by which a force gives way; keeps forces finite where
-/// nothing fits, and where the force of a contact acts through the axis of a joint.
-pub(super) const GIVE: f64 = 2e-3;
-
-/// Smallest share of a sliding contact's own compliance along the normal that counts: below it
-/// the contact wedges, which these equations cannot answer.
-pub(super) const MIN_COMPLIANCE: f64 = 0.2;
-
-/// A displacement that does not count, metres: rounding must not decide anything.
-pub(super) const OPEN: f64 = 1e-9;
 
 /// What a constraint allows for its two forces.
 #[derive(Clone, Copy, Debug)]

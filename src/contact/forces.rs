@@ -1,10 +1,11 @@
 //! The forces of a frame as a whole, and the effect of each alone.
 
 use nalgebra::Vector3;
+use pushplan_kernel::LoneSolution;
 
 use crate::{geometry::Vector, scene::State};
 
-use super::{bodies::Bodies, lone::LoneSolution, prior::Prior, twist::shift};
+use super::{bodies::Bodies, prior::Prior, twist::shift};
 
 /// The forces of a frame taken as a whole.
 #[derive(Clone, Copy, Debug)]

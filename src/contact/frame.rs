@@ -5,14 +5,13 @@ use crate::{
     scene::State,
     task::FrameStep,
 };
+use pushplan_kernel::{LoneSolution, Motion};
 
 use super::{
     awake::{Awake, View},
     bodies::Bodies,
     coast::coast,
     index::{AwakeIndex, ListIndex},
-    lone::LoneSolution,
-    motion::Motion,
     pairs::PairId,
     points::{Contact, MARGIN, Scenery, find_contacts},
 };

@@ -8,10 +8,10 @@ use crate::{
     scene::State,
     task::FrameStep,
 };
+use pushplan_kernel::Motion;
 
 use super::{
     coast::coast,
-    motion::Motion,
     points::{Contact, Scenery, find_again},
     prior::Prior,
 };

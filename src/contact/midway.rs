@@ -9,16 +9,13 @@ use crate::{
     geometry::{Follows, Footprint, Turn, Vector},
     scene::State,
 };
+use pushplan_kernel::settings::NEAR;
 
 use super::{
     bodies::{Bodies, Partner},
     points::Contact,
     unknown::Unknown,
 };
-
-/// Smallest distance of two points whose line gives a normal, metres: that of nearer ones may
-/// point anywhere a moment later.
-pub(super) const NEAR: f64 = 5e-3;
 
 /// A contact at some moment of a frame. World axes, metres.
 #[derive(Clone, Copy, Debug)]

@@ -7,10 +7,10 @@ use crate::{
     scene::State,
     task::FrameStep,
 };
+use pushplan_kernel::Motion;
 
 use super::{
     bodies::{Bodies, Given, Partner},
-    motion::Motion,
     pairs::PairId,
 };
 

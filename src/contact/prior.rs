@@ -2,6 +2,10 @@
 //! inertia to second order in time, for the network to correct.
 
 use nalgebra::Vector3;
+use pushplan_kernel::{
+    Motion,
+    settings::{HALF, Quantity, WHOLE},
+};
 
 use crate::geometry::{Vector, perpendicular};
 
@@ -9,14 +13,12 @@ use super::{
     bodies::Partner,
     constraint::{Constraint, Law},
     gain::Gain,
-    instant::{HALF, WHOLE},
     joint::{Held, turn_joints},
     midway::{Midway, midway},
-    motion::Motion,
     points::{Contact, Scenery},
     system::System,
     twist::{along, shift},
-    unknown::{Quantity, Unknown},
+    unknown::Unknown,
 };
 
 /// A target that no motion of a frame falls short of, metres.

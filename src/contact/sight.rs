@@ -1,8 +1,9 @@
 //! A contact as one of its two bodies sees it.
 
 use crate::geometry::Vector;
+use pushplan_kernel::Motion;
 
-use super::{bodies::Partner, motion::Motion, points::Contact};
+use super::{bodies::Partner, points::Contact};
 
 /// A contact as one of its two bodies, the receiver, sees it.
 #[derive(Clone, Copy, Debug)]

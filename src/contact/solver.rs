@@ -7,8 +7,8 @@ use super::{
     march::March,
     points::Scenery,
     prior::Prior,
-    tally::Tally,
 };
+use pushplan_kernel::Tally;
 
 /// Steps that a frame of several objects is solved in. What they do to each other depends on
 /// what happens first: of 60 sparse trajectories with fixed joints the mean error of a stroke is

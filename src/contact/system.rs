@@ -14,6 +14,10 @@
 //! reweighted least squares). At fixed weights [`super::active`] finds the forces.
 
 use nalgebra::Vector3;
+use pushplan_kernel::{
+    Tally,
+    settings::{Quantity, SETTLED, UPDATES},
+};
 
 use crate::scene::JOINT_ARM;
 
@@ -24,24 +28,17 @@ use super::{
     eliminated::Eliminated,
     gain::Gain,
     points::Scenery,
-    tally::Tally,
-    unknown::{Quantity, Unknown},
+    unknown::Unknown,
 };
 
-/// Most updates of the weights A.
-pub(super) const UPDATES: usize = 8;
-
-/// A change by an update below this is the last, metres.
-pub(super) const SETTLED: f64 = 1e-5;
-
-/// The same for displacements of more than [`FEW`] groups, of which a seventh of the time is saved
+/// [`SETTLED`] for displacements of more than [`FEW`] groups, of which a seventh of the time is saved
 /// so: of 4800 sparse and dense trajectories the mean errors of scenes with fixed joints that touch
 /// grow by 0.03 to 0.09 mm, the others by no more than chance. With few objects they would be 3 %
 /// larger, and velocities are what errors grow from: with 5e-5 for them, too, a quarter larger.
 const SETTLED_IN_A_CROWD: f64 = 5e-5;
 const FEW: usize = 3;
 
-/// The same for the velocities of more than [`FEW`] groups where joints hold some, of which an eighth
+/// [`SETTLED`] for the velocities of more than [`FEW`] groups where joints hold some, of which an eighth
 /// of the time is saved so: of 800 trajectories of nine objects with mixed joints no error is larger
 /// than with 1e-5 by more than chance. Mean errors of six in dense scenes are 7 and 2 % larger, and 3 and
 /// 1 % larger than with 1e-7. Without joints they would be a tenth larger.

@@ -20,6 +20,10 @@
 //! the way v0^2 / (2 mu g) that a free object slides, and [`super::coast`] says it exactly.
 
 use nalgebra::{Matrix3, Vector3};
+use pushplan_kernel::{
+    Tally,
+    settings::{FOLLOWING, HALF, LEAST, Quantity, SAME},
+};
 
 use crate::{
     geometry::{Turn, Vector},
@@ -28,45 +32,9 @@ use crate::{
 
 use super::{
     bodies::Movable,
-    instant::HALF,
     points::Scenery,
-    tally::Tally,
     twist::{along, shift},
 };
-
-/// What the unknowns are.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) enum Quantity {
-    /// Displacements in the frame.
-    #[default]
-    Displacement,
-    /// Velocities at its end, times its duration.
-    Velocity,
-}
-
-impl Quantity {
-    /// Smallest length s, metres: what moves less in a frame counts as stuck. Velocities need a
-    /// finer one, as what is left of them must count as rest.
-    #[inline(always)]
-    pub fn stuck(self) -> f64 {
-        match self {
-            Self::Displacement => 1e-4,
-            Self::Velocity => 1e-5,
-        }
-    }
-}
-
-/// Updates of the weights in which the load follows what presses; then it stays, as where it goes
-/// and what then presses could otherwise alternate for ever. Of 400 held-out pushes of one object
-/// the mean error against the planar engine is 2.85 mm with 1, 2.33 with 2, 1.70 with 4, 1.60 with
-/// 5, 1.63 with 6 and 1.8 without end.
-pub(super) const FOLLOWING: usize = 5;
-
-/// What comes to rest within a frame moves for at least this share of it, so that inertia stays finite.
-pub(super) const LEAST: f64 = 1e-3;
-
-/// Weights are kept while motion (metres, radians) and pressing have changed by less.
-pub(super) const SAME: f64 = 1e-9;
 
 /// What does not change while a member's frame is solved.
 #[derive(Clone, Copy, Debug)]

@@ -5,6 +5,8 @@
 //! because the graph needs both points also at a distance, with the same numbers in either
 //! argument order, and a batch of them for every step of every rollout.
 
+use pushplan_kernel::Follows;
+
 use super::flat::{Faced, Flat, Rectangle};
 use super::sunk::{Outline, Sunk, sunk};
 use super::{Footprint, MAX_CORNERS, Pose, Turn, Vector};
@@ -18,22 +20,6 @@ const ROUNDING: f64 = 1e-9;
 /// Shapes that are sunk by more than this beyond what their corners say have come through a face that
 /// no corner is nearest to, metres; also how near they are before that can be.
 const THROUGH: f64 = 1e-4;
-
-/// What the normal of a contact follows when its bodies move.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Follows {
-    /// A face of the first body.
-    First,
-    /// A face of the second body.
-    Second,
-    /// A face of both: they lie flush, end to end.
-    Both,
-    /// The line between two points that belong to the bodies: centres of discs, or corners.
-    /// World frame, metres.
-    Between(Vector, Vector),
-    /// Nothing: two corners, whose line may point anywhere a moment later.
-    Nothing,
-}
 
 /// A point where two bodies are close.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -20,12 +20,13 @@ mod solid;
 mod spatial;
 mod sunk;
 mod support_edge;
-mod turn;
 mod vector;
 
 pub use cast::travel_to_contact;
 pub use clearance::{clearance, swept_clearance};
-pub use contact::{ContactPoint, Follows, Placed, contact_points, contact_points_of, far_apart};
+pub use pushplan_kernel::{Follows, Turn};
+
+pub use contact::{ContactPoint, Placed, contact_points, contact_points_of, far_apart};
 pub use convex::{convex_hull, convex_parts};
 pub use cuboids::{Box3, BoxContact};
 pub use grid::{Frontier, Grid};
@@ -38,5 +39,4 @@ pub use shape::{Footprint, Shape};
 pub use solid::{Solid, area_of, common_area, without};
 pub use spatial::{Matrix3, Pose3, Turn3, Vector3};
 pub use support_edge::{SupportEdge, support_edge};
-pub use turn::{Turn, sines};
 pub use vector::Vector;

@@ -68,7 +68,7 @@ impl Scene {
 
     /// The points under object `index`, and what they carry, if it rests on the table in this way.
     pub fn feet(&self, index: usize, support: &Support) -> Feet {
-        let feet = Feet::new(support, &self.objects[index].shape.footprint());
+        let feet = support.feet(&self.objects[index].shape.footprint());
         if !self.has_raised(index) {
             return feet;
         }

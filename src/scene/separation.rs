@@ -4,10 +4,6 @@ use crate::geometry::{Pose, Vector, wrap_angle};
 
 use super::{JointKind, Span};
 
-/// What turns the angles of joints into lengths, metres: about the radius of the things on a
-/// table.
-pub const JOINT_ARM: f64 = 0.05;
-
 /// Where the frame of a joint is on each of its two objects. Where the objects are as stated the
 /// two coincide, see [`super::Joint::frames`].
 #[derive(Clone, Copy, Debug)]

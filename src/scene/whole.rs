@@ -9,7 +9,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Pose, Vector};
 
-use super::{Feet, Joint, JointKind, Object, PairFriction, Physics, Scene, Sight, State, Surface};
+use super::{
+    Feet, Joint, JointKind, Object, PairFriction, Physics, Scene, Sight, State, Surface, fewer,
+};
 
 /// What an object is a part of.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -171,7 +173,7 @@ impl Scene {
         let thing = self.thing(index);
         let solids = self.parts_of(thing).chain([thing]).filter(|&k| !self.objects[k].is_raised());
         let heaviest = solids.map(|k| masses[k]).fold(0.0, f64::max);
-        feet.fewer(&footprint, masses[index] / heaviest)
+        fewer(feet, &footprint, masses[index] / heaviest)
     }
 
     /// Whether an object is of several solids, or one of these.

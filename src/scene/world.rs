@@ -132,7 +132,7 @@ impl Object {
 
     /// The points under it, with their shares of its weight, that stand for its support.
     pub fn feet(&self) -> Feet {
-        Feet::new(&self.support, &self.shape.footprint())
+        self.support.feet(&self.shape.footprint())
     }
 
     /// The object on feet of this height at its corners, metres, so that a blade fits below its edge.

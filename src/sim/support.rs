@@ -148,7 +148,7 @@ mod tests {
     const DISC: Footprint = Footprint::Disc { radius: 0.05 };
 
     fn support() -> Support {
-        let feet = Feet::new(&scene::Support::Even, &DISC);
+        let feet = scene::Support::Even.feet(&DISC);
         Support::new(&Arc::new(feet), &DISC, 0.4, 2.0, 0.0)
     }
 

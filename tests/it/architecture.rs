@@ -95,10 +95,11 @@ const EXTRAS: [(&str, &str, &str); 7] = [
 
 /// Crates that only these rooms may name: whatever is behind such a door can be replaced without
 /// touching anything else.
-const DOORS: [(&str, &str); 30] = [
+const DOORS: [(&str, &str); 31] = [
     ("parry2d_f64", "geometry"),
     ("parry3d_f64", "geometry arm"),
     ("pushplan_models", "effect act/belief"),
+    ("pushplan_kernel", "geometry scene contact"),
     ("pushplan_page", "report export"),
     ("pushplan_three", "report"),
     ("pushplan_learn", "lab/bench lab/cli lab/image lab/parts"),
@@ -117,7 +118,7 @@ const DOORS: [(&str, &str); 30] = [
     ("gemm", "learn/train"),
     ("gemm_common", "network"),
     ("gemm_f32", "network"),
-    ("pulp", "contact network scene"),
+    ("pulp", "network kernel"),
     ("clarabel", "plan"),
     (
         "rand",

@@ -1,6 +1,7 @@
 //! Sets of contacts against the iteration that approaches them, and against the laws of contacts.
 
 use super::*;
+use pushplan_kernel::{Tally, settings::ROUNDS};
 
 use nalgebra::Matrix3;
 

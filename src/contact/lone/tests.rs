@@ -1,20 +1,15 @@
 //! Frames in lanes against the same frames one by one and by the general equations, to the bit.
 
-use super::{
-    LoneSolution, Waiting, is_lone,
-    lanes::Lanes,
-    solve_each,
-    waiting::{LANES, WIDE, solve_first},
-};
+use pushplan_kernel::{LoneSolution, MANY, Motion, Tally};
+
+use super::{Waiting, is_lone, solve_each, solve_together};
 
 use crate::{
     contact::{
         bodies::Bodies,
         constraint::Status,
         frame::{Frame, FrameProblem},
-        motion::Motion,
         prior::Prior,
-        tally::Tally,
     },
     geometry::{Pose, Shape, Vector},
     scene::{Object, Obstacle, Part, Physics, Scene, State, Tool, Velocity},
@@ -100,13 +95,13 @@ impl Drawn {
 
 /// Everything in a frame's solution, bit by bit.
 fn bits(solution: &LoneSolution) -> Vec<u64> {
-    let LoneSolution { motion, normal, pressed, inverse, effort } = solution;
+    let LoneSolution { motion, normal, pressed, effort, .. } = solution;
     let motion = motion.iter().flat_map(|motion| {
         let Motion { shift, turn, velocity, spin } = *motion;
         [shift.x, shift.y, turn, velocity.x, velocity.y, spin]
     });
     let pressed = pressed.iter().flat_map(|pressed| [pressed.x, pressed.y, pressed.z]);
-    let inverse = inverse.0.iter().map(|Lanes([value])| *value);
+    let inverse = solution.inverse();
     let effort = effort.iter().map(|&count| f64::from(count));
     let all = motion.chain(*normal).chain(pressed).chain(inverse).chain(effort);
     all.map(f64::to_bits).collect()
@@ -124,7 +119,8 @@ fn woken(drawn: &[Drawn]) -> (Vec<Option<FrameProblem<'_>>>, Vec<Frame>) {
         .unzip()
 }
 
-fn solved<const N: usize>(
+fn solved(
+    together: usize,
     problems: &[Option<FrameProblem>],
     frames: &mut [Frame],
     order: &[usize],
@@ -132,9 +128,8 @@ fn solved<const N: usize>(
     let mut tally = Tally::default();
     let waiting = order.iter().map(|&place| Waiting { contacts: 0, effort: [0; 3], place });
     let waiting: Vec<Waiting> = waiting.collect();
-    let mut left = &waiting[..];
-    while !left.is_empty() {
-        left = solve_first::<N>(problems, frames, left, &mut tally);
+    for waiting in waiting.chunks(together) {
+        solve_together(problems, frames, waiting, &mut tally);
     }
     (frames.iter().map(|frame| frame.lone.as_ref().map(bits)).collect(), tally)
 }
@@ -144,7 +139,7 @@ fn a_frame_is_the_same_bits_beside_any_others() {
     let drawn: Vec<Drawn> = (0..400).map(Drawn::new).collect();
     let (problems, mut frames) = woken(&drawn);
     let order: Vec<usize> = (0..frames.len()).collect();
-    let (alone, took) = solved::<1>(&problems, &mut frames, &order);
+    let (alone, took) = solved(1, &problems, &mut frames, &order);
     assert!(alone.len() > 300, "{} frames", alone.len());
     // Every frame comes with others that have another number of contacts, and some lanes stay
     // empty.
@@ -155,9 +150,9 @@ fn a_frame_is_the_same_bits_beside_any_others() {
     });
     for order in &steps {
         for together in [
-            solved::<2>(&problems, &mut frames, order),
-            solved::<LANES>(&problems, &mut frames, order),
-            solved::<WIDE>(&problems, &mut frames, order),
+            solved(2, &problems, &mut frames, order),
+            solved(MANY / 2, &problems, &mut frames, order),
+            solved(MANY, &problems, &mut frames, order),
         ] {
             for (k, (one, other)) in alone.iter().zip(&together.0).enumerate() {
                 assert_eq!(one, other, "frame {k}");
@@ -166,7 +161,7 @@ fn a_frame_is_the_same_bits_beside_any_others() {
         }
     }
     let mut tally = Tally::default();
-    for few in 1..=2 * WIDE + 3 {
+    for few in 1..=2 * MANY + 3 {
         let mut waiting: Vec<Waiting> =
             (0..few).map(|k| Waiting { contacts: k % 2, effort: [0; 3], place: 5 * k }).collect();
         waiting.sort_unstable();
@@ -182,7 +177,7 @@ fn a_frame_is_that_of_the_general_equations_to_the_bit() {
     let drawn: Vec<Drawn> = (0..400).map(Drawn::new).collect();
     let (problems, mut frames) = woken(&drawn);
     let order: Vec<usize> = (0..frames.len()).collect();
-    let (_, tally) = solved::<LANES>(&problems, &mut frames, &order);
+    let (_, tally) = solved(MANY / 2, &problems, &mut frames, &order);
     let (mut held, mut coasting, mut sticking, mut sliding, mut open, mut lost) =
         (0, 0, 0, 0, 0, 0);
     let mut prior = Prior::default();

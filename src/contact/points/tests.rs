@@ -6,6 +6,7 @@ use crate::{
     geometry::Pose,
     scene::{Object, Obstacle, Part, Physics, Scene, Tool},
 };
+use pushplan_kernel::Motion;
 
 /// Eleven boxes and cans, a wall and a bar, everything a little moved since contacts were found.
 #[test]

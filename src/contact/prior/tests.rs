@@ -7,6 +7,7 @@ use crate::{
     scene::{Joint, JointKind, Object, Obstacle, Part, Physics, Scene, State, Support, Tool},
     task::FrameStep,
 };
+use pushplan_kernel::Motion;
 
 fn cuboid(x: f64, y: f64) -> Object {
     Object::cuboid(format!("{x} {y}"), [0.06, 0.06, 0.1]).mass(0.5).friction(0.5).at(x, y, 0.0)

@@ -2,13 +2,12 @@
 
 use super::*;
 use crate::{
-    contact::{
-        AwakeIndex, Bodies, ListIndex, Motion, PairId, Pairs, Partner, SceneIndex, coast::coast,
-    },
+    contact::{AwakeIndex, Bodies, ListIndex, PairId, Pairs, Partner, SceneIndex, coast::coast},
     geometry::{Pose, Vector},
     scene::{Body, GRAVITY, Object, Part, Physics, Scene, Tool},
     task::FrameStep,
 };
+use pushplan_kernel::Motion;
 
 /// A can far off, one that a bar touches and one behind that.
 fn scene() -> Scene {

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::geometry::Footprint;
-use crate::scene::{Feet, Support};
+use crate::scene::Support;
 
 fn polygon(corners: &[[f64; 2]]) -> ConvexPolygon {
     let corners: Vec<Vector> = corners.iter().map(|[x, y]| Vector::new(*x, *y)).collect();
@@ -25,7 +25,7 @@ fn even_feet_under_polygons_have_the_moments_of_even_pressure() {
         (polygon(&ring(8)), 0.014),
     ];
     for (shape, off) in shapes {
-        let feet = Feet::new(&Support::Even, &Footprint::Polygon(shape));
+        let feet = Support::Even.feet(&Footprint::Polygon(shape));
         let sum = |value: &dyn Fn(Vector) -> f64| -> f64 {
             feet.each().map(|(at, load)| load * value(at)).sum()
         };
@@ -50,8 +50,8 @@ fn a_square_stands_alike_however_it_is_written() {
     let half = Vector::new(0.04, 0.04);
     let square = polygon(&[[0.0, 0.0], [0.08, 0.0], [0.08, 0.08], [0.0, 0.08]]);
     for (support, off) in [(Support::Even, 0.006), (Support::Spread(0.7), 1e-12)] {
-        let own = Feet::new(&support, &Footprint::Polygon(square));
-        let other = Feet::new(&support, &Footprint::Rectangle { half });
+        let own = support.feet(&Footprint::Polygon(square));
+        let other = support.feet(&Footprint::Rectangle { half });
         assert_eq!(own.count, other.count);
         assert!((own.mean_square / other.mean_square - 1.0).abs() < 1e-12);
         assert!((own.mean_radius / other.mean_radius - 1.0).abs() < off);
@@ -65,7 +65,7 @@ fn a_centre_of_mass_aside_is_carried_where_it_is() {
         let shape = ConvexPolygon::balanced(&corners, Vector::new(centre[0], centre[1]));
         let footprint = Footprint::Polygon(shape.expect("inside"));
         for support in [Support::Even, Support::Corners, Support::Spread(0.6)] {
-            let feet = Feet::new(&support, &footprint);
+            let feet = support.feet(&footprint);
             let sum: f64 = feet.load.iter().sum();
             let moment: Vector = feet.each().map(|(at, load)| load * at).sum();
             assert!((sum - 1.0).abs() < 1e-9 && moment.norm() < 1e-9, "{centre:?} {support:?}");

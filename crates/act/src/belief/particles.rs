@@ -10,7 +10,7 @@
 use rand::Rng;
 use serde::{Deserialize, Serialize};
 
-use pushplan::scene::{Feet, Physics, Scene, Support, Unknowns};
+use pushplan::scene::{Physics, Scene, Support, Unknowns};
 
 use super::chance::{LOGISTIC, generator, normal};
 use super::density::log_sum;
@@ -144,7 +144,7 @@ impl Particles {
             [mean, of(2, mean).sqrt()]
         };
         let far = |k: usize| {
-            let corners = Feet::new(&Support::Corners, &scene.objects[k].shape.footprint());
+            let corners = Support::Corners.feet(&scene.objects[k].shape.footprint());
             move |physics: &Physics| physics.feet[k].mean_radius / corners.mean_radius
         };
         let objects = 0..self.objects;

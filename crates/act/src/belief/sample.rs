@@ -5,7 +5,7 @@ use rand::Rng;
 
 use pushplan::{
     geometry::Pose,
-    scene::{DisjointSets, Feet, Joint, Physics, Scene, Support},
+    scene::{DisjointSets, Joint, Physics, Scene, Support},
 };
 
 use super::{
@@ -57,7 +57,7 @@ impl Belief {
             object.mass = physics.masses[k];
             object.friction = physics.frictions[k];
             if self.particles.draws_support() {
-                let corners = Feet::new(&Support::Corners, &object.shape.footprint());
+                let corners = Support::Corners.feet(&object.shape.footprint());
                 let spread = physics.feet[k].mean_radius / corners.mean_radius;
                 object.support = Support::Spread(spread);
             }

@@ -1,7 +1,7 @@
 //! Small spheres under a solid: the points that it stands on.
 
 use pushplan::geometry::{Footprint, Vector};
-use pushplan::scene::{Feet, Support};
+use pushplan::scene::Support;
 
 /// Points that differ by less are the same, metres.
 const SAME: f64 = 1e-6;
@@ -13,7 +13,7 @@ const MOST: usize = 8;
 /// many to say.
 pub(super) fn support(points: &[Vector], footprint: &Footprint) -> Option<Support> {
     let like = |support: &Support| {
-        let feet = Feet::new(support, footprint);
+        let feet = support.feet(footprint);
         let near = |foot: Vector| points.iter().any(|point| (point - foot).norm() <= SAME);
         feet.count == points.len() && feet.each().all(|(foot, _)| near(foot))
     };
@@ -35,7 +35,7 @@ mod tests {
         let footprint = Footprint::Rectangle { half: Vector::new(0.04, 0.03) };
         for word in [Support::Even, Support::Corners] {
             let points: Vec<Vector> =
-                Feet::new(&word, &footprint).each().map(|(point, _)| point).collect();
+                word.feet(&footprint).each().map(|(point, _)| point).collect();
             assert_eq!(support(&points, &footprint), Some(word));
         }
         let three = [[0.02, 0.0], [-0.01, 0.02], [-0.01, -0.02]].map(Vector::from);

@@ -4,9 +4,9 @@ use std::sync::OnceLock;
 
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::geometry::Vector;
+use crate::Vector;
 
-use super::feet::{Feet, MAX_FEET};
+use crate::feet::{Feet, MAX_FEET};
 
 /// Points that are summed side by side. All sums are taken in this order whatever the processor,
 /// so that their bits are the same.

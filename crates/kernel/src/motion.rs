@@ -1,6 +1,6 @@
 //! What a body does in a frame.
 
-use crate::geometry::Vector;
+use crate::Vector;
 
 /// A planar displacement and the velocity at its end.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -9,17 +9,17 @@ use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// One number of each frame.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Lanes<const N: usize>(pub [f64; N]);
+pub(crate) struct Lanes<const N: usize>(pub [f64; N]);
 
 /// Some of the frames: all bits are set for one of them, none for another.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Which<const N: usize>(pub [u64; N]);
+pub(crate) struct Which<const N: usize>(pub [u64; N]);
 
 /// A planar vector of each frame.
-pub(super) type Pair<const N: usize> = [Lanes<N>; 2];
+pub(crate) type Pair<const N: usize> = [Lanes<N>; 2];
 
 /// Shift and turn, or force and torque, of each frame.
-pub(super) type Triple<const N: usize> = [Lanes<N>; 3];
+pub(crate) type Triple<const N: usize> = [Lanes<N>; 3];
 
 macro_rules! operations {
     ($($of:ident, $call:ident, $sign:tt;)*) => {$(
@@ -245,7 +245,7 @@ impl<const N: usize> Not for Which<N> {
 }
 
 #[inline(always)]
-pub(super) fn plus<const K: usize, const N: usize>(
+pub(crate) fn plus<const K: usize, const N: usize>(
     mut a: [Lanes<N>; K],
     b: [Lanes<N>; K],
 ) -> [Lanes<N>; K] {
@@ -256,7 +256,7 @@ pub(super) fn plus<const K: usize, const N: usize>(
 }
 
 #[inline(always)]
-pub(super) fn minus<const K: usize, const N: usize>(
+pub(crate) fn minus<const K: usize, const N: usize>(
     mut a: [Lanes<N>; K],
     b: [Lanes<N>; K],
 ) -> [Lanes<N>; K] {
@@ -268,7 +268,7 @@ pub(super) fn minus<const K: usize, const N: usize>(
 
 /// A vector times a number.
 #[inline(always)]
-pub(super) fn times<const K: usize, const N: usize>(
+pub(crate) fn times<const K: usize, const N: usize>(
     mut a: [Lanes<N>; K],
     by: Lanes<N>,
 ) -> [Lanes<N>; K] {
@@ -279,7 +279,7 @@ pub(super) fn times<const K: usize, const N: usize>(
 }
 
 #[inline(always)]
-pub(super) fn dot<const K: usize, const N: usize>(a: [Lanes<N>; K], b: [Lanes<N>; K]) -> Lanes<N> {
+pub(crate) fn dot<const K: usize, const N: usize>(a: [Lanes<N>; K], b: [Lanes<N>; K]) -> Lanes<N> {
     let mut sum = a[0] * b[0];
     for k in 1..K {
         sum += a[k] * b[k];
@@ -288,19 +288,19 @@ pub(super) fn dot<const K: usize, const N: usize>(a: [Lanes<N>; K], b: [Lanes<N>
 }
 
 #[inline(always)]
-pub(super) fn norm<const N: usize>(a: Pair<N>) -> Lanes<N> {
+pub(crate) fn norm<const N: usize>(a: Pair<N>) -> Lanes<N> {
     dot(a, a).sqrt()
 }
 
 /// A quarter turn to the left.
 #[inline(always)]
-pub(super) fn left_of<const N: usize>([x, y]: Pair<N>) -> Pair<N> {
+pub(crate) fn left_of<const N: usize>([x, y]: Pair<N>) -> Pair<N> {
     [-y, x]
 }
 
-/// A turn of each frame, see [`crate::geometry::Turn`].
+/// A turn of each frame, see [`crate::Turn`].
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Turns<const N: usize> {
+pub(crate) struct Turns<const N: usize> {
     sin: Lanes<N>,
     cos: Lanes<N>,
 }
@@ -308,7 +308,7 @@ pub(super) struct Turns<const N: usize> {
 impl<const N: usize> Turns<N> {
     #[inline(always)]
     pub fn by(angle: Lanes<N>) -> Self {
-        let [sin, cos] = crate::geometry::sines(angle.0);
+        let [sin, cos] = crate::turn::sines(angle.0);
         Self { sin: Lanes(sin), cos: Lanes(cos) }
     }
 

@@ -40,7 +40,7 @@ impl Tally {
     /// Counts an object with this many points under it: two products and a sum for the speed along
     /// either axis, their length, a quotient, and five sums of products.
     #[inline(always)]
-    pub(super) fn weigh(&mut self, points: usize) {
+    pub fn weigh(&mut self, points: usize) {
         self.weighed += 1;
         self.operations += 24 * points as u64;
     }
@@ -48,7 +48,7 @@ impl Tally {
     /// Counts `n` linear equations: filled in from four products of three numbers each, eliminated,
     /// and solved backwards.
     #[inline(always)]
-    pub(super) fn solve(&mut self, n: usize) {
+    pub fn solve(&mut self, n: usize) {
         let n = n as u64;
         self.rows += n;
         self.operations += 24 * n * n + 2 * n * n * n / 3 + 2 * n * n;

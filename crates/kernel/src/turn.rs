@@ -1,6 +1,6 @@
 //! A turn in the plane whose sine and cosine are taken once.
 
-use super::Vector;
+use crate::Vector;
 
 /// Angle below which five terms of a Taylor series are exact, radians.
 const SMALL: f64 = 0.1;

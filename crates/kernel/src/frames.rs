@@ -1,96 +1,57 @@
-//! Lone frames side by side, from their contacts to motions.
-
-use std::sync::OnceLock;
+//! Frames side by side, from their contacts to motions.
 
 use nalgebra::{SVector, Vector3};
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 
 use crate::{
-    geometry::{Follows, Footprint, Vector},
-    scene::JOINT_ARM,
-};
-
-use super::{
-    super::{
-        bodies::Partner,
-        instant::{HALF, WHOLE},
-        motion::Motion,
-        points::{Contact, Scenery},
-        system::{SETTLED, UPDATES},
-        tally::Tally,
-        twist::shift,
-        unknown::Quantity,
-    },
-    LoneSolution,
+    LoneFrame, Vector,
     forces::{self, MOST, Pressing},
     lanes::{Lanes, Which, dot, left_of, minus, norm},
+    motion::Motion,
     object::{Inverse, Moves, Object},
-    touching::{Look, Touching},
-    waiting::WIDE,
+    settings::{HALF, JOINT_ARM, Quantity, SETTLED, UPDATES, WHOLE},
+    solution::LoneSolution,
+    tally::Tally,
+    touching::{Follows, Look, Touching},
 };
-
-/// The widest vectors of this processor.
-static ARCH: OnceLock<Arch> = OnceLock::new();
-
-/// Whether these hold [`WIDE`] numbers.
-pub(super) fn is_wide() -> bool {
-    static IS_WIDE: OnceLock<bool> = OnceLock::new();
-    *IS_WIDE.get_or_init(|| ARCH.get_or_init(Arch::new).dispatch(Width) >= WIDE)
-}
-
-/// How many numbers a vector holds.
-struct Width;
-
-impl WithSimd for Width {
-    type Output = usize;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> usize {
-        S::F64_LANES
-    }
-}
 
 /// The frames, with what they begin with in lanes.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Frames<'a, const N: usize> {
+pub(crate) struct Frames<'a, const N: usize> {
     present: Which<N>,
     object: Object<'a, N>,
     contacts: [Touching<N>; MOST],
 }
 
 impl<'a, const N: usize> Frames<'a, N> {
-    /// Puts a lone frame in place `k`.
+    /// Puts a frame in place `k`.
     #[inline(always)]
-    pub fn set(&mut self, k: usize, scenery: Scenery<'a>, contacts: &[Contact]) {
-        let Scenery { bodies, state, step, coasts, turns, .. } = scenery;
-        let (body, pose, coast) = (&bodies.objects[0], &state.poses[0], &coasts[0]);
-        let (object, velocity) = (&mut self.object, &state.velocities[0]);
+    pub fn set(&mut self, k: usize, frame: &LoneFrame<'a>) {
+        let object = &mut self.object;
         self.present.set(k, true);
-        let feet = bodies.feet(0);
-        object.feet[k] = Some(feet);
-        set(&mut object.place, k, pose.position);
-        if !feet.round {
-            set(&mut object.axis, k, turns[0].axis());
+        object.feet[k] = Some(frame.feet);
+        set(&mut object.place, k, frame.position);
+        if !frame.feet.round {
+            set(&mut object.axis, k, frame.axis);
         }
         for (lanes, value) in [
-            (&mut object.mass, body.mass),
-            (&mut object.load, body.load()),
-            (&mut object.lean, body.lean),
-            (&mut object.support, body.support),
-            (&mut object.spin, body.spin),
-            (&mut object.duration, step.duration),
+            (&mut object.mass, frame.mass),
+            (&mut object.load, frame.load),
+            (&mut object.lean, frame.lean),
+            (&mut object.support, frame.support),
+            (&mut object.spin, frame.spin),
+            (&mut object.duration, frame.duration),
+            (&mut object.reach, frame.reach),
         ] {
             lanes.0[k] = value;
         }
-        set(&mut object.coast, k, coast.shift.push(coast.turn));
-        set(&mut object.velocity, k, velocity.linear.push(velocity.angular));
-        let travel = (step.to.position - step.from.position).norm();
-        object.reach.0[k] = coast.shift.norm().max(travel);
-        if let Footprint::Disc { radius } = body.footprint {
+        set(&mut object.coast, k, frame.coast);
+        set(&mut object.velocity, k, frame.velocity);
+        if let Some(radius) = frame.radius {
             object.radius.0[k] = radius;
             object.round.set(k, true);
         }
-        for (touching, contact) in self.contacts.iter_mut().zip(contacts) {
+        for (touching, contact) in self.contacts.iter_mut().zip(frame.contacts()) {
             touching.present.set(k, true);
             set(&mut touching.normal, k, contact.normal);
             set(&mut touching.arm, k, contact.arm);
@@ -98,10 +59,7 @@ impl<'a, const N: usize> Frames<'a, N> {
             touching.gap.0[k] = contact.gap;
             touching.friction.0[k] = contact.friction;
             touching.given_turn.0[k] = contact.given_turn;
-            // Obstacles stay where they are, so only faces and corners matter.
-            if let Partner::Part(index) = contact.with
-                && let Footprint::Disc { radius } = bodies.parts[index].footprint
-            {
+            if let Some(radius) = contact.radius {
                 touching.radius.0[k] = radius;
                 touching.round.set(k, true);
             }
@@ -119,9 +77,9 @@ impl<'a, const N: usize> Frames<'a, N> {
         }
     }
 
-    /// What becomes of all of them; none where the contacts' forces were not found.
-    pub fn solve(&self, tally: &mut Tally) -> [Option<LoneSolution>; N] {
-        ARCH.get_or_init(Arch::new).dispatch(Solving { frames: self, tally })
+    /// Solves all of them in vectors of a kind; none where the contacts' forces were not found.
+    pub fn by(&self, simd: impl Simd, tally: &mut Tally) -> [Option<LoneSolution>; N] {
+        simd.vectorize(Solving { frames: self, tally })
     }
 
     /// The displacements and the forces that make them, and where these were found.
@@ -304,4 +262,10 @@ impl<const N: usize> WithSimd for Solving<'_, '_, N> {
         }
         solutions
     }
+}
+
+/// Displacement of a point `arm` metres from the centre, to first order, metres.
+#[inline(always)]
+fn shift(twist: &Vector3<f64>, arm: Vector) -> Vector {
+    Vector::new(twist.x, twist.y) + twist.z * Vector::new(-arm.y, arm.x)
 }

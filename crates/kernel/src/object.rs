@@ -1,22 +1,17 @@
-//! How an object resists being moved: [`super::super::unknown`] for one that nothing is joined to,
-//! several frames side by side.
+//! The resistance of an object that nothing is joined to, several frames side by side.
 
 use crate::{
-    geometry::Vector,
-    scene::{Drag, Feet},
-};
-
-use super::{
-    super::{
-        tally::Tally,
-        unknown::{FOLLOWING, LEAST, Quantity, SAME},
-    },
+    Vector,
+    drag::Drag,
+    feet::Feet,
     lanes::{Lanes, Pair, Triple, Turns, Which, minus, norm, plus, times},
+    settings::{FOLLOWING, LEAST, Quantity, SAME},
+    tally::Tally,
 };
 
 /// The object of each frame.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Object<'a, const N: usize> {
+pub(crate) struct Object<'a, const N: usize> {
     pub feet: [Option<&'a Feet>; N],
     /// Where it is, metres, and where its own x axis points.
     pub place: Pair<N>,
@@ -28,7 +23,7 @@ pub(super) struct Object<'a, const N: usize> {
     /// The radius of a disc, and which are discs.
     pub radius: Lanes<N>,
     pub round: Which<N>,
-    /// See [`super::super::Movable`].
+    /// Radius of gyration of the support over that of the mass, and its square: see [`crate::Lone`].
     pub support: Lanes<N>,
     pub spin: Lanes<N>,
     /// How it would coast: shift, metres, and turn.
@@ -72,7 +67,7 @@ impl<const N: usize> Object<'_, N> {
 
 /// What it does, and how it resists.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Moves<const N: usize> {
+pub(crate) struct Moves<const N: usize> {
     /// Shift, metres, and turn.
     pub twist: Triple<N>,
     /// Force and torque of all contacts.
@@ -93,7 +88,7 @@ pub(super) struct Moves<const N: usize> {
 
 /// Displacement per force and torque: a symmetric matrix, xx, xy, xz, yy, yz and zz.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Inverse<const N: usize>(pub [Lanes<N>; 6]);
+pub(crate) struct Inverse<const N: usize>(pub [Lanes<N>; 6]);
 
 impl<const N: usize> Inverse<N> {
     #[inline(always)]

@@ -1,22 +1,18 @@
-//! The forces of at most two contacts at fixed weights: [`super::super::active`] for one object, several
-//! frames side by side.
+//! The forces of at most two contacts at fixed weights, several frames side by side.
 
-use super::{
-    super::{
-        active::{ROUNDS, TOGETHER},
-        constraint::{GIVE, MIN_COMPLIANCE, OPEN},
-        tally::Tally,
-    },
+use crate::{
     lanes::{Lanes, Pair, Triple, Which, dot, minus, plus, times},
     object::{Inverse, Moves},
+    settings::{GIVE, MIN_COMPLIANCE, OPEN, ROUNDS, TOGETHER},
+    tally::Tally,
 };
 
-/// Most contacts.
-pub(super) const MOST: usize = 2;
+/// Largest number of contacts of a frame.
+pub const MOST: usize = 2;
 
-/// A contact as equations, see [`super::super::constraint::Constraint`].
+/// A contact as equations.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Pressing<const N: usize> {
+pub(crate) struct Pressing<const N: usize> {
     /// Which frames have it.
     pub present: Which<N>,
     pub to: [Triple<N>; 2],
@@ -57,7 +53,7 @@ struct Row<const N: usize> {
 /// Finds forces and twists in the frames `of` interest, beginning with what the contacts did last;
 /// returns where that went well.
 #[inline(always)]
-pub(super) fn solve<const N: usize>(
+pub(crate) fn solve<const N: usize>(
     moves: &mut Moves<N>,
     contacts: &mut [Pressing<N>; MOST],
     mut of: Which<N>,
@@ -287,7 +283,7 @@ fn count<const N: usize>(contacts: &[Pressing<N>; MOST], of: Which<N>, tally: &m
 }
 
 /// The forces of contacts of which the first has A equations, the second B and both M, and where these
-/// have an answer: what [`super::super::elimination`] does. An equation that does not hold in a frame
+/// have an answer, by elimination with pivots. An equation that does not hold in a frame
 /// says there that an unknown, which is in no other one, is zero: what zeros are taken from keeps its
 /// bits.
 #[inline(always)]

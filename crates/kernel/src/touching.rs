@@ -1,15 +1,32 @@
-//! Where an object touches bodies whose motion is given, part-way through a frame: [`super::super::midway`]
-//! for several frames side by side.
+//! Contacts of an object with bodies whose motion is given, part-way through a frame, for several frames
+//! side by side.
 
-use super::{
-    super::midway::NEAR,
+use crate::{
+    Vector,
     lanes::{Lanes, Pair, Triple, Turns, Which, dot, left_of, minus, norm, plus, times},
     object::{Moves, Object},
+    settings::NEAR,
 };
+
+/// The feature that the normal of a contact turns with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Follows {
+    /// A face of the first body.
+    First,
+    /// A face of the second body.
+    Second,
+    /// A face of both: they lie flush, end to end.
+    Both,
+    /// The line between two points that belong to the bodies: centres of discs, or corners.
+    /// World frame, metres.
+    Between(Vector, Vector),
+    /// Nothing: two corners, whose line may point anywhere a moment later.
+    Nothing,
+}
 
 /// A contact of each frame, where the frame has that many. World axes, metres, as the frame begins.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Touching<const N: usize> {
+pub(crate) struct Touching<const N: usize> {
     /// Which frames have it.
     pub present: Which<N>,
     /// Unit, into the object.
@@ -24,7 +41,7 @@ pub(super) struct Touching<const N: usize> {
     /// The radius of the other body, and which are discs.
     pub radius: Lanes<N>,
     pub round: Which<N>,
-    /// What the normal turns with, see [`crate::geometry::Follows`]: a face of the object, of the other,
+    /// What the normal turns with, see [`Follows`]: a face of the object, of the other,
     /// of both, or two points.
     pub first: Which<N>,
     pub second: Which<N>,
@@ -35,7 +52,7 @@ pub(super) struct Touching<const N: usize> {
 
 /// How far an object has come part-way through a frame.
 #[derive(Clone, Copy)]
-pub(super) struct Look<const N: usize> {
+pub(crate) struct Look<const N: usize> {
     share: Lanes<N>,
     shift: Pair<N>,
     /// How far it has turned.
@@ -63,7 +80,7 @@ impl<const N: usize> Look<N> {
 
 /// A contact at some moment of a frame.
 #[derive(Clone, Copy)]
-pub(super) struct Met<const N: usize> {
+pub(crate) struct Met<const N: usize> {
     pub normal: Pair<N>,
     /// From the object's centre to the point.
     arm: Pair<N>,

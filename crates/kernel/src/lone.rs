@@ -1,0 +1,191 @@
+//! Frames of one object as numbers, and the choice of vectors that they are solved in.
+
+use std::sync::OnceLock;
+
+use nalgebra::Vector3;
+#[cfg(target_arch = "x86_64")]
+use pulp::x86::{V3, V4};
+
+use crate::{
+    Vector, feet::Feet, forces::MOST, frames::Frames, solution::LoneSolution, tally::Tally,
+    touching::Follows,
+};
+
+/// Frames side by side. With AVX2 a vector holds as many numbers; with eight, more of which wait,
+/// a push takes 5 to 17 % longer.
+const LANES: usize = 4;
+
+/// Frames side by side where vectors hold as many, as with AVX-512: a push takes a sixth less than with four.
+const WIDE: usize = 8;
+
+/// Most frames that are ever solved together, see [`batch`].
+pub const MANY: usize = WIDE;
+
+/// Fewer frames than this take less time one by one.
+const FEW: usize = 3;
+
+/// A frame of one object in at most [`MOST`] contacts. World axes, SI units.
+#[derive(Clone, Copy, Debug)]
+pub struct LoneFrame<'a> {
+    /// Points that the object stands on.
+    pub feet: &'a Feet,
+    /// Centre as the frame begins.
+    pub position: Vector,
+    /// Unit vector along the object's own x axis; of no interest for round ones.
+    pub axis: Vector,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Largest friction of the table, N.
+    pub load: f64,
+    /// Largest distance by which the load leans, metres.
+    pub lean: f64,
+    /// Mean distance c of the support's points from the centre, metres.
+    pub support: f64,
+    /// (c / rho)^2, the ratio of the spin's friction deceleration (in c omega) to the slide's.
+    pub spin: f64,
+    /// Duration of the frame, seconds.
+    pub duration: f64,
+    /// Distance that the object is first assumed to move, metres.
+    pub reach: f64,
+    /// Shift and turn of the object if it coasts.
+    pub coast: Vector3<f64>,
+    /// Velocity and spin as the frame begins.
+    pub velocity: Vector3<f64>,
+    /// Radius of a disc.
+    pub radius: Option<f64>,
+    /// Its contacts; `None` for those that it does not have.
+    pub contacts: [Option<LoneContact>; MOST],
+}
+
+/// A contact with a body whose motion is given. World axes, metres, as the frame begins.
+#[derive(Clone, Copy, Debug)]
+pub struct LoneContact {
+    /// Unit vector into the object.
+    pub normal: Vector,
+    /// Vector from the object's centre to the point on it.
+    pub arm: Vector,
+    /// Displacement of the point on the other body.
+    pub given: Vector,
+    /// Turn of the other body, radians.
+    pub given_turn: f64,
+    /// Distance of the two.
+    pub gap: f64,
+    /// Coefficient of friction.
+    pub friction: f64,
+    /// Radius of the other body, if it is a disc.
+    pub radius: Option<f64>,
+    /// Feature that the normal turns with.
+    pub follows: Follows,
+}
+
+impl LoneFrame<'_> {
+    #[inline(always)]
+    pub(crate) fn contacts(&self) -> impl Iterator<Item = &LoneContact> {
+        self.contacts.iter().flatten()
+    }
+}
+
+/// The vectors of this processor that code is compiled for. Not every number of frames is compiled for each,
+/// as nothing here compiles longer: what is left out was slower where it was measured.
+#[derive(Clone, Copy)]
+enum Vectors {
+    /// The ones that every processor of its kind has.
+    Any,
+    /// AVX2.
+    #[cfg(target_arch = "x86_64")]
+    Four(V3),
+    /// AVX-512.
+    #[cfg(target_arch = "x86_64")]
+    Eight(V4),
+}
+
+impl Vectors {
+    fn of_processor() -> Self {
+        static FOUND: OnceLock<Vectors> = OnceLock::new();
+        *FOUND.get_or_init(|| {
+            #[cfg(target_arch = "x86_64")]
+            {
+                if let Some(wide) = V4::try_new() {
+                    return Self::Eight(wide);
+                }
+                if let Some(narrow) = V3::try_new() {
+                    return Self::Four(narrow);
+                }
+            }
+            Self::Any
+        })
+    }
+}
+
+/// Returns the number of frames that are best solved together where so many wait.
+pub fn batch(waiting: usize) -> usize {
+    match (waiting, Vectors::of_processor()) {
+        (0..FEW, _) => 1,
+        #[cfg(target_arch = "x86_64")]
+        (_, Vectors::Eight(_)) if waiting > LANES => WIDE,
+        _ => LANES,
+    }
+}
+
+/// Solves frames side by side; leaves `None` for those whose forces were not found, and where there is no
+/// frame. Frames beyond the number of `solutions` are not solved.
+///
+/// A solution is the same bits whatever frames stand beside it.
+pub fn solve(
+    frames: &[Option<LoneFrame>],
+    solutions: &mut [Option<LoneSolution>],
+    tally: &mut Tally,
+) {
+    let count = frames.len().min(solutions.len());
+    let (frames, solutions) = (&frames[..count], &mut solutions[..count]);
+    match Vectors::of_processor() {
+        #[cfg(target_arch = "x86_64")]
+        Vectors::Eight(wide) => match count {
+            0..=1 => {
+                in_lanes::<1>(frames, solutions, tally, |frames, tally| frames.by(wide, tally))
+            }
+            2..=LANES => {
+                in_lanes::<LANES>(frames, solutions, tally, |frames, tally| frames.by(wide, tally))
+            }
+            _ => in_lanes::<WIDE>(frames, solutions, tally, |frames, tally| frames.by(wide, tally)),
+        },
+        #[cfg(target_arch = "x86_64")]
+        Vectors::Four(narrow) => match count {
+            0..=1 => {
+                in_lanes::<1>(frames, solutions, tally, |frames, tally| frames.by(narrow, tally))
+            }
+            _ => in_lanes::<LANES>(frames, solutions, tally, |frames, tally| {
+                frames.by(narrow, tally)
+            }),
+        },
+        Vectors::Any => match count {
+            #[cfg(not(target_arch = "x86_64"))]
+            2.. => in_lanes::<LANES>(frames, solutions, tally, |frames, tally| {
+                frames.by(pulp::Scalar::new(), tally)
+            }),
+            _ => in_lanes::<1>(frames, solutions, tally, |frames, tally| {
+                frames.by(pulp::Scalar::new(), tally)
+            }),
+        },
+    }
+}
+
+/// Solves N frames at a time by `solve`.
+fn in_lanes<const N: usize>(
+    frames: &[Option<LoneFrame>],
+    solutions: &mut [Option<LoneSolution>],
+    tally: &mut Tally,
+    solve: impl Fn(&Frames<N>, &mut Tally) -> [Option<LoneSolution>; N],
+) {
+    for (frames, solutions) in frames.chunks(N).zip(solutions.chunks_mut(N)) {
+        let mut lanes = Frames::<N>::default();
+        for (k, frame) in frames.iter().enumerate() {
+            if let Some(frame) = frame {
+                lanes.set(k, frame);
+            }
+        }
+        for (place, solution) in solutions.iter_mut().zip(solve(&lanes, tally)) {
+            *place = solution;
+        }
+    }
+}

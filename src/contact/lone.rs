@@ -1,0 +1,115 @@
+//! The frames of one object that nothing is joined to, in at most two contacts: the motions of [`super::prior`]
+//! to the last bit, solved several frames side by side by [`pushplan_kernel`].
+
+use pushplan_kernel::Tally;
+use pushplan_kernel::{Effort, LoneContact, LoneFrame, MANY, MOST, batch, solve};
+
+use crate::geometry::Footprint;
+
+use super::{
+    bodies::Partner,
+    frame::{Frame, FrameProblem},
+    points::{Contact, Scenery},
+};
+
+/// A frame that waits to be solved. In this order lanes wait the least for each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Waiting {
+    pub contacts: usize,
+    /// Of the frame before.
+    pub effort: Effort,
+    pub place: usize,
+}
+
+/// Whether a frame is one that is solved here.
+pub(super) fn is_lone(scenery: &Scenery, contacts: &[Contact]) -> bool {
+    let bodies = scenery.bodies;
+    bodies.objects.len() == 1 && bodies.mounts.is_empty() && contacts.len() <= MOST
+}
+
+/// Solves the frames that are `waiting`: leaves the solution with each, if its forces were found.
+pub(super) fn solve_each(
+    problems: &[Option<FrameProblem>],
+    frames: &mut [Frame],
+    mut waiting: &[Waiting],
+    tally: &mut Tally,
+) {
+    while !waiting.is_empty() {
+        let (now, later) = waiting.split_at(waiting.len().min(batch(waiting.len())));
+        solve_together(problems, frames, now, tally);
+        waiting = later;
+    }
+}
+
+/// Solves the frames that are `waiting` side by side.
+fn solve_together(
+    problems: &[Option<FrameProblem>],
+    frames: &mut [Frame],
+    waiting: &[Waiting],
+    tally: &mut Tally,
+) {
+    let mut solutions = [None; MANY];
+    {
+        let mut lanes = [const { None }; MANY];
+        for (lane, &Waiting { place, .. }) in lanes.iter_mut().zip(waiting) {
+            let frame = &frames[place];
+            *lane = problems[place].map(|problem| numbers(frame.scenery(problem), &frame.contacts));
+        }
+        solve(&lanes[..waiting.len()], &mut solutions, tally);
+    }
+    for (solution, &Waiting { place, .. }) in solutions.iter().zip(waiting) {
+        frames[place].lone = *solution;
+    }
+}
+
+/// The numbers of a lone frame.
+fn numbers<'a>(scenery: Scenery<'a>, contacts: &[Contact]) -> LoneFrame<'a> {
+    let Scenery { bodies, state, step, coasts, turns, .. } = scenery;
+    let (body, coast, velocity) = (&bodies.objects[0], &coasts[0], &state.velocities[0]);
+    let travel = (step.to.position - step.from.position).norm();
+    let mut met = [None; MOST];
+    for (met, contact) in met.iter_mut().zip(contacts) {
+        // Obstacles stay where they are, so only faces and corners matter.
+        let radius = match contact.with {
+            Partner::Part(index) => radius(&bodies.parts[index].footprint),
+            _ => None,
+        };
+        *met = Some(LoneContact {
+            normal: contact.normal,
+            arm: contact.arm,
+            given: contact.given,
+            given_turn: contact.given_turn,
+            gap: contact.gap,
+            friction: contact.friction,
+            radius,
+            follows: contact.follows,
+        });
+    }
+    LoneFrame {
+        feet: bodies.feet(0),
+        position: state.poses[0].position,
+        axis: turns[0].axis(),
+        mass: body.mass,
+        load: body.load(),
+        lean: body.lean,
+        support: body.support,
+        spin: body.spin,
+        duration: step.duration,
+        reach: coast.shift.norm().max(travel),
+        coast: coast.shift.push(coast.turn),
+        velocity: velocity.linear.push(velocity.angular),
+        radius: radius(&body.footprint),
+        contacts: met,
+    }
+}
+
+/// The radius of a disc.
+fn radius(footprint: &Footprint) -> Option<f64> {
+    match footprint {
+        Footprint::Disc { radius } => Some(*radius),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests;
