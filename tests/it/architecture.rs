@@ -16,8 +16,10 @@ use reading::{code_of, imports, names, sources};
 type Rooms = &'static [(&'static str, &'static str)];
 
 /// The folder of a crate, the prefix of its rooms in [`DOORS`], and the rooms; one without rooms is a room itself.
-const HOUSES: [(&str, &str, Rooms); 10] = [
+const HOUSES: [(&str, &str, Rooms); 11] = [
     ("src", "", &ROOMS),
+    // Below the core, which it knows nothing of.
+    ("crates/kernel/src", "kernel", &[]),
     (
         "crates/act/src",
         "act/",
@@ -107,7 +109,7 @@ const DOORS: [(&str, &str); 31] = [
     ("serde_yaml", "asset"),
     ("rapier2d", "sim"),
     ("rapier3d_f64", "sim"),
-    ("nalgebra", "geometry arm contact act/fit act/belief plan import lab/bench"),
+    ("nalgebra", "geometry arm kernel contact act/fit act/belief plan import lab/bench"),
     ("roxmltree", "arm import"),
     ("stl_io", "import"),
     ("tobj", "import"),
