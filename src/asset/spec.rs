@@ -4,7 +4,6 @@
 //! editors (`schema.rs`) and people, who meet its words in both.
 
 use super::node::Node;
-use super::prism::{PLACED_PRISM, PRISM};
 
 /// A key of a map.
 #[derive(Clone, Copy)]
@@ -90,30 +89,6 @@ pub(super) const POSITION: Value = numbers(&COORDINATE, 2);
 /// Full extents.
 pub(super) const EXTENTS: Value = numbers(&SIZE, 3);
 
-/// A solid standing upright.
-pub(super) const SHAPE: Value = Value::Variant(&[
-    Key::optional("cylinder", CYLINDER, "An upright cylinder; no default."),
-    Key::optional("cuboid", CUBOID, "A cuboid with its faces along its own axes; no default."),
-    Key::optional("prism", PRISM, "An upright prism on a convex polygon; no default."),
-]);
-
-/// A solid standing upright, with the point of it that a position names.
-pub(super) const PLACED_SHAPE: Value = Value::Variant(&[
-    Key::optional("cylinder", CYLINDER, "An upright cylinder; no default."),
-    Key::optional("cuboid", CUBOID, "A cuboid with its faces along its own axes; no default."),
-    Key::optional("prism", PLACED_PRISM, "An upright prism on a convex polygon; no default."),
-]);
-
-/// The extents of a cylinder.
-pub(super) const CYLINDER: Value = Value::Map(&[
-    Key::required("radius", SIZE, "Radius in metres."),
-    Key::required("height", SIZE, "Height in metres."),
-]);
-
-/// The extents of a cuboid.
-pub(super) const CUBOID: Value =
-    Value::Map(&[Key::required("size", EXTENTS, "Full extents [x, y, z] in metres.")]);
-
 /// A turn or direction.
 pub(super) const ANGLE: Value =
     Value::Number(Range { what: "an angle in degrees", low: -360.0, high: 360.0, advice: DEGREES });
@@ -146,6 +121,14 @@ pub(super) const MASS: Value = Value::Number(Range {
     low: 0.001,
     high: 1000.0,
     advice: "masses are in kilograms: 250 g is 0.25",
+});
+
+/// A force.
+pub(super) const FORCE: Value = Value::Number(Range {
+    what: "a force in newtons",
+    low: 0.1,
+    high: 1e6,
+    advice: "pushing 1 kg over wood takes about 5 N; small arms press with 50 to 150 N",
 });
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Taking values out of checked nodes. What the check emptied gives `None`, silently: its
 //! fault is already noted.
 
-use crate::geometry::{Pose, Shape, Vector};
+use crate::geometry::{Pose, Vector};
 
 use super::node::Node;
 use super::strict::Ledger;
@@ -42,33 +42,12 @@ pub(super) fn pose(node: &Node) -> Option<Pose> {
     Some(Pose { position: position(node)?, heading: angle(node, "yaw_deg", 0.0)? })
 }
 
-/// The pose of a body whose `shape` may state the point that its position names.
-pub(super) fn placed(node: &Node) -> Option<Pose> {
-    let pose = pose(node)?;
-    let shift = node.get("shape").map_or(Some(Vector::zeros()), super::prism::shift)?;
-    // Most state none, and adding nothing would still round.
-    let moved = shift != Vector::zeros();
-    Some(if moved { Pose { position: pose.point(shift), ..pose } } else { pose })
-}
-
 /// The three numbers under `key`.
 pub(super) fn triple(node: &Node, key: &str) -> Option<[f64; 3]> {
     match node.get(key)?.items() {
         [x, y, z] => Some([x.number()?, y.number()?, z.number()?]),
         _ => None,
     }
-}
-
-/// The solid under `shape`.
-pub(super) fn shape(node: &Node) -> Option<Shape> {
-    if let Some(cylinder) = node.get("cylinder") {
-        let radius = cylinder.get("radius")?.number()?;
-        return Some(Shape::Cylinder { radius, height: cylinder.get("height")?.number()? });
-    }
-    if let Some(prism) = node.get("prism") {
-        return super::prism::prism(prism);
-    }
-    Some(Shape::Cuboid { size: triple(node.get("cuboid")?, "size")? })
 }
 
 /// Notes every name that an earlier node already has.

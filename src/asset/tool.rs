@@ -9,10 +9,10 @@ use super::blade::{BLADE_TOOL, blade_tool_of, is_blade_tool};
 use super::fault::{Fault, Faults, did_you_mean};
 
 use super::node::Node;
-use super::prism;
-use super::spec::{ANGLE, COORDINATE, EXTENTS, FRICTION, Key, POSITION, SHAPE, Value};
+use super::shapes::{self, SHAPE, shape};
+use super::spec::{ANGLE, COORDINATE, EXTENTS, FRICTION, Key, POSITION, Value};
 use super::strict::{Ledger, check};
-use super::take::{angle, name_of, pose, position, shape, triple, unique_names};
+use super::take::{angle, name_of, pose, position, triple, unique_names};
 use super::text::Source;
 
 /// What a tool file may hold.
@@ -143,7 +143,7 @@ pub(super) fn tool_of(root: &Node, ledger: &mut Ledger) -> Option<Tool> {
     unique_names(list.items(), "parts", ledger);
     for part in list.items() {
         one_solid(part, ledger);
-        prism::check(part.get("shape"), ledger);
+        shapes::check(part.get("shape"), ledger);
         let height = part.get("position").and_then(|position| position.items().get(2));
         if let Some(node) = height.filter(|node| node.number().is_some_and(|z| z != 0.0)) {
             ledger.fault(

@@ -33,7 +33,9 @@ impl Recording {
     /// The recording in the keys of its file.
     pub fn to_json(&self) -> Json {
         let pose = |pose: &Pose, heading: bool| match heading {
-            true => json!([pose.position.x, pose.position.y, emit::degrees(pose.heading)]),
+            true => {
+                json!([pose.position.x, pose.position.y, crate::asset::put::degrees(pose.heading)])
+            }
             false => json!([pose.position.x, pose.position.y]),
         };
         let frames: Vec<Json> = self

@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use crate::asset::fault::Faults;
 use crate::asset::node::{Content, Node};
+use crate::asset::shapes::shape;
 use crate::asset::strict::{Ledger, check};
-use crate::asset::take::{name_of, number_or, shape, vector};
+use crate::asset::take::{name_of, number_or, vector};
 use crate::asset::text::{Source, named_after};
 use crate::asset::{read_text, task, tool};
 use crate::geometry::{Pose, Vector};

@@ -1,9 +1,8 @@
 //! What a recording may hold.
 
 use crate::asset::saved::{SCHEMA_VERSION, version};
-use crate::asset::spec::{
-    ANGLE, CUBOID, CYLINDER, FRICTION, Key, MASS, POSITION, Range, Value, numbers,
-};
+use crate::asset::shapes::{CUBOID, CYLINDER};
+use crate::asset::spec::{ANGLE, FRICTION, Key, MASS, POSITION, Range, Value, numbers};
 use crate::asset::task::{
     self, FRICTIONS, JOINTS, OBJECT_NAME, OBJECT_SHAPE, OBJECT_SUPPORT, OBSTACLES, PUSH_HEIGHT,
     TABLE,

@@ -3,15 +3,16 @@
 use serde_json::{Value as Json, json};
 
 use super::things;
+use crate::asset::put::{degrees, posed, shape, vector};
 use crate::asset::task::{
     WORLD, emitted_goals, emitted_levers, emitted_object, emitted_obstacle, emitted_tools,
     name_of_surface,
 };
-use crate::geometry::{Pose, Shape, Vector};
+use crate::geometry::Shape;
 use crate::{
     scene::{
         Blade, DisjointSets, Hand, Joint, JointKind, Mount, Object, Obstacle, PairFriction, Robot,
-        Scene, Span, Support, TableTop, Tool,
+        Scene, Span, TableTop, Tool,
     },
     task::{Directions, Offsets, PushForm, PushRules, Task},
 };
@@ -111,30 +112,6 @@ pub(in crate::asset) fn tool(tool: &Tool) -> Json {
         "parts": parts,
         "joints": joints,
     })
-}
-
-pub(in crate::asset) fn shape(shape: &Shape) -> Json {
-    match *shape {
-        Shape::Cylinder { radius, height } => {
-            json!({"cylinder": {"radius": radius, "height": height}})
-        }
-        Shape::Cuboid { size } => json!({"cuboid": {"size": size}}),
-        Shape::Prism { base, height } => {
-            let corners: Vec<_> = base.corners().iter().map(|corner| vector(*corner)).collect();
-            json!({"prism": {"corners": corners, "height": height, "centre_of_mass": [0.0, 0.0]}})
-        }
-    }
-}
-
-pub(in crate::asset) fn support(support: &Support) -> Json {
-    match support {
-        Support::Even => json!("even"),
-        Support::Corners => json!("corners"),
-        Support::Spread(share) => json!({"spread": share}),
-        Support::Points(points) => {
-            json!({"points": points.iter().map(|point| vector(*point)).collect::<Vec<_>>()})
-        }
-    }
 }
 
 /// A scene as in a task file.
@@ -239,44 +216,4 @@ pub(in crate::asset) fn pushes(rules: &PushRules) -> Json {
         pushes["tool_changes"] = json!(changes);
     }
     pushes
-}
-
-pub(in crate::asset) fn posed(mut fields: Json, pose: &Pose) -> Json {
-    fields["position"] = json!(vector(pose.position));
-    fields["yaw_deg"] = json!(degrees(pose.heading));
-    fields
-}
-
-fn vector(vector: Vector) -> [f64; 2] {
-    [vector.x, vector.y]
-}
-
-/// The angle in degrees that reads back as exactly `radians`: the roundest such number, so
-/// that a plan made from a file is verified with the same bits. An angle that came from no
-/// file may have none; it then reads back as a neighbouring number.
-pub(in crate::asset) fn degrees(radians: f64) -> f64 {
-    let plain = radians.to_degrees();
-    // A full turn and more looks the same.
-    let plain = if plain.abs() > 360.0 { plain % 360.0 } else { plain };
-    let round = (plain * 1e9).round() / 1e9;
-    let (mut up, mut down) = (plain, plain);
-    let mut candidates = vec![round, plain];
-    for _ in 0..2 {
-        (up, down) = (up.next_up(), down.next_down());
-        candidates.extend([up, down]);
-    }
-    candidates.into_iter().find(|angle| angle.to_radians() == radians).unwrap_or(plain)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn degrees_read_back_exactly() {
-        for tenth in -3600..=3600 {
-            let angle = f64::from(tenth) / 10.0;
-            assert_eq!(degrees(angle.to_radians()), angle);
-        }
-    }
 }

@@ -2,11 +2,9 @@
 
 use serde_json::{Value as Json, json};
 
-use crate::asset::task::shares_of_mass;
-use crate::geometry::Shape;
+use crate::asset::put::{drawn, posed, shape};
+use crate::asset::task::{emitted_support, shares_of_mass};
 use crate::scene::{Object, Scene, Whole};
-
-use super::emit::{posed, shape, support};
 
 /// The mass of object `index` with its parts, kg, and these parts; none, and its own mass, where it is of
 /// one solid.
@@ -27,7 +25,7 @@ pub(super) fn parts(scene: &Scene, index: usize) -> (f64, Vec<Json>) {
         match (part.is_raised(), own.in_space()) {
             (true, _) => fields["z"] = json!(part.z),
             (false, true) => {}
-            (false, false) => fields["support"] = support(&part.support),
+            (false, false) => fields["support"] = emitted_support(&part.support),
         }
         // A number is what a part without a name is called.
         let name = part.name.strip_prefix(&format!("{}/", own.name)).unwrap_or(&part.name);
@@ -41,17 +39,6 @@ pub(super) fn parts(scene: &Scene, index: usize) -> (f64, Vec<Json>) {
     };
     let all = solids.iter().map(|solid| solid.mass).sum();
     (whole.unwrap_or(all), parts.iter().enumerate().map(part).collect())
-}
-
-/// A solid of an object with room for a blade: its mass lies where its solids do, about the frame of all.
-pub(in crate::asset) fn drawn(solid: &Shape) -> Json {
-    let mut json = shape(solid);
-    if let Some(prism) = json.get_mut("prism").and_then(Json::as_object_mut)
-        && let Some(origin) = prism.remove("centre_of_mass")
-    {
-        prism.insert("origin".to_owned(), origin);
-    }
-    json
 }
 
 /// The mass of everything, kg, if its shares by volume are those that the solids have, to the bit.

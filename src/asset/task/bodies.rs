@@ -2,8 +2,9 @@
 
 use crate::asset::fault::did_you_mean;
 use crate::asset::node::Node;
+use crate::asset::shapes::{placed, shape};
 use crate::asset::strict::Ledger;
-use crate::asset::take::{name_of, placed, shape, triple};
+use crate::asset::take::{name_of, triple};
 use crate::geometry::{Footprint, Pose, Shape};
 
 use super::obstacles as fixed;

@@ -4,16 +4,15 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::asset::node::{Content, Node};
-use crate::asset::prism::origin;
 use crate::asset::take::{name_of, number_or, vector};
 use crate::asset::text::apart_by_name;
 use crate::geometry::Vector;
 use crate::{
-    scene::{Hand, Joint, Obstacle, Robot, Scene, Support, TableTop, Unknowns},
+    scene::{Hand, Joint, Obstacle, Robot, Scene, TableTop, Unknowns},
     task::{Directions, Goal, Offsets, PushForm, PushRules, RobotArm, Task},
 };
 
-use super::spec::default;
+use super::keep::KEPT_WITHIN;
 use super::tools::{costs, tools};
 use super::{frictions, goals, joints, keep, levers, mounts, obstacles, parts};
 
@@ -37,7 +36,7 @@ pub(super) fn task(root: &Node, file: &str, arm: Option<Arc<dyn RobotArm>>) -> O
     scene.obstacles.extend(robot.column());
     scene.keep_out = keep::regions(root)?;
     if let Some(keep) = root.get("keep") {
-        let within = number_or(keep, "within", default::KEEP)?;
+        let within = number_or(keep, "within", KEPT_WITHIN)?;
         for name in keep.get("objects").map(Node::items).unwrap_or_default() {
             let index = scene.object(name.text()?)?;
             scene.objects[index].keep = Some(within);
@@ -97,7 +96,7 @@ pub(super) fn scene(node: &Node) -> Option<Scene> {
             .collect::<Option<_>>()?,
         mounts: items("joints")
             .filter_map(|joint| Some((joint, moving(joint)?)))
-            .map(|(joint, object)| mounts::mount(joint, object, &objects))
+            .map(|(joint, object)| joints::mount(joint, object, &objects))
             .collect::<Option<_>>()?,
         frictions: items("frictions")
             .map(|node| frictions::friction(node, &objects, &obstacles))
@@ -127,20 +126,6 @@ fn max_force(node: &Node) -> Option<Option<f64>> {
         Some(force) => force.number().map(Some),
         None => Some(None),
     }
-}
-
-/// What an object stands on.
-pub(in crate::asset) fn support(object: &Node) -> Option<Support> {
-    let Some(node) = object.get("support") else { return Some(Support::Even) };
-    if let Some(word) = node.text() {
-        return Some(if word == "corners" { Support::Corners } else { Support::Even });
-    }
-    if let Some(spread) = node.get("spread") {
-        return spread.number().map(Support::Spread);
-    }
-    let origin = origin(object.get("shape")?)?;
-    let points = node.get("points")?.items().iter().map(|point| Some(vector(point)? - origin));
-    points.collect::<Option<_>>().map(Support::Points)
 }
 
 /// The robot: its reach, and what else is said of it.

@@ -3,7 +3,7 @@
 use serde_json::{Value as Json, json};
 
 use crate::asset::node::Node;
-use crate::asset::saved::emit::degrees;
+use crate::asset::put::degrees;
 use crate::asset::spec::{ANGLE, Key, POSITION, Range, Value};
 use crate::asset::take::{angle, number_or, position};
 use crate::geometry::Pose;

@@ -1,9 +1,10 @@
 //! Rules of a goal's keys that span several of them.
 
 use crate::asset::node::Node;
+use crate::asset::shapes::shape;
 use crate::asset::spec::Value;
 use crate::asset::strict::Ledger;
-use crate::asset::take::{name_of, shape, vector};
+use crate::asset::take::{name_of, vector};
 use crate::geometry::{Footprint, Pose, clearance};
 
 use super::bodies::{SLACK, body, known_object, passes};
@@ -13,7 +14,7 @@ use super::goals::GOAL;
 use super::keep::check_area;
 use super::lifting::{self, check_lifting};
 use super::mounts::moving;
-use super::parts::parts;
+use super::part::parts;
 use super::plates::is_plate;
 
 /// Notes what is wrong with a goal.

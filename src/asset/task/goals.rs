@@ -4,7 +4,7 @@
 use serde_json::{Map, Value as Json, json};
 
 use crate::asset::node::{Content, Node};
-use crate::asset::saved::emit::{degrees, posed};
+use crate::asset::put::{degrees, posed};
 use crate::asset::spec::{ANGLE, Key, POSITION, Range, SHIFT_LIMIT, Value};
 use crate::asset::take::{angle, angle_of, number_or, position};
 use crate::geometry::Pose;
@@ -18,7 +18,9 @@ use super::falls::{OFF_TABLE, emitted_fall, fall};
 use super::gap::{GAP, emitted_gap, gap};
 use super::keep::{AREA, AREA_POSITION, AREA_YAW, area, emitted_area as area_of};
 use super::lifting::{FLIPPED, OUTSIDE, RAISED, lifted};
-use super::spec::default;
+
+/// Tolerance of a heading where none is stated, degrees.
+const HEADING_TOLERANCE: f64 = 10.0;
 
 /// One goal.
 pub(super) const GOAL: Value = Value::Map(&[
@@ -111,7 +113,7 @@ pub(super) fn each(node: &Node) -> &[Node] {
 /// The goal, or `None` if anything needed is missing or was faulty.
 pub(super) fn goal(node: &Node, scene: &Scene) -> Option<Goal> {
     let object = scene.object(node.get("object")?.text()?)?;
-    let within = angle(node, "heading_tolerance_deg", default::HEADING_TOLERANCE)?;
+    let within = angle(node, "heading_tolerance_deg", HEADING_TOLERANCE)?;
     let mut goal = Goal::of(object);
     goal.weight = number_or(node, "weight", goal.weight)?;
     if let Some(region) = node.get("region") {

@@ -9,7 +9,7 @@ use crate::asset::spec::{ANGLE_LIMIT, Key, POSITION, Range, SHIFT_LIMIT, Value, 
 use crate::asset::strict::Ledger;
 use crate::asset::take::{angle_of, name_of, vector};
 use crate::geometry::{Footprint, Pose, Vector, clearance};
-use crate::scene::{DisjointSets, Joint, JointKind, Object, Span};
+use crate::scene::{DisjointSets, Joint, JointKind, Mount, Object, Span};
 
 use super::bodies::{body, known_object};
 use super::mounts;
@@ -98,8 +98,15 @@ pub(in crate::asset) fn joint(node: &Node, objects: &[Object]) -> Option<Joint> 
     Some(Joint { between, kind: kind_of(node)?, guessed })
 }
 
+/// The joint to the world, or `None` if anything needed is missing or was faulty.
+pub(super) fn mount(joint: &Node, object: &Node, objects: &[Object]) -> Option<Mount> {
+    let name = object.text()?;
+    let object = objects.iter().position(|object| object.name == name)?;
+    Some(Mount { object, kind: kind_of(joint)? })
+}
+
 /// What a joint allows, or `None` if anything needed is missing or was faulty.
-pub(super) fn kind_of(node: &Node) -> Option<JointKind> {
+fn kind_of(node: &Node) -> Option<JointKind> {
     Some(match node.get("kind")?.text()? {
         "fixed" => JointKind::Fixed,
         "revolute" => JointKind::Revolute {

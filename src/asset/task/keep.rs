@@ -3,7 +3,7 @@
 use serde_json::{Value as Json, json};
 
 use crate::asset::node::Node;
-use crate::asset::prism;
+use crate::asset::shapes;
 use crate::asset::spec::{ANGLE, Key, POSITION, SIZE, Value, numbers};
 use crate::asset::strict::Ledger;
 use crate::asset::take::{name_of, pose, vector};
@@ -14,6 +14,9 @@ use super::bodies::body;
 
 /// Height of a region as a solid, metres: no height matters.
 const HEIGHT: f64 = 1.0;
+
+/// Distance by which what is kept may be moved where none is stated, metres.
+pub(super) const KEPT_WITHIN: f64 = 0.005;
 
 /// What stays where it is.
 pub(in crate::asset) const KEEP: Key = Key::optional(
@@ -143,7 +146,7 @@ fn region(node: &Node) -> Option<Region> {
 /// Notes what makes an outline none.
 pub(super) fn check_area(node: &Node, ledger: &mut Ledger) {
     if let Some(polygon) = node.get("area").and_then(|area| area.get("polygon")) {
-        prism::check_base(polygon, ledger);
+        shapes::check_base(polygon, ledger);
     }
 }
 

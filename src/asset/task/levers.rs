@@ -3,7 +3,7 @@
 use serde_json::{Value as Json, json};
 
 use crate::asset::node::Node;
-use crate::asset::saved::emit::degrees;
+use crate::asset::put::degrees;
 use crate::asset::spec::{Key, Range, Value};
 use crate::asset::strict::Ledger;
 use crate::asset::take::number_or;

@@ -18,14 +18,15 @@ mod load;
 mod mounts;
 mod object;
 mod obstacles;
+mod part;
 mod parts;
 mod plates;
 mod refused;
 mod rules;
 mod spec;
+mod support;
 mod tools;
 
-pub(super) use build::support as support_of;
 pub(super) use frictions::{FRICTIONS, name_of_surface};
 pub(super) use goals::emitted_goals;
 pub(super) use joints::joint as joint_of;
@@ -34,10 +35,9 @@ pub(super) use levers::emitted_levers;
 pub use load::{load_task, parse_task};
 pub(super) use load::{parse_with, scene_of, task_of};
 pub(super) use mounts::WORLD;
-pub(super) use object::emitted_object;
+pub(super) use object::{OBJECT_NAME, OBJECT_SHAPE, emitted_object};
 pub(super) use obstacles::{OBSTACLES, emitted as emitted_obstacle};
-pub(super) use parts::shares as shares_of_mass;
-pub(super) use spec::{
-    JOINTS, LIFT, OBJECT_NAME, OBJECT_SHAPE, OBJECT_SUPPORT, PUSH_HEIGHT, TABLE, TASK, TASK_KEYS,
-};
+pub(super) use part::shares as shares_of_mass;
+pub(super) use spec::{JOINTS, LIFT, PUSH_HEIGHT, TABLE, TASK, TASK_KEYS};
+pub(super) use support::{OBJECT_SUPPORT, emitted as emitted_support, support as support_of};
 pub(super) use tools::emitted_tools;

@@ -3,9 +3,6 @@
 use crate::asset::node::Node;
 use crate::asset::strict::Ledger;
 use crate::asset::take::name_of;
-use crate::scene::{Mount, Object};
-
-use super::joints::kind_of;
 
 /// What a joint may name instead of one of its objects.
 pub(in crate::asset) const WORLD: &str = "world";
@@ -27,13 +24,6 @@ pub(super) fn moving<'a>(
         [other, object] if fixed(other) && !fixed(object) => Some(object),
         _ => None,
     }
-}
-
-/// The joint, or `None` if anything needed is missing or was faulty.
-pub(super) fn mount(joint: &Node, object: &Node, objects: &[Object]) -> Option<Mount> {
-    let name = object.text()?;
-    let object = objects.iter().position(|object| object.name == name)?;
-    Some(Mount { object, kind: kind_of(joint)? })
 }
 
 /// Notes what is wrong with a joint to the world besides what is with any joint.

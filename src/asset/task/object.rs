@@ -5,19 +5,46 @@ use serde_json::{Value as Json, json};
 
 use crate::asset::field::{Field, fault, keys, read, set, write};
 use crate::asset::node::Node;
-use crate::asset::saved::emit;
-use crate::asset::saved::things::drawn;
-use crate::asset::spec::{
-    ANGLE, FRICTION, Key, MASS, PLACED_SHAPE, POSITION, Range, Value, numbers,
-};
-use crate::asset::take::{name_of, placed, shape};
+use crate::asset::put::{self, drawn};
+use crate::asset::shapes::{PLACED_SHAPE, SHAPE, placed, shape};
+use crate::asset::spec::{ANGLE, FORCE, FRICTION, Key, MASS, POSITION, Range, Value, numbers};
+use crate::asset::take::name_of;
 use crate::geometry::Shape;
 use crate::scene::{Object, Scene, Whole};
 
-use super::build::support;
-use super::parts::PARTS;
-use super::plates::{CLEARANCE, Z};
-use super::spec::{FORCE, OBJECT_NAME, OBJECT_SUPPORT};
+use super::part::PARTS;
+use super::support::{self, OBJECT_SUPPORT};
+
+/// What messages and other keys call an object.
+pub(in crate::asset) const OBJECT_NAME: Key =
+    Key::required("name", Value::Name, "The object's name, unique in the scene.");
+
+/// What an object looks like.
+pub(in crate::asset) const OBJECT_SHAPE: Key =
+    Key::required("shape", SHAPE, "The object's solid, standing upright.");
+
+/// Room for a blade below an object.
+const CLEARANCE: Key = Key::optional(
+    "clearance",
+    HEIGHT,
+    "Free height below the underside at its edge, metres: room for a blade. An object that lies no \
+     higher stands on feet of this height at its corners; default `z`.",
+);
+
+/// Height of an object above the table.
+const Z: Key = Key::optional(
+    "z",
+    HEIGHT,
+    "Height of the underside above the table, metres; default `clearance`, or else 0. An object that \
+     lies higher than its clearance needs obstacles below it.",
+);
+
+const HEIGHT: Value = Value::Number(Range {
+    what: "a height in metres",
+    low: 0.0,
+    high: 1.0,
+    advice: "6 mm is 0.006",
+});
 
 const SHARE: Value = Value::Number(Range {
     what: "a share of a colour",
@@ -42,7 +69,7 @@ const FIELDS: [Field<Object>; 13] = [
         key: Key::required("shape", PLACED_SHAPE, "The object's solid, standing upright."),
         read: |_, node, object| set(&mut object.shape, shape(node)),
         write: |object| {
-            Some(if object.in_space() { drawn(&object.shape) } else { emit::shape(&object.shape) })
+            Some(if object.in_space() { drawn(&object.shape) } else { put::shape(&object.shape) })
         },
         fault: |object| {
             let footprint = object.shape.footprint();
@@ -73,8 +100,8 @@ const FIELDS: [Field<Object>; 13] = [
     Field {
         key: OBJECT_SUPPORT,
         // Points are written in the frame of the solid's corners.
-        read: |map, _, object| set(&mut object.support, support(map)),
-        write: |object| (!object.in_space()).then(|| emit::support(&object.support)),
+        read: |map, _, object| set(&mut object.support, support::support(map)),
+        write: |object| (!object.in_space()).then(|| support::emitted(&object.support)),
         fault: |_| None,
     },
     Field {
@@ -137,7 +164,7 @@ const FIELDS: [Field<Object>; 13] = [
         key: Key::optional("yaw_deg", ANGLE, "Heading at the start, degrees; default 0."),
         // Read with the position: the point that this names is turned.
         read: |_, _, _| Some(()),
-        write: |object| Some(json!(emit::degrees(object.pose.heading))),
+        write: |object| Some(json!(put::degrees(object.pose.heading))),
         fault: |_| None,
     },
 ];

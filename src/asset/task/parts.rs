@@ -4,87 +4,15 @@
 //! [`crate::scene::Whole`].
 
 use crate::asset::node::{Content, Node};
-use crate::asset::spec::{ANGLE, FRICTION, Key, MASS, PLACED_SHAPE, Range, Value};
+use crate::asset::shapes::{self, placed, shape};
 use crate::asset::strict::Ledger;
-use crate::asset::take::{name_of, number_or, placed, pose, shape};
-use crate::geometry::Pose;
+use crate::asset::take::{name_of, number_or, pose};
 use crate::scene::{Object, Whole, bearings, hanging};
 
-use super::build::support;
 use super::object;
-use super::obstacles::{PLACE, height};
+use super::part::{part_name, parts, place, rise, shares};
 use super::plates::{self, is_plate};
-use super::spec::OBJECT_SUPPORT;
-
-/// What else belongs to an object.
-pub(super) const PARTS: Key = Key::optional(
-    "parts",
-    Value::List { of: &PART, items: "parts", min: 0, max: 16 },
-    "Further solids that are one with it, as a mug's handle is; by default none.",
-);
-
-/// How high above its object's underside a part may begin: as high as solids may be.
-const RISE: Value = Value::Number(Range {
-    what: "a height in metres",
-    low: 0.0,
-    high: 10.0,
-    advice: "heights are in metres, upward from the underside of the object: 60 mm is 0.06",
-});
-
-const PART: Value = Value::Map(&[
-    Key::optional(
-        "name",
-        Value::Name,
-        "What messages call it, after the object's name and a slash; by default its number.",
-    ),
-    Key::required("shape", PLACED_SHAPE, "The part's solid, upright."),
-    Key::required(
-        "position",
-        PLACE,
-        "Its centre in the object's frame, [x, y] in metres; [0, 0] is the object's position. A third \
-         number is `z`. On an object with `clearance` or `z`, from the origin of its corners.",
-    ),
-    Key::optional("yaw_deg", ANGLE, "Its turn in the object's frame, degrees; default 0."),
-    Key::optional(
-        "z",
-        RISE,
-        "Height of its underside above the object's, metres; default 0, or on top of an object with \
-         `clearance` or `z`. What is higher than 0 carries no weight, and lower things pass below it.",
-    ),
-    Key::optional(
-        "mass",
-        MASS,
-        "Its share of the object's mass, kg; by default what the others leave, by volume.",
-    ),
-    Key::optional("friction", FRICTION, "Friction value; by default the object's."),
-    OBJECT_SUPPORT,
-]);
-
-/// The parts of an object in a file.
-pub(super) fn parts(object: &Node) -> &[Node] {
-    object.get("parts").map(Node::items).unwrap_or_default()
-}
-
-/// What messages call part `number` of an object.
-pub(super) fn part_name(object: &str, part: &Node, number: usize) -> String {
-    match name_of(part) {
-        Some(name) => format!("{object}/{name}"),
-        None => format!("{object}/{}", number + 1),
-    }
-}
-
-/// Where a part is in its object's frame.
-pub(super) fn place(part: &Node) -> Option<Pose> {
-    placed(part)
-}
-
-/// Height of a part's underside above its object's, metres; `usual` where none is stated.
-pub(super) fn rise(part: &Node, usual: f64) -> Option<f64> {
-    match part.get("z") {
-        Some(z) => z.number(),
-        None => height(part.get("position")?, usual),
-    }
-}
+use super::support::support;
 
 /// Objects with all their parts, these after all of those; `None` if anything needed is missing or was
 /// faulty.
@@ -136,23 +64,12 @@ fn solids(node: &Node, object: Object, index: usize) -> Option<Vec<Object>> {
     Some(solids)
 }
 
-/// The mass of every solid, kg: what is stated of it, or its share by volume of what that leaves.
-pub(in crate::asset) fn shares(left: f64, solids: &[Object], stated: &[Option<f64>]) -> Vec<f64> {
-    let volume = |solid: &Object| solid.shape.footprint().area() * solid.shape.height();
-    let open = || solids.iter().zip(stated).filter(|(_, stated)| stated.is_none());
-    let all: f64 = open().map(|(solid, _)| volume(solid)).sum();
-    let share = |(solid, stated): (&Object, &Option<f64>)| {
-        stated.unwrap_or_else(|| left * (volume(solid) / all))
-    };
-    solids.iter().zip(stated).map(share).collect()
-}
-
 /// Notes what is wrong with the parts of an object.
 pub(super) fn check(object: &Node, ledger: &mut Ledger) {
     let parts = parts(object);
     let mut names = Vec::new();
     for (k, part) in parts.iter().enumerate() {
-        crate::asset::prism::check(part.get("shape"), ledger);
+        shapes::check(part.get("shape"), ledger);
         let name = part_name("", part, k);
         if names.contains(&name) {
             let message = format!("two parts are called `{}`", &name[1..]);

@@ -1,14 +1,15 @@
 //! Objects with room for a blade below them: keys of their heights, their reading, and their rules.
 
 use crate::asset::node::Node;
-use crate::asset::spec::{Key, Range, Value};
+use crate::asset::shapes::shape;
 use crate::asset::strict::Ledger;
 use crate::asset::take::{angle, pose, position, triple, vector};
 use crate::geometry::{ConvexPolygon, Pose, Shape, Solid, Vector, centroid, common_area, cross};
 use crate::scene::{Object, Obstacle, Plate, Scene, Slab, Whole, carries};
 
 use super::obstacles::obstacle;
-use super::parts::{self, part_name, rise, shares};
+use super::part::{self, part_name, rise, shares};
+use super::parts::objects as objects_of;
 
 /// A centre of mass that is nearer to the origin of its frame is there, metres: sums of corners
 /// that were written about it do not come to zero exactly.
@@ -17,29 +18,6 @@ const CENTRED: f64 = 1e-9;
 /// Bodies may sink into each other by this much before it is a fault, metres: the rounding of
 /// sizes written in tenths of millimetres and turned by degrees.
 const SLACK: f64 = 1e-4;
-
-/// Room for a blade below an object.
-pub(super) const CLEARANCE: Key = Key::optional(
-    "clearance",
-    HEIGHT,
-    "Free height below the underside at its edge, metres: room for a blade. An object that lies no \
-     higher stands on feet of this height at its corners; default `z`.",
-);
-
-/// Height of an object above the table.
-pub(super) const Z: Key = Key::optional(
-    "z",
-    HEIGHT,
-    "Height of the underside above the table, metres; default `clearance`, or else 0. An object that \
-     lies higher than its clearance needs obstacles below it.",
-);
-
-const HEIGHT: Value = Value::Number(Range {
-    what: "a height in metres",
-    low: 0.0,
-    high: 1.0,
-    advice: "6 mm is 0.006",
-});
 
 /// Returns `true` if an object is described as one that a blade goes under.
 pub(super) fn is_plate(object: &Node) -> bool {
@@ -82,7 +60,7 @@ impl Drawn {
     /// The solid about its own centre, and where that is in the frame of its corners.
     fn solid(&self, shape: &Node) -> Option<(Shape, Vector)> {
         if shape.get("cuboid").is_some() {
-            return Some((crate::asset::take::shape(shape)?, self.named));
+            return Some((self::shape(shape)?, self.named));
         }
         let own = centroid(&self.corners);
         let centre = if (own - self.named).norm() > CENTRED { own } else { self.named };
@@ -99,7 +77,7 @@ pub(super) fn solids(node: &Node, object: Object, index: usize) -> Option<Vec<Ob
     corners.iter_mut().for_each(|corner| *corner -= named);
     let mut slabs = vec![Slab { corners, bottom: 0.0, height }];
     let mut others = Vec::new();
-    for (k, part) in parts::parts(node).iter().enumerate() {
+    for (k, part) in part::parts(node).iter().enumerate() {
         let drawn = Drawn::read(part.get("shape")?)?;
         let turn = Pose { position: Vector::zeros(), heading: angle(part, "yaw_deg", 0.0)? };
         let (shift, bottom) = (position(part)? - named, rise(part, height)?);
@@ -152,7 +130,7 @@ pub(super) fn heights(object: &Node, ledger: &mut Ledger) {
 
 /// Notes what shares space in three dimensions, and what nothing holds.
 pub(super) fn bodies(objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) {
-    let Some(solids) = parts::objects(objects) else { return };
+    let Some(solids) = objects_of(objects) else { return };
     let plates: Vec<Plate> = Scene::new(solids).plates().collect();
     let blocks: Vec<Option<Obstacle>> = obstacles.iter().map(obstacle).collect();
     for (k, (node, plate)) in objects.iter().zip(&plates).enumerate() {

@@ -4,7 +4,7 @@ use crate::asset::node::{Content, Node};
 use crate::asset::strict::Ledger;
 use crate::asset::take::name_of;
 
-use super::{goals, parts, plates};
+use super::{goals, part, plates};
 
 /// Reason for keys of a goal that only a task of pushes may have.
 const NOT_PLANNED: &str = "no lever-up is planned for it";
@@ -53,7 +53,7 @@ fn object(object: &Node, ledger: &mut Ledger) {
     if is_plate {
         solid(object, ledger);
     }
-    for part in parts::parts(object) {
+    for part in part::parts(object) {
         refuse(Some(part), &["mass"], ALIKE, ledger);
         if part.get("friction").is_some_and(|own| own.number() != friction) {
             refuse(Some(part), &["friction"], ALIKE, ledger);

@@ -3,9 +3,10 @@
 use crate::asset::arm;
 use crate::asset::fault::did_you_mean;
 use crate::asset::node::Node;
-use crate::asset::prism;
+use crate::asset::shapes;
+use crate::asset::shapes::shape;
 use crate::asset::strict::Ledger;
-use crate::asset::take::{name_of, number_or, shape, unique_names, vector};
+use crate::asset::take::{name_of, number_or, unique_names, vector};
 use crate::geometry::clearance;
 use crate::{
     scene::{Support, carries},
@@ -185,7 +186,7 @@ pub(super) fn check_scene(scene: &Node, slack: f64, ledger: &mut Ledger) {
     }
     fixed::check(obstacles, ledger);
     masses(objects, ledger);
-    objects.iter().for_each(|object| prism::check(object.get("shape"), ledger));
+    objects.iter().for_each(|object| shapes::check(object.get("shape"), ledger));
     objects.iter().for_each(|object| parts::check(object, ledger));
     objects.iter().for_each(|object| stands(object, ledger));
     joints::check(items("joints"), objects, obstacles, ledger);
@@ -220,7 +221,7 @@ fn overlaps(objects: &[(Node, usize)], obstacles: &[Node], slack: f64, ledger: &
 /// The points under an object must carry it.
 fn stands(object: &Node, ledger: &mut Ledger) {
     if let (Some(node), Some(Support::Points(points))) =
-        (object.get("support"), build::support(object))
+        (object.get("support"), super::support::support(object))
         && carries(&points).is_none()
     {
         ledger.fault(

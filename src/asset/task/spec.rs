@@ -1,7 +1,7 @@
 //! What a task file may hold.
 
 use crate::asset::arm::{ARM, BASE, FLANGE, HOME, TOOL_MOUNT, URDF};
-use crate::asset::spec::{ANGLE, FRICTION, Key, POSITION, Range, SHAPE, SIZE, Value, numbers};
+use crate::asset::spec::{ANGLE, FORCE, FRICTION, Key, POSITION, Range, SIZE, Value, numbers};
 
 use super::frictions::FRICTIONS;
 use super::goals::GOAL;
@@ -11,14 +11,6 @@ use super::levers::LEVERS;
 use super::object::OBJECT;
 use super::obstacles::OBSTACLES;
 use super::tools::TOOLS;
-
-/// Defaults of optional keys; the words of the keys below repeat them.
-pub(in crate::asset) mod default {
-    /// Tolerance of a heading, degrees.
-    pub const HEADING_TOLERANCE: f64 = 10.0;
-    /// How far what is kept may be moved, metres.
-    pub const KEEP: f64 = 0.005;
-}
 
 /// What a task file may hold.
 pub(in crate::asset) static TASK: Value = Value::Map(TASK_KEYS);
@@ -128,41 +120,6 @@ pub(in crate::asset) const TABLE: Key = Key::optional(
 pub(in crate::asset) const JOINTS: Value =
     Value::List { of: &JOINT, items: "joints", min: 0, max: 64 };
 
-/// How an object's weight is spread over its underside.
-const SUPPORT: Value = Value::Either(&[
-    Value::Word(&["even", "corners"]),
-    Value::Variant(&[
-        Key::optional(
-            "spread",
-            Value::Number(Range {
-                what: "a share",
-                low: 0.1,
-                high: 1.0,
-                advice: "1 is the corners, or the rim; even pressure is like 0.5 to 0.7",
-            }),
-            "Share of the corners' distance, or of the radius, at which it rests; no default.",
-        ),
-        Key::optional(
-            "points",
-            Value::List { of: &POSITION, items: "points", min: 3, max: 8 },
-            "Points that it stands on, [x, y] in metres in the object's frame, or in that of a \
-             prism's corners; no default.",
-        ),
-    ]),
-]);
-
-/// What messages and other keys call an object.
-pub(in crate::asset) const OBJECT_NAME: Key =
-    Key::required("name", Value::Name, "The object's name, unique in the scene.");
-
-/// What an object stands on.
-pub(in crate::asset) const OBJECT_SUPPORT: Key =
-    Key::optional("support", SUPPORT, "How the weight rests on the table; default `even`.");
-
-/// What an object looks like.
-pub(in crate::asset) const OBJECT_SHAPE: Key =
-    Key::required("shape", SHAPE, "The object's solid, standing upright.");
-
 const ROBOT: Value = Value::Map(&[
     HOME,
     Key::optional(
@@ -210,13 +167,6 @@ const MAX_FORCE: Key = Key::optional(
     "Largest force in newtons that the arm can keep up; what strikes at first touch is not limited. By \
      default any, with a warning above 150.",
 );
-
-pub(super) const FORCE: Value = Value::Number(Range {
-    what: "a force in newtons",
-    low: 0.1,
-    high: 1e6,
-    advice: "pushing 1 kg over wood takes about 5 N; small arms press with 50 to 150 N",
-});
 
 /// Where the end effector can be.
 pub(super) const REACH_KEY: Key = Key::required(

@@ -1,17 +1,41 @@
-//! Prisms in files: corners and centre of mass in a frame of the file's own.
+//! Solids in files: cylinders, cuboids and prisms, these with corners and centre of mass in a frame of the file's own.
 
-use crate::geometry::{ConvexPolygon, MAX_CORNERS, PolygonError, Shape, Vector, centroid};
+use crate::geometry::{ConvexPolygon, MAX_CORNERS, PolygonError, Pose, Shape, Vector, centroid};
 
 use super::node::Node;
-use super::spec::{Key, POSITION, SIZE, Value};
+use super::spec::{EXTENTS, Key, POSITION, SIZE, Value};
 use super::strict::Ledger;
-use super::take::vector;
+use super::take::{pose, triple, vector};
+
+/// A solid standing upright.
+pub(super) const SHAPE: Value = Value::Variant(&[
+    Key::optional("cylinder", CYLINDER, "An upright cylinder; no default."),
+    Key::optional("cuboid", CUBOID, "A cuboid with its faces along its own axes; no default."),
+    Key::optional("prism", PRISM, "An upright prism on a convex polygon; no default."),
+]);
+
+/// A solid standing upright, with the point of it that a position names.
+pub(super) const PLACED_SHAPE: Value = Value::Variant(&[
+    Key::optional("cylinder", CYLINDER, "An upright cylinder; no default."),
+    Key::optional("cuboid", CUBOID, "A cuboid with its faces along its own axes; no default."),
+    Key::optional("prism", PLACED_PRISM, "An upright prism on a convex polygon; no default."),
+]);
+
+/// The extents of a cylinder.
+pub(super) const CYLINDER: Value = Value::Map(&[
+    Key::required("radius", SIZE, "Radius in metres."),
+    Key::required("height", SIZE, "Height in metres."),
+]);
+
+/// The extents of a cuboid.
+pub(super) const CUBOID: Value =
+    Value::Map(&[Key::required("size", EXTENTS, "Full extents [x, y, z] in metres.")]);
 
 /// What a file may say of a prism.
-pub(super) const PRISM: Value = Value::Map(&[CORNERS, HEIGHT, CENTRE]);
+const PRISM: Value = Value::Map(&[CORNERS, HEIGHT, CENTRE]);
 
 /// What a file may say of a prism whose position may be that of another point.
-pub(super) const PLACED_PRISM: Value = Value::Map(&[
+const PLACED_PRISM: Value = Value::Map(&[
     CORNERS,
     HEIGHT,
     CENTRE,
@@ -39,8 +63,29 @@ const CENTRE: Key = Key::optional(
      body's position is where this is.",
 );
 
+/// The solid under `shape`.
+pub(super) fn shape(node: &Node) -> Option<Shape> {
+    if let Some(cylinder) = node.get("cylinder") {
+        let radius = cylinder.get("radius")?.number()?;
+        return Some(Shape::Cylinder { radius, height: cylinder.get("height")?.number()? });
+    }
+    if let Some(prism) = node.get("prism") {
+        return self::prism(prism);
+    }
+    Some(Shape::Cuboid { size: triple(node.get("cuboid")?, "size")? })
+}
+
+/// The pose of a body whose `shape` may state the point that its position names.
+pub(super) fn placed(node: &Node) -> Option<Pose> {
+    let pose = pose(node)?;
+    let shift = node.get("shape").map_or(Some(Vector::zeros()), self::shift)?;
+    // Most state none, and adding nothing would still round.
+    let moved = shift != Vector::zeros();
+    Some(if moved { Pose { position: pose.point(shift), ..pose } } else { pose })
+}
+
 /// The prism, if nothing of it is missing or faulty.
-pub(super) fn prism(node: &Node) -> Option<Shape> {
+fn prism(node: &Node) -> Option<Shape> {
     let base = base(&corners(node)?, centre(node)?).ok()?;
     Some(Shape::Prism { base, height: node.get("height")?.number()? })
 }
