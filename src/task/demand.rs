@@ -2,7 +2,8 @@
 //!
 //! A kind answers everything about itself through [`Kind`]: the offset and turn that refinement removes,
 //! the score that the search minimises, stricter and shifted copies, words and marks for reports. A new
-//! kind is a file here, a variant of [`Demand`] with its arm, and its keys in `asset/task/goals.rs`.
+//! kind is a file here, a variant of [`Demand`] with its arm, and its keys: a file and a line in
+//! `asset/task/goals`.
 
 mod area;
 mod coverage;

@@ -168,7 +168,7 @@ fn faults_of_files_say_what_and_where() {
     ");
     insta::assert_snapshot!(faults(&[(", flipped: true", "")]), @r"
     task.yaml:8:7: error: this goal asks for nothing
-      help: add `position: [x, y]` and `tolerance`, `region`, `gap`, `coverage`, `off_table`, `heading_deg`, `joint_deg`, `joint`, `outside`, `raised` or `flipped`
+      help: add `position`, `region`, `gap`, `coverage`, `off_table`, `outside`, `raised`, `flipped`, `heading_deg`, `joint_deg` or `joint`
     ");
     insta::assert_snapshot!(faults(&[("levers: {pivot: auto}", "levers: {pivot: front, depth: [0.02, 0.01]}")]), @r#"
     task.yaml:7:17: error: expected `auto`, a distance in metres from -0.2 to 1 or a list of 1 to 8 pivots, found the text "front"

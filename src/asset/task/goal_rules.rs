@@ -1,19 +1,13 @@
 //! Rules of a goal's keys that span several of them.
 
 use crate::asset::node::Node;
-use crate::asset::shapes::shape;
-use crate::asset::spec::Value;
 use crate::asset::strict::Ledger;
+use crate::asset::shapes::shape;
 use crate::asset::take::{name_of, vector};
 use crate::geometry::{Footprint, Pose, clearance};
 
 use super::bodies::{SLACK, body, known_object, passes};
-use super::falls::check_fall;
-use super::gap::check_gap;
-use super::goals::GOAL;
-use super::keep::check_area;
-use super::lifting::{self, check_lifting};
-use super::mounts::moving;
+use super::goals::{self, About, Asked, asking, is_key, lifts, ways_to_ask};
 use super::part::parts;
 use super::plates::is_plate;
 
@@ -22,15 +16,8 @@ pub(super) fn check(goal: &Node, scene: &Node, ledger: &mut Ledger) {
     let section = |key| scene.get(key).map(Node::items).unwrap_or_default();
     let (objects, obstacles) = (section("objects"), section("obstacles"));
     demands(goal, ledger);
-    if let Some(region) = goal.get("region") {
-        check_area(region, ledger);
-    }
     let Some(name) = goal.get("object") else { return };
-    if let Some(gap) = goal.get("gap") {
-        check_gap(gap, name, [objects, obstacles], ledger);
-    }
-    check_fall(goal, name, scene, ledger);
-    check_lifting(goal, [objects, obstacles], ledger);
+    goals::check(&Asked { goal, name, scene }, ledger);
     let Some(object) = known_object(name, objects, obstacles, ledger) else { return };
     let relative = goal.get("relative_to");
     let other = relative.and_then(|other| known_object(other, objects, obstacles, ledger));
@@ -38,7 +25,6 @@ pub(super) fn check(goal: &Node, scene: &Node, ledger: &mut Ledger) {
         let advice = "name another object, or leave it out for the world";
         ledger.fault(node, "an object is always where it is to itself", advice);
     }
-    by_joint(goal, name, scene, ledger);
     let solid = object.get("shape").and_then(shape);
     // A levered object may come to lie on top of something.
     if let Some(solid) = solid.as_ref().filter(|_| !is_plate(object)) {
@@ -86,96 +72,26 @@ fn demands(goal: &Node, ledger: &mut Ledger) {
             ledger.fault(node, message, "add `tolerance: 0.02`, in metres");
         }
     }
-    let places = ["position", "region", "gap", "coverage", "joint", "off_table"]
-        .into_iter()
-        .filter(|key| has(key));
-    let turns = ["heading_deg", "joint_deg"].into_iter().filter(|key| has(key));
-    let (places, turns): (Vec<_>, Vec<_>) = (places.collect(), turns.collect());
+    let (places, turns) =
+        (asking(goal, &[About::Place, About::Pose]), asking(goal, &[About::Turn]));
     for twice in [&places, &turns].into_iter().filter(|keys| keys.len() > 1) {
         let message = format!("`{}` and `{}` ask for the same", twice[0], twice[1]);
         ledger.fault(goal.get(twice[1]).unwrap_or(goal), message, "keep one of them");
     }
-    for key in ["off_table", "coverage"] {
+    for key in asking(goal, &[About::Pose]) {
         if let (Some(node), Some(turn)) = (goal.get(key), turns.first()) {
             let message = format!("`{key}` does not go together with `{turn}`");
             let advice = "keep one of them; a coverage has a heading of its own";
             ledger.fault(node, message, advice);
         }
     }
-    if places.is_empty() && turns.is_empty() && !lifting::lifts(goal) {
+    if places.is_empty() && turns.is_empty() && !lifts(goal) {
         // A misspelt key is one fault, not two.
-        let strange = goal.pairs().iter().any(|(key, _)| {
-            !matches!(&GOAL, Value::Map(keys) if keys.iter().any(|known| key.text() == Some(known.name)))
-        });
+        let strange = goal.pairs().iter().any(|(key, _)| !is_key(key.text()));
         if !strange {
-            let advice = "add `position: [x, y]` and `tolerance`, `region`, `gap`, `coverage`, `off_table`, \
-                          `heading_deg`, `joint_deg`, `joint`, `outside`, `raised` or `flipped`";
+            let advice = format!("add {}", ways_to_ask());
             ledger.fault(goal, "this goal asks for nothing", advice);
         }
-    }
-}
-
-/// An object whose joint is to come somewhere has one of the right kind.
-fn by_joint(goal: &Node, object: &Node, scene: &Node, ledger: &mut Ledger) {
-    let joints = scene.get("joints").map(Node::items).unwrap_or_default();
-    for (key, kind) in [("joint_deg", "revolute"), ("joint", "prismatic")] {
-        let Some(node) = goal.get(key) else { continue };
-        let own = joints.iter().filter(|joint| {
-            let between = joint.get("between").map(Node::items).unwrap_or_default();
-            between.iter().any(|name| name.text() == object.text())
-                && joint.get("kind").and_then(Node::text) != Some("fixed")
-        });
-        let own: Vec<&Node> = own.collect();
-        let name = object.text().unwrap_or("?");
-        match own[..] {
-            [joint] if joint.get("kind").and_then(Node::text) == Some(kind) => {
-                within_limits(node, (object, joint), scene, ledger);
-            }
-            [_] => {
-                let message = format!("the joint of `{name}` is not {kind}");
-                let advice = "turns are asked for by `joint_deg`, shifts by `joint`";
-                ledger.fault(node, message, advice);
-            }
-            [] => {
-                let message = format!("`{name}` has no joint that moves");
-                ledger.fault(node, message, "name an object that a joint of the scene lets move");
-            }
-            _ => {
-                let message =
-                    format!("`{name}` has several joints, so it is not clear which is meant");
-                ledger.fault(node, message, "ask for a position or a heading instead");
-            }
-        }
-        if let Some(other) = goal.get("relative_to") {
-            let advice = "leave it out: a joint counts against what it joins";
-            ledger.fault(other, format!("`{key}` is relative to something already"), advice);
-        }
-    }
-}
-
-/// A joint does not come farther than its limits.
-fn within_limits(
-    wanted: &Node,
-    (object, joint): (&Node, &Node),
-    scene: &Node,
-    ledger: &mut Ledger,
-) {
-    let section = |key| scene.get(key).map(Node::items).unwrap_or_default();
-    let limits = joint.get("limits").or_else(|| joint.get("limits_deg"));
-    let [Some(low), Some(high)] =
-        [0, 1].map(|k| limits.and_then(|limits| limits.items().get(k)).and_then(Node::number))
-    else {
-        return;
-    };
-    let to_world = moving(joint, section("objects"), section("obstacles")).is_some();
-    let between = joint.get("between").map(Node::items).unwrap_or_default();
-    let first = between.first().and_then(Node::text) == object.text();
-    // Limits are those of the second object against the first.
-    let (low, high) = if first && !to_world { (-high, -low) } else { (low, high) };
-    if wanted.number().is_some_and(|wanted| wanted < low || wanted > high) {
-        let name = object.text().unwrap_or("?");
-        let message = format!("the joint of `{name}` only comes from {low} to {high}");
-        ledger.fault(wanted, message, "ask for less, or widen the joint's limits");
     }
 }
 

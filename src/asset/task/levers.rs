@@ -9,7 +9,7 @@ use crate::asset::strict::Ledger;
 use crate::asset::take::number_or;
 use crate::task::{LeverRules, Pivot};
 
-use super::lifting;
+use super::goals;
 
 /// The lever-ups that a plan may contain.
 pub(super) const LEVERS: Key = Key::optional(
@@ -108,7 +108,7 @@ const TURN: Value = Value::Number(Range {
 /// Returns `true` if a task with this root allows lever-ups.
 pub(super) fn allowed(root: &Node) -> bool {
     root.get("levers").is_some()
-        || root.get("goal").is_some_and(|goal| super::goals::each(goal).iter().any(lifting::lifts))
+        || root.get("goal").is_some_and(|goal| goals::each(goal).iter().any(goals::lifts))
 }
 
 /// Reads the rules; the outer `None` if something is faulty.

@@ -3,17 +3,13 @@
 mod blades;
 mod bodies;
 mod build;
-mod coverage;
 mod emit;
-mod falls;
 mod frictions;
-mod gap;
 mod goal_rules;
 mod goals;
 mod joints;
 mod keep;
 mod levers;
-mod lifting;
 mod load;
 mod mounts;
 mod object;

@@ -9,44 +9,55 @@ use crate::asset::strict::Ledger;
 use crate::asset::take::{name_of, number_or};
 use crate::{
     scene::{Body, Scene},
-    task::Gap,
+    task::{Demand, Gap},
 };
+
+use super::ask::{About, Ask, Asked};
 
 /// Limits are at least so far apart, metres: simulators themselves differ by millimetres.
 const PLAY: f64 = 0.001;
 
 /// How far apart two things are to be.
-pub(super) const GAP: Key = Key::optional(
-    "gap",
-    Value::Map(&[
-        Key::required("to", Value::Name, "The other object, or an obstacle."),
-        Key::optional(
-            "min",
-            Value::Number(Range {
-                what: "a distance in metres",
-                low: 0.0,
-                high: 10.0,
-                advice: "10 cm apart is 0.10",
-            }),
-            "Smallest distance in metres; default 0.",
-        ),
-        Key::optional(
-            "max",
-            Value::Number(Range {
-                what: "a distance in metres",
-                low: PLAY,
-                high: 10.0,
-                advice: "touching is 0.002; simulators themselves differ by millimetres",
-            }),
-            "Largest distance in metres; by default any.",
-        ),
-    ]),
-    "How far apart the object and another thing are to be instead, wherever both come to: the smallest \
+pub(super) const GAP: Ask = Ask {
+    keys: &[Key::optional(
+        "gap",
+        Value::Map(&[
+            Key::required("to", Value::Name, "The other object, or an obstacle."),
+            Key::optional(
+                "min",
+                Value::Number(Range {
+                    what: "a distance in metres",
+                    low: 0.0,
+                    high: 10.0,
+                    advice: "10 cm apart is 0.10",
+                }),
+                "Smallest distance in metres; default 0.",
+            ),
+            Key::optional(
+                "max",
+                Value::Number(Range {
+                    what: "a distance in metres",
+                    low: PLAY,
+                    high: 10.0,
+                    advice: "touching is 0.002; simulators themselves differ by millimetres",
+                }),
+                "Largest distance in metres; by default any.",
+            ),
+        ]),
+        "How far apart the object and another thing are to be instead, wherever both come to: the smallest \
      distance between their outlines seen from above, with all parts; by default any.",
-);
+    )],
+    about: About::Place,
+    read: |goal, object, scene| Some(Demand::Gap(gap(goal.get("gap")?, object, scene)?)),
+    write: |demand, _, scene| {
+        let Demand::Gap(gap) = demand else { return None };
+        Some(json!({"gap": emitted(gap, scene)}))
+    },
+    check,
+};
 
 /// The gap of a goal of `object`.
-pub(super) fn gap(node: &Node, object: usize, scene: &Scene) -> Option<Box<Gap>> {
+fn gap(node: &Node, object: usize, scene: &Scene) -> Option<Box<Gap>> {
     let name = node.get("to")?.text()?;
     let obstacle = || scene.obstacles.iter().position(|obstacle| obstacle.name == name);
     let to = scene.object(name).map(Body::Object).or_else(|| obstacle().map(Body::Obstacle))?;
@@ -55,7 +66,7 @@ pub(super) fn gap(node: &Node, object: usize, scene: &Scene) -> Option<Box<Gap>>
 }
 
 /// As in a file.
-pub(in crate::asset) fn emitted_gap(gap: &Gap, scene: &Scene) -> Json {
+fn emitted(gap: &Gap, scene: &Scene) -> Json {
     let mut json = json!({"to": gap.name(scene)});
     if gap.min > 0.0 || gap.max.is_infinite() {
         json["min"] = json!(gap.min);
@@ -66,11 +77,13 @@ pub(in crate::asset) fn emitted_gap(gap: &Gap, scene: &Scene) -> Json {
     json
 }
 
-/// Notes what is wrong with the gap of a goal of the object that `name` names.
-pub(super) fn check_gap(gap: &Node, name: &Node, bodies: [&[Node]; 2], ledger: &mut Ledger) {
+/// Notes what is wrong with a gap.
+fn check(asked: &Asked, ledger: &mut Ledger) {
+    let Some(gap) = asked.goal.get("gap") else { return };
+    let bodies = [asked.section("objects"), asked.section("obstacles")];
     let others = || bodies.iter().flat_map(|bodies| bodies.iter()).filter_map(name_of);
     if let Some((node, to)) = gap.get("to").and_then(|node| Some((node, node.text()?))) {
-        if Some(to) == name.text() {
+        if Some(to) == asked.name.text() {
             ledger.fault(
                 node,
                 "an object has no gap to itself",

@@ -6,12 +6,13 @@ use crate::asset::node::Node;
 use crate::asset::spec::{Key, SHIFT_LIMIT, Value, numbers};
 use crate::asset::strict::Ledger;
 use crate::asset::take::vector;
+use crate::asset::task::mounts::moving;
 use crate::{
     scene::{Scene, Span},
-    task::{Edge, Fall},
+    task::{Demand, Edge, Fall},
 };
 
-use super::mounts::moving;
+use super::ask::{About, Ask, Asked};
 
 /// Over any edge.
 const ANY: &str = "any";
@@ -20,32 +21,41 @@ const ANY: &str = "any";
 const SHORTEST: f64 = 0.02;
 
 /// Over which edge an object is to fall.
-pub(super) const OFF_TABLE: Key = Key::optional(
-    "off_table",
-    Value::Either(&[
-        Value::Word(&[ANY, "far", "near", "left", "right"]),
-        Value::Map(&[
-            Key::required(
-                "edge",
-                Value::Word(&["far", "near", "left", "right"]),
-                "The edge, as the robot sees it.",
-            ),
-            Key::required(
-                "between",
-                numbers(&SHIFT_LIMIT, 2),
-                "Between which places along it its centre of mass has to be, [low, high] in metres: x of the \
+pub(super) const OFF_TABLE: Ask = Ask {
+    keys: &[Key::optional(
+        "off_table",
+        Value::Either(&[
+            Value::Word(&[ANY, "far", "near", "left", "right"]),
+            Value::Map(&[
+                Key::required(
+                    "edge",
+                    Value::Word(&["far", "near", "left", "right"]),
+                    "The edge, as the robot sees it.",
+                ),
+                Key::required(
+                    "between",
+                    numbers(&SHIFT_LIMIT, 2),
+                    "Between which places along it its centre of mass has to be, [low, high] in metres: x of the \
                  left and the right edge, y of the others.",
-            ),
+                ),
+            ]),
         ]),
-    ]),
-    "Over which edge of the table it is to fall instead of coming to rest, as the robot sees it: `any`, \
+        "Over which edge of the table it is to fall instead of coming to rest, as the robot sees it: `any`, \
      `far` (+x), `near` (-x), `left` (+y) or `right` (-y), or an `edge` and `between` which places along it. \
      It falls once its centre of mass is beyond the edge; everything else stays, unless it may fall. By \
      default it is to stay.",
-);
+    )],
+    about: About::Pose,
+    read: |goal, object, scene| Some(Demand::Fall(fall(goal.get("off_table")?, object, scene)?)),
+    write: |demand, _, _| {
+        let Demand::Fall(fall) = demand else { return None };
+        Some(json!({"off_table": emitted(fall)}))
+    },
+    check,
+};
 
 /// The fall of a goal of `object`.
-pub(super) fn fall(node: &Node, object: usize, scene: &Scene) -> Option<Box<Fall>> {
+fn fall(node: &Node, object: usize, scene: &Scene) -> Option<Box<Fall>> {
     let name = node.get("edge").unwrap_or(node).text()?;
     let over = Edge::ALL.into_iter().find(|edge| edge.name() == name);
     let fall = Fall::of(scene, object, over)?;
@@ -63,7 +73,7 @@ fn span(node: &Node) -> Option<Span> {
 }
 
 /// As in a file.
-pub(in crate::asset) fn emitted_fall(fall: &Fall) -> Json {
+fn emitted(fall: &Fall) -> Json {
     let name = fall.over.map_or(ANY, Edge::name);
     match fall.between {
         Some(Span { low, high }) => json!({"edge": name, "between": [low, high]}),
@@ -71,8 +81,9 @@ pub(in crate::asset) fn emitted_fall(fall: &Fall) -> Json {
     }
 }
 
-/// Notes what is wrong with the fall of a goal's object, which `name` names.
-pub(super) fn check_fall(goal: &Node, name: &Node, scene: &Node, ledger: &mut Ledger) {
+/// Notes what is wrong with a fall.
+fn check(asked: &Asked, ledger: &mut Ledger) {
+    let Asked { goal, name, scene } = *asked;
     let Some(node) = goal.get("off_table") else { return };
     if let Some(between) = node.get("between") {
         check_part(between, node.get("edge").and_then(Node::text), scene, ledger);
@@ -85,7 +96,7 @@ pub(super) fn check_fall(goal: &Node, name: &Node, scene: &Node, ledger: &mut Le
         let advice = "leave it out: the table is where it is";
         ledger.fault(other, "`off_table` is relative to nothing", advice);
     }
-    let section = |key| scene.get(key).map(Node::items).unwrap_or_default();
+    let section = |key| asked.section(key);
     let held = section("joints").iter().find(|joint| {
         let moving = moving(joint, section("objects"), section("obstacles"));
         moving.is_some_and(|moving| moving.text() == name.text())

@@ -1,0 +1,67 @@
+//! Goals of coverage: how much of its own outline at a pose an object is to cover.
+
+use serde_json::{Value as Json, json};
+
+use crate::asset::node::Node;
+use crate::asset::put::degrees;
+use crate::asset::spec::{ANGLE, Key, POSITION, Range, Value};
+use crate::asset::take::{angle, number_or, position};
+use crate::geometry::Pose;
+use crate::{
+    scene::Scene,
+    task::{Coverage, Demand},
+};
+
+use super::ask::{About, Ask};
+
+/// The share that Push-T asks for.
+const SHARE: f64 = 0.95;
+
+/// How much of its outline is to be covered, and where.
+pub(super) const COVERAGE: Ask = Ask {
+    keys: &[Key::optional(
+        "coverage",
+        Value::Map(&[
+            Key::optional(
+                "share",
+                Value::Number(Range {
+                    what: "a share",
+                    low: 0.1,
+                    high: 0.99,
+                    advice: "0.95 is 95 %; simulators themselves differ by millimetres",
+                }),
+                "The smallest share of the outline's area; default 0.95.",
+            ),
+            Key::required("position", POSITION, "Where the outline is, [x, y] in metres."),
+            Key::optional("heading_deg", ANGLE, "Its heading, degrees; default 0."),
+        ]),
+        "How much of its own outline there the object covers instead, seen from above, with all parts: what \
+     Push-T measures; by default any.",
+    )],
+    about: About::Pose,
+    read: |goal, object, scene| {
+        Some(Demand::Coverage(covering(goal.get("coverage")?, object, scene)?))
+    },
+    write: |demand, _, _| {
+        let Demand::Coverage(coverage) = demand else { return None };
+        Some(json!({"coverage": emitted(coverage)}))
+    },
+    check: |_, _| {},
+};
+
+/// The coverage of a goal of `object`.
+fn covering(node: &Node, object: usize, scene: &Scene) -> Option<Box<Coverage>> {
+    let share = number_or(node, "share", SHARE)?;
+    let heading = angle(node, "heading_deg", 0.0)?;
+    Coverage::of(scene, object, Pose { position: position(node)?, heading }, share)
+}
+
+/// As in a file.
+fn emitted(coverage: &Coverage) -> Json {
+    let position = coverage.place.position;
+    json!({
+        "share": coverage.share,
+        "position": [position.x, position.y],
+        "heading_deg": degrees(coverage.heading()),
+    })
+}

@@ -1,0 +1,24 @@
+//! Goals of a side that is up.
+
+use serde_json::json;
+
+use crate::asset::spec::{Key, Value};
+use crate::task::{Demand, Flipped};
+
+use super::ask::{About, Ask};
+
+/// Side on which the object rests.
+pub(super) const FLIPPED: Ask = Ask {
+    keys: &[Key::optional(
+        "flipped",
+        Value::Switch,
+        "At rest the object lies upside down (true) or on its underside (false); by default not asked for.",
+    )],
+    about: About::Lifted,
+    read: |goal, _, _| Some(Demand::Flipped(Flipped { flipped: goal.get("flipped")?.switch()? })),
+    write: |demand, _, _| {
+        let Demand::Flipped(own) = demand else { return None };
+        Some(json!({"flipped": own.flipped}))
+    },
+    check: |_, _| {},
+};

@@ -1,0 +1,131 @@
+//! Goals of how far a joint has come.
+
+use crate::asset::node::Node;
+use crate::asset::spec::{ANGLE, Key, SHIFT_LIMIT};
+use crate::asset::strict::Ledger;
+use crate::asset::take::{angle, angle_of};
+use crate::asset::task::mounts::moving;
+use crate::geometry::Pose;
+use crate::{
+    scene::{JointKind, Scene},
+    task::{AtPlace, Demand, Facing},
+};
+
+use super::ask::{About, Ask, Asked};
+use super::heading::HEADING_TOLERANCE;
+
+/// Turn of a revolute joint, which files hold as the heading that it leads to.
+pub(super) const TURN: Ask = Ask {
+    keys: &[Key::optional(
+        "joint_deg",
+        ANGLE,
+        "How far its revolute joint has turned it, degrees counter-clockwise from the start, against what \
+         it is joined to; within the joint's limits, if by the longer way, and without limits by the shorter \
+         one. By default any.",
+    )],
+    about: About::Turn,
+    read: |goal, object, scene| {
+        let within = angle(goal, "heading_tolerance_deg", HEADING_TOLERANCE)?;
+        let (there, relative) = come(scene, object, angle_of(goal.get("joint_deg")?)?)?;
+        Some(Demand::Heading(Facing { relative, ..Facing::new(there.heading, within) }))
+    },
+    write: |_, _, _| None,
+    check: |asked, ledger| has_joint(asked, ("joint_deg", "revolute"), ledger),
+};
+
+/// Shift of a prismatic joint, which files hold as the position that it leads to.
+pub(super) const SHIFT: Ask = Ask {
+    keys: &[Key::optional(
+        "joint",
+        SHIFT_LIMIT,
+        "How far its prismatic joint has let it slide along the axis, metres from the start, against what \
+         it is joined to; by default any.",
+    )],
+    about: About::Place,
+    read: |goal, object, scene| {
+        let (there, relative) = come(scene, object, goal.get("joint")?.number()?)?;
+        let (position, tolerance) = (there.position, goal.get("tolerance")?.number()?);
+        Some(Demand::Place(AtPlace { position, tolerance, relative }))
+    },
+    write: |_, _, _| None,
+    check: |asked, ledger| has_joint(asked, ("joint", "prismatic"), ledger),
+};
+
+/// An object whose joint is to come somewhere has one of the right kind.
+fn has_joint(asked: &Asked, (key, kind): (&str, &str), ledger: &mut Ledger) {
+    let Some(node) = asked.goal.get(key) else { return };
+    let joints = asked.section("joints");
+    let own = joints.iter().filter(|joint| {
+        let between = joint.get("between").map(Node::items).unwrap_or_default();
+        between.iter().any(|name| name.text() == asked.name.text())
+            && joint.get("kind").and_then(Node::text) != Some("fixed")
+    });
+    let own: Vec<&Node> = own.collect();
+    let name = asked.name.text().unwrap_or("?");
+    match own[..] {
+        [joint] if joint.get("kind").and_then(Node::text) == Some(kind) => {
+            within_limits(node, joint, asked, ledger);
+        }
+        [_] => {
+            let message = format!("the joint of `{name}` is not {kind}");
+            let advice = "turns are asked for by `joint_deg`, shifts by `joint`";
+            ledger.fault(node, message, advice);
+        }
+        [] => {
+            let message = format!("`{name}` has no joint that moves");
+            ledger.fault(node, message, "name an object that a joint of the scene lets move");
+        }
+        _ => {
+            let message = format!("`{name}` has several joints, so it is not clear which is meant");
+            ledger.fault(node, message, "ask for a position or a heading instead");
+        }
+    }
+    if let Some(other) = asked.goal.get("relative_to") {
+        let advice = "leave it out: a joint counts against what it joins";
+        ledger.fault(other, format!("`{key}` is relative to something already"), advice);
+    }
+}
+
+/// A joint does not come farther than its limits.
+fn within_limits(wanted: &Node, joint: &Node, asked: &Asked, ledger: &mut Ledger) {
+    let limits = joint.get("limits").or_else(|| joint.get("limits_deg"));
+    let [Some(low), Some(high)] =
+        [0, 1].map(|k| limits.and_then(|limits| limits.items().get(k)).and_then(Node::number))
+    else {
+        return;
+    };
+    let to_world = moving(joint, asked.section("objects"), asked.section("obstacles")).is_some();
+    let between = joint.get("between").map(Node::items).unwrap_or_default();
+    let first = between.first().and_then(Node::text) == asked.name.text();
+    // Limits are those of the second object against the first.
+    let (low, high) = if first && !to_world { (-high, -low) } else { (low, high) };
+    if wanted.number().is_some_and(|wanted| wanted < low || wanted > high) {
+        let name = asked.name.text().unwrap_or("?");
+        let message = format!("the joint of `{name}` only comes from {low} to {high}");
+        ledger.fault(wanted, message, "ask for less, or widen the joint's limits");
+    }
+}
+
+/// Where an object is once its joint has come this far, radians or metres: in the world, or in the frame
+/// of the object that it is joined to.
+fn come(scene: &Scene, object: usize, by: f64) -> Option<(Pose, Option<usize>)> {
+    let start = scene.objects[object].pose;
+    if let Some(mount) = scene.mounts.iter().find(|mount| mount.object == object) {
+        return Some((mount.pose(&start, by), None));
+    }
+    let moves = |kind: &JointKind| *kind != JointKind::Fixed;
+    let mut joints = scene.joints.iter().filter(|joint| moves(&joint.kind));
+    let joint = joints.find(|joint| joint.between.contains(&object))?;
+    let [first, second] = joint.between;
+    // Joints count how far the second object has come against the first.
+    let (other, by) = if second == object { (first, by) } else { (second, -by) };
+    let frame = scene.objects[other].pose.inverse() * start;
+    let there = match joint.kind {
+        JointKind::Prismatic { axis, .. } => {
+            let axis = scene.objects[other].pose.local_vector(axis);
+            Pose { position: frame.position + by * axis, ..frame }
+        }
+        _ => Pose { heading: frame.heading + by, ..frame },
+    };
+    Some((there, Some(other)))
+}

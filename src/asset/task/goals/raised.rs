@@ -1,0 +1,30 @@
+//! Goals of a raised edge.
+
+use serde_json::json;
+
+use crate::asset::spec::{Key, Range, Value};
+use crate::task::{Demand, Raised};
+
+use super::ask::{About, Ask};
+
+/// Height to which an edge is lifted.
+pub(super) const RAISED: Ask = Ask {
+    keys: &[Key::optional(
+        "raised",
+        Value::Number(Range {
+            what: "a height in metres",
+            low: 0.001,
+            high: 1.0,
+            advice: "2 cm is 0.02",
+        }),
+        "At the end of a lever-up the edge lies on the blade, this much higher than at the start, metres; \
+         by default not asked for.",
+    )],
+    about: About::Lifted,
+    read: |goal, _, _| Some(Demand::Raised(Raised { height: goal.get("raised")?.number()? })),
+    write: |demand, _, _| {
+        let Demand::Raised(raised) = demand else { return None };
+        Some(json!({"raised": raised.height}))
+    },
+    check: |_, _| {},
+};
