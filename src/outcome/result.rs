@@ -55,10 +55,19 @@ impl Outcome {
     /// Judges the end of a trajectory in `scene` by the goals of `task`. One that did not come to rest,
     /// became NaN or infinite, or in which an object fell does not count as reaching them.
     pub fn judge(scene: &Scene, task: &Task, trajectory: &Trajectory) -> Self {
-        let state = trajectory.outcome().clone();
         let sound = trajectory.warnings.iter().all(|warning| !warning.forbids_success());
+        Self::of_state((scene, task), trajectory.outcome().clone(), &trajectory.lifts, sound)
+    }
+
+    /// Judges a state after these lifts, `sound` if nothing went wrong on the way.
+    pub fn of_state(
+        (scene, task): (&Scene, &Task),
+        state: State,
+        lifts: &[Lift],
+        sound: bool,
+    ) -> Self {
         let lift = |goal: &Goal| {
-            let mut lifts = trajectory.lifts.iter().rev();
+            let mut lifts = lifts.iter().rev();
             lifts.find(|lift| lift.object == goal.object).copied()
         };
         let known = |goal: &&Goal| goal.object < state.poses.len().min(scene.objects.len());

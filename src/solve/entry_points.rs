@@ -13,6 +13,7 @@ use crate::watch::{Instant, Until, Unwatched, Watch};
 
 use super::blackboard::Blackboard;
 use super::check::check;
+use super::choice::solve_one_of;
 use super::error::SolveError;
 use super::grade::Class;
 use super::infeasibility::Cause;
@@ -63,7 +64,9 @@ impl Planner {
         let mut solution = self.solve_from(&stated(task), task, library, &until)?;
         meet_some_goals(self, task, library, &until, &mut solution)?;
         if solution.status == PlanStatus::NoPlan && !task.in_space() && solution.cause.is_none() {
-            solution.cause = relaxation::cause(self, task, library, &until);
+            let nearest = task.choices(&task.scene.start()).into_iter().next();
+            let asked = nearest.as_ref().unwrap_or(task);
+            solution.cause = relaxation::cause(self, asked, library, &until);
         }
         if task.unknown.any() {
             solution.warnings.push(Warning::Guessed { unknown: task.unknown });
@@ -84,6 +87,11 @@ impl Planner {
         library: &ToolLibrary,
         watch: &dyn Watch,
     ) -> Result<Solution, SolveError> {
+        let choices = task.choices(&situation.start);
+        if !choices.is_empty() {
+            let until = Until::new(watch, self.time_limit);
+            return solve_one_of(self, (task, situation), &choices, library, &until);
+        }
         if task.in_space() {
             let blades = match task.levers {
                 Some(_) => task.blades(library)?,
@@ -114,6 +122,15 @@ impl Planner {
         watch: &dyn Watch,
     ) -> Result<Option<Cause>, SolveError> {
         let situation = stated(task);
+        let choices = task.choices(&situation.start);
+        if let Some((nearest, others)) = choices.split_first() {
+            for choice in others {
+                if self.why(choice, library, watch)?.is_none() {
+                    return Ok(None);
+                }
+            }
+            return self.why(nearest, library, watch);
+        }
         let tools = task.tools(library)?;
         check(task, &situation, &tools)?;
         let query = Query { planner: self, task, situation: &situation, tools: &tools, watch };
@@ -143,6 +160,8 @@ impl Planner {
         if task.in_space() {
             return Ok(None);
         }
+        let nearest = task.choices(&situation.start).into_iter().next();
+        let task = nearest.as_ref().unwrap_or(task);
         let tools = task.tools(library)?;
         check(task, situation, &tools)?;
         let until = Until::new(watch, self.time_limit);

@@ -11,6 +11,7 @@ mod arm_feasibility;
 mod attempts;
 mod blackboard;
 mod check;
+mod choice;
 mod efforts;
 mod entry_points;
 mod error;

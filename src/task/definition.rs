@@ -13,6 +13,9 @@ use super::arm::{self, RobotArm};
 use super::{Goal, LeverRules, ShownGoal};
 use crate::scene::{Plate, Scene, State, Unknowns};
 
+/// Maximum number of choices among objects: each is searched as a task of its own.
+const MOST_CHOICES: usize = 12;
+
 /// Which tools a task allows.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -134,9 +137,32 @@ impl Task {
             && self.arm.as_deref().is_none_or(|arm| arm.allows(position, yaw))
     }
 
-    /// Whether an object (an index into [`Scene::objects`]) has a goal.
+    /// Returns `true` if a goal may move an object (an index into [`Scene::objects`]).
     pub fn wants(&self, object: usize) -> bool {
-        self.goals.iter().any(|goal| goal.object == object)
+        self.goals.iter().any(|goal| goal.movers().contains(&object))
+    }
+
+    /// Tasks of plainer goals any of which reaches all goals of this one, the nearest first; none where
+    /// no goal leaves a [choice](super::Kind::choices).
+    pub fn choices(&self, state: &State) -> Vec<Self> {
+        let count = self.scene.objects.len();
+        let sound = |goal: &Goal| {
+            goal.movers().iter().all(|k| *k < count) && goal.fault(&self.scene).is_none()
+        };
+        if !self.goals.iter().any(|goal| goal.movers().len() > 1) || !self.goals.iter().all(sound) {
+            return Vec::new();
+        }
+        let mut sets = vec![Vec::new()];
+        for goal in &self.goals {
+            let choices = goal.choices(state);
+            let with = |set: &Vec<Goal>| {
+                let longer = |choice: &Vec<Goal>| set.iter().chain(choice).cloned().collect();
+                choices.iter().map(longer).collect::<Vec<Vec<Goal>>>()
+            };
+            sets = sets.iter().flat_map(with).collect();
+        }
+        sets.truncate(MOST_CHOICES);
+        sets.into_iter().map(|goals| Self { goals: Goal::joined(goals), ..self.clone() }).collect()
     }
 
     /// Whether every goal is reached, see [`Goal::reached`].

@@ -22,6 +22,8 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::{Pose, Vector};
 use crate::scene::{Body, Scene, State};
 
+use super::Goal;
+
 pub use area::{Area, InArea};
 pub use coverage::Coverage;
 pub use fall::{Edge, Fall};
@@ -179,6 +181,18 @@ pub trait Kind {
     /// Returns the object in whose frame it is; the world's by default.
     fn relative(&self) -> Option<usize> {
         None
+    }
+
+    /// Returns the objects of which some must be moved to satisfy it, where that is not the goal's object
+    /// alone.
+    fn movers(&self) -> Vec<usize> {
+        Vec::new()
+    }
+
+    /// Returns sets of plainer goals, the nearest first: it is satisfied if all goals of one set are. Search
+    /// pursues one set after the other. None where the demand itself is searched.
+    fn choices(&self, _state: &State) -> Vec<Vec<Goal>> {
+        Vec::new()
     }
 
     /// Returns the other body to which it relates the object.

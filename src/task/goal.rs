@@ -270,13 +270,59 @@ impl Goal {
 
 /// # Properties
 impl Goal {
-    /// Its own object, and those to which it demands a gap.
+    /// The objects that it may move, and those to which it demands a gap.
     pub fn objects(&self) -> impl Iterator<Item = usize> {
         let others = self.demands.iter().filter_map(|demand| match demand.kind().to() {
             Some(Body::Object(other)) => Some(other),
             _ => None,
         });
-        std::iter::once(self.object).chain(others)
+        self.movers().into_iter().chain(others)
+    }
+
+    /// The objects that may be moved for it, its own first.
+    pub fn movers(&self) -> Vec<usize> {
+        let others = self.demands.iter().flat_map(|demand| demand.kind().movers());
+        let mut movers = vec![self.object];
+        for other in others {
+            if !movers.contains(&other) {
+                movers.push(other);
+            }
+        }
+        movers
+    }
+
+    /// Names of the objects that may be moved for it.
+    pub fn names(&self, scene: &Scene) -> String {
+        let movers = self.movers().into_iter();
+        let names = movers.filter_map(|k| scene.objects.get(k)).map(|object| object.name.as_str());
+        names.collect::<Vec<_>>().join(", ")
+    }
+
+    /// Its objects and its demands in words.
+    pub fn line(&self, scene: &Scene) -> String {
+        let names = self.names(scene);
+        let names = if names.is_empty() { "object" } else { &names };
+        let colon = if self.in_space() { ":" } else { "" };
+        format!("{names}{colon} {}", self.words(scene))
+    }
+
+    /// Sets of plainer goals any of which reaches it, the nearest first, at least one.
+    pub fn choices(&self, state: &State) -> Vec<Vec<Self>> {
+        let chosen: Vec<Vec<Vec<Self>>> =
+            self.demands.iter().map(|demand| demand.kind().choices(state)).collect();
+        let mut plain = self.clone();
+        let mut open = chosen.iter().map(|choices| !choices.is_empty());
+        plain.demands.retain(|_| open.next() == Some(false));
+        let own = if plain.demands.is_empty() { Vec::new() } else { vec![plain] };
+        let mut sets = vec![own];
+        for choices in chosen.iter().filter(|choices| !choices.is_empty()) {
+            let with = |set: &Vec<Self>| {
+                let longer = |choice: &Vec<Self>| set.iter().chain(choice).cloned().collect();
+                choices.iter().map(longer).collect::<Vec<Vec<Self>>>()
+            };
+            sets = sets.iter().flat_map(with).collect();
+        }
+        sets
     }
 
     /// Returns `true` if the object must come to a place.
@@ -367,6 +413,6 @@ impl Goal {
         let own = || start.poses.get(self.object).map(|pose| pose.position);
         let marks = goal.demands.iter().flat_map(|one| one.kind().marks(self.object, scene));
         let centre = goal.position().or_else(own).unwrap_or_default();
-        ShownGoal { object: self.object, centre, marks: marks.collect() }
+        ShownGoal { objects: self.movers(), centre, marks: marks.collect() }
     }
 }

@@ -339,8 +339,9 @@ fn evidence(
     trajectory.warnings.extend(scene.not_kept(trajectory.outcome()));
     // What is to fall need not be told of.
     let wanted = |name: &str| {
-        let mut goals = task.goals.iter().filter(|goal| goal.falls());
-        goals.any(|goal| scene.objects.get(goal.object).is_some_and(|object| object.name == name))
+        let goals = task.goals.iter().filter(|goal| goal.falls());
+        let mut movers = goals.flat_map(|goal| goal.movers());
+        movers.any(|k| scene.objects.get(k).is_some_and(|object| object.name == name))
     };
     let told = |warning: &Warning| !matches!(warning, Warning::Fell { object } if wanted(object));
     trajectory.warnings.retain(told);

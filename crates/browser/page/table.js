@@ -125,8 +125,8 @@ function grid() {
   const [x, y] = map([0, 0]);
   root.append(svg('circle', { cx: x, cy: y, r: 5, class: 'robot' }, svg('title', {}, 'robot')));
   for (const region of task.stage.regions ?? []) still(region.shape, region.at, 'keep-out', region.name);
-  for (const goal of [task.stage.goal, ...(task.stage.further ?? [])]) {
-    if (goal?.area) still(goal.area, [...goal.at, 0], 'goal', goal.words);
+  for (const goal of task.stage.goals) {
+    for (const area of goal.areas) still(area.shape, area.at, area.leave ? 'leave' : 'goal', goal.words);
   }
   for (const { kind, pose } of things()) {
     if (kind === 'reach') root.append(svg('circle', { cx: x, cy: y, r: px(pose[0]), class: 'reach' }));

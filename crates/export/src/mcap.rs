@@ -144,7 +144,7 @@ fn entities(plan: &PlanFile) -> Vec<Json> {
     for (k, goal) in plan.task.shown_goals().iter().enumerate() {
         let name = match k {
             0 => "goal".to_owned(),
-            _ => format!("goal/{}", scene.objects[goal.object].name),
+            _ => format!("goal/{}", scene.objects[goal.objects[0]].name),
         };
         let sheets: Vec<_> = goal.marks.iter().filter_map(sheet).collect();
         if !sheets.is_empty() {

@@ -1,8 +1,8 @@
 // How far the object is from the goal over time, under the clock of the replay.
 
 (() => {
-  byId('chart').hidden = !page.stage.goal;
-  if (!page.stage.goal) return;
+  byId('chart').hidden = !goals.length;
+  if (!goals.length) return;
   const [HEIGHT, LEFT, RIGHT, TOP, BOTTOM] = [190, 40, 12, 12, 26];
   let width = 800;
   const root = svg('svg', { role: 'img', class: 'plot' });
@@ -26,7 +26,7 @@
     still.replaceChildren();
     width = widthOf(byId('chart'));
     root.setAttribute('viewBox', `0 0 ${width} ${HEIGHT}`);
-    const tolerance = page.stage.goal.tolerance * LENGTH;
+    const tolerance = goals[0].tolerance * LENGTH;
     const errors = replays().flatMap((replay) => Array.from(replay.time, (t) => replay.error(t)));
     // What is measured instead of a distance may sink below where it began.
     least = Math.min(0, ...errors) * 1.06;

@@ -4,6 +4,6 @@ const page = JSON.parse(document.getElementById('data').textContent);
 /** Names of layers; the digit keys show and hide those of a plan in order. */
 const LAYERS = { predicted: 'predicted', planar: 'planar', spatial: '3-D', seen: 'seen', real: 'real' };
 
-/** All goals; of a recording there are none. */
-const goals = [page.stage.goal, ...(page.stage.further ?? [])].filter(Boolean);
-const wants = (object) => goals.some((goal) => goal.object === object);
+/** All goals; a recording has none. */
+const { goals } = page.stage;
+const wants = (object) => goals.some((goal) => goal.objects.includes(object));

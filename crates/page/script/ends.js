@@ -5,14 +5,14 @@
   const figure = byId('ends');
   // Of a run nothing was disturbed, lever-ups end in other ways, and recordings have no goal; around
   // regions and headings ends say nothing.
-  const none = Boolean(page.run ?? page.measure) || page.stage.goal?.tolerance === 0;
+  const none = Boolean(page.run ?? page.measure) || goals[0]?.tolerance === 0;
   byId('ends-card').hidden = none;
   if (none) return;
 
   function draw() {
-    const { goal } = page.stage;
+    const [goal] = goals;
     const finals = replays().map((replay) => {
-      const [x, y] = replay.object(goal.object, replay.end);
+      const [x, y] = replay.object(goal.objects[0], replay.end);
       return { layer: replay.layer, x: x - goal.at[0] * LENGTH, y: y - goal.at[1] * LENGTH };
     });
     const ends = plan().ends.map(({ layer, at, reached }) => ({

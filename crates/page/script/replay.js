@@ -79,14 +79,14 @@ class Replay {
       const here = this.measure[frame];
       return share === 0 ? here : here + (this.measure[frame + 1] - here) * share;
     }
-    const [x, y] = this.object(page.stage.goal.object, time);
-    return Math.hypot(x - page.stage.goal.at[0] * LENGTH, y - page.stage.goal.at[1] * LENGTH);
+    const [x, y] = this.object(goals[0].objects[0], time);
+    return Math.hypot(x - goals[0].at[0] * LENGTH, y - goals[0].at[1] * LENGTH);
   }
 
   /** How far its heading is from the nearest that is wanted, radians. */
   headingError(time) {
-    const { goal } = page.stage;
-    const heading = this.object(goal.object, time)[2];
+    const [goal] = goals;
+    const heading = this.object(goal.objects[0], time)[2];
     if (goal.middle !== undefined) {
       const turn = heading - goal.middle * FINE;
       const off = Math.atan2(Math.sin(turn), Math.cos(turn));

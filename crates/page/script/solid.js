@@ -97,7 +97,8 @@ const solid = (() => {
     const { objects, obstacles } = page.stage;
     for (const body of [...objects, ...obstacles]) add(posed(body.at), reachOf(body.shape));
     for (const goal of page.measure ? [] : goals) {
-      add(posed([...goal.at, 0]), goal.area ? reachOf(goal.area) : goal.tolerance * LENGTH);
+      add(posed([...goal.at, 0]), goal.tolerance * LENGTH);
+      for (const area of goal.areas) add(posed(area.at), reachOf(area.shape));
     }
     for (const stroke of page.measure ? [] : plan().strokes) {
       const room = Math.max(...page.tools[stroke.tool].parts.map(
@@ -130,16 +131,20 @@ const solid = (() => {
 
   function drawGoal(goal, objects) {
     const at = posed([...goal.at, 0]);
-    const corners = goal.area?.polygon?.map(([x, y]) => new THREE.Vector2(x * LENGTH, y * LENGTH));
-    const rim = (goal.area?.disc ?? goal.tolerance) * LENGTH;
-    const form = corners ? new THREE.ShapeGeometry(new THREE.Shape(corners)) : new THREE.CircleGeometry(rim, 64);
-    const area = new THREE.Mesh(form,
-      new THREE.MeshBasicMaterial({ color: colour('goal'), transparent: true, opacity: 0.25, depthWrite: false }));
-    scene.add(placed(area, at, THIN));
-    if (!corners) scene.add(ring(at, rim, colour('goal'), 2 * THIN));
+    const disc = { shape: { disc: goal.tolerance }, at: [...goal.at, 0] };
+    for (const area of goal.areas.length ? goal.areas : [disc]) {
+      const place = posed(area.at);
+      const corners = area.shape.polygon?.map(([x, y]) => new THREE.Vector2(x * LENGTH, y * LENGTH));
+      const rim = area.shape.disc * LENGTH;
+      const form = corners ? new THREE.ShapeGeometry(new THREE.Shape(corners)) : new THREE.CircleGeometry(rim, 64);
+      const mesh = new THREE.Mesh(form,
+        new THREE.MeshBasicMaterial({ color: colour(area.leave ? 'bad' : 'goal'), transparent: true, opacity: 0.25, depthWrite: false }));
+      scene.add(placed(mesh, place, THIN));
+      if (!corners) scene.add(ring(place, rim, colour('goal'), 2 * THIN));
+    }
     if (goal.heading) {
       at[2] = goal.heading[0] * FINE;
-      scene.add(placed(piece(objects[goal.object], colour('goal'), colour('goal'), true), at));
+      scene.add(placed(piece(objects[goal.objects[0]], colour('goal'), colour('goal'), true), at));
     }
   }
 
@@ -153,7 +158,7 @@ const solid = (() => {
       const flat = { ...body, height: (2 * THIN) / LENGTH };
       scene.add(placed(piece(flat, colour('bad'), colour('bad'), true), posed(body.at)));
     }
-    for (const { object } of goals) {
+    for (const object of goals.flatMap((goal) => goal.objects)) {
       for (const replay of shown()) {
         const [xs, ys, , zs] = replay.objects[object];
         const way = Array.from(xs, (x, k) => [x, ys[k], (zs?.[k] ?? 0) + 3 * THIN]);

@@ -58,7 +58,10 @@
       high = [Math.max(high[0], x + room), Math.max(high[1], y + room)];
     };
     const { objects, obstacles, regions = [] } = page.stage;
-    for (const goal of goals) add(posed([...goal.at, 0]), goal.area ? radius(goal.area) : goal.tolerance * LENGTH);
+    for (const goal of goals) {
+      add(posed([...goal.at, 0]), goal.tolerance * LENGTH);
+      for (const area of goal.areas) add(posed(area.at), radius(area.shape));
+    }
     for (const body of [...objects, ...obstacles, ...regions]) add(posed(body.at), radius(body.shape));
     // Where nothing moves there is room to show the robot.
     if (!plan().strokes.length) add([0, 0]);
@@ -135,21 +138,19 @@
   function drawGoal(goal) {
     const { objects } = page.stage;
     const wanted = [...posed([...goal.at, 0])];
-    const own = objects[goal.object];
+    const own = objects[goal.objects[0]];
     wanted[2] = goal.heading ? goal.heading[0] * FINE : posed(own.at)[2];
     const [x, y] = map(wanted);
     if (goal.heading || 'disc' in own.shape) {
       still.append(outline(own.shape, { transform: at(wanted), class: 'wanted' }));
     }
-    const area = goal.area
-      ? outline(goal.area, { transform: at([wanted[0], wanted[1], 0]), class: 'goal' })
-      : svg('circle', { cx: x, cy: y, r: px(goal.tolerance * LENGTH), class: 'goal' });
-    still.append(
-      area,
-      svg('path', { d: `M${x - 7} ${y}h14M${x} ${y - 7}v14`, class: 'goal-cross' }),
-    );
-    for (const replay of shown()) {
-      const columns = replay.objects[goal.object];
+    for (const area of goal.areas) {
+      still.append(outline(area.shape, { transform: at(posed(area.at)), class: area.leave ? 'leave' : 'goal' }));
+    }
+    if (!goal.areas.length) still.append(svg('circle', { cx: x, cy: y, r: px(goal.tolerance * LENGTH), class: 'goal' }));
+    still.append(svg('path', { d: `M${x - 7} ${y}h14M${x} ${y - 7}v14`, class: 'goal-cross' }));
+    for (const object of goal.objects) for (const replay of shown()) {
+      const columns = replay.objects[object];
       const points = Array.from(replay.time, (_, k) => [columns[0][k], columns[1][k]]);
       still.append(line(points, { class: `way ${replay.layer}` }));
     }

@@ -119,7 +119,7 @@ pub(super) fn outcome_table<'a>(
     if outcomes.iter().any(|(_, outcome, _)| outcome.in_space(task)) {
         return lying_table(task.goals[0].object, outcomes, &end);
     }
-    if task.goals.len() > 1 {
+    if task.goals.iter().map(|goal| goal.movers().len()).sum::<usize>() > 1 {
         return goals_table(task, outcomes);
     }
     let position = |(_, outcome, _): &Row| end(outcome);
@@ -140,33 +140,45 @@ pub(super) fn outcome_table<'a>(
     Table::of(outcomes, &columns)
 }
 
-/// The same of several goals, one row for each.
+/// Ends of several objects with goals, a row for each; errors are those of their goals.
 fn goals_table(task: &Task, outcomes: Vec<(String, &Outcome, Option<&Warning>)>) -> Table {
-    let rows = outcomes.into_iter().flat_map(|(source, outcome, fault)| {
-        let goal = |(k, goal): (usize, &Goal)| {
-            let first = if k == 0 { source.clone() } else { String::new() };
-            let error = (goal.error(&outcome.state), goal.heading_error(&outcome.state));
-            // What went wrong on the way went wrong for all of them.
-            let there = fault.is_none() && goal.reached(&outcome.state);
-            let there = if there { "yes".to_owned() } else { reached(outcome, fault) };
-            (first, goal.object, error, there)
-        };
+    let mut rows = Vec::new();
+    for (source, outcome, fault) in outcomes {
         let ends = &outcome.state.poses;
-        let known = |goal: &&Goal| goal.object < ends.len();
-        let rows: Vec<_> = task.goals.iter().filter(known).enumerate().map(goal).collect();
-        rows.into_iter().map(|row| (row, ends)).collect::<Vec<_>>()
-    });
+        let known = |goal: &&Goal| goal.movers().iter().all(|k| *k < ends.len());
+        for (k, goal) in task.goals.iter().filter(known).enumerate() {
+            let turned = goal.heading_error(&outcome.state);
+            // What went wrong on the way went wrong for all of them.
+            let met = fault.is_none() && goal.reached(&outcome.state);
+            let there = if met { "yes".to_owned() } else { reached(outcome, fault) };
+            for (m, object) in goal.movers().into_iter().enumerate() {
+                rows.push(match m {
+                    0 => [
+                        if k == 0 { source.clone() } else { String::new() },
+                        task.scene.objects[object].name.clone(),
+                        point(ends[object].position),
+                        millimetres(goal.error(&outcome.state)),
+                        turned.map_or(NONE.to_owned(), degrees),
+                        there.clone(),
+                    ],
+                    _ => {
+                        let (name, at) = (&task.scene.objects[object].name, ends[object].position);
+                        let none = String::new;
+                        [none(), name.clone(), point(at), none(), none(), none()]
+                    }
+                });
+            }
+        }
+    }
     Table::of(
         rows,
         &[
-            ("", Left, &|((source, ..), _)| source.clone()),
-            ("object", Left, &|((_, k, ..), _)| task.scene.objects[*k].name.clone()),
-            ("final position", Left, &|((_, k, ..), ends)| point(ends[*k].position)),
-            ("error", Right, &|((_, _, (error, _), _), _)| millimetres(*error)),
-            ("heading error", Right, &|((_, _, (_, turned), _), _)| {
-                turned.map_or(NONE.to_owned(), degrees)
-            }),
-            ("reached", Left, &|((.., there), _)| there.clone()),
+            ("", Left, &|row| row[0].clone()),
+            ("object", Left, &|row| row[1].clone()),
+            ("final position", Left, &|row| row[2].clone()),
+            ("error", Right, &|row| row[3].clone()),
+            ("heading error", Right, &|row| row[4].clone()),
+            ("reached", Left, &|row| row[5].clone()),
         ],
     )
 }
@@ -212,13 +224,7 @@ pub(super) fn engine_name(engine: Engine) -> &'static str {
 
 /// One line: what must come where.
 pub(super) fn goal_line(task: &Task) -> String {
-    task.goals.iter().map(|goal| one_goal(task, goal)).collect::<Vec<_>>().join("; ")
-}
-
-fn one_goal(task: &Task, goal: &Goal) -> String {
-    let name = task.scene.objects.get(goal.object).map_or("object", |object| &object.name);
-    let colon = if goal.in_space() { ":" } else { "" };
-    format!("{name}{colon} {}", goal.words(&task.scene))
+    task.goals.iter().map(|goal| goal.line(&task.scene)).collect::<Vec<_>>().join("; ")
 }
 
 /// A position on the table.

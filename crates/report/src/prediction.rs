@@ -80,7 +80,7 @@ fn effect_table(task: &Task, effects: &[TimedEffect]) -> Table {
         false => degrees(end.poses[k].heading - start.poses[k].heading),
     };
     let error = |k: usize, end: &State| {
-        let goal = task.goals.iter().find(|goal| goal.object == k);
+        let goal = task.goals.iter().find(|goal| goal.movers().contains(&k));
         goal.map_or(String::new(), |goal| millimetres(goal.error(end)))
     };
     Table::of(

@@ -88,8 +88,7 @@ pub(super) fn headline(task: &Task, solution: &Solution) -> String {
 fn met(task: &Task, solution: &Solution) -> (usize, String) {
     let met = solution.partial.as_ref().map_or(&[][..], |partial| &partial.met);
     let missed = task.goals.iter().enumerate().filter(|(k, _)| !met.contains(k));
-    let names: Vec<&str> =
-        missed.map(|(_, goal)| task.scene.objects[goal.object].name.as_str()).collect();
+    let names: Vec<String> = missed.map(|(_, goal)| goal.names(&task.scene)).collect();
     (met.len(), names.join(", "))
 }
 
@@ -208,7 +207,7 @@ fn json(task: &Task, solution: &Solution) -> Json {
         "status": solution.status,
         "stopped": solution.stopped,
         "partial": solution.partial.as_ref().map(|partial| {
-            let name = |goal: &Goal| task.scene.objects[goal.object].name.clone();
+            let name = |goal: &Goal| goal.names(&task.scene);
             let met = task.goals.iter().enumerate().map(|(k, goal)| {
                 json!({"object": name(goal), "met": partial.met.contains(&k)})
             });

@@ -231,10 +231,12 @@ impl Scene {
         if !goal.falls() {
             return;
         }
-        let solids: Vec<usize> = self.parts_of(goal.object).chain([goal.object]).collect();
-        for k in solids {
-            if let Some(object) = self.objects.get_mut(k) {
-                object.may_fall = true;
+        for object in goal.movers() {
+            let solids: Vec<usize> = self.parts_of(object).chain([object]).collect();
+            for k in solids {
+                if let Some(object) = self.objects.get_mut(k) {
+                    object.may_fall = true;
+                }
             }
         }
     }

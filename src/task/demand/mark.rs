@@ -47,8 +47,8 @@ pub enum Mark {
 /// The marks of a goal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShownGoal {
-    /// Index of the goal's object.
-    pub object: usize,
+    /// Indices of the objects that the goal may move, its own first.
+    pub objects: Vec<usize>,
     /// Middle of the marks: a wanted position, or that of the object at the start, metres.
     pub centre: Vector,
     /// The marks.

@@ -73,10 +73,8 @@ pub struct Stage {
     pub table: Option<[[i64; 2]; 2]>,
     /// Smallest and largest.
     pub reach: Vec<i64>,
-    /// Of a recording there is none.
-    pub goal: Option<Goal>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub further: Vec<Goal>,
+    /// All goals; a recording has none.
+    pub goals: Vec<Goal>,
 }
 
 /// What is measured over time.
@@ -118,13 +116,13 @@ pub enum Outline {
 
 #[derive(Serialize)]
 pub struct Goal {
-    /// Index of the object.
-    pub object: usize,
+    /// Indices of the objects that it may move, its own first.
+    pub objects: Vec<usize>,
     pub at: [i64; 2],
     /// Zero where no place is asked for, and for a region.
     pub tolerance: i64,
-    /// The region about `at`, where one is asked for.
-    pub area: Option<Outline>,
+    /// Regions that a centre must be in, or must leave.
+    pub areas: Vec<Area>,
     /// Wanted heading and its tolerance, where one is asked for.
     pub heading: Option<[i64; 2]>,
     /// Headings are told from those a full turn away by being nearest to this one, where a joint has limits.
@@ -134,6 +132,15 @@ pub struct Goal {
     pub alike: usize,
     /// The same in words.
     pub words: String,
+}
+
+/// A region of a goal.
+#[derive(Serialize)]
+pub struct Area {
+    pub shape: Outline,
+    pub at: [i64; 3],
+    /// Whether a centre must leave it.
+    pub leave: bool,
 }
 
 #[derive(Serialize)]

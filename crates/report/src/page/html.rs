@@ -12,11 +12,11 @@ const STAGE: &str = "<figure class=\"stage\" id=\"stage\">";
 
 /// SHA-256 of [`SCRIPT`] and [`STYLE`], base 64: all that the browser may run or apply. A test
 /// compares them, so that no release needs a hash function.
-const SCRIPT_HASH: &str = "1wxR56s8py5OBZAfqP3CG+lRdgubAmI1gWe1EBlkztI=";
-const STYLE_HASH: &str = "/frFxVNRh7rg3tEWfyuVLz6RNc9qBfhZmZNNztvVeoY=";
+const SCRIPT_HASH: &str = "SBjxsGeIhwy/9AwRqVzrUN4KKyM6lka8UmItXpZV304=";
+const STYLE_HASH: &str = "u7EzjcKpkdT4aibEyFyU17AosQ01L3krmKju702UC+s=";
 
 /// SHA-256 of [`SOLID`], and of three.js as it is when it is unpacked.
-const SOLID_HASH: &str = "1G3BxYjZlKFQ3uRiebUO1IthcbRMRZAyzmQqW0KW44w=";
+const SOLID_HASH: &str = "G/ZsZZa5wJDEg9dqfiOflBi+BlOdAMz55hjb7jtJ2j8=";
 const THREE_HASH: &str = "1DAXuURetgEpYc3wVeanFNbtMNUCQJJKMDFxE8xxJxc=";
 
 /// What a page shows of the table.

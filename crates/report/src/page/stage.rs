@@ -3,13 +3,13 @@
 use serde_json::Value as Json;
 
 use crate::plan_text::goal_line;
-use pushplan::geometry::{Footprint, Pose, Shape, Vector};
+use pushplan::geometry::{Footprint, Shape, Vector};
 use pushplan::{
     scene::{self, Blade, Carried, Plate, SHOWN_HAND, Scene, Slab},
-    task::{Mark, Plan, ShownGoal, Task},
+    task::{self, Mark, Plan, ShownGoal, Task},
 };
 
-use super::data::{Body, Goal, Outline, Stage, Tool, fine, length, point, pose};
+use super::data::{Area, Body, Goal, Outline, Stage, Tool, fine, length, point, pose};
 
 /// Scene, reach and goal of a task.
 pub fn stage(task: &Task) -> Stage {
@@ -17,8 +17,7 @@ pub fn stage(task: &Task) -> Stage {
     let goal = |goal: &ShownGoal| drawn(goal, task);
     Stage {
         reach: [task.robot.reach_min, task.robot.reach_max].map(length).to_vec(),
-        goal: shown.first().map(goal),
-        further: shown.iter().skip(1).map(goal).collect(),
+        goals: shown.iter().map(goal).collect(),
         ..table(&task.scene)
     }
 }
@@ -26,10 +25,10 @@ pub fn stage(task: &Task) -> Stage {
 /// The marks of a goal as the page draws them.
 fn drawn(shown: &ShownGoal, task: &Task) -> Goal {
     let mut goal = Goal {
-        object: shown.object,
+        objects: shown.objects.clone(),
         at: point(shown.centre),
         tolerance: 0,
-        area: None,
+        areas: Vec::new(),
         heading: None,
         middle: None,
         alike: 1,
@@ -39,9 +38,8 @@ fn drawn(shown: &ShownGoal, task: &Task) -> Goal {
         match mark {
             // In space something else is measured than the distance.
             Mark::Disc { radius, .. } if !task.in_space() => goal.tolerance = length(*radius),
-            Mark::Area(area) => {
-                goal.area = Some(turned(outline(&area.shape), area.pose.heading));
-            }
+            Mark::Area(area) => goal.areas.push(region(area, false)),
+            Mark::Outside(area) => goal.areas.push(region(area, true)),
             Mark::Headings { heading, tolerance, limit_middle, symmetry } => {
                 goal.heading = Some([fine(*heading), fine(*tolerance)]);
                 goal.middle = limit_middle.map(fine);
@@ -51,6 +49,10 @@ fn drawn(shown: &ShownGoal, task: &Task) -> Goal {
         }
     }
     goal
+}
+
+fn region(area: &task::Area, leave: bool) -> Area {
+    Area { shape: outline(&area.shape), at: pose(&area.pose), leave }
 }
 
 /// The same as JSON, for whoever draws it elsewhere as the page does.
@@ -98,8 +100,7 @@ pub fn table(scene: &Scene) -> Stage {
         regions: regions.collect(),
         table: scene.table_top.map(|top| [point(top.middle), top.size.map(length)]),
         reach: Vec::new(),
-        goal: None,
-        further: Vec::new(),
+        goals: Vec::new(),
     }
 }
 
@@ -155,21 +156,6 @@ fn slab(slab: &Slab) -> Body {
         under: length(slab.bottom),
         more: Vec::new(),
         at: [0; 3],
-    }
-}
-
-/// An outline turned about its origin by this angle, radians.
-fn turned(outline: Outline, by: f64) -> Outline {
-    let turn = Pose { heading: by, ..Pose::default() };
-    match outline {
-        Outline::Polygon(corners) => {
-            let corner = |[x, y]: [i64; 2]| {
-                let at = turn.vector(Vector::new(x as f64, y as f64));
-                [at.x.round() as i64, at.y.round() as i64]
-            };
-            Outline::Polygon(corners.into_iter().map(corner).collect())
-        }
-        disc => disc,
     }
 }
 

@@ -159,7 +159,7 @@ impl ScenePicture<'_> {
             drawn[k] = true;
             strokes::path(svg, view, track.trajectory, k, style);
             bodies::final_object(svg, view, object, end, style);
-            if let Some(goal) = self.goals.iter().find(|goal| goal.object == k) {
+            if let Some(goal) = self.goals.iter().find(|goal| goal.objects.contains(&k)) {
                 bodies::miss(svg, view, goal, end.position);
             }
         }
@@ -174,7 +174,7 @@ impl ScenePicture<'_> {
     }
 
     fn is_goal(&self, object: usize) -> bool {
-        self.goals.iter().any(|goal| goal.object == object)
+        self.goals.iter().any(|goal| goal.objects.contains(&object))
     }
 
     fn entries(&self) -> Vec<(Sample, String)> {
