@@ -1,8 +1,8 @@
 //! Rules of a goal's keys that span several of them.
 
 use crate::asset::node::Node;
-use crate::asset::strict::Ledger;
 use crate::asset::shapes::shape;
+use crate::asset::strict::Ledger;
 use crate::asset::take::{name_of, vector};
 use crate::geometry::{Footprint, Pose, clearance};
 
