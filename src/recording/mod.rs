@@ -4,7 +4,6 @@
 //! pusher's poses as a motion that an effect model can play (`replay`). Reads no files: that is
 //! `asset`, which says where in a file a rule is broken.
 
-mod observations;
 mod observed;
 mod replay;
 mod rules;

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use crate::geometry::Pose;
 use crate::{
-    scene::FRAME_TRAVEL,
-    task::{COAST_FRAME, Stroke, ToolMotion},
+    scene::{FRAME_TRAVEL, Sight},
+    task::{COAST_FRAME, Observation, Stroke, ToolMotion},
 };
 
 use super::observed::Recording;
@@ -105,6 +105,34 @@ impl Recording {
                     && (frame.tool.heading - even.heading).abs() <= STRAIGHT_TURN
             })
     }
+
+    /// What was seen at the instants of [`Self::replay`]; where the pusher is lifted, at rest.
+    pub fn observations(&self) -> Vec<Observation> {
+        let replay = self.replay();
+        let mut observations = Vec::new();
+        let mut done = 0;
+        for Instant { frame, stroke, .. } in observed(&replay) {
+            let poses = self.frames[frame].poses.iter().zip(&self.headings);
+            observations.push(Observation {
+                strokes: replay.motion.strokes[done..=stroke].to_vec(),
+                seen: poses.map(|(pose, heading)| Some(Sight::new(pose, *heading))).collect(),
+            });
+            done = stroke + 1;
+        }
+        observations
+    }
+
+    /// Indices of the frames that [`Self::observations`] are of.
+    pub fn observed_frames(&self) -> Vec<usize> {
+        observed(&self.replay()).map(|instant| instant.frame).collect()
+    }
+}
+
+/// The instants of a replay; of the end of a stroke and the rest after it only the rest.
+fn observed(replay: &Replay) -> impl Iterator<Item = Instant> {
+    let rests = |k: usize| replay.instants.get(k + 1).is_some_and(|next| next.settled);
+    let instants = replay.instants.iter().copied().enumerate();
+    instants.filter(move |(k, instant)| instant.settled || !rests(*k)).map(|(_, instant)| instant)
 }
 
 impl Replay {

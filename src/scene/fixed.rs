@@ -2,7 +2,7 @@
 
 use crate::geometry::{Footprint, Pose};
 
-use super::{Obstacle, Region, Scene};
+use super::{Obstacle, Region};
 
 /// What moves through a scene by the robot's will.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,23 +34,5 @@ impl<'a> From<&'a Obstacle> for Fixed<'a> {
 impl<'a> From<&'a Region> for Fixed<'a> {
     fn from(region: &'a Region) -> Self {
         Self { name: &region.name, footprint: region.footprint(), pose: region.pose }
-    }
-}
-
-impl Scene {
-    /// What something between these heights above the table must not run into, metres: what is as
-    /// high, and the regions that are not for it.
-    pub fn fixed(&self, mover: Mover, span: [f64; 2]) -> impl Iterator<Item = Fixed<'_>> {
-        let obstacles = self.obstacles.iter().filter(move |obstacle| obstacle.meets(span));
-        let regions = self.keep_out.iter().filter(move |region| match mover {
-            Mover::Tool => region.tool,
-            Mover::Hand => region.hand,
-        });
-        obstacles.map(Fixed::from).chain(regions.map(Fixed::from))
-    }
-
-    /// What is all above this height, metres: below it nothing is set down and lifted.
-    pub fn above(&self, height: f64) -> impl Iterator<Item = Fixed<'_>> {
-        self.obstacles.iter().filter(move |obstacle| obstacle.z >= height).map(Fixed::from)
     }
 }

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Pose, wrap_angle};
+use crate::geometry::Pose;
 
-use super::{JointKind, Object, Scene, Span, State};
+use super::{JointKind, Object, Span};
 
 /// How an object may move against the world: a revolute or a prismatic joint.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -77,32 +77,6 @@ impl Mount {
                 Pose { position: start.position + come * axis, ..*start }
             }
         }
-    }
-}
-
-impl Scene {
-    /// The joint that holds an object, or the thing that it is a part of, to the world.
-    pub fn mount(&self, object: usize) -> Option<&Mount> {
-        let thing = self.thing(object);
-        self.mounts.iter().find(|mount| mount.object == thing)
-    }
-
-    /// The scene with its objects where they are in `state`, and joints to the world as they are then.
-    pub fn moved_to(&self, state: &State) -> Self {
-        let mut scene = self.clone();
-        for (object, pose) in scene.objects.iter_mut().zip(&state.poses) {
-            object.pose = *pose;
-        }
-        for mount in &mut scene.mounts {
-            let Mount { object, .. } = *mount;
-            let start = &self.objects[object].pose;
-            let mut now = scene.objects[object].pose;
-            // Sights do not count turns.
-            let middle = mount.kind.middle();
-            now.heading = start.heading + middle + wrap_angle(now.heading - start.heading - middle);
-            *mount = mount.carried(start, &now);
-        }
-        scene
     }
 }
 

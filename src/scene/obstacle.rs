@@ -4,9 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Pose, Pose3, Shape, Solid};
 
-use super::Scene;
-use super::planar::planar_only;
-use super::world::is_zero;
+use super::planar::{is_zero, planar_only};
 
 /// A fixed cuboid: a wall, a shelf, a standoff, the floor of a tray.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,9 +23,12 @@ pub struct Obstacle {
 }
 
 impl Obstacle {
+    /// Friction value of an obstacle that states none: plain wood.
+    pub const FRICTION: f64 = 0.5;
+
     /// A fixed cuboid of these full extents (metres), of the table's usual friction value.
     pub fn new(name: impl Into<String>, size: [f64; 3], pose: Pose) -> Self {
-        Self { name: name.into(), size, pose, z: 0.0, friction: Scene::FRICTION }
+        Self { name: name.into(), size, pose, z: 0.0, friction: Self::FRICTION }
     }
 
     /// The obstacle with its underside this high above the table, metres.

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::{Feet, Joint, Object, PairFriction, Scene, Support, Surface, Tool};
+use super::{Feet, Joint, Object, PairFriction, Scene, Support, Surface, Tool, pair_friction};
 
 /// Physical parameters under which a motion is played. Effect models read these and not what the
 /// scene states, so that several beliefs about one scene can be rolled out side by side.
@@ -91,6 +91,18 @@ impl Physics {
         self.feet[index] = Arc::new(scene.feet(index, support));
     }
 
+    /// Coefficient of friction between an object and a body of this friction `value`.
+    pub fn friction(&self, object: usize, with: Surface, value: f64) -> f64 {
+        pair_friction(&self.pairs, object, with, [self.frictions[object], value])
+    }
+
+    /// The same with this coefficient of friction between an object and another body.
+    pub fn with_pair(mut self, object: usize, with: Surface, coefficient: f64) -> Self {
+        self.pairs.retain(|pair| !pair.is_of(object, with));
+        self.pairs.push(PairFriction { object, with, coefficient });
+        self
+    }
+
     /// Coefficient of friction between object `index` and the table.
     pub fn support_friction(&self, index: usize) -> f64 {
         self.friction(index, Surface::Table, self.table_friction)
@@ -114,4 +126,27 @@ pub fn face_height(scene: &Scene, index: usize, (tool, lift): (&Tool, f64)) -> [
     let parts = scene.parts_of(scene.thing(index)).map(|k| &scene.objects[k]);
     let raised = parts.filter(|part| part.is_raised()).map(of).find(|face| face[1] > 0.0);
     raised.unwrap_or(own)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_stated_of_a_pair_counts_either_way_round_and_for_that_pair_alone() {
+        let object = |name: &str| Object::cylinder(name, 0.05, 0.1).friction(0.4);
+        let scene = Scene::new([object("a"), object("b"), object("c")]).on_table(0.6);
+        let physics = Physics::stated(&scene).with_pair(0, Surface::Object(1), 0.02).with_pair(
+            2,
+            Surface::Table,
+            0.3,
+        );
+        assert_eq!(physics.friction(0, Surface::Object(1), 0.4), 0.02);
+        assert_eq!(physics.friction(1, Surface::Object(0), 0.4), 0.02);
+        assert_eq!(physics.friction(0, Surface::Object(2), 0.4), 0.4);
+        assert_eq!(physics.friction(1, Surface::Tool, 0.2), 0.5 * (0.4 + 0.2));
+        assert_eq!((physics.support_friction(1), physics.support_friction(2)), (0.5, 0.3));
+        let again = physics.with_pair(1, Surface::Object(0), 0.1);
+        assert_eq!((again.pairs.len(), again.friction(0, Surface::Object(1), 0.4)), (2, 0.1));
+    }
 }

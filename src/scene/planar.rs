@@ -27,3 +27,7 @@ pub(crate) mod planar_only {
         }
     }
 }
+
+pub(crate) fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}

@@ -5,11 +5,11 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::geometry::{Footprint, Pose, Shape, clearance};
+use crate::geometry::{Pose, Shape, clearance};
 
 use super::outline::{Piece, pieces};
 use super::planar::planar_only;
-use super::{Blade, DisjointSets};
+use super::{Blade, DisjointSets, Part};
 
 /// Parts whose gap is at most this are joined rigidly, metres.
 ///
@@ -18,34 +18,6 @@ pub const JOIN_GAP: f64 = 1e-4;
 
 /// Turns by so much are taken for straight, radians: an arc is then 0.2 % longer than its chord.
 const EVEN_TURN: f64 = 0.2;
-
-/// One solid of a tool.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Part {
-    /// Unique within the tool.
-    pub name: String,
-    /// Its solid, upright: a cuboid, or a cylinder for a round finger or hand.
-    pub shape: Shape,
-    /// Pose of the centre in the tool frame.
-    pub pose: Pose,
-}
-
-impl Part {
-    /// A solid with its centre at `pose` in the tool frame.
-    pub fn new(name: impl Into<String>, shape: Shape, pose: Pose) -> Self {
-        Self { name: name.into(), shape, pose }
-    }
-
-    /// A cuboid of these full extents (metres) with its centre at `pose` in the tool frame.
-    pub fn cuboid(name: impl Into<String>, size: [f64; 3], pose: Pose) -> Self {
-        Self::new(name, Shape::Cuboid { size }, pose)
-    }
-
-    /// What it covers on the table.
-    pub fn footprint(&self) -> Footprint {
-        self.shape.footprint()
-    }
-}
 
 /// A rigid assembly of solids, moved by the end effector.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -5,36 +5,14 @@
 //! thing alone, under the name and at the pose of its first solid. All parts come after all things, so
 //! that these keep their numbers.
 
-use serde::{Deserialize, Serialize};
-
 use crate::geometry::{Pose, Vector};
 
+use super::feet::fewer;
+use super::raised::{bearings, by_mass};
 use super::{
-    Feet, Joint, JointKind, Object, PairFriction, Physics, Scene, Sight, State, Surface, fewer,
+    Feet, Joint, JointKind, Object, PairFriction, Physics, Scene, Sight, State, Support, Surface,
+    Whole,
 };
-
-/// What an object is a part of.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Whole {
-    /// Index of the thing's first solid in [`Scene::objects`].
-    pub object: usize,
-    /// The part's pose in the frame of that one.
-    pub place: Pose,
-}
-
-impl Whole {
-    /// The same where the first solid has another index.
-    pub(super) fn under(self, object: usize) -> Self {
-        Self { object, ..self }
-    }
-}
-
-impl Object {
-    /// Whether it is a part of another object.
-    pub fn is_part(&self) -> bool {
-        self.whole.is_some()
-    }
-}
 
 impl Scene {
     /// The scene in which the object with this index has one more solid, joined to it at `place` in its
@@ -163,7 +141,7 @@ impl Scene {
     }
 
     /// The points that object `index` stands on in engines that load all points of a body alike, where
-    /// it stands on `feet`: as few as there should be of a part, see [`Feet::fewer`], and none of one above
+    /// it stands on `feet`: as few as there should be of a part, see [`fewer`], and none of one above
     /// the table.
     pub fn contacts(&self, index: usize, feet: &Feet, masses: &[f64]) -> Feet {
         if self.objects[index].is_raised() {
@@ -199,5 +177,27 @@ impl Scene {
     /// Whether two objects are solids of one thing.
     pub fn same_thing(&self, [a, b]: [usize; 2]) -> bool {
         self.thing(a) == self.thing(b)
+    }
+
+    /// Whether an object has parts above the table, or is such a part.
+    pub fn has_raised(&self, object: usize) -> bool {
+        // Most scenes have no parts, which would come last.
+        self.objects.last().is_some_and(Object::is_part)
+            && self.parts_of(self.thing(object)).any(|k| self.objects[k].is_raised())
+    }
+
+    /// The points under object `index`, and what they carry, if it rests on the table in this way.
+    pub fn feet(&self, index: usize, support: &Support) -> Feet {
+        let feet = support.feet(&self.objects[index].shape.footprint());
+        if !self.has_raised(index) {
+            return feet;
+        }
+        let thing = self.thing(index);
+        let solids: Vec<usize> = [thing].into_iter().chain(self.parts_of(thing)).collect();
+        let objects: Vec<&Object> = solids.iter().map(|&k| &self.objects[k]).collect();
+        let own = solids.iter().position(|&k| k == index);
+        // What would fall is no fault of those who ask; files with such things are refused.
+        let bearings = bearings(&objects).unwrap_or_else(|| by_mass(&objects));
+        own.map_or(feet.clone(), |own| feet.loaded(bearings[own].share, bearings[own].centre))
     }
 }

@@ -31,6 +31,7 @@ mod stops;
 mod strain;
 mod support;
 mod upright;
+mod world;
 
 pub use drive::Arm;
 pub use lever::LeverSimulator;

@@ -21,7 +21,6 @@ use crate::{
 };
 
 use super::asleep::Asleep;
-use super::drive::World;
 use super::footprints::{collider, vector, weighing};
 use super::groups::{Group, Member};
 use super::parameters::{
@@ -32,6 +31,7 @@ use super::seams::Seams;
 use super::slowing::{Inertia, Resistance, Twist};
 use super::strain::{Overlap, force, overlap};
 use super::support::{Pressed, Support};
+use super::world::World;
 
 /// Tool parts.
 const PART: Layer = Layer::GROUP_1;

@@ -17,7 +17,6 @@ use crate::scene::{Body, Feet, GRAVITY, Physics, Scene, State, Velocity};
 use crate::task::{FrameStep, ToolMotion};
 
 use super::asleep::Asleep;
-use super::drive::World;
 use super::groups::{Group, Member};
 use super::parameters::{
     ALLOWED_ERROR, ARTICULATED_ITERATIONS, STIFF_CONTACT, is_articulated, needs_stiff_contacts,
@@ -28,6 +27,7 @@ use super::solved::solved;
 use super::strain::{Overlap, force, overlap};
 use super::support::Support;
 use super::upright::{Standing, Upright};
+use super::world::World;
 
 mod joints;
 mod place;

@@ -17,7 +17,7 @@ use crate::{
     scene::{Body, Scene},
 };
 
-use super::drive::World;
+use super::world::World;
 
 /// A force lasts when it is there for this many time steps in a row: a first touch reads m v / dt,
 /// 10 N for 0.4 kg at 0.1 m/s, and is over in one or two.
