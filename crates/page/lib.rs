@@ -30,10 +30,10 @@ pub const SCRIPT: &str = concat!(
 pub const SOLID: &str = include_str!("script/solid.js");
 
 /// Plays exported plans in MuJoCo, in Python.
-pub const REPLAY: &str = include_str!("mujoco/replay.py");
+pub const REPLAY: &str = concat!(include_str!("mujoco/replay.py"), include_str!("mujoco/judge.py"));
 
 /// Plays exported motions in MuJoCo frame by frame, in Python, with the help of [`REPLAY`].
 pub const FRAMES: &str = include_str!("mujoco/frames.py");
 
 /// Plays exported lever-ups in MuJoCo, in Python.
-pub const LEVER: &str = include_str!("mujoco/lever.py");
+pub const LEVER: &str = concat!(include_str!("mujoco/lever.py"), include_str!("mujoco/judge.py"));

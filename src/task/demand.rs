@@ -6,6 +6,7 @@
 //! `asset/task/goals`.
 
 mod area;
+mod check;
 mod coverage;
 mod fall;
 mod flipped;
@@ -25,6 +26,7 @@ use crate::scene::{Body, Scene, State};
 use super::Goal;
 
 pub use area::{Area, InArea};
+pub use check::{Check, Quantity};
 pub use coverage::Coverage;
 pub use fall::{Edge, Fall};
 pub use flipped::{Ending, Flipped};
@@ -224,6 +226,9 @@ pub trait Kind {
     fn fault(&self, _object: usize, _scene: &Scene) -> Option<String> {
         None
     }
+
+    /// Returns the check by which exported scenes are judged.
+    fn check(&self, object: usize, scene: &Scene) -> Check;
 
     /// Returns marks for pictures, in world coordinates with everything at its start.
     fn marks(&self, _object: usize, _scene: &Scene) -> Vec<Mark> {

@@ -6,7 +6,7 @@ use crate::geometry::{Pose, Shape, Vector};
 use crate::scene::{Body, Joint, Scene, State};
 
 use super::demand::{
-    Area, AtPlace, Coverage, Demand, Facing, Fall, Gap, InArea, Outside, ShownGoal,
+    Area, AtPlace, Check, Coverage, Demand, Facing, Fall, Gap, InArea, Outside, ShownGoal,
 };
 
 /// Demands on where and how one object ends; all of them count.
@@ -404,6 +404,13 @@ impl Goal {
             format!("{}{of}", demand.kind().words(self.object, scene))
         };
         lifted.into_iter().chain(others).map(&mut phrase).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The check by which exported scenes are judged.
+    pub fn check(&self, scene: &Scene) -> Check {
+        let of = self.demands.iter().map(|demand| demand.kind().check(self.object, scene));
+        let of: Vec<Check> = of.collect();
+        Check::AtLeast { count: of.len(), of }
     }
 
     /// Its marks in pictures, with everything at its start.

@@ -21,8 +21,8 @@ mod way;
 pub use arm::{ArmReader, ArmRefusal, ArmSource, Followed, RobotArm, StatedArm, read_arms_with};
 pub use definition::{Task, ToolChoice};
 pub use demand::{
-    Area, AtPlace, Coverage, Demand, Edge, End, Ending, Facing, Fall, Flipped, Gap, InArea, Kind,
-    Lift, Mark, Outside, Raised, ShownGoal,
+    Area, AtPlace, Check, Coverage, Demand, Edge, End, Ending, Facing, Fall, Flipped, Gap, InArea,
+    Kind, Lift, Mark, Outside, Quantity, Raised, ShownGoal,
 };
 pub use goal::{Aspect, Goal};
 pub use job::Job;

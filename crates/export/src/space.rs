@@ -12,10 +12,11 @@ use pushplan::geometry::{Footprint, Pose, Pose3, Shape, Vector, Vector3};
 use pushplan::{
     outcome::LEVER_FRAMES,
     scene::{Blade, GRAVITY, LeverScene, Part, Plate, Slab, Tool},
-    task::{AtPlace, Demand, Goal, LeverJob, LeverMotion, Motion, Outside},
+    task::{LeverJob, LeverMotion, Motion, Task},
 };
 
 use super::error::ExportError;
+use super::wanted::checks;
 use super::xml::{Xml, numbers};
 
 /// Plays scenes that [`lever_mjcf()`] wrote, or [`mjcf()`](super::mjcf()) of plans in space, and says
@@ -62,15 +63,15 @@ pub(super) fn plan_mjcf(file: &PlanFile) -> Result<String, ExportError> {
     let first = motions.iter().find(|motion| motion.is_lever());
     let blade = first.and_then(|motion| motion.tool().blade()).unwrap_or_default();
     let scene = LeverScene::new(&file.task.scene, blade);
-    let goal = &file.task.goals[0];
-    Ok(written(&file.task.name, &scene, &motions, (goal.object, Some(goal))))
+    let object = file.task.goals[0].object;
+    Ok(written(&file.task.name, &scene, &motions, (object, Some(&file.task))))
 }
 
 fn written(
     name: &str,
     scene: &LeverScene,
     motions: &[Motion],
-    (watched, goal): (usize, Option<&Goal>),
+    (watched, task): (usize, Option<&Task>),
 ) -> String {
     let mut xml = Xml::default();
     xml.open("mujoco", &[("model", name.into())]);
@@ -95,8 +96,8 @@ fn written(
         step(&mut xml, scene, k, motion);
     }
     numeric(&mut xml, &format!("levered plate/{}", scene.plates[watched].name), &[1.0]);
-    if let Some(goal) = goal {
-        wanted(&mut xml, goal);
+    if let Some(task) = task {
+        checks(&mut xml, task);
     }
     xml.close();
     xml.open("asset", &[]);
@@ -169,26 +170,6 @@ fn step(xml: &mut Xml, scene: &LeverScene, k: usize, motion: &Motion) {
                 values.extend([stroke.duration, f64::from(u8::from(stroke.settle))]);
             }
             numeric(xml, &format!("pushes {k}"), &values);
-        }
-    }
-}
-
-/// What must come of it.
-fn wanted(xml: &mut Xml, goal: &Goal) {
-    for demand in &goal.demands {
-        match demand {
-            Demand::Place(AtPlace { position, tolerance, .. }) => {
-                numeric(xml, "goal place", &[position.x, position.y, *tolerance]);
-            }
-            Demand::Outside(Outside { pose, size: [x, y, _], .. }) => {
-                let (at, heading) = (pose.position, pose.heading);
-                numeric(xml, "goal outside", &[at.x, at.y, heading, *x, *y]);
-            }
-            Demand::Raised(raised) => numeric(xml, "goal raised", &[raised.height]),
-            Demand::Flipped(own) => {
-                numeric(xml, "goal flipped", &[f64::from(u8::from(own.flipped))]);
-            }
-            _ => {}
         }
     }
 }

@@ -84,7 +84,9 @@ class Scene:
         ]
         steps = [n.split() for n in self.numbers if n.startswith(("lever ", "pushes "))]
         self.steps = sorted((int(k), kind) for kind, k in steps)
-        self.step = STEP
+        self.step = self.model.opt.timestep
+        self.texts = texts(self.model)
+        self.raised = 0.0
         self.time = 0.0
         self.hand = None
         self.way = None
@@ -193,65 +195,64 @@ class Scene:
             else:
                 self.pushes(k)
         found = {"lift": lift, "rest": self.pose()}
-        if any(name.startswith("goal ") for name in self.numbers):
-            found["reached"] = bool(self.reached(found["rest"]))
+        if "goals" in self.texts:
+            found["reached"] = all_judged(self, self.texts)[0]
         return found
 
-    def reached(self, rest):
-        """Whether all of the goal is met; that the edge lies on the blade is not looked at."""
-        goal = {n.removeprefix("goal "): v for n, v in self.numbers.items() if n.startswith("goal ")}
-        up = rotated([0, 0, 1], rest[3:])[2]
-        if "place" in goal and math.dist(rest[:2], goal["place"][:2]) > goal["place"][2]:
-            return False
-        if "outside" in goal:
-            x, y, heading, length, width = goal["outside"]
-            dx, dy = rest[0] - x, rest[1] - y
-            along = dx * math.cos(heading) + dy * math.sin(heading)
-            across = dy * math.cos(heading) - dx * math.sin(heading)
-            if abs(along) <= length / 2 and abs(across) <= width / 2:
-                return False
-        if "raised" in goal and self.raised < goal["raised"][0]:
-            return False
-        if "flipped" in goal:
-            # 15 degrees off its underside, 45 off upside down.
-            return up < -math.cos(math.pi / 4) if goal["flipped"][0] else up > math.cos(math.pi / 12)
-        return True
+    def seen(self, name, frame=None):
+        """x, y and heading of an object in the world, or in another's frame."""
+        body = self.data.body(f"plate/{name}")
+        pose = [*body.xpos[:2].tolist(), math.atan2(body.xmat[3], body.xmat[0])]
+        return pose if frame is None else seen(pose, self.seen(frame))
+
+    def has_left(self, name):
+        """Whether an object has fallen off the table."""
+        return self.data.body(f"plate/{name}").xpos[2] < 0.0
+
+    def lifted(self, name):
+        """How far a lever-up has lifted the edge of an object, metres."""
+        return self.raised if self.model.body(f"plate/{name}").id == self.plate else 0.0
+
+    def leaning(self, name):
+        """The angle between an object's upper side and straight up, radians."""
+        return math.acos(max(-1.0, min(1.0, float(self.data.body(f"plate/{name}").xmat[8]))))
 
 
-def apart(one, other):
+def far(one, other):
     """Distance in millimetres and angle in degrees between two poses."""
     cosine = abs(np.dot(one[3:], other[3:]))
     return 1e3 * math.dist(one[:3], other[:3]), 2 * math.degrees(math.acos(min(1, cosine)))
 
 
-parser = argparse.ArgumentParser(description="Plays lever-ups in MuJoCo.")
-parser.add_argument("scenes", nargs="*", metavar="SCENE")
-parser.add_argument("--played", metavar="FILE", help="scenes that have been played")
-parser.add_argument("--against", metavar="FILE", help="their outcome in pushplan")
-arguments = parser.parse_args()
-ours = {}
-if arguments.against:
-    with open(arguments.against) as lines:
-        ours = {line["scene"]: line for line in map(json.loads, lines)}
-played = []
-if arguments.played:
-    with open(arguments.played) as lines:
-        played = [json.loads(line) for line in lines]
-for path in arguments.scenes:
-    STEP = mujoco.MjModel.from_xml_path(path).opt.timestep
-    scene = Scene(path)
-    played.append({"scene": path, **scene.run()})
-    print(json.dumps(played[-1]), flush=True)
-differences = []
-for found in played:
-    if other := ours.get(os.path.basename(found["scene"])):
-        end, rest = apart(found["lift"][-1], other["lift"][-1]), apart(found["rest"], other["rest"])
-        squares = [apart(*pair)[0] ** 2 for pair in zip(found["lift"], other["lift"])]
-        differences.append([math.sqrt(statistics.mean(squares)), *end, rest[0]])
-if differences:
-    middle = [statistics.median(column) for column in zip(*differences)]
-    print(
-        "{} lever-ups, medians: over the turn {:.2f} mm, at its end {:.2f} mm and "
-        "{:.2f} degrees, at rest {:.2f} mm".format(len(differences), *middle),
-        file=sys.stderr,
-    )
+def main():
+    parser = argparse.ArgumentParser(description="Plays lever-ups in MuJoCo.")
+    parser.add_argument("scenes", nargs="*", metavar="SCENE")
+    parser.add_argument("--played", metavar="FILE", help="scenes that have been played")
+    parser.add_argument("--against", metavar="FILE", help="their outcome in pushplan")
+    arguments = parser.parse_args()
+    ours = {}
+    if arguments.against:
+        with open(arguments.against) as lines:
+            ours = {line["scene"]: line for line in map(json.loads, lines)}
+    played = []
+    if arguments.played:
+        with open(arguments.played) as lines:
+            played = [json.loads(line) for line in lines]
+    for path in arguments.scenes:
+        scene = Scene(path)
+        played.append({"scene": path, **scene.run()})
+        print(json.dumps(played[-1]), flush=True)
+    differences = []
+    for found in played:
+        if other := ours.get(os.path.basename(found["scene"])):
+            end, rest = far(found["lift"][-1], other["lift"][-1]), far(found["rest"], other["rest"])
+            squares = [far(*pair)[0] ** 2 for pair in zip(found["lift"], other["lift"])]
+            differences.append([math.sqrt(statistics.mean(squares)), *end, rest[0]])
+    if differences:
+        middle = [statistics.median(column) for column in zip(*differences)]
+        print(
+            "{} lever-ups, medians: over the turn {:.2f} mm, at its end {:.2f} mm and "
+            "{:.2f} degrees, at rest {:.2f} mm".format(len(differences), *middle),
+            file=sys.stderr,
+        )
+    return 0

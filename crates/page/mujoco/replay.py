@@ -15,7 +15,6 @@ by nothing else, and must not run into anything. Lengths are in metres, angles i
 """
 
 import argparse
-import itertools
 import json
 import math
 import multiprocessing
@@ -33,7 +32,6 @@ LAID_ASIDE = 2.0  # how high above the table tools hang that are not in use, m
 SET_DOWN = 1e-4  # overlap that is still touching when the tool comes down
 TOPPLED = math.cos(math.radians(10))  # an object's axis leans further than this
 FALLEN = 0.1  # what is so far below where it stood has left the table
-ANYWHERE = 1e6  # the tolerance of a goal that asks for no place
 KINDS = ["object", "obstacle", "tool", "table", "region", "arm"]
 BASE = "obstacle/robot base"
 SOLIDS = {
@@ -107,12 +105,7 @@ class Replay:
         self.arm = Arm(model, self.numbers) if "joints 2" in self.numbers else None
         if not self.arm:
             self.take(0)
-        self.frames = {}
-        for k in range(self.model.ntext):
-            name = mujoco.mj_id2name(self.model, mujoco.mjtObj.mjOBJ_TEXT, k)
-            begin, size = self.model.text_adr[k], self.model.text_size[k]
-            self.frames[name] = bytes(self.model.text_data[begin : begin + size]).rstrip(b"\0").decode()
-
+        self.texts = texts(self.model)
         self.loose = [b for name, b in self.objects.items() if f"may fall of {name}" in self.numbers]
         self.upright = [body for body in self.bodies if body not in self.loose]
         mujoco.mj_kinematics(self.model, self.data)
@@ -253,129 +246,19 @@ class Replay:
                 return False
         return True
 
-    def seen(self, name, poses):
-        """The pose of an object as its goal speaks of it: in the world, or in another's frame."""
-        other = self.frames.get(f"frame of {name}")
-        return poses[name] if other is None else seen(poses[name], poses[other])
+    def seen(self, name, frame=None):
+        """The pose of an object in the world, or in another's frame."""
+        pose = self.pose(self.objects[f"object/{name}"])
+        return pose if frame is None else seen(pose, self.seen(frame))
+
+    def has_left(self, name):
+        """Whether an object has fallen off the table."""
+        return self.has_fallen(self.objects[f"object/{name}"])
 
     def pose(self, body):
         """x, y and heading."""
         turn = self.data.xmat[body]
         return [*self.data.xpos[body][:2].tolist(), math.atan2(turn[3], turn[0])]
-
-
-def seen(pose, frame):
-    """A pose in the frame of another one."""
-    x, y, turn = (own - other for own, other in zip(pose, frame))
-    cos, sin = math.cos(frame[2]), math.sin(frame[2])
-    return [cos * x + sin * y, cos * y - sin * x, turn]
-
-
-def beyond(point, corners):
-    """How far a point is outside of a convex region, metres; negative inside."""
-    ends = np.reshape(corners, (-1, 2))
-    sides = np.roll(ends, -1, axis=0) - ends
-    outwards = np.stack([sides[:, 1], -sides[:, 0]], axis=1)
-    outwards /= np.linalg.norm(outwards, axis=1, keepdims=True)
-    return float(np.max(np.sum((np.asarray(point) - ends) * outwards, axis=1)))
-
-
-def over(pose, fall, part):
-    """How far the centre of mass of an object at `pose` is beyond an edge over which it is to fall, and from the ends of
-    the part of that edge, if only one will do, metres."""
-    centre, edges = np.array(fall[:2]), np.reshape(fall[2:], (-1, 3))
-    cos, sin = math.cos(pose[2]), math.sin(pose[2])
-    there = np.array([[cos, -sin], [sin, cos]]) @ centre + pose[:2]
-    beyond = float(np.max(edges[:, :2] @ there - edges[:, 2]))
-    if part is None:
-        return beyond
-    along = float(np.abs(edges[0, 1::-1]) @ there)
-    return min(beyond, along - part[0], part[1] - along)
-
-
-def outlines(title, name, pose, numbers):
-    """The polygons of that title of an object, in the world where their body is at a pose."""
-    x, y, turn = pose
-    turned = np.array([[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]])
-    titles = (f"{title} {k} of {name}" for k in itertools.count(1))
-    found = itertools.takewhile(lambda title: title in numbers, titles)
-    return [np.reshape(numbers[title], (-1, 2)) @ turned + [x, y] for title in found]
-
-
-def gap(poses, name, numbers, texts):
-    """The smallest distance between the outlines of a goal's object and of what it is to be near, or away
-    from; 0 where they overlap."""
-    other = texts.get(f"other of {name}")
-    there = outlines("other outline", name, [0, 0, 0] if other is None else poses[other], numbers)
-    own = outlines("own outline", name, poses[name], numbers)
-    return min(apart(a, b) for a in own for b in there)
-
-
-def covered(own, goal, name, numbers):
-    """The share of its outline at the goal that an object covers where it is."""
-
-    def area(corners):
-        x, y = np.transpose(corners)
-        return 0.5 * float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
-
-    def common(corners, other):
-        for start, end in zip(other, np.roll(other, -1, axis=0)):
-            before, corners = corners, []
-            along = end - start
-            inside = [along[0] * (p - start)[1] - along[1] * (p - start)[0] for p in before]
-            for k, (p, a) in enumerate(zip(before, inside)):
-                q, b = before[(k + 1) % len(before)], inside[(k + 1) % len(before)]
-                if a >= 0.0:
-                    corners.append(p)
-                if a * b < 0.0:
-                    corners.append(p + (q - p) * (a / (a - b)))
-        return area(corners) if corners else 0.0
-
-    wanted = outlines("piece", name, [*goal[:2], goal[3] if len(goal) > 3 else 0.0], numbers)
-    pairs = itertools.product(wanted, outlines("piece", name, own, numbers))
-    return sum(common(list(a), b) for a, b in pairs) / sum(area(a) for a in wanted)
-
-
-def apart(first, second):
-    """Distance of two convex polygons."""
-
-    def from_sides(points, corners):
-        sides = np.roll(corners, -1, axis=0) - corners
-        off = points[:, None] - corners
-        along = np.clip(np.sum(off * sides, axis=2) / np.sum(sides * sides, axis=1), 0.0, 1.0)
-        return np.linalg.norm(off - along[..., None] * sides, axis=2).min()
-
-    def separates(corners, points):  # whether a side of the first has all of the second on its outside
-        sides = np.roll(corners, -1, axis=0) - corners
-        outwards = np.stack([sides[:, 1], -sides[:, 0]], axis=1)
-        beyond = np.sum((points[:, None] - corners) * outwards, axis=2)
-        return np.any(np.min(beyond, axis=0) > 0.0)
-
-    if not (separates(first, second) or separates(second, first)):
-        return 0.0
-    return float(min(from_sides(first, second), from_sides(second, first)))
-
-
-def miss(pose, goal, middle, region, found, limits):
-    """How far from its goal an object ends, its gap to something else being `found`, the heading error where
-    one counts, and whether both are within tolerance. Headings are nearest to `middle`, if that is there."""
-    x, y, tolerance, *heading = goal
-    error, turned = math.dist(pose[:2], (x, y)), None
-    within = error <= tolerance
-    if region is not None:
-        error = max(0.0, beyond(pose[:2], region))
-        within = error == 0.0
-    elif limits is not None:
-        error = max(limits[0] - found, found - limits[1], 0.0)
-        within = error == 0.0
-    elif tolerance >= ANYWHERE:
-        error = 0.0
-    if heading:
-        turned = abs(math.remainder(pose[2] - heading[0], math.tau / heading[2]))
-        if middle is not None:
-            turned = abs(middle[0] + math.remainder(pose[2] - middle[0], math.tau) - heading[0])
-        within = within and turned <= heading[1]
-    return error, turned, within
 
 
 def replay(path):
@@ -387,28 +270,11 @@ def replay(path):
     except Failed as failed:
         failure = str(failed)
     poses = {name: scene.pose(body) for name, body in scene.objects.items()}
-    wanted = {name: scene.numbers.get(f"goal of {name}") for name in scene.objects}
-    misses = {}
-    for name, goal in wanted.items():
-        limits = scene.numbers.get(f"gap of {name}")
-        found = None if limits is None else gap(poses, name, scene.numbers, scene.frames)
-        region = scene.numbers.get(f"region of {name}")
-        fall = scene.numbers.get(f"fall of {name}")
-        if fall is not None:
-            far = over(poses[name], fall, scene.numbers.get(f"part of the edge of {name}"))
-            misses[name] = max(0.0, -far), None, far > 0.0 and scene.has_fallen(scene.objects[name])
-        elif goal is not None:
-            middle = scene.numbers.get(f"middle of {name}")
-            own = scene.seen(name, poses)
-            misses[name] = miss(own, goal, middle, region, found, limits)
-            share = scene.numbers.get(f"coverage of {name}")
-            if share is not None:
-                enough = covered(own, goal, name, scene.numbers) >= share[0]
-                misses[name] = (*misses[name][:2], enough)
-    if failure is None and not all(within for *_, within in misses.values()):
+    # Of several goals the first is told of.
+    reached, error, heading_error = all_judged(scene, scene.texts)
+    if failure is None and not reached:
         failure = "misses the goal"
-    # Of several objects with goals the first is told of.
-    name, (error, heading_error, _) = next(iter(misses.items()))
+    name = "object/" + json.loads(scene.texts["goals"])[0]["object"]
     ours = scene.numbers.get(f"3-D replay of {name}")
     solid = SOLIDS[mujoco.mjtGeom(scene.model.geom(name).type[0])]
     return {
@@ -478,7 +344,3 @@ def main():
     if len(results) > 1:
         print(table(results), file=sys.stderr)
     return 0 if all(result["reached"] for result in results) else 1
-
-
-if __name__ == "__main__":
-    sys.exit(main())

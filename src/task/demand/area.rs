@@ -5,8 +5,9 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::{Footprint, Pose, Shape, Vector, clearance, contact_points};
 use crate::scene::Scene;
 
+use super::check::name;
 use super::words::{millimetres, point};
-use super::{Demand, End, Kind, Mark, less};
+use super::{Check, Demand, End, Kind, Mark, Quantity, less};
 
 /// Search and refinement aim at points at least this far inside, metres, or half-way to the middle of
 /// what is narrower: simulations differ by millimetres.
@@ -186,6 +187,11 @@ impl Kind for InArea {
         let sound =
             self.area.pose.is_finite() && self.tolerance.is_finite() && self.tolerance > 0.0;
         (!sound).then(|| "the area of the goal must be finite".to_owned())
+    }
+
+    fn check(&self, object: usize, scene: &Scene) -> Check {
+        let (frame, corners) = (self.relative.map(|other| name(other, scene)), self.area.corners());
+        Check::up_to(Quantity::Beyond { object: name(object, scene), frame, corners }, 0.0)
     }
 
     fn marks(&self, _: usize, _: &Scene) -> Vec<Mark> {

@@ -13,8 +13,9 @@ use crate::geometry::{Pose, Vector, area_of, common_area, without};
 
 use crate::scene::Scene;
 
+use super::check::name;
 use super::words::{degrees, point};
-use super::{Area, AtPlace, Demand, End, Facing, Kind, Mark, less};
+use super::{Area, AtPlace, Check, Demand, End, Facing, Kind, Mark, Quantity, less};
 
 /// Directions in which an object is shifted to find how far it may be off.
 const DIRECTIONS: usize = 16;
@@ -220,6 +221,17 @@ impl Kind for Coverage {
         }
         let turn = self.facing.as_ref().and_then(|facing| facing.fault(object, scene));
         self.place.fault(object, scene).or(turn)
+    }
+
+    fn check(&self, object: usize, scene: &Scene) -> Check {
+        let at = self.place.position;
+        let quantity = Quantity::Covered {
+            object: name(object, scene),
+            frame: self.place.relative.map(|other| name(other, scene)),
+            at: [at.x, at.y, self.heading()],
+            pieces: self.outline(&Pose::default()),
+        };
+        Check::from(quantity, self.share)
     }
 
     fn marks(&self, object: usize, scene: &Scene) -> Vec<Mark> {

@@ -8,7 +8,8 @@ use crate::scene::is_zero;
 use crate::scene::{Scene, Span, State, TableTop};
 use crate::task::Goal;
 
-use super::{Demand, End, Kind, Mark, less};
+use super::check::name;
+use super::{Check, Demand, End, Kind, Mark, Quantity, less};
 
 /// How far beyond the edge search and refinement aim to bring centres, and from the ends of the part of it
 /// that is asked for, metres: simulations differ by millimetres.
@@ -218,6 +219,20 @@ impl Kind for Fall {
     fn fault(&self, _: usize, _: &Scene) -> Option<String> {
         let sound = self.tolerance.is_finite() && self.tolerance > 0.0;
         (!sound).then(|| "the part of the edge must be finite".to_owned())
+    }
+
+    fn check(&self, object: usize, scene: &Scene) -> Check {
+        let edges = self.edges().map(|edge| {
+            let out = edge.outwards();
+            [out.x, out.y, self.place(edge) + self.by]
+        });
+        let quantity = Quantity::Over {
+            object: name(object, scene),
+            centre: self.centre(&Pose::default()),
+            edges: edges.collect(),
+            part: self.between.map(|span| [span.low, span.high]),
+        };
+        Check::from(quantity, 0.0)
     }
 
     fn marks(&self, _: usize, _: &Scene) -> Vec<Mark> {

@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::Pose3;
 use crate::scene::Scene;
 
-use super::{Demand, End, Kind};
+use super::check::name;
+use super::{Check, Demand, End, Kind, Quantity};
 
 /// A plate that lies on its underside leans less than this, radians (15 degrees): an edge may lie on
 /// the wall of a pocket. Single plates end within a degree of flat.
@@ -94,5 +95,12 @@ impl Kind for Flipped {
 
     fn in_space(&self) -> bool {
         true
+    }
+    fn check(&self, object: usize, scene: &Scene) -> Check {
+        let quantity = Quantity::Tilt { object: name(object, scene) };
+        match self.flipped {
+            true => Check::from(quantity, PI - UPSIDE_DOWN),
+            false => Check::up_to(quantity, FLAT),
+        }
     }
 }

@@ -6,8 +6,9 @@ use crate::geometry::{ContactPoint, Pose, Shape, Vector, contact_points};
 
 use crate::scene::{Body, Scene, State};
 
+use super::check::name;
 use super::words::millimetres;
-use super::{Area, Demand, End, Kind, Mark, anywhere, less};
+use super::{Area, Check, Demand, End, Kind, Mark, Quantity, anywhere, less};
 
 /// Search and refinement aim at gaps this far inside of what is allowed, metres, or at the middle of what
 /// is narrower: simulations differ by millimetres.
@@ -179,6 +180,17 @@ impl Kind for Gap {
     fn fault(&self, object: usize, _: &Scene) -> Option<String> {
         let sound = self.min >= 0.0 && self.max > self.min && self.to != Body::Object(object);
         (!sound).then(|| "a gap is to something else, its limits are in order".to_owned())
+    }
+
+    fn check(&self, object: usize, scene: &Scene) -> Check {
+        let [own, others] = self.outlines().map(|areas| areas.map(|area| area.corners()).collect());
+        let other = match self.to {
+            Body::Object(other) => Some(name(other, scene)),
+            _ => None,
+        };
+        let high = self.max.is_finite().then_some(self.max);
+        let quantity = Quantity::Gap { object: name(object, scene), own, other, others };
+        Check::Within { quantity, low: Some(self.min), high }
     }
 
     fn marks(&self, object: usize, scene: &Scene) -> Vec<Mark> {

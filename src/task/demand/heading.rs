@@ -10,8 +10,9 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::{Pose, Vector, wrap_angle};
 use crate::scene::{Scene, Span};
 
+use super::check::name;
 use super::words::degrees;
-use super::{Demand, End, Kind, Mark, less};
+use super::{Check, Demand, End, Kind, Mark, Quantity, less};
 
 /// A heading of an object.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -148,6 +149,17 @@ impl Kind for Facing {
             && self.tolerance.is_finite()
             && self.tolerance > 0.0;
         (!sound).then(|| "the goal must be finite, its heading tolerance positive".to_owned())
+    }
+
+    fn check(&self, object: usize, scene: &Scene) -> Check {
+        let quantity = Quantity::Turn {
+            object: name(object, scene),
+            frame: self.relative.map(|other| name(other, scene)),
+            heading: self.heading,
+            symmetry: self.symmetry,
+            middle: self.limit_middle,
+        };
+        Check::up_to(quantity, self.tolerance)
     }
 
     fn marks(&self, _: usize, _: &Scene) -> Vec<Mark> {

@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::{Pose, Shape};
 use crate::scene::Scene;
 
-use super::{Area, Demand, End, Kind, Mark};
+use super::check::name;
+use super::{Area, Check, Demand, End, Kind, Mark, Quantity};
 
 /// Depth by which a centre that is still inside counts as missed once more, metres.
 const STEP: f64 = 0.01;
@@ -61,6 +62,11 @@ impl Kind for Outside {
     fn fault(&self, _: usize, scene: &Scene) -> Option<String> {
         let known = scene.obstacles.iter().any(|obstacle| obstacle.name == self.name);
         (!known).then(|| "the goal names an obstacle that does not exist".to_owned())
+    }
+
+    fn check(&self, object: usize, scene: &Scene) -> Check {
+        let (object, corners) = (name(object, scene), self.area().corners());
+        Check::from(Quantity::Beyond { object, frame: None, corners }, 0.0)
     }
 
     fn marks(&self, _: usize, _: &Scene) -> Vec<Mark> {

@@ -5,8 +5,9 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::{Pose, Vector};
 use crate::scene::Scene;
 
+use super::check::name;
 use super::words::{millimetres, point};
-use super::{Demand, End, Kind, Mark, less};
+use super::{Check, Demand, End, Kind, Mark, Quantity, less};
 
 /// A point for the centre of an object.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -81,6 +82,12 @@ impl Kind for AtPlace {
         }
         let finite = position.iter().all(|v| v.is_finite());
         (!finite).then(|| "the goal must be finite".to_owned())
+    }
+
+    fn check(&self, object: usize, scene: &Scene) -> Check {
+        let (frame, to) = (self.relative.map(|other| name(other, scene)), self.position);
+        let quantity = Quantity::Distance { object: name(object, scene), frame, to };
+        Check::up_to(quantity, self.tolerance)
     }
 
     fn marks(&self, _: usize, _: &Scene) -> Vec<Mark> {

@@ -4,8 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::scene::Scene;
 
+use super::check::name;
 use super::words::millimetres;
-use super::{Demand, End, Kind, Mark};
+use super::{Check, Demand, End, Kind, Mark, Quantity};
 
 /// Height by which an edge that is not yet high enough counts as missed once more, metres.
 const STEP: f64 = 0.01;
@@ -59,6 +60,10 @@ impl Kind for Raised {
 
     fn fault(&self, _: usize, _: &Scene) -> Option<String> {
         (!self.height.is_finite()).then(|| "the height of the goal must be finite".to_owned())
+    }
+
+    fn check(&self, object: usize, scene: &Scene) -> Check {
+        Check::from(Quantity::Raised { object: name(object, scene) }, self.height)
     }
 
     fn marks(&self, object: usize, scene: &Scene) -> Vec<Mark> {

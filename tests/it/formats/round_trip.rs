@@ -192,12 +192,12 @@ goal: {{object: a, {goal}}}
         assert_eq!((found, notes.len()), (Some(written), 0), "{goal}");
     }
     for (goal, what) in [
-        ("gap: {to: b, max: 0.01}", "gap"),
-        ("gap: {to: b, max: 0.01}, heading_deg: 90, heading_tolerance_deg: 5", "gap"),
-        ("region: {area: {circle: {radius: 0.05}}, position: [0.6, 0.1]}", "region"),
-        ("coverage: {share: 0.9, position: [0.6, 0.1], heading_deg: 90}", "coverage"),
-        ("off_table: far", "fall"),
-        ("position: [0.1, 0.0], tolerance: 0.02, relative_to: b", "frame"),
+        ("gap: {to: b, max: 0.01}", "from b"),
+        ("gap: {to: b, max: 0.01}, heading_deg: 90, heading_tolerance_deg: 5", "from b"),
+        ("region: {area: {circle: {radius: 0.05}}, position: [0.6, 0.1]}", "in a circle"),
+        ("coverage: {share: 0.9, position: [0.6, 0.1], heading_deg: 90}", "covering"),
+        ("off_table: far", "off the table"),
+        ("position: [0.1, 0.0], tolerance: 0.02, relative_to: b", "as b sees it"),
     ] {
         let (_, found, notes) = back(goal);
         assert_eq!(found, None, "{goal}");

@@ -20,9 +20,6 @@ use super::meshes::Meshes;
 /// Sections that do not affect how pushes end.
 const HARMLESS: [&str; 4] = ["visual", "statistic", "size", "sensor"];
 
-/// What goals ask for besides a place and a heading in the world, as `pushplan export` names it.
-const ASKED: [&str; 5] = ["gap", "region", "coverage", "fall", "frame"];
-
 /// Sections that move or hold bodies in ways that pushplan cannot express.
 const BEYOND: [&str; 5] = ["actuator", "equality", "tendon", "deformable", "extension"];
 
@@ -137,12 +134,14 @@ fn gravity<'a>(source: &mut Source<'a>, option: Node<'a, 'a>) {
 
 /// What `pushplan export` says there. Of goals places and headings are taken over.
 fn custom<'a>(source: &mut Source<'a>, section: Node<'a, 'a>, model: &mut Model) {
-    let asks = |body: &str| {
-        elements(section).find_map(|node| {
-            let (what, of) = node.attribute("name")?.split_once(" of ")?;
-            (of == body && ASKED.contains(&what)).then(|| what.to_owned())
-        })
-    };
+    for text in elements(section).filter(|node| node.has_tag_name("text")) {
+        let name = text.attribute("name").unwrap_or_default();
+        if let (Some(body), Some(words)) = (name.strip_prefix("words of "), text.attribute("data"))
+        {
+            let note = format!("the goal of `{body}` is left out: \"{words}\" has no place here");
+            source.ledger.note(source.place(text), note);
+        }
+    }
     for numeric in elements(section).filter(|node| node.has_tag_name("numeric")) {
         let name = numeric.attribute("name").unwrap_or_default();
         model.ours |= name == "push 1";
@@ -150,14 +149,7 @@ fn custom<'a>(source: &mut Source<'a>, section: Node<'a, 'a>, model: &mut Model)
         if let (Some(body), Some(data)) = (goal, numeric.attribute_node("data"))
             && let Some(numbers) = source.list(data)
         {
-            match asks(body) {
-                None => model.goals.push((body.to_owned(), numbers)),
-                Some(what) => {
-                    let note =
-                        format!("the goal of `{body}` is left out: its {what} has no place here");
-                    source.ledger.note(source.place(numeric), note);
-                }
-            }
+            model.goals.push((body.to_owned(), numbers));
         }
     }
 }

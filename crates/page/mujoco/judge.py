@@ -1,0 +1,166 @@
+
+
+# Checks of goals, which the scene holds as JSON: each is a quantity with limits, or so many of several.
+
+
+def judged(check, scene):
+    """Whether a check holds at the end, and (quantity, error) of all that it measures."""
+    if "at_least" in check:
+        found = [judged(one, scene) for one in check["at_least"]["of"]]
+        held = sorted(found, key=lambda one: not one[0])[: check["at_least"]["count"]]
+        return all(met for met, _ in held), [error for _, errors in held for error in errors]
+    within = check["within"]
+    (name, asked), = within["quantity"].items()
+    value = QUANTITIES[name](scene, **asked)
+    low, high = within.get("low"), within.get("high")
+    error = max(0.0 if low is None else low - value, 0.0 if high is None else value - high, 0.0)
+    if name in ("distance", "turn"):
+        error = value
+    if name == "covered":
+        error = math.dist(scene.seen(asked["object"], asked.get("frame"))[:2], asked["at"][:2])
+    met = (low is None or value >= low) and (high is None or value <= high)
+    return met, [(name, error)]
+
+
+def all_judged(scene, texts):
+    """Whether all goals are met, and the distance and the heading error of the first one."""
+    met, errors = True, None
+    for goal in json.loads(texts["goals"]):
+        held, found = judged(goal["check"], scene)
+        met, errors = met and held, found if errors is None else errors
+    turns = [error for name, error in errors if name == "turn"]
+    others = [error for name, error in errors if name != "turn"]
+    return met, max(others, default=0.0), max(turns, default=None)
+
+
+def distance(scene, object, to, frame=None):
+    return math.dist(scene.seen(object, frame)[:2], to)
+
+
+def turn(scene, object, heading, symmetry, frame=None, middle=None):
+    """The turn from the nearest heading that looks alike; headings are nearest to `middle`, if that is there."""
+    found = scene.seen(object, frame)[2]
+    if middle is not None:
+        return abs(middle + math.remainder(found - middle, math.tau) - heading)
+    return abs(math.remainder(found - heading, math.tau / symmetry))
+
+
+def beyond(scene, object, corners, frame=None):
+    """How far a centre is outside of a convex region, metres; negative inside."""
+    ends = np.array(corners)
+    sides = np.roll(ends, -1, axis=0) - ends
+    outwards = np.stack([sides[:, 1], -sides[:, 0]], axis=1)
+    outwards /= np.linalg.norm(outwards, axis=1, keepdims=True)
+    point = np.array(scene.seen(object, frame)[:2])
+    return float(np.max(np.sum((point - ends) * outwards, axis=1)))
+
+
+def over(scene, object, centre, edges, part=None):
+    """How far the centre of mass of what has fallen is beyond an edge over which it is to fall, and from the ends of
+    the part of that edge, if only one will do, metres."""
+    if not scene.has_left(object):
+        return -math.inf
+    edges = np.array(edges)
+    x, y, heading = scene.seen(object)
+    cos, sin = math.cos(heading), math.sin(heading)
+    there = np.array([[cos, -sin], [sin, cos]]) @ centre + [x, y]
+    beyond = float(np.max(edges[:, :2] @ there - edges[:, 2]))
+    if part is None:
+        return beyond
+    along = float(np.abs(edges[0, 1::-1]) @ there)
+    return min(beyond, along - part[0], part[1] - along)
+
+
+def outlines(pieces, pose):
+    """Polygons in the world where their body is at a pose."""
+    x, y, heading = pose
+    cos, sin = math.cos(heading), math.sin(heading)
+    return [np.array(corners) @ np.array([[cos, sin], [-sin, cos]]) + [x, y] for corners in pieces]
+
+
+def gap(scene, object, own, others, other=None):
+    """The smallest distance between the outlines of an object and of something else; 0 where they overlap."""
+    there = outlines(others, [0, 0, 0] if other is None else scene.seen(other))
+    return min(apart(a, b) for a in outlines(own, scene.seen(object)) for b in there)
+
+
+def apart(first, second):
+    """Distance of two convex polygons."""
+
+    def from_sides(points, corners):
+        sides = np.roll(corners, -1, axis=0) - corners
+        off = points[:, None] - corners
+        along = np.clip(np.sum(off * sides, axis=2) / np.sum(sides * sides, axis=1), 0.0, 1.0)
+        return np.linalg.norm(off - along[..., None] * sides, axis=2).min()
+
+    def separates(corners, points):  # whether a side of the first has all of the second on its outside
+        sides = np.roll(corners, -1, axis=0) - corners
+        outwards = np.stack([sides[:, 1], -sides[:, 0]], axis=1)
+        beyond = np.sum((points[:, None] - corners) * outwards, axis=2)
+        return np.any(np.min(beyond, axis=0) > 0.0)
+
+    if not (separates(first, second) or separates(second, first)):
+        return 0.0
+    return float(min(from_sides(first, second), from_sides(second, first)))
+
+
+def covered(scene, object, at, pieces, frame=None):
+    """The share of its outline at a pose that an object covers where it is."""
+
+    def area(corners):
+        x, y = np.transpose(corners)
+        return 0.5 * float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
+
+    def common(corners, other):
+        for start, end in zip(other, np.roll(other, -1, axis=0)):
+            before, corners = corners, []
+            along = end - start
+            inside = [along[0] * (p - start)[1] - along[1] * (p - start)[0] for p in before]
+            for k, (p, a) in enumerate(zip(before, inside)):
+                q, b = before[(k + 1) % len(before)], inside[(k + 1) % len(before)]
+                if a >= 0.0:
+                    corners.append(p)
+                if a * b < 0.0:
+                    corners.append(p + (q - p) * (a / (a - b)))
+        return area(corners) if corners else 0.0
+
+    wanted, own = outlines(pieces, at), outlines(pieces, scene.seen(object, frame))
+    return sum(common(list(a), b) for a in wanted for b in own) / sum(area(a) for a in wanted)
+
+
+def raised(scene, object):
+    """How far the edge of an object was lifted by the last lever-up, metres; that it lies on the blade is not
+    looked at."""
+    return scene.lifted(object)
+
+
+def tilt(scene, object):
+    """The angle between its upper side and straight up, radians."""
+    return scene.leaning(object)
+
+
+QUANTITIES = {
+    "distance": distance, "turn": turn, "beyond": beyond, "over": over, "gap": gap, "covered": covered,
+    "raised": raised, "tilt": tilt,
+}
+
+
+def seen(pose, frame):
+    """A pose in the frame of another one."""
+    x, y, turn = (own - other for own, other in zip(pose, frame))
+    cos, sin = math.cos(frame[2]), math.sin(frame[2])
+    return [cos * x + sin * y, cos * y - sin * x, turn]
+
+
+def texts(model):
+    """The texts of a scene by their names."""
+    found = {}
+    for k in range(model.ntext):
+        name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_TEXT, k)
+        begin, size = model.text_adr[k], model.text_size[k]
+        found[name] = bytes(model.text_data[begin : begin + size]).rstrip(b"\0").decode()
+    return found
+
+
+if __name__ == "__main__":
+    sys.exit(main())
