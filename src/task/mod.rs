@@ -6,7 +6,7 @@
 
 mod arm;
 mod definition;
-mod demand;
+pub mod demand;
 mod goal;
 mod goal_error;
 mod job;
