@@ -13,6 +13,7 @@ mod flipped;
 mod gap;
 mod heading;
 mod mark;
+mod out_of;
 mod outside;
 mod place;
 mod raised;
@@ -33,6 +34,7 @@ pub use flipped::{Ending, Flipped};
 pub use gap::Gap;
 pub use heading::Facing;
 pub use mark::{Mark, ShownGoal};
+pub use out_of::OutOfArea;
 pub use outside::Outside;
 pub use place::AtPlace;
 pub use raised::{Lift, Raised};
@@ -45,6 +47,8 @@ pub enum Demand {
     Place(AtPlace),
     /// Its centre lies in an area.
     Area(Box<InArea>),
+    /// Its centre lies outside of an area.
+    OutOf(Box<OutOfArea>),
     /// It points along a heading; a joint's angle is a heading too.
     Heading(Facing),
     /// It is so far from another object or an obstacle.
@@ -242,6 +246,7 @@ impl Demand {
         match self {
             Self::Place(kind) => kind,
             Self::Area(kind) => &**kind,
+            Self::OutOf(kind) => &**kind,
             Self::Heading(kind) => kind,
             Self::Gap(kind) => &**kind,
             Self::Coverage(kind) => &**kind,

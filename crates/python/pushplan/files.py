@@ -242,11 +242,12 @@ class AreaKeys(TypedDict, total=False):
 
 
 class GoalRegionKeys(TypedDict):
-    """Where an object's centre may lie; position [x, y] in metres."""
+    """Where an object's centre may lie, or must not; position [x, y] in metres."""
 
     area: AreaKeys
     position: NotRequired[Numbers]
     yaw_deg: NotRequired[float]
+    outside: NotRequired[bool]
 
 
 class GapKeys(TypedDict):

@@ -68,8 +68,17 @@ impl Area {
 
     /// The same smaller by `margin` metres on every side, or by half of what there is.
     pub fn shrunk(self, margin: f64) -> Self {
+        self.of(self.shape.footprint().shrunk(margin))
+    }
+
+    /// The same larger by `margin` metres on every side.
+    pub fn grown(self, margin: f64) -> Self {
+        self.of(self.shape.footprint().grown(margin))
+    }
+
+    fn of(self, footprint: Footprint) -> Self {
         let height = self.shape.height();
-        let shape = match self.shape.footprint().shrunk(margin) {
+        let shape = match footprint {
             Footprint::Disc { radius } => Shape::Cylinder { radius, height },
             Footprint::Rectangle { half } => {
                 Shape::Cuboid { size: [2.0 * half.x, 2.0 * half.y, height] }
@@ -77,6 +86,19 @@ impl Area {
             Footprint::Polygon(base) => Shape::Prism { base, height },
         };
         Self { shape, ..self }
+    }
+
+    /// Returns its outline and its middle in words.
+    pub(super) fn words(&self) -> String {
+        let outline = match self.shape.footprint() {
+            Footprint::Disc { radius } => format!("a circle of {}", millimetres(radius)),
+            Footprint::Rectangle { half } => {
+                let [x, y] = [half.x, half.y].map(|half| millimetres(2.0 * half));
+                format!("a rectangle of {x} by {y}")
+            }
+            Footprint::Polygon(_) => "a polygon".to_owned(),
+        };
+        format!("{outline} about {}", point(self.pose.position))
     }
 
     /// Its outline as a solid of this height, metres.
@@ -134,15 +156,7 @@ impl Kind for InArea {
     }
 
     fn words(&self, _: usize, _: &Scene) -> String {
-        let outline = match self.area.shape.footprint() {
-            Footprint::Disc { radius } => format!("a circle of {}", millimetres(radius)),
-            Footprint::Rectangle { half } => {
-                let [x, y] = [half.x, half.y].map(|half| millimetres(2.0 * half));
-                format!("a rectangle of {x} by {y}")
-            }
-            Footprint::Polygon(_) => "a polygon".to_owned(),
-        };
-        format!("in {outline} about {}", point(self.area.pose.position))
+        format!("in {}", self.area.words())
     }
 
     fn off(&self, end: &End) -> Option<Vector> {

@@ -1,4 +1,4 @@
-//! Goals in a region.
+//! Goals in a region, or outside of one.
 
 use serde_json::json;
 
@@ -7,27 +7,45 @@ use crate::asset::spec::{Key, Value};
 use crate::asset::task::keep::{
     AREA, AREA_POSITION, AREA_YAW, area, check_area, emitted_area as area_of,
 };
-use crate::task::{Area, Demand, InArea};
+use crate::task::demand::{Area, Demand, InArea, OutOfArea};
 
 use super::ask::{About, Ask};
+
+const OUTSIDE: Key = Key::optional(
+    "outside",
+    Value::Switch,
+    "Whether the centre must lie outside of it instead; default false.",
+);
 
 /// An area for the centre.
 pub(super) const REGION: Ask = Ask {
     keys: &[Key::optional(
         "region",
-        Value::Map(&[AREA, AREA_POSITION, AREA_YAW]),
+        Value::Map(&[AREA, AREA_POSITION, AREA_YAW, OUTSIDE]),
         "Where its centre may lie instead, a circle, rectangle or polygon; by default nowhere in \
          particular.",
     )],
     about: About::Place,
     read: |goal, _, _| {
-        let (shape, pose) = area(goal.get("region")?)?;
-        Some(Demand::Area(Box::new(InArea::new(Area { shape, pose }))))
+        let region = goal.get("region")?;
+        let (shape, pose) = area(region)?;
+        let area = Area { shape, pose };
+        Some(match region.get("outside").map_or(Some(false), |node| node.switch())? {
+            false => Demand::Area(Box::new(InArea::new(area))),
+            true => Demand::OutOf(Box::new(OutOfArea::new(area))),
+        })
     },
     write: |demand, _, _| {
-        let Demand::Area(own) = demand else { return None };
-        let (shape, pose) = (&own.area.shape, &own.area.pose);
-        Some(json!({"region": posed(json!({"area": area_of(shape)}), pose)}))
+        let (Area { shape, pose }, outside) = match demand {
+            Demand::Area(own) => (&own.area, false),
+            Demand::OutOf(own) => (&own.area, true),
+            _ => return None,
+        };
+        let mut region = posed(json!({"area": area_of(shape)}), pose);
+        if outside {
+            region["outside"] = json!(true);
+        }
+        Some(json!({"region": region}))
     },
     check: |asked, ledger| {
         if let Some(region) = asked.goal.get("region") {
