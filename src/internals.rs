@@ -3,10 +3,10 @@
 //! Each imports only from rooms before it, in this order:
 //!
 //! geometry, scene, task, outcome, recording, asset, sim, contact, graph, network, rollout, effect,
-//! plan, verify, solve, design
+//! plan, verify, solve
 
 #[doc(inline)]
 pub use crate::{
-    asset, contact, design, effect, geometry, graph, network, outcome, plan, recording, rollout,
-    scene, seeded, sim, solve, task, verify, watch,
+    asset, contact, effect, geometry, graph, network, outcome, plan, recording, rollout, scene,
+    seeded, sim, solve, task, verify, watch,
 };

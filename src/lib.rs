@@ -66,6 +66,7 @@
 //! | `pushplan-arm` | robot arms: call `pushplan_arm::install()`, and tasks may name a URDF |
 //! | `pushplan-act` | the closed loop, beliefs about objects, fits from recordings |
 //! | `pushplan-bench` | tool selection and task suites, kept and resumed |
+//! | `pushplan-design` | proposals of tools for a task |
 //! | `pushplan-report` | pages, pictures, tables |
 //! | `pushplan-import` | MJCF, URDF and meshes in |
 //! | `pushplan-export` | MJCF, MCAP and joint trajectories out |
@@ -89,8 +90,6 @@ pub mod asset;
 pub mod checksum;
 #[doc(hidden)]
 pub mod contact;
-#[doc(hidden)]
-pub mod design;
 #[doc(hidden)]
 pub mod effect;
 #[doc(hidden)]
@@ -123,7 +122,6 @@ pub mod verify;
 pub mod watch;
 
 pub use asset::ToolLibrary;
-pub use design::{Design, DesignSettings};
 pub use effect::{EffectModel, Simulated, Trust};
 pub use error::Error;
 pub use geometry::{ConvexPolygon, PolygonError, Pose, Shape, Vector};

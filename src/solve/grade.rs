@@ -13,7 +13,7 @@ use super::PlanStatus;
 /// A plan that ends within this share of the tolerance in 3-D is well inside it. Played in another
 /// engine (MuJoCo), plans of 241 random tasks that end so, and reach the goal in all disturbed
 /// replays and in the plane, work in 97.5 %; among those that end in the outer half 55 % do.
-pub(crate) const WELL_INSIDE: f64 = 0.5;
+pub const WELL_INSIDE: f64 = 0.5;
 
 /// A plan that reaches the goal in this share of the disturbed replays does so nearly always. Played in
 /// MuJoCo, of 47 plans of random and everyday tasks that do so less often, and pass, 13 fail; of 934 that do so
@@ -22,7 +22,7 @@ const STEADY: f64 = 0.9;
 
 /// Classes of verdicts, worst first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Class {
+pub enum Class {
     /// Does not work as written.
     Fails,
     /// Works as written, too seldom under disturbances.
@@ -50,7 +50,8 @@ impl Class {
 
 /// A verified plan's worth.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Grade {
+pub struct Grade {
+    /// Class of the verdict.
     pub class: Class,
     /// Share of the disturbed replays that reach the goal.
     robustness: f64,

@@ -52,6 +52,6 @@ pub use solution::{
 };
 pub use strategy::Approach;
 
-pub(crate) use grade::{Class, Grade, WELL_INSIDE};
-pub(crate) use planner::stated;
-pub(crate) use rank::distinct;
+pub use grade::{Class, Grade, WELL_INSIDE};
+pub use planner::stated;
+pub use rank::distinct;

@@ -246,7 +246,7 @@ impl Planner {
     }
 
     /// The seed.
-    pub(crate) fn seed(&self) -> u64 {
+    pub fn seed(&self) -> u64 {
         self.seed
     }
 
@@ -295,7 +295,7 @@ impl Planner {
 }
 
 /// Returns the situation that a task states, and whether it states supports.
-pub(crate) fn stated(task: &Task) -> Situation {
+pub fn stated(task: &Task) -> Situation {
     let mut situation = Situation::stated(&task.scene);
     if task.unknown.support {
         Arc::make_mut(&mut situation.physics).supports_known = false;

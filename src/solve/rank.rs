@@ -6,7 +6,7 @@ use crate::task::{Demand, End, Goal, Task};
 /// The best `count` found candidates of different kinds, then, if there are too few kinds, the next
 /// best ones; at most `most_behind` of them with something in the way. `found` is sorted, best
 /// first, and so is the answer.
-pub(crate) fn distinct(found: &[SearchResult], count: usize, most_behind: usize) -> Vec<Candidate> {
+pub fn distinct(found: &[SearchResult], count: usize, most_behind: usize) -> Vec<Candidate> {
     let kinds = kinds(found, count);
     let mut taken = vec![false; found.len()];
     kinds.iter().for_each(|&k| taken[k] = true);

@@ -8,7 +8,8 @@ use serde_json::Value as Json;
 use tempfile::TempDir;
 
 use pushplan::watch::Unwatched;
-use pushplan::{Design, DesignSettings, Effort, PlanStatus, Planner, Task, Tool, ToolLibrary};
+use pushplan::{Effort, PlanStatus, Planner, Task, Tool, ToolLibrary};
+use pushplan_design::{Design, DesignSettings, design};
 
 use crate::program::{run, stderr};
 
@@ -30,7 +31,7 @@ fn designed(text: &str, settings: &DesignSettings) -> (Task, Design) {
     let library = ToolLibrary::embedded().unwrap();
     let task = Task::parse(text, "slot.yaml").unwrap();
     let planner = Planner::for_effort(Effort::Draft).unwrap().build();
-    let design = planner.design(&task, &library, settings, &Unwatched).unwrap();
+    let design = design(&planner, &task, &library, settings, &Unwatched).unwrap();
     (task, design)
 }
 

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use pushplan::design::DesignSettings;
 use pushplan::scene::Tool;
 use pushplan::solve::{Effort, Planner};
+use pushplan_design::DesignSettings;
 use pushplan_report::{Origin, design_document};
 
 use super::{
@@ -83,7 +83,8 @@ pub fn run(args: &DesignArgs, session: &Session) -> Result<u8, CliError> {
     let settings = DesignSettings { parts: args.parts.into(), ..settings };
     let settings = if args.random { settings.at_random() } else { settings };
     let following = Following::spinner(session, "designing");
-    let designed = session.compute(|| planner.design(&task, &library, &settings, &following));
+    let designed = session
+        .compute(|| pushplan_design::design(&planner, &task, &library, &settings, &following));
     following.finish()?;
     let design = designed.map_err(solve_error)?;
     for warning in &design.best().warnings {

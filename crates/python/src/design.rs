@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use pushplan::{Design, DesignSettings};
 use pushplan::{Solution, Task};
+use pushplan_design::{Design, DesignSettings};
 use pushplan_report::{TaskSource, design_document};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -103,8 +103,9 @@ pub fn design(
     let library = given(py, tools.as_ref())?;
     let settings = DesignSettings { parts, ..DesignSettings::looking_at(candidates) };
     let (stated, threads) = (Arc::clone(&task.task), words::threads(threads)?);
-    let designed =
-        work::run(py, threads, |cancel| planner.design(&stated, &library, &settings, cancel))?;
+    let designed = work::run(py, threads, |cancel| {
+        pushplan_design::design(&planner, &stated, &library, &settings, cancel)
+    })?;
     let design = designed.map_err(|error| errors::solve(py, &error))?;
     Ok(PyDesign { task: stated, source: task.source(), design })
 }

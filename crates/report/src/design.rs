@@ -2,13 +2,13 @@
 
 use serde_json::json;
 
-use pushplan::design::Design;
 use pushplan::geometry::Vector;
 use pushplan::solve::PlanStatus;
 use pushplan::{
     scene::{Part, Tool},
     task::{Task, ToolChoice},
 };
+use pushplan_design::Design;
 
 use super::document::{Document, Section};
 use super::number::{degrees, millimetres};

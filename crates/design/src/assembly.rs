@@ -4,8 +4,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use rand::Rng;
 
-use crate::geometry::{Pose, Vector};
-use crate::scene::{Part, Tool};
+use pushplan::geometry::{Pose, Vector};
+use pushplan::scene::{Part, Tool};
 
 use super::form::{Form, Head};
 
@@ -288,7 +288,7 @@ fn wrap(degrees: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::seeded::generator;
+    use pushplan::seeded::generator;
 
     /// A tool comes apart only if what joins it was forgotten or rounded away.
     #[test]

@@ -4,18 +4,16 @@
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-use crate::effect::EffectModel;
-use crate::plan::{
+use pushplan::effect::EffectModel;
+use pushplan::plan::{
     CostToGo, FOUND_RADIUS, REFINABLE, RefineSettings, RefineStatistics, Refined, Rollouts, Search,
     Uncertainty, Workspace, refine,
 };
-use crate::watch::{Quiet, Watch};
-use crate::{
-    scene::{Situation, Tool},
-    task::Task,
-};
+use pushplan::scene::{Situation, Tool};
+use pushplan::task::Task;
+use pushplan::watch::{Quiet, Watch};
 
-use crate::solve::{LeverSettings, Settings, WELL_INSIDE, distinct};
+use pushplan::solve::{LeverSettings, Settings, WELL_INSIDE, distinct};
 
 /// Settings of screening: about half a thousand rollouts where three pushes are allowed.
 const SETTINGS: Settings = Settings {

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene::Tool;
+use pushplan::scene::Tool;
 
-use crate::solve::{PlanStatus, Solution};
+use pushplan::solve::{PlanStatus, Solution};
 
 /// A tool with what it does for the task.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,7 +17,7 @@ pub struct Proposal {
     pub solution: Solution,
 }
 
-/// The result of [`Planner::design`](crate::Planner::design).
+/// The result of [`design`](crate::design).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Design {
     /// The task solved with the tools that there are, whichever it names.

@@ -7,8 +7,8 @@
 use rand::Rng;
 use rayon::prelude::*;
 
-use crate::seeded::generator;
-use crate::watch::Count;
+use pushplan::seeded::generator;
+use pushplan::watch::Count;
 
 use super::DesignSettings;
 use super::assembly::{Assembly, NUMBERS};

@@ -8,9 +8,10 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use rayon::prelude::*;
 
-use crate::geometry::{Footprint, Pose, Vector, clearance, perpendicular, swept_clearance};
-use crate::plan::{CostToGo, HAND_CLEARANCE, MIN_LENGTH, OBSTACLE_CLEARANCE, STAND_OFF};
-use crate::{scene::Mover, task::Task};
+use pushplan::geometry::{Footprint, Pose, Vector, clearance, perpendicular, swept_clearance};
+use pushplan::plan::{CostToGo, HAND_CLEARANCE, MIN_LENGTH, OBSTACLE_CLEARANCE, STAND_OFF};
+use pushplan::scene::Mover;
+use pushplan::task::Task;
 
 use super::assembly::{Assembly, Bar, HEIGHT, Route};
 use super::form::Form;

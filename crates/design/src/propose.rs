@@ -1,0 +1,148 @@
+//! Design of a tool for a task.
+
+use std::sync::Arc;
+
+use pushplan::asset::ToolLibrary;
+use pushplan::plan::{CostToGo, Uncertainty};
+use pushplan::scene::Tool;
+use pushplan::solve::{Class, Grade, Planner, Solution, SolveError, stated};
+use pushplan::task::{Task, ToolChoice};
+use pushplan::watch::Watch;
+
+use super::proposal::Spent;
+use super::screening::Looking;
+use super::search::{Seen, kept, search};
+use super::{Design, DesignSettings, Proposal};
+
+/// The most tools of one form that are solved with in full: what fails for one fails for its kin.
+const OF_A_FORM: usize = 3;
+
+/// The most characters of the task's name that go into the tool's: file names have a limit.
+const LONGEST_NAME: usize = 48;
+
+/// Proposes a tool for a task of pushing: one that solves what no tool of `library` does, or that does so
+/// with more margin, verified like any other.
+///
+/// The result is the same for any number of threads. Stopped by `watch`, the best so far comes back.
+///
+/// ```
+/// use pushplan::watch::Unwatched;
+/// use pushplan::{Effort, PlanStatus, Planner, Task, ToolLibrary};
+/// use pushplan_design::{DesignSettings, design};
+///
+/// let library = ToolLibrary::embedded()?;
+/// let task = Task::parse(include_str!("../../../tasks/pull-back.yaml"), "pull-back.yaml")?;
+/// let planner = Planner::for_effort(Effort::Draft)?.build();
+/// let settings = DesignSettings::looking_at(20);
+/// let design = design(&planner, &task, &library, &settings, &Unwatched)?;
+/// assert_eq!(design.status(), PlanStatus::Solved);
+/// # Ok::<(), pushplan::Error>(())
+/// ```
+///
+/// # Errors
+/// [`SolveError`] for bad input only: a task of levering is one.
+pub fn design(
+    planner: &Planner,
+    task: &Task,
+    library: &ToolLibrary,
+    settings: &DesignSettings,
+    watch: &dyn Watch,
+) -> Result<Design, SolveError> {
+    if task.in_space() {
+        let what = "tools are proposed for tasks of pushing, and this is one of levering".into();
+        return Err(SolveError::BadTask { task: task.name.clone(), what });
+    }
+    let situation = stated(task);
+    watch.stage("the tools that there are");
+    let all = Task { tools: ToolChoice::All, ..task.clone() };
+    let known = planner.solve_from(&situation, &all, library, watch)?;
+    let mut design =
+        Design { known, proposal: None, spent: Spent::default(), stopped: watch.cancelled() };
+    let bar = grade(&design.known);
+    if design.stopped || bar.is_some_and(|bar| bar.is_best()) {
+        return Ok(design);
+    }
+
+    watch.stage("looking at tools");
+    let (model, field) = (planner.screen(), CostToGo::new(task));
+    let spread = Uncertainty::around(&situation);
+    let looking = Looking { task, situation: &situation, model, field, spread, watch };
+    let mut seen = search(&looking, settings, planner.seed());
+    design.spent = Spent {
+        looked_at: seen.len(),
+        rollouts: seen.iter().map(|one| one.look.rollouts).sum(),
+        promising: seen.iter().filter(|one| one.look.misses <= 1.0).count(),
+        solved: 0,
+    };
+
+    // With the others no push can be made.
+    seen.retain(|one| one.look.misses.is_finite());
+    let mut best: Option<(Option<Grade>, Proposal)> = None;
+    let finalists = kept(&seen, settings.solved, OF_A_FORM);
+    for (k, one) in finalists.iter().enumerate() {
+        watch.stage("solving with the best tools");
+        watch.progress(k as u64, finalists.len() as u64);
+        let tool = named(one, task, library);
+        let Some(proposal) = tool.map(|tool| solved(planner, task, tool, watch)) else {
+            continue;
+        };
+        let proposal = proposal?;
+        design.spent.solved += 1;
+        let worth = grade(&proposal.solution);
+        if best.as_ref().is_none_or(|(best, _)| is_better(&worth, best)) {
+            best = Some((worth, proposal));
+        }
+        if worth.is_some_and(|grade| grade.class == Class::Safe) || watch.cancelled() {
+            break;
+        }
+    }
+    design.proposal = best.filter(|(worth, _)| has_more(worth, &bar)).map(|(_, one)| one);
+    design.stopped = watch.cancelled();
+    Ok(design)
+}
+
+/// The task solved with this tool alone.
+fn solved(
+    planner: &Planner,
+    task: &Task,
+    tool: Tool,
+    watch: &dyn Watch,
+) -> Result<Proposal, SolveError> {
+    let tool = Arc::new(tool);
+    let library = ToolLibrary::default().with(Arc::clone(&tool))?;
+    let task = Task { tools: ToolChoice::All, ..task.clone() };
+    let solution = planner.solve_from(&stated(&task), &task, &library, watch)?;
+    Ok(Proposal { tool, solution })
+}
+
+/// The tool that was looked at, under a name that no tool of the library has.
+fn named(seen: &Seen, task: &Task, library: &ToolLibrary) -> Option<Tool> {
+    let short: String = task.name.chars().take(LONGEST_NAME).collect();
+    let name = format!("{short}-{}", seen.assembly.name());
+    let others = (2..).map(|k| format!("{name}-{k}"));
+    let mut names = std::iter::once(name.clone()).chain(others);
+    let name = names.find(|name| library.get(name).is_none())?;
+    let description = format!("Proposed by `pushplan design` for the task {}.", task.name);
+    Some(seen.assembly.tool(&name)?.described(description))
+}
+
+/// Returns the grade of a solution's best plan, if it was verified.
+fn grade(solution: &Solution) -> Option<Grade> {
+    let verdict = solution.best()?.verdict.as_ref()?;
+    Some(Grade::of(verdict))
+}
+
+fn is_better(one: &Option<Grade>, other: &Option<Grade>) -> bool {
+    match (one, other) {
+        (Some(one), Some(other)) => one.compare(other).is_gt(),
+        (one, other) => one.is_some() && other.is_none(),
+    }
+}
+
+/// Whether it is worth proposing, where `bar` is what the tools that there are reach.
+fn has_more(one: &Option<Grade>, bar: &Option<Grade>) -> bool {
+    match (one, bar) {
+        (Some(one), Some(bar)) => one.has_more_margin(bar),
+        (_, bar) => bar.is_none(),
+    }
+}
