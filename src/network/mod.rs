@@ -3,7 +3,7 @@
 //! The physics predictor of the Belief Regulated Dual Propagation Network (Tekden, Erdem,
 //! Erdem, Imre, Seker and Ugur, ICRA 2020) is a fused forward pass on preallocated buffers, on
 //! feature tables of any widths; a test holds it to the graph that training differentiates. The
-//! belief regulator reads its effects. Every network's weights are a file of one form, and a
+//! belief regulator (crate `pushplan-act`) reads its effects. Every network's weights are a file of one form, and a
 //! [`Card`] that says which. Loops over time are not here but in `rollout`.
 
 mod config;
@@ -16,7 +16,6 @@ mod parameters;
 mod parity;
 mod predictor;
 mod product;
-mod regulator;
 mod tables;
 mod tensors;
 mod weights;
@@ -34,10 +33,6 @@ pub use parameters::{Layout, Parameters, layout, layout_of};
 pub use parity::{Sum, rectify_rows};
 pub use predictor::{ErrorCard, PredictorCard, PredictorWeights, Source};
 pub use product::matrix_product;
-pub use regulator::{
-    LEAST, Memory, Regulator, RegulatorCard, RegulatorWeights, TYPES, fresh_regulator,
-    regulator_layout,
-};
 pub use tables::{Rows, Tables};
 pub use tensors::{ParameterError, decode_parameters, encode_parameters, file_metadata};
 pub use weights::{

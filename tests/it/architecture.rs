@@ -23,7 +23,13 @@ const HOUSES: [(&str, &str, Rooms); 12] = [
     (
         "crates/act/src",
         "act/",
-        &[("judge", ""), ("fit", "judge"), ("belief", ""), ("act", "judge fit belief")],
+        &[
+            ("judge", ""),
+            ("fit", "judge"),
+            ("regulator", ""),
+            ("belief", "regulator"),
+            ("act", "judge fit belief"),
+        ],
     ),
     ("crates/arm/src", "arm", &[]),
     ("crates/bench/src", "bench", &[]),
@@ -124,11 +130,11 @@ const DOORS: [(&str, &str); 31] = [
     ("clarabel", "plan"),
     (
         "rand",
-        "network effect act/judge act/belief plan verify design act/act bench lab/bench lab/image lab/parts learn/dataset learn/train",
+        "network effect act/judge act/regulator act/belief plan verify design act/act bench lab/bench lab/image lab/parts learn/dataset learn/train",
     ),
     (
         "rand_pcg",
-        "network effect act/judge act/belief plan verify lab/bench lab/image lab/parts learn/dataset learn/train",
+        "network effect act/judge act/regulator act/belief plan verify lab/bench lab/image lab/parts learn/dataset learn/train",
     ),
     ("postcard", "learn/dataset"),
     ("clap", "command learn/cli lab/cli"),

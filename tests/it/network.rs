@@ -6,13 +6,14 @@ use pushplan::{
     effect::{EffectModel, Network},
     geometry::{Pose, Shape, Vector},
     network::{
-        Buffers, Card, ErrorCard, Forward, LeverCard, PredictorCard, PredictorWeights,
-        RegulatorCard, RegulatorWeights, Weights, WeightsError,
+        Buffers, Card, ErrorCard, Forward, LeverCard, PredictorCard, PredictorWeights, Weights,
+        WeightsError,
     },
     outcome::Record,
     scene::{Part, Scene, State, Tool, Velocity},
     task::{Job, Stroke, ToolMotion},
 };
+use pushplan_act::regulator::{RegulatorCard, RegulatorWeights};
 
 use crate::random_network::{batch, half_stroke, scene, stroke, tool, weights};
 

@@ -1,6 +1,7 @@
 //! A regulator of random weights.
 
-use pushplan::network::{RegulatorCard, RegulatorWeights, Statistics, fresh_regulator};
+use pushplan::network::Statistics;
+use pushplan_act::regulator::{RegulatorCard, RegulatorWeights, fresh_regulator};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 

@@ -2,7 +2,6 @@
 
 use pushplan::effect::Prior;
 use pushplan::geometry::{Pose, Vector};
-use pushplan::network::RegulatorWeights;
 use pushplan::recording::Recording;
 use pushplan::sim::Simulator;
 use pushplan::{
@@ -11,6 +10,7 @@ use pushplan::{
     task::{Job, Noise, Push, ToolMotion},
 };
 use pushplan_act::belief::{Belief, BeliefRegulator, BeliefSettings, EVIDENCE};
+use pushplan_act::regulator::RegulatorWeights;
 
 use crate::fixtures::hand;
 use crate::random_regulator::random_weights;

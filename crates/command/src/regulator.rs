@@ -4,8 +4,8 @@ use std::path::Path;
 
 use clap::Args;
 
-use pushplan::network::RegulatorWeights;
 use pushplan_act::belief::BeliefRegulator;
+use pushplan_act::regulator::RegulatorWeights;
 use pushplan_bench::store::digest;
 use pushplan_report::Setting;
 

@@ -7,9 +7,10 @@ use serde::{Deserialize, Serialize};
 
 use pushplan::{
     geometry::{Pose, Vector},
-    network::LEAST,
     scene::{Joint, JointKind},
 };
+
+use crate::regulator::LEAST;
 
 use super::{
     density::log_sum,

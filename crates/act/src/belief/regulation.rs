@@ -7,10 +7,12 @@ use thiserror::Error;
 
 use pushplan::{
     effect::{EffectModels, ModelError, Network},
-    network::{Memory, Regulator, RegulatorWeights, WeightsError},
+    network::WeightsError,
     scene::Scene,
     task::Job,
 };
+
+use crate::regulator::{Memory, Regulator, RegulatorWeights};
 
 use super::testimony::{Draft, EVIDENCE, Testimony};
 

@@ -4,7 +4,8 @@
 use std::collections::BTreeMap;
 
 use candle_core::{DType, Device, Result, Tensor, Var};
-use pushplan::internals::network::{Parameters, TYPES, regulator_layout};
+use pushplan::internals::network::Parameters;
+use pushplan_act::regulator::{TYPES, regulator_layout};
 
 use crate::network::variables::variables;
 

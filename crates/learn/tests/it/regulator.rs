@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use candle_core::{Device, Tensor};
 use pushplan::effect::{EffectModels, Network};
-use pushplan::network::{Memory, Regulator, RegulatorWeights};
 use pushplan::watch::{Unwatched, Watch};
+use pushplan_act::regulator::{Memory, Regulator, RegulatorWeights};
 use pushplan_bench::store::FolderLock;
 use pushplan_learn::dataset::{Lesson, lessons};
 use pushplan_learn::network::{RegulatorGraph, Unrolled};

@@ -1,8 +1,9 @@
 //! Lessons side by side, as tensors.
 
 use candle_core::{Device, Result, Tensor};
-use pushplan::internals::network::{LEAST, Statistics, TYPES};
+use pushplan::internals::network::Statistics;
 use pushplan_act::belief::{JointType, Testimony};
+use pushplan_act::regulator::{LEAST, TYPES};
 
 use crate::dataset::Lesson;
 use crate::network::{RegulatorGraph, Unrolled};

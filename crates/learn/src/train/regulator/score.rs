@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use pushplan::internals::network::{Memory, Regulator};
+use pushplan_act::regulator::{Memory, Regulator};
 use serde::{Deserialize, Serialize};
 
 use crate::dataset::Lesson;

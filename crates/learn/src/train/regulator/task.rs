@@ -2,11 +2,10 @@
 
 use std::path::PathBuf;
 
-use pushplan::internals::network::{
-    Parameters, Regulator, RegulatorCard, RegulatorWeights, Statistics, fresh_regulator,
-};
+use pushplan::internals::network::{Parameters, Statistics};
 use pushplan::internals::seeded::generator;
 use pushplan::internals::watch::Watch;
+use pushplan_act::regulator::{Regulator, RegulatorCard, RegulatorWeights, fresh_regulator};
 use pushplan_bench::store::FolderLock;
 use rand::Rng;
 

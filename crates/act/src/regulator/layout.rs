@@ -3,7 +3,7 @@
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use crate::network::{Layout, Parameters};
+use pushplan::network::{Layout, Parameters};
 
 /// Types of joints, *none* among them.
 pub const TYPES: usize = 4;

@@ -2,9 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::network::{
-    Card, Layout, Statistics, Weights, WeightsError,
-    weights::{check_scales, check_widths},
+use pushplan::network::{
+    Card, Layout, Statistics, Weights, WeightsError, check_scales, check_widths,
 };
 
 use super::layout::regulator_layout;

@@ -1,6 +1,6 @@
 //! The regulator's step on plain numbers: what `infer` and `run` use, without candle.
 
-use crate::network::{Parameters, Statistics};
+use pushplan::network::{Parameters, Statistics};
 
 use super::{
     card::RegulatorWeights,
