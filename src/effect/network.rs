@@ -29,10 +29,10 @@ const DOUBTFUL: f64 = 0.02;
 /// Predicts with trained weights.
 #[derive(Clone)]
 pub struct Network {
-    pub(super) spec: ModelSpec,
-    pub(super) forward: Forward,
+    spec: ModelSpec,
+    forward: Forward,
     weights: PredictorWeights,
-    pub(super) settings: RollSettings,
+    settings: RollSettings,
     error: Option<Quantiles>,
     strange: Option<Strange>,
 }
@@ -135,6 +135,16 @@ impl Network {
         trajectory
     }
 
+    /// Returns the forward pass.
+    pub fn forward(&self) -> &Forward {
+        &self.forward
+    }
+
+    /// Returns the settings of its rollouts.
+    pub fn settings(&self) -> RollSettings {
+        self.settings
+    }
+
     /// Number of [`Self::effects`] of a pair.
     pub fn effect_width(&self) -> usize {
         self.forward.half()
@@ -215,7 +225,7 @@ fn has_guesses(job: &Job) -> bool {
 /// Where a joint is a guess, neither prior nor projection pulls its objects together again, and the
 /// network's errors add up: on 60 dense and 60 sparse scenes of nine objects it ends 44.5 and 60.4
 /// mm off, with the same geometry taken for known 21.0 and 39.0, as the prior does.
-pub(super) fn without_guesses(job: &Job) -> Job {
+pub fn without_guesses(job: &Job) -> Job {
     let mut job = job.clone();
     if has_guesses(&job) {
         let physics = Arc::make_mut(&mut job.physics);

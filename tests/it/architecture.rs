@@ -90,7 +90,11 @@ const EXTRAS: [(&str, &str, &str); 8] = [
     ("import", "", "geometry scene task asset"),
     ("arm", "import", "geometry scene task asset"),
     ("export", "arm", "geometry scene task outcome asset"),
-    ("act", "", "geometry scene task outcome recording asset sim network effect solve"),
+    (
+        "act",
+        "",
+        "geometry scene task outcome recording asset sim graph network rollout effect solve",
+    ),
     ("bench", "act", "geometry scene task outcome asset sim effect solve"),
     ("design", "", "geometry scene task asset effect plan solve"),
     ("report", "act bench design", "geometry scene task outcome recording asset graph plan solve"),

@@ -95,7 +95,7 @@ fn ends_follow_a_small_change_of_the_last_layer_as_they_are_said_to() {
     // whole effect of a change a tenth as large.
     const SHARE: f64 = 0.4;
     for trial in pushes(&network, 12) {
-        let said = network.sensitivity(&trial.scene, &trial.job());
+        let said = pushplan_act::fit::Sensitivity::of(&network, &trial.scene, &trial.job());
         let end = |share: f64| {
             let model = network.clone().adapted(&change.scaled(share));
             model.rollout(&trial.scene, &[trial.job()], Record::Outcome)[0].outcome().poses[0]

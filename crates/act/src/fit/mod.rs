@@ -13,7 +13,7 @@ mod posterior;
 mod run;
 
 pub use grid::{Axis, Grid};
-pub use head::{Basis, HeadSettings, learn};
+pub use head::{Basis, HeadSettings, Sensitivity, learn};
 pub use likelihood::NoiseLaw;
 pub use posterior::{Estimate, Posterior};
 pub use run::{AsStated, Fit, FitSettings, SupportError, fit};

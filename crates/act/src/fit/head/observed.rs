@@ -4,6 +4,8 @@ use crate::judge::Trial;
 use pushplan::effect::Network;
 use pushplan::geometry::wrap_angle;
 
+use super::Sensitivity;
+
 /// How one object ends, and how that follows the head.
 #[derive(Clone, Debug)]
 pub(super) struct Observed {
@@ -17,7 +19,7 @@ pub(super) struct Observed {
 /// What `network` says of the ends of the objects of `trial` for which `moves` says so.
 pub(super) fn observed(network: &Network, trial: &Trial, moves: &[bool]) -> Vec<Observed> {
     let Some(truth) = trial.truth.last() else { return Vec::new() };
-    let found = network.sensitivity(&trial.scene, &trial.job());
+    let found = Sensitivity::of(network, &trial.scene, &trial.job());
     let Some(end) = found.trajectory.frames.last().map(|frame| &frame.state) else {
         return Vec::new();
     };

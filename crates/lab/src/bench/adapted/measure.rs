@@ -8,7 +8,7 @@ use pushplan::internals::network::WeightsError;
 use pushplan::internals::scene::TableFit;
 use pushplan::internals::seeded::generator;
 use pushplan::watch::Unwatched;
-use pushplan_act::fit::{Basis, FitSettings, HeadSettings, fit, learn};
+use pushplan_act::fit::{Basis, FitSettings, HeadSettings, Sensitivity, fit, learn};
 use pushplan_act::judge::{Comparison, Trial};
 use rand::seq::SliceRandom;
 use serde::{Deserialize, Serialize};
@@ -122,7 +122,7 @@ fn error(model: &dyn EffectModel, trial: &Trial) -> [f64; 2] {
 
 fn inside(network: &Network, trial: &Trial, table: &TableFit) -> [usize; 2] {
     let Some(truth) = trial.truth.last() else { return [0; 2] };
-    let found = network.sensitivity(&trial.scene, &trial.job());
+    let found = Sensitivity::of(network, &trial.scene, &trial.job());
     let Some(end) = found.trajectory.frames.last() else { return [0; 2] };
     let mut inside = [0; 2];
     for (k, object) in trial.scene.objects.iter().enumerate() {

@@ -9,7 +9,8 @@
 //! de/dθ = Σ_t  de/dp_t · dp_t/do_t · z_t         o = z (W + θ), the outputs that a head changes
 //! ```
 
-use crate::{
+use pushplan::{
+    effect::{EffectModel, Network, without_guesses},
     graph::{Batch, Correction, Node, UNIT},
     network::{Buffers, HEAD_OUTPUTS, Head},
     outcome::{Frame, Record, Trajectory},
@@ -17,8 +18,6 @@ use crate::{
     scene::{Scene, State, Velocity},
     task::{COAST_FRAME, Job, Stroke},
 };
-
-use super::{EffectModel, Network, network::without_guesses};
 
 /// How far poses are moved to see what becomes of it, metres (turns at the radius of gyration):
 /// more than the width of a touch, less than what recordings show.
@@ -43,27 +42,27 @@ struct Read {
     hidden: Vec<f32>,
 }
 
-impl Network {
-    /// How the end of `job` follows a change of the last layer. Frames are taken one by one,
-    /// whatever the model's stride.
-    pub fn sensitivity(&self, scene: &Scene, job: &Job) -> Sensitivity {
+impl Sensitivity {
+    /// Computes how the end of `job` follows a change of the last layer of `network`. Frames are taken one
+    /// by one, whatever the model's stride.
+    pub fn of(network: &Network, scene: &Scene, job: &Job) -> Self {
         let job = without_guesses(job);
-        let half = self.effect_width();
+        let half = network.effect_width();
         let mut buffers = Buffers::default();
         let mut frames: Vec<Vec<Read>> = Vec::new();
         let mut correct = |batch: &Batch, corrections: &mut Vec<Correction>| {
-            self.forward.run(batch, &mut buffers, corrections);
+            network.forward().run(batch, &mut buffers, corrections);
             frames.push(nodes(batch, buffers.hidden(), half));
         };
         // The numbers of nodes are those of the scene where nothing is left out.
-        let settings = RollSettings { stride: 1, pruned: false, ..self.settings };
-        let mut roller = Roller::new(self.spec.clone(), settings);
+        let settings = RollSettings { stride: 1, pruned: false, ..network.settings() };
+        let mut roller = Roller::new(network.spec().clone(), settings);
         let rolled =
             roller.roll(scene, std::slice::from_ref(&job), Record::Frames, Some(&mut correct));
         let trajectory =
-            rolled.into_iter().next().unwrap_or_else(|| Trajectory::new(self.spec.clone()));
+            rolled.into_iter().next().unwrap_or_else(|| Trajectory::new(network.spec().clone()));
         let mut rows = vec![vec![0.0; Head::len_of(half)]; 3 * scene.objects.len()];
-        for (end, node) in self.ends(scene, &job, &trajectory, &frames) {
+        for (end, node) in ends(network, (scene, &job), &trajectory, &frames) {
             for (row, end) in rows.iter_mut().zip(&end) {
                 for (output, part) in row.chunks_exact_mut(2 * half).enumerate() {
                     let gain: f64 = (0..3).map(|axis| end[axis] * node.change[axis][output]).sum();
@@ -73,66 +72,60 @@ impl Network {
                 }
             }
         }
-        Sensitivity { trajectory, rows }
+        Self { trajectory, rows }
     }
+}
 
-    /// For every node of every frame how the end of all objects, [3 N], follows its pose after
-    /// that frame.
-    fn ends<'a>(
-        &self,
-        scene: &Scene,
-        job: &Job,
-        trajectory: &Trajectory,
-        frames: &'a [Vec<Read>],
-    ) -> Vec<(Vec<[f64; 3]>, &'a Read)> {
-        let mut jobs = Vec::new();
-        let mut nodes = Vec::new();
-        let mut stroke_frames = (0, 0);
-        for (after, read) in trajectory.frames.iter().skip(1).zip(frames) {
-            stroke_frames = match stroke_frames {
-                (stroke, count) if stroke == after.stroke => (stroke, count + 1),
-                _ => (after.stroke, 1),
-            };
-            let rest = rest_of(job, after, stroke_frames.1);
-            for node in read {
-                let first = jobs.len();
-                if let Some(rest) = &rest {
-                    for axis in 0..3 {
-                        for sign in [1.0, -1.0] {
-                            let mut job = rest.clone();
-                            nudge(
-                                &mut job.start,
-                                node.object,
-                                axis,
-                                sign * size(scene, node, axis),
-                            );
-                            jobs.push(job);
-                        }
+/// For every node of every frame how the end of all objects, [3 N], follows its pose after
+/// that frame.
+fn ends<'a>(
+    network: &Network,
+    (scene, job): (&Scene, &Job),
+    trajectory: &Trajectory,
+    frames: &'a [Vec<Read>],
+) -> Vec<(Vec<[f64; 3]>, &'a Read)> {
+    let mut jobs = Vec::new();
+    let mut nodes = Vec::new();
+    let mut stroke_frames = (0, 0);
+    for (after, read) in trajectory.frames.iter().skip(1).zip(frames) {
+        stroke_frames = match stroke_frames {
+            (stroke, count) if stroke == after.stroke => (stroke, count + 1),
+            _ => (after.stroke, 1),
+        };
+        let rest = rest_of(job, after, stroke_frames.1);
+        for node in read {
+            let first = jobs.len();
+            if let Some(rest) = &rest {
+                for axis in 0..3 {
+                    for sign in [1.0, -1.0] {
+                        let mut job = rest.clone();
+                        nudge(&mut job.start, node.object, axis, sign * size(scene, node, axis));
+                        jobs.push(job);
                     }
                 }
-                nodes.push((node, rest.is_some().then_some(first)));
+            }
+            nodes.push((node, rest.is_some().then_some(first)));
+        }
+    }
+    let ended = network.rollout(scene, &jobs, Record::Outcome);
+    let follows = |(node, first): (&'a Read, Option<usize>)| {
+        let mut end = vec![[0.0; 3]; 3 * scene.objects.len()];
+        let Some(first) = first else {
+            (0..3).for_each(|axis| end[3 * node.object + axis][axis] = 1.0);
+            return (end, node);
+        };
+        for axis in 0..3 {
+            let [plus, minus] = [0, 1].map(|side| ended[first + 2 * axis + side].outcome());
+            let apart = 2.0 * size(scene, node, axis);
+            for (object, (plus, minus)) in plus.poses.iter().zip(&minus.poses).enumerate() {
+                let moved = plus.position - minus.position;
+                let moved = [moved.x, moved.y, plus.heading - minus.heading];
+                (0..3).for_each(|k| end[3 * object + k][axis] = moved[k] / apart);
             }
         }
-        let ended = self.rollout(scene, &jobs, Record::Outcome);
-        let follows = |(node, first): (&'a Read, Option<usize>)| {
-            let mut end = vec![[0.0; 3]; 3 * scene.objects.len()];
-            let Some(first) = first else {
-                (0..3).for_each(|axis| end[3 * node.object + axis][axis] = 1.0);
-                return (end, node);
-            };
-            for axis in 0..3 {
-                let [plus, minus] = [0, 1].map(|side| ended[first + 2 * axis + side].outcome());
-                let apart = 2.0 * size(scene, node, axis);
-                for (object, (plus, minus)) in plus.poses.iter().zip(&minus.poses).enumerate() {
-                    let moved = plus.position - minus.position;
-                    let moved = [moved.x, moved.y, plus.heading - minus.heading];
-                    (0..3).for_each(|k| end[3 * object + k][axis] = moved[k] / apart);
-                }
-            }
-            (end, node)
-        };
-        nodes.into_iter().map(follows).collect()
-    }
+        (end, node)
+    };
+    nodes.into_iter().map(follows).collect()
 }
 
 /// What was read of the nodes of a frame, whose hidden rows are [2, N, h].
