@@ -125,7 +125,6 @@ pub use asset::ToolLibrary;
 pub use effect::{EffectModel, Simulated, Trust};
 pub use error::Error;
 pub use geometry::{ConvexPolygon, PolygonError, Pose, Shape, Vector};
-pub use graph::Graph;
 pub use outcome::{Outcome, Record, Trajectory, Verdict, Warning};
 pub use scene::{
     Blade, Body, Joint, JointKind, ModelSpec, Models, Object, Obstacle, Part, Physics, Robot,

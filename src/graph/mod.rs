@@ -9,7 +9,6 @@ mod features;
 mod given;
 mod node;
 mod relation;
-mod view;
 
 pub use batch::{Batch, GIVEN, NOBODY};
 pub use features::{
@@ -18,4 +17,3 @@ pub use features::{
 };
 pub use given::Given;
 pub use node::{Correction, Node, UNIT};
-pub use view::{Graph, GraphNode, GraphRelation, NodeKind, RelationName};

@@ -97,7 +97,11 @@ const EXTRAS: [(&str, &str, &str); 8] = [
     ),
     ("bench", "act", "geometry scene task outcome asset sim effect solve"),
     ("design", "", "geometry scene task asset effect plan solve"),
-    ("report", "act bench design", "geometry scene task outcome recording asset graph plan solve"),
+    (
+        "report",
+        "act bench design",
+        "geometry scene task outcome recording asset contact plan solve",
+    ),
     (
         "command",
         "act arm bench design report export import",

@@ -6,13 +6,14 @@ use std::sync::Arc;
 use pushplan::asset::ToolLibrary;
 use pushplan::effect::{EffectModel, EffectModels, Network, Prior};
 use pushplan::geometry::{Pose, Shape, Vector};
-use pushplan::graph::{Batch, GIVEN, Graph, NodeKind, RelationName};
+use pushplan::graph::{Batch, GIVEN};
 use pushplan::network::{Buffers, Forward};
 use pushplan::{
     outcome::Record,
     scene::{Object, Obstacle, Part, Scene, State, Tool},
     task::{Job, Stroke, ToolMotion},
 };
+use pushplan_report::{Graph, NodeKind, RelationName};
 use rand::seq::SliceRandom;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;

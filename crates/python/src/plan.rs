@@ -6,14 +6,14 @@ use std::sync::Arc;
 use pushplan::asset::PlanFile;
 use pushplan::solve::{ManualPush, manual_plan};
 use pushplan::verify::{VerifySettings, broken_rules};
-use pushplan::{Graph, Job, RankedPlan, Task, Trajectory, Verdict, Verifier};
+use pushplan::{Job, RankedPlan, Task, Trajectory, Verdict, Verifier};
 use pushplan::{
     outcome::Warning,
     scene::{Engine, Situation, TableFit},
     task::PushForm,
 };
 use pushplan_export::mjcf;
-use pushplan_report::{Origin, PageView, TaskSource, verdict_page};
+use pushplan_report::{Graph, Origin, PageView, TaskSource, verdict_page};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyAny;

@@ -1,6 +1,7 @@
 //! Results for people and for programs: tables, pictures, charts, pages, numbers with their units.
 //!
-//! Pure formatting: values in, text out. Nothing is computed, run or written to disk here.
+//! Values in, text out: nothing is planned, run or written to disk here. A [`Graph`] shows a frame as the
+//! network sees it.
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 
@@ -11,6 +12,7 @@ mod chart;
 mod design;
 mod document;
 mod fit;
+mod graph;
 mod html;
 mod keyframes;
 mod labels;
@@ -38,6 +40,7 @@ pub use chart::{Axis, Chart, Mark, Series};
 pub use design::design_document;
 pub use document::{Document, Drawing, Figure, Section};
 pub use fit::{fit_document, table_fit_section};
+pub use graph::{Graph, GraphNode, GraphRelation, NodeKind, RelationName};
 pub use number::{degrees, fine_millimetres, millimetres, seconds};
 pub use page::{
     Origin, PageView, Recipe, Setting, TaskSource, prediction_page, recording_page, run_page,

@@ -1,7 +1,6 @@
 //! Trajectories, packed for the page.
 
 use pushplan::geometry::Pose;
-use pushplan::graph::{Graph, GraphRelation};
 use pushplan::{
     outcome::{Evidence, Frame, Trajectory, Verdict},
     scene::{Engine, ModelKind, Scene},
@@ -9,6 +8,7 @@ use pushplan::{
 };
 
 use super::data::{End, Layer, Replay, fine, length, point};
+use crate::graph::{Graph, GraphRelation};
 
 /// The trajectory of `by`, judged as `reached` or not; nothing without a finite frame.
 pub fn replay(layer: Layer, trajectory: &Trajectory, reached: bool) -> Option<Replay> {

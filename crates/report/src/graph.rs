@@ -2,14 +2,14 @@
 //! tool and every obstacle as a node, and what relates them.
 //!
 //! What the network computes on is a cheaper form of the same: the parts of a tool share one row, as
-//! the fixed joints between them make each say the same, see [`super::Given`]. A test holds the two
+//! the fixed joints between them make each say the same, see [`pushplan::graph::Given`]. A test holds the two
 //! together.
 
 use serde::Serialize;
 
-use crate::contact::{Bodies, FrameProblem, FrameSolver, Partner};
-use crate::geometry::{Footprint, Pose, Vector, clearance};
-use crate::{
+use pushplan::contact::{Bodies, FrameProblem, FrameSolver, Partner};
+use pushplan::geometry::{Footprint, Pose, Vector, clearance};
+use pushplan::{
     outcome::{Frame, Trajectory},
     scene::{JointKind, Scene},
     task::{COAST_FRAME, FrameStep, Job, ToolMotion},
