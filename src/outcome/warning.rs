@@ -237,46 +237,23 @@ pub enum Warning {
 }
 
 impl Warning {
-    /// Whether an outcome with this warning cannot count as success.
+    /// Returns `true` if an outcome with this warning cannot count as success: the default of a new kind.
     pub fn forbids_success(&self) -> bool {
-        match self {
+        !matches!(
+            self,
             Warning::OutsideRange { .. }
-            | Warning::Declined { .. }
-            | Warning::Pressed { .. }
-            | Warning::Overlap { .. }
-            | Warning::LooseJoint { .. }
-            | Warning::Doubtful { .. }
-            | Warning::Differs { .. }
-            | Warning::Simulated { .. }
-            | Warning::HardPush { .. }
-            | Warning::Slipped { .. }
-            | Warning::Fell { .. }
-            | Warning::Guessed { .. } => false,
-            Warning::NotAtRest { .. }
-            | Warning::NotFinite
-            | Warning::Stopped
-            | Warning::Toppled { .. }
-            | Warning::TooManyPushes { .. }
-            | Warning::TooManyToolChanges { .. }
-            | Warning::ForbiddenPush { .. }
-            | Warning::CannotLever { .. }
-            | Warning::Strained
-            | Warning::Jammed { .. }
-            | Warning::OffTable { .. }
-            | Warning::Hangs { .. }
-            | Warning::NotKept { .. }
-            | Warning::KeptOut { .. }
-            | Warning::TooMuchForce { .. }
-            | Warning::OutOfReach { .. }
-            | Warning::ThroughObstacle { .. }
-            | Warning::HandThrough { .. }
-            | Warning::NoWay { .. }
-            | Warning::Arm { .. }
-            | Warning::ForbiddenTool { .. }
-            | Warning::ForbiddenYaw { .. }
-            | Warning::SetDownOn { .. }
-            | Warning::Refused => true,
-        }
+                | Warning::Declined { .. }
+                | Warning::Pressed { .. }
+                | Warning::Overlap { .. }
+                | Warning::LooseJoint { .. }
+                | Warning::Doubtful { .. }
+                | Warning::Differs { .. }
+                | Warning::Simulated { .. }
+                | Warning::HardPush { .. }
+                | Warning::Slipped { .. }
+                | Warning::Fell { .. }
+                | Warning::Guessed { .. }
+        )
     }
 
     /// Whether `other` says the same of another object, or with another number.

@@ -10,6 +10,7 @@ use super::model::{Arm, ArmBody, ArmJoint, ToolMount};
 use super::places::Places;
 use pushplan::asset::read_text;
 use pushplan::geometry::{Footprint, Pose3, Turn3, Vector3};
+use pushplan_import::Outline;
 use pushplan_import::foreign::urdf::{Geometry, Origin, axis, end, geometry, limit, origin};
 use pushplan_import::foreign::xml::{Flaw, element, elements};
 use pushplan_import::foreign::{Files, load};
@@ -203,22 +204,26 @@ impl<'a> File<'a> {
                 Err(self.wrong(collision, message, "lengths are in metres"))
             }
         };
-        match shape {
-            Geometry::Box(half) => Ok(Hull::cuboid(half.into(), &own)),
-            Geometry::Sphere(radius) => {
+        let outline = match shape {
+            Geometry::Mesh { file, scale } => return self.mesh(collision, (&file, scale), &own),
+            Geometry::Solid(outline) => outline,
+        };
+        match outline {
+            Outline::Box(half) => Ok(Hull::cuboid(half.into(), &own)),
+            Outline::Sphere(radius) => {
                 Ok(Hull { points: vec![own.position], radius: positive("radius", radius)? })
             }
-            Geometry::Cylinder { radius, half } => {
+            Outline::Cylinder { radius, half } => {
                 let (radius, half) = (positive("radius", radius)?, positive("length", half)?);
                 Ok(Hull::prism(&Footprint::Disc { radius }, [-half, half], &own))
             }
-            Geometry::Capsule { radius, half } => {
+            Outline::Capsule { radius, half } => {
                 let (radius, half) = (positive("radius", radius)?, positive("length", half)?);
                 let points = [half, -half].map(|z| own.point(Vector3::z() * z)).to_vec();
                 Ok(Hull { points, radius })
             }
-            Geometry::Mesh { file, scale } => self.mesh(collision, (&file, scale), &own),
-            Geometry::Other(tag) => {
+            other => {
+                let tag = if let Outline::Other(tag) = other { tag } else { "solid".to_owned() };
                 let message = format!("a {tag} is not read");
                 Err(self.wrong(collision, message, "use a box, cylinder or mesh"))
             }

@@ -262,12 +262,9 @@ fn solids<'a>(
 
 fn outline<'a>(source: &mut Source<'a>, collision: Node<'a, 'a>, files: &Files) -> Option<Outline> {
     Some(match source.sound(foreign::geometry(collision))? {
-        Geometry::Box(half) => Outline::Box(half),
-        Geometry::Cylinder { radius, half } => Outline::Cylinder { radius, half },
-        Geometry::Sphere(radius) => Outline::Sphere(radius),
-        Geometry::Capsule { radius, half } => Outline::Capsule { radius, half },
+        Geometry::Solid(Outline::Other(tag)) => Outline::Other(format!("a {tag}")),
+        Geometry::Solid(outline) => outline,
         Geometry::Mesh { file, scale } => mesh(&file, scale, files),
-        Geometry::Other(tag) => Outline::Other(format!("a {tag}")),
     })
 }
 

@@ -4,6 +4,8 @@ use roxmltree::Node;
 
 use pushplan::geometry::Vector3;
 
+use crate::model::Outline;
+
 use super::xml::{Flaw, element, elements, number, numbers};
 
 /// The pose that an `origin` states.
@@ -15,27 +17,11 @@ pub struct Origin {
     pub rpy: [f64; 3],
 }
 
-/// The shape of a collision element about its middle, metres; cylinders and capsules are along z.
+/// The shape of a collision element.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Geometry {
-    /// A box of these half extents.
-    Box([f64; 3]),
-    /// A cylinder.
-    Cylinder {
-        /// Radius.
-        radius: f64,
-        /// Half of its length.
-        half: f64,
-    },
-    /// A sphere of this radius.
-    Sphere(f64),
-    /// A capsule.
-    Capsule {
-        /// Radius.
-        radius: f64,
-        /// Half of its length without the caps.
-        half: f64,
-    },
+    /// A solid about its middle; other elements by their names.
+    Solid(Outline),
     /// A mesh in a file.
     Mesh {
         /// Name of the file.
@@ -43,8 +29,6 @@ pub enum Geometry {
         /// Scale along each axis.
         scale: [f64; 3],
     },
-    /// An element of another name.
-    Other(String),
 }
 
 /// Reads the `origin` of an element; the default where there is none.
@@ -77,22 +61,24 @@ pub fn geometry<'a>(collision: Node<'a, 'a>) -> Result<Geometry, Flaw> {
         Ok((number(radius)?, half))
     };
     Ok(match tag {
-        "box" => Geometry::Box(numbers::<3>(need("size")?)?.map(|extent| extent / 2.0)),
+        "box" => {
+            Geometry::Solid(Outline::Box(numbers::<3>(need("size")?)?.map(|extent| extent / 2.0)))
+        }
         "cylinder" => {
             let (radius, half) = round()?;
-            Geometry::Cylinder { radius, half }
+            Geometry::Solid(Outline::Cylinder { radius, half })
         }
-        "sphere" => Geometry::Sphere(number(need("radius")?)?),
+        "sphere" => Geometry::Solid(Outline::Sphere(number(need("radius")?)?)),
         "capsule" => {
             let (radius, half) = round()?;
-            Geometry::Capsule { radius, half }
+            Geometry::Solid(Outline::Capsule { radius, half })
         }
         "mesh" => {
             let file = need("filename")?.value().to_owned();
             let scale = shape.attribute_node("scale").map_or(Ok([1.0; 3]), numbers::<3>)?;
             Geometry::Mesh { file, scale }
         }
-        tag => Geometry::Other(tag.to_owned()),
+        tag => Geometry::Solid(Outline::Other(tag.to_owned())),
     })
 }
 
