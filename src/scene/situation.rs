@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use super::{GRAVITY, Physics, Scene, State};
+use crate::geometry::{Pose, Vector};
+
+use super::{GRAVITY, JointKind, Physics, Scene, State};
 
 /// What planning starts from: to plan again from the middle, or under another belief, is the same
 /// call with another situation.
@@ -21,6 +23,31 @@ impl Situation {
     pub fn stated(scene: &Scene) -> Self {
         let physics = Arc::new(Physics::stated(scene));
         Self { start: scene.start(), physics, scene: Arc::new(scene.clone()) }
+    }
+
+    /// The situation seen from a little aside: everything that can be seen moved as one, turned by `turn`
+    /// radians about a point and shifted, metres.
+    pub fn moved_as_one(&self, about: Vector, shift: Vector, turn: f64) -> Self {
+        let by = Pose { position: about + shift, heading: turn };
+        let moved = |pose: &mut Pose| {
+            let arm = Pose { position: pose.position - about, ..*pose };
+            *pose = by * arm;
+        };
+        let carried = |kind: &mut JointKind| match kind {
+            JointKind::Fixed => {}
+            JointKind::Revolute { at, .. } => *at = by.point(*at - about),
+            JointKind::Prismatic { axis, .. } => *axis = by.vector(*axis),
+        };
+        let mut situation = self.clone();
+        let scene = Arc::make_mut(&mut situation.scene);
+        scene.objects.iter_mut().for_each(|object| moved(&mut object.pose));
+        scene.obstacles.iter_mut().for_each(|obstacle| moved(&mut obstacle.pose));
+        scene.mounts.iter_mut().for_each(|mount| carried(&mut mount.kind));
+        scene.joints.iter_mut().for_each(|joint| carried(&mut joint.kind));
+        let physics = Arc::make_mut(&mut situation.physics);
+        physics.joints.iter_mut().for_each(|joint| carried(&mut joint.kind));
+        situation.start.poses.iter_mut().for_each(moved);
+        situation
     }
 
     /// Where `state` would come to rest if no tool touched anything any more and nothing were in

@@ -114,7 +114,7 @@ impl World for PlanarWorld {
         }
         this.add_obstacles(scene);
         this.seams.pass(&this.labels, scene, motion);
-        for label in this.seams.rub(&this.labels, physics) {
+        for label in this.seams.rub(&this.labels, &physics.pairs) {
             this.ask_for_contacts(label);
         }
         this.add_joints(scene, physics);

@@ -12,7 +12,7 @@ use rapier3d_f64::prelude as spatial;
 
 use crate::geometry::{Rim, Vector};
 use crate::{
-    scene::{Body, Physics, Scene, Surface},
+    scene::{Body, PairFriction, Scene, Surface},
     task::ToolMotion,
 };
 
@@ -37,11 +37,12 @@ impl Seams {
         self.rims[label] = Some(rim.clone());
     }
 
-    /// Lets the colliders with these `labels` rub as `physics` says of pairs, where it says
-    /// something; the numbers of those whose contacts must be asked about here.
-    pub fn rub(&mut self, labels: &[Body], physics: &Physics) -> Vec<usize> {
+    /// Lets the colliders with these `labels` rub as is stated of `pairs`, and as before for all others;
+    /// returns the numbers of those whose contacts must be asked about here.
+    pub fn rub(&mut self, labels: &[Body], pairs: &[PairFriction]) -> Vec<usize> {
         let mut asking = Vec::new();
-        for pair in &physics.pairs {
+        self.frictions.clear();
+        for pair in pairs {
             let rubs = |body: &Body| match (pair.with, *body) {
                 (Surface::Object(other), Body::Object(index)) => other == index,
                 (Surface::Obstacle(other), Body::Obstacle(index)) => other == index,
@@ -54,6 +55,25 @@ impl Seams {
                 for second in (0..labels.len()).filter(|&k| rubs(&labels[k])) {
                     self.frictions.push(([first as u128, second as u128], pair.coefficient));
                 }
+            }
+        }
+        asking
+    }
+
+    /// Lets the colliders with these `labels` rub against the table, which has a label of its own, as is
+    /// stated of `pairs`; returns as [`Self::rub`].
+    pub fn rub_table(
+        &mut self,
+        labels: &[Body],
+        pairs: &[PairFriction],
+        table: u128,
+    ) -> Vec<usize> {
+        let mut asking = Vec::new();
+        for pair in pairs.iter().filter(|pair| pair.with == Surface::Table) {
+            let own = |k: &usize| labels[*k] == Body::Object(pair.object);
+            for label in (0..labels.len()).filter(own) {
+                asking.push(label);
+                self.frictions.push(([label as u128, table], pair.coefficient));
             }
         }
         asking

@@ -1,10 +1,12 @@
 //! An engine with its step, playing tool motions.
 
+use std::sync::Arc;
+
 use crate::geometry::Pose;
 use crate::watch::{Unwatched, Watch};
 use crate::{
     outcome::{Record, Trajectory, in_turn},
-    scene::{Engine, LeverScene, ModelKind, ModelSpec, Rate, Scene},
+    scene::{Engine, ModelKind, ModelSpec, Rate, Scene, Situation},
     task::{Job, Motion},
 };
 
@@ -150,11 +152,9 @@ impl Simulator {
                 self.run_in_turn(scene, &jobs, record, &Unwatched)
             }
             motions => {
-                let first = motions.iter().find(|motion| motion.is_lever());
-                let tool = first.unwrap_or(&motions[0]).tool();
-                let planned = LeverScene::with(scene, tool);
                 let simulator = LeverSimulator { rate: self.rate };
-                simulator.run_all((&planned, &planned), None, motions, (record, &Unwatched))
+                let watched = (record, &Unwatched as _);
+                simulator.run_all(&Situation::stated(scene), scene, motions, watched)
             }
         }
     }
@@ -169,9 +169,9 @@ impl Simulator {
         if !self.takes(job) || !job.motion.fits(scene) {
             return Trajectory::declined(&self.spec(), job);
         }
-        let planned = LeverScene::with(scene, job.motion.tool());
+        let Job { start, motion, physics } = job.clone();
+        let situation = Situation { scene: Arc::new(scene.clone()), start, physics };
         let simulator = LeverSimulator { rate: self.rate };
-        let motions = std::slice::from_ref(&job.motion);
-        simulator.run_all((&planned, &planned), Some(&job.start), motions, (record, watch))
+        simulator.run_all(&situation, scene, &[motion], (record, watch))
     }
 }

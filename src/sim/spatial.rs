@@ -29,13 +29,14 @@ use super::support::Support;
 use super::upright::{Standing, Upright};
 use super::world::World;
 
-mod joints;
-mod place;
+pub(super) mod joints;
+pub(super) mod place;
 
+use joints::{Anchored, add_joints};
 use place::{LOCAL, brink, frame_of, to_rapier, yaw};
 
 /// An object whose axis leans further than this has toppled, radians (10 degrees).
-const TOPPLED: f64 = 10.0 * std::f64::consts::PI / 180.0;
+pub(super) const TOPPLED: f64 = 10.0 * std::f64::consts::PI / 180.0;
 
 /// What has come so far below where it stood has left the table, metres, and is of no further interest.
 const FALLEN: f64 = 0.1;
@@ -107,10 +108,17 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
             this.upright.join(&groups, &physics.masses);
         }
         this.add_obstacles(scene);
-        for label in this.seams.rub(&this.labels, physics) {
+        for label in this.seams.rub(&this.labels, &physics.pairs) {
             this.ask_for_contacts(label);
         }
-        this.add_joints(scene, physics);
+        let on = |object: usize| {
+            let (member, _) = &this.objects[object];
+            let Tracked { handle, first_position, .. } = &this.bodies[member.body];
+            Anchored { body: *handle, local: member.local, height: first_position.z }
+        };
+        let frame = this.frame;
+        let joints: Vec<Anchored> = (0..scene.objects.len()).map(on).collect();
+        add_joints(&mut this.world, scene, (&physics.joints, &frame), &joints);
         if TIPS {
             let bodies = this.bodies.iter().map(|tracked| tracked.handle);
             this.asleep = Asleep::new(&mut this.world, (&groups, bodies), this.tool);

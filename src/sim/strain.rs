@@ -107,12 +107,18 @@ impl Strain {
         fragile.chain([&mut self.all]).for_each(|pressed| pressed.recent = [0.0; LASTING]);
     }
 
+    /// Notes the forces of the step that was just made: `force` is that on the tool of the objects that its
+    /// argument holds of, newtons.
+    pub fn press(&mut self, force: impl Fn(&dyn Fn(usize) -> bool) -> f64) {
+        self.all.note(force(&|_| true));
+        for (solids, pressed) in &mut self.fragile {
+            pressed.note(force(&|object| solids.contains(&object)));
+        }
+    }
+
     /// Looks at the step that was just made; an object that is jammed, if there is one.
     pub fn look<W: World>(&mut self, world: &W) -> Option<Overlap> {
-        self.all.note(world.force_on_tool(&|_| true));
-        for (solids, pressed) in &mut self.fragile {
-            pressed.note(world.force_on_tool(&|object| solids.contains(&object)));
-        }
+        self.press(|of| world.force_on_tool(of));
         let mut overlaps = Vec::new();
         world.overlaps(&mut |found| overlaps.push(found));
         // The engines report depths from before the step: the first are those of the start.

@@ -1,10 +1,13 @@
 //! Small differences between the world and the task as written, for plans that are replayed in space.
 
+use std::sync::Arc;
+
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use crate::geometry::{Pose, Vector};
-use crate::scene::LeverScene;
+use crate::geometry::Vector;
+use crate::scene::{Situation, Tool};
+use crate::task::Motion;
 
 /// Largest shift of everything that is seen against where the blade goes, along each axis, metres.
 const SHIFT: f64 = 0.5e-3;
@@ -15,27 +18,43 @@ const TURN: f64 = std::f64::consts::PI / 180.0;
 /// Largest relative change of every friction value.
 const FRICTION: f64 = 0.1;
 
-/// The scene as it really is: all of it a little aside of where it was seen, rubbing a little
-/// otherwise. What lies in a pocket lies aside with its pocket.
-pub(super) fn disturbed(scene: &LeverScene, about: usize, seed: u64, draw: usize) -> LeverScene {
+/// The situation as it really is: all of it a little aside of where it was seen, rubbing a little
+/// otherwise, as do the blades of the motions. What lies in a pocket lies aside with its pocket.
+pub(super) fn disturbed(
+    situation: &Situation,
+    motions: &mut [Motion],
+    about: usize,
+    (seed, draw): (u64, usize),
+) -> Situation {
     let mut random = Pcg64::new(u128::from(seed), draw as u128);
     // A fresh stream's first numbers resemble those of its neighbours.
     let mut random = Pcg64::seed_from_u64(random.random());
     let mut within = |range: f64| random.random_range(-range..=range);
     let (shift, turn) = (Vector::new(within(SHIFT), within(SHIFT)), within(TURN));
-    let about = scene.plates[about].pose.position;
-    let moved = |pose: &mut Pose| {
-        let arm = Pose { position: pose.position - about, ..*pose };
-        *pose = Pose { position: about + shift, heading: turn } * arm;
-    };
-    let mut scene = scene.clone();
-    scene.plates.iter_mut().for_each(|plate| moved(&mut plate.pose));
-    scene.blocks.iter_mut().for_each(|block| moved(&mut block.pose));
-    let own = scene.plates.iter_mut().map(|plate| &mut plate.friction);
-    let fixed = scene.blocks.iter_mut().map(|block| &mut block.friction);
-    let others = [&mut scene.table_friction, &mut scene.blade.friction];
-    for friction in own.chain(fixed).chain(others) {
+    let about = situation.scene.objects[about].pose.position;
+    let mut really = situation.moved_as_one(about, shift, turn);
+    let mut rub = |friction: &mut f64| {
         *friction *= 1.0 + random.random_range(-FRICTION..=FRICTION);
+    };
+    let scene = Arc::make_mut(&mut really.scene);
+    let physics = Arc::make_mut(&mut really.physics);
+    for (thing, _) in situation.scene.things() {
+        let mut factor = 1.0;
+        rub(&mut factor);
+        let solids = scene.parts_of(thing).chain([thing]);
+        solids.for_each(|solid| physics.frictions[solid] *= factor);
     }
-    scene
+    scene.obstacles.iter_mut().for_each(|obstacle| rub(&mut obstacle.friction));
+    rub(&mut physics.table_friction);
+    // Of all blades alike.
+    let mut blades = 1.0;
+    rub(&mut blades);
+    for motion in motions.iter_mut().filter(|motion| motion.is_lever()) {
+        let hand = motion.slide_mut();
+        let tool = Tool::clone(&hand.tool);
+        let friction = blades * tool.friction;
+        hand.tool = Arc::new(tool.friction(friction));
+    }
+    physics.pairs.iter_mut().for_each(|pair| rub(&mut pair.coefficient));
+    really
 }

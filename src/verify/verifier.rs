@@ -10,7 +10,7 @@ use crate::sim::{LeverSimulator, Simulator};
 use crate::watch::{Unwatched, Watch};
 use crate::{
     outcome::{Disturbance, Evidence, Outcome, Record, Trajectory, Verdict, Warning, never_on},
-    scene::{Engine, JointTrajectory, LeverScene, Scene, Situation, Tool},
+    scene::{Engine, JointTrajectory, Scene, Situation, Tool},
     task::{Job, Plan, Task, ToolMotion},
 };
 
@@ -269,20 +269,18 @@ impl<'a> Verifier<'a> {
     ) -> Evidence {
         let scene = &*situation.scene;
         let first = plan.lever_steps().next();
-        let blade =
-            first.and_then(|step| tools.iter().find(|tool| tool.name == step.tool)?.blade());
-        let planned = LeverScene::new(scene, blade.unwrap_or_default());
         let about = first.map_or(task.goals[0].object, |step| step.lever.plate);
-        let really = draw.map(|draw| space::disturbed(&planned, about, self.settings.seed, draw));
-        let really = really.as_ref().unwrap_or(&planned);
+        let mut motions = plan.motions(tools).unwrap_or_default();
+        let really = draw.map(|draw| {
+            let wary = Situation { scene: Arc::new(wary(task, scene)), ..situation.clone() };
+            space::disturbed(&wary, &mut motions, about, (self.settings.seed, draw))
+        });
+        let really = really.as_ref().unwrap_or(situation);
         let record = if draw.is_none() { Record::Frames } else { Record::Outcome };
-        let motions = plan.motions(tools).unwrap_or_default();
-        let start = Some(&situation.start);
-        let engine = LeverSimulator::default();
         let watched = (record, self.watch);
-        let trajectory = engine.run_all((really, &planned), start, &motions, watched);
+        let trajectory = LeverSimulator::default().run_all(really, scene, &motions, watched);
         // What must be left has been moved as well.
-        let scene = Scene { obstacles: really.blocks.clone(), ..scene.clone() };
+        let scene = Scene { obstacles: really.scene.obstacles.clone(), ..scene.clone() };
         let disturbance = match draw {
             None => Disturbance::Nominal,
             Some(draw) => Disturbance::Disturbed { draw: draw + 1 },

@@ -12,7 +12,7 @@ use pushplan::verify::{Verifier, VerifySettings};
 use pushplan::watch::Unwatched;
 use pushplan::{
     outcome::{PushFault, Reason, Record, Trajectory, Verdict, Warning},
-    scene::{Engine, GRAVITY, LeverScene, Situation, Tool},
+    scene::{Engine, GRAVITY, Situation, Tool},
     task::{LeverUp, Place, Plan, Push, PushForm, PushRules, Step, Task, ToolChoice},
 };
 
@@ -98,11 +98,11 @@ fn changed(mut plan: Plan, change: impl FnOnce(&mut Push)) -> Plan {
 #[test]
 fn a_push_carries_the_plate_as_far_as_the_tool_goes() {
     let task = task();
-    let scene = LeverScene::with(&task.scene, &tools()[0]);
+    let really = Situation::stated(&task.scene);
     let run = |plan: &Plan| -> Trajectory {
         let motions = plan.motions(&tools()).expect("its tools");
         let watched = (Record::Outcome, &Unwatched as _);
-        LeverSimulator::FINE.run_all((&scene, &scene), None, &motions, watched)
+        LeverSimulator::FINE.run_all(&really, &task.scene, &motions, watched)
     };
     let rest = |found: &Trajectory| found.outcome().space.as_ref().expect("in space")[0];
     let (gap, length) = (0.02, 0.10);

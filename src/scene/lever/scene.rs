@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Pose3, Solid, Vector3};
-use crate::scene::{Obstacle, Scene, Tool};
+use crate::geometry::{Pose, Pose3, Solid, Vector3};
+use crate::scene::{Obstacle, Scene, State, Tool, Velocity};
 
 use super::Plate;
 
@@ -37,6 +37,20 @@ impl Scene {
     /// The objects, each with all its solids as one body.
     pub fn plates(&self) -> impl Iterator<Item = Plate> {
         self.things().map(|(index, _)| Plate::of(self, index))
+    }
+
+    /// The state at rest in which the objects are at `poses`, and all their parts where they must be.
+    pub fn resting_in_space(&self, poses: Vec<Pose3>) -> State {
+        let parts = self.objects.iter().skip(poses.len());
+        let parts = parts.map_while(|part| {
+            let whole = part.whole?;
+            Some((*poses.get(whole.object)? * Pose3::upright(whole.place, part.z)).from_above())
+        });
+        let parts: Vec<Pose> = parts.collect();
+        let mut state = State::in_space(poses);
+        state.velocities.extend(parts.iter().map(|_| Velocity::default()));
+        state.poses.extend(parts);
+        state
     }
 
     /// Number of edges of object `index` that a blade can go under; 0 for a part or what does not exist.

@@ -4,6 +4,9 @@ use crate::geometry::{Vector, Vector3, cross};
 
 use super::{Plate, Slab};
 
+/// Relative difference of densities that is rounding.
+const EVEN: f64 = 1e-9;
+
 /// Mass of a body and how it is spread.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weight {
@@ -30,16 +33,38 @@ impl Slab {
 }
 
 impl Plate {
-    /// Where its mass lies.
+    /// Where its mass lies, all solids being of one density.
     pub fn weight(&self) -> Weight {
         let volume: f64 = self.slabs.iter().map(Slab::volume).sum();
         let density = self.mass / volume;
-        let weighted = |slab: &Slab| slab.centre() * (slab.volume() / volume);
-        let centre: Vector3 = self.slabs.iter().map(weighted).sum();
+        let share = |slab: &Slab| slab.volume() / volume;
+        let shares: Vec<f64> = self.slabs.iter().map(share).collect();
+        let masses: Vec<f64> = self.slabs.iter().map(|slab| density * slab.volume()).collect();
+        self.weighing(self.mass, &shares, &masses)
+    }
+
+    /// Returns where its mass lies if its solids have these masses, kg: as one density has it where they
+    /// are of one.
+    pub fn weight_of(&self, masses: &[f64]) -> Weight {
+        let (mass, volume) =
+            (masses.iter().sum::<f64>(), self.slabs.iter().map(Slab::volume).sum::<f64>());
+        let even = |(slab, own): (&Slab, &f64)| {
+            (own * volume - mass * slab.volume()).abs() <= EVEN * mass * volume
+        };
+        if self.slabs.iter().zip(masses).all(even) {
+            return self.weight();
+        }
+        let shares: Vec<f64> = masses.iter().map(|own| own / mass).collect();
+        self.weighing(mass, &shares, masses)
+    }
+
+    fn weighing(&self, mass: f64, shares: &[f64], masses: &[f64]) -> Weight {
+        let weighted = |(slab, share): (&Slab, &f64)| slab.centre() * *share;
+        let centre: Vector3 = self.slabs.iter().zip(shares).map(weighted).sum();
         let mut inertia = [0.0; 6];
-        for slab in &self.slabs {
+        for (slab, mass) in self.slabs.iter().zip(masses) {
             let (area, _, [xx, xy, yy]) = moments(&slab.corners);
-            let (mass, away) = (density * slab.volume(), slab.centre() - centre);
+            let away = slab.centre() - centre;
             // Mean squares about the slab's own middle, then about the plate's.
             let x = xx / area + away.x * away.x;
             let y = yy / area + away.y * away.y;
@@ -48,7 +73,7 @@ impl Plate {
             let own = [y + z, x + z, x + y, -product, -away.x * away.z, -away.y * away.z];
             inertia.iter_mut().zip(own).for_each(|(sum, own)| *sum += mass * own);
         }
-        Weight { mass: self.mass, centre, inertia }
+        Weight { mass, centre, inertia }
     }
 
     /// The plate of these solids, moved so that the frame lies below their centre of mass while

@@ -6,7 +6,9 @@
 //! says. Whatever is planned or judged, is so elsewhere.
 
 mod fresh;
+mod place;
 mod play;
+mod scenery;
 mod simulator;
 mod solids;
 mod world;

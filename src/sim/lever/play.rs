@@ -1,17 +1,22 @@
 //! Plays motions in space one after another in one world: a lever-up's turn, wait and way back, and
 //! pushes, each until everything rests.
 
+use std::sync::Arc;
+
 use crate::geometry::{Pose, Pose3, Vector};
 use crate::watch::Watch;
 use crate::{
     outcome::{
-        Ending, Force, Frame, LEVER_FRAMES, LeverFrame, LeverRecord, LeverTrajectory, LeverWarning,
-        Lift, Trajectory, Warning, has_slipped,
+        Ending, Frame, LEVER_FRAMES, LeverFrame, LeverRecord, LeverTrajectory, LeverWarning, Lift,
+        Trajectory, Warning, has_slipped,
     },
-    scene::{Blade, GRAVITY, LeverScene, REST_SPEED, State},
+    scene::{Blade, GRAVITY, LeverScene, Plate, REST_SPEED, State},
     task::{LeverJob, LeverUp, Motion, Stroke, ToolMotion, lever_frame},
 };
 
+use super::super::spatial::TOPPLED;
+use super::super::strain::Strain;
+use super::scenery::Scenery;
 use super::world::LeverWorld;
 
 /// More force on the blade than this, beyond twice the plates' weight, is a jam, newtons. Lifting
@@ -34,35 +39,21 @@ pub(super) enum Watcher<'a> {
     Filmer { frames: &'a mut Vec<Frame>, interval: f64 },
 }
 
-/// What is played: the scene as it really is and as the motions were planned in it, and where the
-/// objects really are.
-pub(super) struct Scenery<'a> {
-    pub really: &'a LeverScene,
-    pub planned: &'a LeverScene,
-    pub starts: Vec<Pose3>,
-}
-
-impl<'a> Scenery<'a> {
-    /// With the objects where the scene has them.
-    pub fn stated(really: &'a LeverScene, planned: &'a LeverScene) -> Self {
-        Self { really, planned, starts: really.plates.iter().map(|plate| plate.start()).collect() }
-    }
-}
-
-/// Plays `job` in steps of at most `longest` seconds, the blade going where it would in the scene
-/// as `planned`.
+/// Plays the lever-up of a job of a data set in steps of at most `longest` seconds.
 pub(super) fn play(
     job: &LeverJob,
     planned: &LeverScene,
     longest: f64,
     watcher: &mut Watcher,
 ) -> LeverTrajectory {
-    let scenery = Scenery::stated(&job.scene, planned);
-    let mut game = Game::new(&scenery, Some(&job.lever), longest, watcher);
+    let planned_plates = planned.plates.clone();
+    let scenery = Arc::new(Scenery { planned: planned_plates, ..Scenery::of_job(job) });
+    let (plate, blades) = (job.lever.plate, [job.scene.blade, planned.blade]);
+    let mut game = Game::new(&scenery, Some((&job.lever, blades)), longest, watcher);
     let (lift, held) = game.lever(&job.lever);
-    let rest = game.last[job.lever.plate];
+    let rest = game.last[plate];
     let mut warnings = Vec::new();
-    if has_slipped(&scenery.starts[job.lever.plate], &lift, &held) {
+    if has_slipped(&scenery.starts[plate], &lift, &held) {
         warnings.push(LeverWarning::Slipped);
     }
     warnings.extend(game.trouble.as_ref().and_then(|trouble| match trouble {
@@ -76,14 +67,16 @@ pub(super) fn play(
 /// Plays motions one after another, each lever-up where it was planned; what `trajectory` gets is
 /// everything but its frames, which are the watcher's, and how all ends.
 pub(super) fn play_all(
-    scenery: &Scenery,
+    scenery: &Arc<Scenery>,
     motions: &[Motion],
     longest: f64,
     watcher: &mut Watcher,
     (trajectory, watch): (&mut Trajectory, &dyn Watch),
 ) -> State {
     let first = motions.first().and_then(|motion| match motion {
-        Motion::Lever(motion) => Some(&motion.lever),
+        Motion::Lever(motion) => {
+            Some((&motion.lever, [motion.tool().blade().unwrap_or_default(); 2]))
+        }
         Motion::Slide(_) => None,
     });
     let mut game = Game::new(scenery, first, longest, watcher);
@@ -104,7 +97,8 @@ pub(super) fn play_all(
                     game.take_up(&own, &motion.lever, motion.expected);
                 }
                 let (lift, held) = game.lever(&motion.lever);
-                let lift = lifted(scenery.really, &motion.lever, &before, (&lift, &held));
+                let plate = &scenery.plates[motion.lever.plate];
+                let lift = lifted(plate, &motion.lever, &before, (&lift, &held));
                 trajectory.lifts.push(lift.0);
                 trajectory.warnings.extend(lift.1);
                 game.world.lay_aside();
@@ -112,18 +106,19 @@ pub(super) fn play_all(
         }
     }
     trajectory.warnings.extend(game.trouble.take());
-    trajectory.force = Some(game.force);
-    State::in_space(game.last.clone())
+    game.judge_end(motions, trajectory);
+    trajectory.force = Some(game.strain.force());
+    game.state()
 }
 
 /// What a lever-up came to.
 fn lifted(
-    scene: &LeverScene,
+    plate: &Plate,
     lever: &LeverUp,
     before: &[Pose3],
     (lift, held): (&[Pose3], &[bool]),
 ) -> (Lift, Option<Warning>) {
-    let (plate, start) = (&scene.plates[lever.plate], &before[lever.plate]);
+    let start = &before[lever.plate];
     let at = lever_frame(plate.corners(), lever.place).position;
     let end = lift.last().copied().unwrap_or(*start);
     let slipped = has_slipped(start, lift, held);
@@ -139,15 +134,15 @@ fn lifted(
 /// A blade on its way.
 struct Levering {
     lever: LeverUp,
-    /// The scene in which it is planned.
-    planned: LeverScene,
+    /// Its object where the lever-up was planned, and the blade.
+    planned: (Plate, Blade),
     /// When it began, seconds.
     began: f64,
 }
 
 /// Motions on their way.
 struct Game<'a, 'b> {
-    scenery: &'a Scenery<'a>,
+    scenery: Arc<Scenery>,
     world: LeverWorld,
     longest: f64,
     time: f64,
@@ -164,33 +159,36 @@ struct Game<'a, 'b> {
     /// For how many steps the force has been that of a jam.
     strained: usize,
     most: f64,
-    /// Forces of the last steps, and the largest so far.
-    recent: [f64; LASTING],
-    force: Force,
+    strain: Strain,
     /// The last poses that were finite.
     last: Vec<Pose3>,
     watcher: &'a mut Watcher<'b>,
 }
 
 impl<'a, 'b> Game<'a, 'b> {
+    /// Everything at the start; the blade of a first lever-up is there as it really is and as planned.
     fn new(
-        scenery: &'a Scenery<'a>,
-        first: Option<&LeverUp>,
+        scenery: &Arc<Scenery>,
+        first: Option<(&LeverUp, [Blade; 2])>,
         longest: f64,
         watcher: &'a mut Watcher<'b>,
     ) -> Self {
-        let Scenery { really, planned, starts } = scenery;
-        let mass: f64 = really.plates.iter().map(|plate| plate.mass).sum();
+        let plates = &scenery.plates;
+        let mass: f64 = plates.iter().map(|plate| plate.mass).sum();
         let origin = match first {
-            Some(lever) => really.plates[lever.plate].pose.position,
-            None => really.plates.first().map_or(Vector::zeros(), |plate| plate.pose.position),
+            Some((lever, _)) => plates[lever.plate].pose.position,
+            None => plates.first().map_or(Vector::zeros(), |plate| plate.pose.position),
         };
-        let levering =
-            first.map(|lever| Levering { lever: *lever, planned: (*planned).clone(), began: 0.0 });
-        let blade = first.map(|lever| lever.blade(planned, 0.0));
+        let blade = first.map(|(lever, [real, own])| {
+            (real, lever.blade_on(&scenery.planned[lever.plate], &own, 0.0))
+        });
+        let levering = first.map(|(lever, [_, own])| {
+            let planned = (scenery.planned[lever.plate].clone(), own);
+            Levering { lever: *lever, planned, began: 0.0 }
+        });
+        let there = blade.as_ref().map(|(blade, at)| (blade, at));
         let mut game = Self {
-            scenery,
-            world: LeverWorld::new(really, (origin, starts), blade.as_ref(), longest),
+            world: LeverWorld::new(scenery, origin, there, longest),
             longest,
             time: 0.0,
             levering,
@@ -200,9 +198,9 @@ impl<'a, 'b> Game<'a, 'b> {
             trouble: None,
             strained: 0,
             most: JAM + 2.0 * mass * GRAVITY,
-            recent: [0.0; LASTING],
-            force: Force::default(),
-            last: starts.clone(),
+            strain: Strain::new(&scenery.scene, false),
+            last: scenery.starts.clone(),
+            scenery: Arc::clone(scenery),
             watcher,
         };
         game.show();
@@ -211,18 +209,41 @@ impl<'a, 'b> Game<'a, 'b> {
 
     /// Takes up a blade for a lever-up that comes after other motions.
     fn take_up(&mut self, blade: &Blade, lever: &LeverUp, expected: Option<Pose>) {
-        let Scenery { really, planned, .. } = self.scenery;
-        let mut planned = (*planned).clone();
-        // Disturbed frictions are those of one world.
-        let factor = really.blade.friction / planned.blade.friction;
-        let factor = if factor.is_finite() { factor } else { 1.0 };
-        planned.blade = *blade;
+        let mut planned = self.scenery.planned[lever.plate].clone();
         if let Some(expected) = expected {
-            planned.plates[lever.plate].pose = expected;
+            planned.pose = expected;
         }
-        let real = Blade { friction: blade.friction * factor, ..*blade };
-        self.world.take_up(&real, &lever.blade(&planned, 0.0));
-        self.levering = Some(Levering { lever: *lever, planned, began: self.time });
+        self.world.take_up(blade, &lever.blade_on(&planned, blade, 0.0));
+        self.levering =
+            Some(Levering { lever: *lever, planned: (planned, *blade), began: self.time });
+    }
+
+    /// The state of the whole scene.
+    fn state(&self) -> State {
+        self.scenery.scene.resting_in_space(self.last.clone())
+    }
+
+    /// Warns of what fell, of what was pressed too hard and of what hangs over the end of the table.
+    fn judge_end(&self, motions: &[Motion], trajectory: &mut Trajectory) {
+        let (scene, state) = (&self.scenery.scene, self.state());
+        let levered = |k: usize| {
+            motions.iter().any(|one| matches!(one, Motion::Lever(one) if one.lever.plate == k))
+        };
+        let starts = &self.scenery.starts;
+        let leans = |k: &usize| {
+            let (before, now) = (starts[*k].tilt(), self.last[*k].tilt());
+            !levered(*k) && before <= TOPPLED && now > TOPPLED
+        };
+        let toppled: Vec<usize> = scene.things().map(|(k, _)| k).filter(leans).collect();
+        let name = |k: usize| scene.objects[k].name.clone();
+        let fell = toppled.iter().filter(|k| !scene.objects[**k].may_fall);
+        let warnings = &mut trajectory.warnings;
+        warnings.extend(fell.map(|k| Warning::Toppled { object: name(*k) }));
+        warnings.extend(scene.fallen(&state, &toppled));
+        warnings.extend(self.strain.too_hard(scene));
+        let hangs = |k: &usize| scene.has_left(*k, &state) && !self.world.has_fallen(*k);
+        let hanging = scene.things().map(|(k, _)| k).filter(hangs);
+        warnings.extend(hanging.map(|k| Warning::Hangs { object: name(k) }));
     }
 
     /// Plays a lever-up: where its plate is at the end of each frame of the turn, and whether it lies
@@ -292,7 +313,7 @@ impl<'a, 'b> Game<'a, 'b> {
                 return;
             }
             if !down && let Some(met) = self.world.set_down(motion, &stroke.from) {
-                let object = self.scenery.really.plates[met].name.clone();
+                let object = self.scenery.plates[met].name.clone();
                 self.trouble = Some(Warning::SetDownOn { object, stroke: self.stroke });
                 return;
             }
@@ -313,8 +334,8 @@ impl<'a, 'b> Game<'a, 'b> {
 
     /// The blade's centre at a time, if there is a blade.
     fn blade(&self, time: f64) -> Option<Pose3> {
-        let Levering { lever, planned, began } = self.levering.as_ref()?;
-        Some(lever.blade(planned, time - began))
+        let Levering { lever, planned: (plate, blade), began } = self.levering.as_ref()?;
+        Some(lever.blade_on(plate, blade, time - began))
     }
 
     fn step(&mut self, to: f64) {
@@ -322,19 +343,19 @@ impl<'a, 'b> Game<'a, 'b> {
         self.world.step(blade.as_ref());
         self.time = to;
         let found = self.world.plates();
-        let force = self.world.force_on_blade().max(self.world.force_on_tool());
+        let force = self.world.force_on_tool(&|_| true);
         self.strained = if force > self.most { self.strained + 1 } else { 0 };
         let is_finite = force.is_finite() && found.iter().all(Pose3::is_finite);
         if is_finite {
             self.last = found;
-            self.recent.rotate_left(1);
-            self.recent[LASTING - 1] = force;
-            let lasting = self.recent.iter().copied().fold(f64::INFINITY, f64::min);
-            self.force.peak = self.force.peak.max(force);
-            self.force.lasting = self.force.lasting.max(lasting);
+            self.strain.press(|of| self.world.force_on_tool(of));
         }
         if !is_finite || self.strained >= LASTING {
             self.trouble = Some(Warning::Strained);
+        }
+        let scene = &self.scenery.scene;
+        if self.trouble.is_none() && (scene.table_top.is_some() || !scene.keep_out.is_empty()) {
+            self.trouble = scene.strays(&self.state(), 0.0);
         }
         let late =
             |last: Option<f64>, interval: f64| last.is_none_or(|last| to - last > interval - 1e-9);
@@ -358,7 +379,7 @@ impl<'a, 'b> Game<'a, 'b> {
         match self.watcher {
             Watcher::Recorder { record, .. } => {
                 if record.frames.last().is_none_or(|last| last.time < time) {
-                    let force = self.world.force_on_blade();
+                    let force = self.world.force_on_tool(&|_| true);
                     let (blade, plates) = (blade.unwrap_or_default(), self.last.clone());
                     record.frames.push(LeverFrame { time, blade, plates, force });
                 }
@@ -374,7 +395,7 @@ impl<'a, 'b> Game<'a, 'b> {
                         (None, Some(blade)) => blade.from_above(),
                         (None, None) => self.tool,
                     };
-                    let state = State::in_space(self.last.clone());
+                    let state = self.scenery.scene.resting_in_space(self.last.clone());
                     frames.push(Frame { time, stroke: self.stroke, tool, state, blade });
                 }
             }

@@ -1,16 +1,18 @@
 //! The engine with its step, playing lever-ups.
 
 use std::num::NonZeroU16;
+use std::sync::Arc;
 
 use crate::geometry::Pose;
 use crate::watch::Watch;
 use crate::{
     outcome::{Frame, LeverRecord, LeverTrajectory, Record, Trajectory},
-    scene::{Engine, LeverScene, ModelKind, ModelSpec, Rate, State},
+    scene::{Engine, LeverScene, ModelKind, ModelSpec, Rate, Scene, Situation},
     task::{LeverJob, Motion},
 };
 
-use super::play::{Scenery, Watcher, play, play_all};
+use super::play::{Watcher, play, play_all};
+use super::scenery::Scenery;
 
 /// Between two frames that are recorded, seconds.
 const FRAME: f64 = 0.02;
@@ -56,20 +58,17 @@ impl LeverSimulator {
         (trajectory, record)
     }
 
-    /// Plays motions one after another in one world, from where the objects of `really` stand or, if
-    /// it is given, from a state in space, until everything rests. The motions go where they would
-    /// in the scene as `planned`, where the objects were expected.
+    /// Plays motions one after another in one world, from the situation as it `really` is, until
+    /// everything rests. The motions go where they would in the scene as `planned`, where the objects
+    /// were expected.
     pub fn run_all(
         &self,
-        (really, planned): (&LeverScene, &LeverScene),
-        start: Option<&State>,
+        really: &Situation,
+        planned: &Scene,
         motions: &[Motion],
         (record, watch): (Record, &dyn Watch),
     ) -> Trajectory {
-        let mut scenery = Scenery::stated(really, planned);
-        if let Some(space) = start.and_then(|start| start.space.as_ref()) {
-            scenery.starts.clone_from(space);
-        }
+        let scenery = Arc::new(Scenery::new(really, planned));
         let mut trajectory = Trajectory::new(self.spec());
         let (mut frames, step) = (Vec::new(), self.rate.step());
         let mut watcher = match record {

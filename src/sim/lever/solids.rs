@@ -4,9 +4,9 @@ use rapier3d_f64::math::Matrix;
 use rapier3d_f64::prelude::{ColliderBuilder, MassProperties, Pose3, Rotation, Vector};
 
 use crate::geometry::Vector as Planar;
-use crate::scene::{Blade, Plate, Slab};
+use crate::scene::{Blade, Slab, Weight};
 
-use super::super::solids::{cut, prism, rubbing};
+use super::super::solids::{CLEAR, FOOT as SUPPORT, TABLE_DEPTH, Top, cut, prism, rubbing};
 
 /// Half the width of the table, metres, and half its thickness.
 const TABLE: (f64, f64) = (2.0, 0.25);
@@ -19,7 +19,10 @@ const MANY: usize = 12;
 
 /// The table with its top at z = 0. On a half-space parry looks at four corners of a face, which
 /// need not be those that carry.
-pub(super) fn table(friction: f64) -> ColliderBuilder {
+pub(super) fn table(friction: f64, top: Option<Top>) -> ColliderBuilder {
+    if let Some((pose, [x, y])) = top {
+        return cuboid([x, y, TABLE_DEPTH], friction).position(pose);
+    }
     let (half, depth) = TABLE;
     rubbing(ColliderBuilder::cuboid(half, half, depth), friction)
         .translation(Vector::new(0.0, 0.0, -depth))
@@ -36,15 +39,8 @@ pub(super) fn cuboid(size: [f64; 3], friction: f64) -> ColliderBuilder {
     rubbing(ColliderBuilder::cuboid(x, y, z), friction)
 }
 
-/// The solids of a plate in its frame, feet included; without mass.
-pub(super) fn parts(plate: &Plate) -> Vec<ColliderBuilder> {
-    let slabs = plate.slabs.iter().flat_map(|slab| slab_parts(slab, plate.friction));
-    slabs.chain(feet(plate)).map(|part| part.density(0.0)).collect()
-}
-
 /// Mass and inertia of a plate in its frame.
-pub(super) fn weight(plate: &Plate) -> MassProperties {
-    let weight = plate.weight();
+pub(super) fn weight(weight: &Weight) -> MassProperties {
     let [xx, yy, zz, xy, xz, yz] = weight.inertia;
     let inertia = Matrix::from_cols(
         Vector::new(xx, xy, xz),
@@ -55,7 +51,8 @@ pub(super) fn weight(plate: &Plate) -> MassProperties {
     MassProperties::with_inertia_matrix(Vector::new(x, y, z), weight.mass, inertia)
 }
 
-fn slab_parts(slab: &Slab, friction: f64) -> Vec<ColliderBuilder> {
+/// The solids of a slab in the frame of its plate.
+pub(super) fn slab_parts(slab: &Slab, friction: f64) -> Vec<ColliderBuilder> {
     let middle = slab.bottom + 0.5 * slab.height;
     if let Some((centre, turn, [x, y])) = slab.rectangle() {
         let at = Vector::new(centre.x, centre.y, middle);
@@ -80,17 +77,19 @@ fn kites(corners: &[Planar]) -> Vec<Vec<Planar>> {
     (0..count).step_by(2).map(kite).collect()
 }
 
-/// Balls at the corners of a plate that stands on them, in its frame.
-fn feet(plate: &Plate) -> Vec<ColliderBuilder> {
-    let height = if plate.has_feet() { plate.z } else { 0.0 };
-    // A plate that lies on the table has none.
-    if height <= 0.0 {
-        return Vec::new();
-    }
-    let radius = FOOT.min(0.5 * height);
-    let foot = |corner: &Planar| {
-        let at = Vector::new(corner.x, corner.y, radius - height);
-        rubbing(ColliderBuilder::ball(radius), plate.friction).translation(at)
+/// Balls on which a plate stands at these points of its frame, `height` metres below it. What lies on the
+/// table stands on a stated support all the same, see [`clear`].
+pub(super) fn feet(points: &[Planar], height: f64, friction: f64) -> Vec<ColliderBuilder> {
+    let radius = if height > 0.0 { FOOT.min(0.5 * height) } else { SUPPORT };
+    let foot = |at: &Planar| {
+        let at = Vector::new(at.x, at.y, radius - height);
+        rubbing(ColliderBuilder::ball(radius), friction).translation(at)
     };
-    plate.corners().iter().map(foot).collect()
+    points.iter().map(foot).collect()
+}
+
+/// The slab without what lies just above the table.
+pub(super) fn clear(slab: &Slab) -> Slab {
+    let Slab { corners, bottom, height } = slab.clone();
+    Slab { corners, bottom: bottom + CLEAR, height: height - CLEAR }
 }

@@ -1,24 +1,39 @@
-//! A lever scene in rapier.
+//! A scene in space in rapier.
+
+use std::sync::Arc;
 
 use rapier3d_f64::parry::query::contact;
 use rapier3d_f64::prelude::{
-    Collider, ColliderHandle, ContactPair, FrictionModel, MassProperties, PhysicsWorld,
-    Pose3 as RapierPose, RigidBodyBuilder, RigidBodyHandle, Rotation, SpringCoefficients,
-    Vector as RapierVector,
+    ActiveHooks, Collider, ColliderBuilder, ColliderHandle, ContactPair, FrictionModel,
+    MassProperties, PhysicsWorld, Pose3 as RapierPose, RigidBodyBuilder, RigidBodyHandle,
+    SpringCoefficients, Vector as RapierVector,
 };
 
-use crate::geometry::{Pose, Pose3, Vector, Vector3};
+use crate::geometry::{Pose, Pose3, Vector};
 use crate::{
-    scene::{Blade, GRAVITY, LeverScene, TOUCHING},
+    scene::{Blade, Body, GRAVITY, TOUCHING},
     task::{Stroke, ToolMotion},
 };
 
-use super::super::parameters::ALLOWED_ERROR;
+use super::super::parameters::{
+    ALLOWED_ERROR, ARTICULATED_ITERATIONS, STIFF_CONTACT, is_articulated,
+};
+use super::super::seams::Seams;
 use super::super::solids::solid;
 use super::super::solved::solved;
+use super::super::spatial::joints::{Anchored, add_joints};
+use super::super::spatial::place::brink;
 use super::super::strain::force;
 use super::fresh::fresh_contacts;
+use super::place::{from_rapier, in_one_hemisphere, to_rapier};
+use super::scenery::Scenery;
 use super::solids;
+
+/// The `user_data` of the table, which no label names.
+const TABLE: u128 = u128::MAX;
+
+/// What has come so far below where it stood has left the table, metres.
+const FALLEN: f64 = 0.1;
 
 /// A plate this near to the blade lies on it, metres; contacts flicker by less.
 const NEAR: f64 = 5e-4;
@@ -30,9 +45,13 @@ const NEAR: f64 = 5e-4;
 /// springs throw boards that stand on edge in a drive.
 const CONTACT: (f64, f64) = (100.0, 5.0);
 
-/// Plates, blocks, table and blade.
+/// Objects, obstacles, table and blade.
 pub(super) struct LeverWorld {
     world: PhysicsWorld,
+    scenery: Arc<Scenery>,
+    /// What the `user_data` of a collider stands for.
+    labels: Vec<Body>,
+    seams: Seams,
     /// Where rapier's origin lies on the table: a scene far from the world's loses no digits.
     origin: Vector,
     /// What levers, with its solid: laid aside it stays where it is and meets nothing.
@@ -45,14 +64,15 @@ pub(super) struct LeverWorld {
 }
 
 impl LeverWorld {
-    /// Everything at the start about `origin`, plates where `starts` has them, and the centre of the
-    /// scene's blade at `blade`, if it is there from the beginning; steps last `step` seconds.
+    /// Everything at the start about `origin`, with a blade whose centre is at a pose, if one is there from
+    /// the beginning; steps last `step` seconds.
     pub fn new(
-        scene: &LeverScene,
-        (origin, starts): (Vector, &[Pose3]),
-        blade: Option<&Pose3>,
+        scenery: &Arc<Scenery>,
+        origin: Vector,
+        blade: Option<(&Blade, &Pose3)>,
         step: f64,
     ) -> Self {
+        let (scene, physics) = (&*scenery.scene, &*scenery.physics);
         let mut world = PhysicsWorld {
             gravity: RapierVector::Z * -GRAVITY,
             narrow_phase: fresh_contacts(),
@@ -63,23 +83,60 @@ impl LeverWorld {
         // The simplified model makes other plates flip.
         settings.friction_model = FrictionModel::Coulomb;
         settings.normalized_allowed_linear_error = ALLOWED_ERROR;
-        let (frequency, damping) = CONTACT;
+        let articulated = is_articulated(scene, physics);
+        if articulated {
+            settings.num_solver_iterations = ARTICULATED_ITERATIONS;
+        }
+        let (frequency, damping) = if articulated { STIFF_CONTACT } else { CONTACT };
         settings.contact_softness = SpringCoefficients::new(frequency, damping);
-        world.insert_collider(solids::table(scene.table_friction), None);
+        let frame = Pose { position: origin, heading: 0.0 };
+        let table = solids::table(physics.table_friction, brink(scene, &frame));
+        world.insert_collider(table.user_data(TABLE), None);
         let mut this = Self {
             world,
+            scenery: Arc::clone(scenery),
+            labels: Vec::new(),
+            seams: Seams::default(),
             origin,
             blade: None,
             tool: None,
             plates: Vec::new(),
             reaches: Vec::new(),
         };
-        if let Some(at) = blade {
-            this.take_up(&scene.blade, at);
+        if let Some((blade, at)) = blade {
+            this.take_up(blade, at);
         }
-        this.add_plates(scene, starts);
-        this.add_blocks(scene);
+        this.add_plates();
+        this.add_obstacles();
+        this.join(&frame);
+        this.rub();
         this
+    }
+
+    /// Lets pairs rub as is stated of them.
+    fn rub(&mut self) {
+        let pairs = &self.scenery.physics.pairs;
+        if pairs.is_empty() {
+            return;
+        }
+        let mut asking = self.seams.rub(&self.labels, pairs);
+        asking.extend(self.seams.rub_table(&self.labels, pairs, TABLE));
+        for (_, collider) in self.world.colliders.iter_mut() {
+            if asking.iter().any(|label| collider.user_data == *label as u128) {
+                collider.set_active_hooks(ActiveHooks::MODIFY_SOLVER_CONTACTS);
+            }
+        }
+    }
+
+    fn insert(
+        &mut self,
+        collider: ColliderBuilder,
+        label: Body,
+        body: Option<RigidBodyHandle>,
+    ) -> ColliderHandle {
+        let collider = collider.user_data(self.labels.len() as u128);
+        self.labels.push(label);
+        self.world.insert_collider(collider, body)
     }
 
     /// Lets steps last so long from now on, seconds.
@@ -95,7 +152,27 @@ impl LeverWorld {
             target.rotation = in_one_hemisphere(*body.rotation(), target.rotation);
             body.set_next_kinematic_position(target);
         }
-        self.world.step();
+        self.world.step_with_events(&self.seams, &());
+        if self.scenery.scene.brink().is_some() {
+            self.leave_fallen();
+        }
+    }
+
+    /// Takes out what has fallen off the table: it stays where it is.
+    fn leave_fallen(&mut self) {
+        for (handle, start) in self.plates.iter().zip(&self.scenery.starts) {
+            let body = &mut self.world.bodies[*handle];
+            if body.is_enabled() && body.translation().z < start.position.z - FALLEN {
+                body.set_linvel(RapierVector::ZERO, false);
+                body.set_angvel(RapierVector::ZERO, false);
+                body.set_enabled(false);
+            }
+        }
+    }
+
+    /// Whether an object has fallen off a table that ends.
+    pub fn has_fallen(&self, index: usize) -> bool {
+        !self.world.bodies[self.plates[index]].is_enabled()
     }
 
     /// Takes up a blade with its centre at `at`, in place of the one before.
@@ -103,8 +180,9 @@ impl LeverWorld {
         let at = to_rapier(at, self.origin);
         let body = RigidBodyBuilder::kinematic_position_based().pose(at).can_sleep(false);
         let body = self.world.insert_body(body);
-        let solid = self.world.insert_collider(solids::blade(blade), Some(body));
+        let solid = self.insert(solids::blade(blade), Body::Part(0), Some(body));
         self.blade = Some((body, solid));
+        self.rub();
     }
 
     /// Lays the blade aside, where it meets nothing any more.
@@ -127,12 +205,13 @@ impl LeverWorld {
         let mass = MassProperties::new(RapierVector::ZERO, 1.0, RapierVector::ONE);
         let tool = self.world.insert_body(body.additional_mass_properties(mass));
         self.tool = Some(tool);
-        for part in motion.tool.outline() {
+        for (k, part) in motion.tool.outline().iter().enumerate() {
             let middle = Pose3::upright(part.pose, part.shape.height() / 2.0);
             let placed = to_rapier(&middle, Vector::zeros());
             let part = solid(&part.shape, placed, motion.tool.friction).density(0.0);
-            self.world.insert_collider(part, Some(tool));
+            self.insert(part, Body::Part(k), Some(tool));
         }
+        self.rub();
         let down = |handle: &ColliderHandle| {
             let part = &self.world.colliders[*handle];
             let part = (pose * *part.position_wrt_parent().unwrap_or(&RapierPose::IDENTITY), part);
@@ -196,16 +275,18 @@ impl LeverWorld {
         self.on_blade().any(|(other, _, pair)| other == plate && touches(pair))
     }
 
-    /// Force of the plates on the blade during the last step, newtons.
-    pub fn force_on_blade(&self) -> f64 {
-        self.force(self.on_blade())
-    }
-
-    /// Force of the plates on the tool that is down during the last step, newtons.
-    pub fn force_on_tool(&self) -> f64 {
-        let Some(tool) = self.tool else { return 0.0 };
+    /// Force on the blade, or on the tool that is down, of the plates that `of` holds of, during the last
+    /// step, newtons.
+    pub fn force_on_tool(&self, of: &dyn Fn(usize) -> bool) -> f64 {
+        let is_of = |(body, ..): &(RigidBodyHandle, f64, &ContactPair)| {
+            let plate = self.plates.iter().position(|plate| plate == body);
+            plate.is_none_or(of)
+        };
+        let blade = self.force(self.on_blade().filter(is_of));
+        let Some(tool) = self.tool else { return blade };
         let parts = self.world.bodies[tool].colliders();
-        self.force(parts.iter().flat_map(|part| self.on(*part)))
+        let parts = parts.iter().flat_map(|part| self.on(*part));
+        blade.max(self.force(parts.filter(is_of)))
     }
 
     /// Sum of the contact forces of the last step, newtons.
@@ -243,15 +324,27 @@ impl LeverWorld {
         })
     }
 
-    fn add_plates(&mut self, scene: &LeverScene, starts: &[Pose3]) {
-        for (plate, start) in scene.plates.iter().zip(starts) {
+    fn add_plates(&mut self) {
+        let scenery = Arc::clone(&self.scenery);
+        for (k, (plate, start)) in scenery.plates.iter().zip(&scenery.starts).enumerate() {
             let body = RigidBodyBuilder::dynamic()
                 .pose(to_rapier(start, self.origin))
-                .additional_mass_properties(solids::weight(plate))
+                .additional_mass_properties(solids::weight(&scenery.weight(k)))
                 .can_sleep(false);
             let handle = self.world.insert_body(body);
-            for part in solids::parts(plate) {
-                self.world.insert_collider(part, Some(handle));
+            let (feet, height) =
+                (scenery.stands_on(k), if plate.has_feet() { plate.z } else { 0.0 });
+            for (s, slab) in plate.slabs.iter().enumerate() {
+                let (label, friction) = scenery.surface(k, s);
+                let hangs = feet.is_some() && height == 0.0 && slab.bottom == 0.0;
+                let slab = if hangs { &solids::clear(slab) } else { slab };
+                for part in solids::slab_parts(slab, friction) {
+                    self.insert(part.density(0.0), label, Some(handle));
+                }
+            }
+            let (label, friction) = scenery.surface(k, 0);
+            for foot in solids::feet(feet.as_deref().unwrap_or_default(), height, friction) {
+                self.insert(foot.density(0.0), label, Some(handle));
             }
             self.plates.push(handle);
             let far = plate.slabs.iter().flat_map(|slab| &slab.corners).map(|corner| corner.norm());
@@ -259,43 +352,25 @@ impl LeverWorld {
         }
     }
 
-    fn add_blocks(&mut self, scene: &LeverScene) {
-        for block in &scene.blocks {
-            let middle = Pose3::upright(block.pose, block.z + 0.5 * block.size[2]);
-            let collider = solids::cuboid(block.size, block.friction);
-            self.world.insert_collider(collider.position(to_rapier(&middle, self.origin)), None);
+    fn add_obstacles(&mut self) {
+        let scene = Arc::clone(&self.scenery.scene);
+        for (k, obstacle) in scene.obstacles.iter().enumerate() {
+            let middle = Pose3::upright(obstacle.pose, obstacle.z + 0.5 * obstacle.size[2]);
+            let collider = solids::cuboid(obstacle.size, obstacle.friction);
+            let collider = collider.position(to_rapier(&middle, self.origin));
+            self.insert(collider, Body::Obstacle(k), None);
         }
     }
-}
 
-/// The same turn, written with the sign that lies nearer to `last`: between opposite signs rapier
-/// sees a full turn within a step, which throws the plate off at tens of metres a second.
-fn in_one_hemisphere(last: Rotation, next: Rotation) -> Rotation {
-    if last.dot(next) < 0.0 { -next } else { next }
-}
-
-fn to_rapier(pose: &Pose3, origin: Vector) -> RapierPose {
-    let ([x, y, z], [i, j, k, w]) = (pose.position.into(), pose.quaternion());
-    let position = RapierVector::new(x - origin.x, y - origin.y, z);
-    RapierPose::from_parts(position, Rotation::from_xyzw(i, j, k, w))
-}
-
-fn from_rapier(pose: &RapierPose, origin: Vector) -> Pose3 {
-    let (p, q) = (pose.translation, pose.rotation);
-    let position = Vector3::new(p.x + origin.x, p.y + origin.y, p.z);
-    Pose3::from_quaternion(position, q.to_array())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn turns_keep_their_sign() {
-        let turn = Rotation::from_rotation_y(0.3);
-        let next = Rotation::from_rotation_y(0.31);
-        assert_eq!(in_one_hemisphere(turn, -next), next);
-        assert_eq!(in_one_hemisphere(turn, next), next);
-        assert_eq!(in_one_hemisphere(-turn, next), -next);
+    /// Adds all joints of the scene; the frame is rapier's on the table.
+    fn join(&mut self, frame: &Pose) {
+        let (scene, physics) = (&self.scenery.scene, &self.scenery.physics);
+        let on = |k: usize| {
+            let thing = scene.thing(k);
+            let local = scene.objects[k].whole.map_or_else(Pose::default, |whole| whole.place);
+            Anchored { body: self.plates[thing], local, height: self.scenery.plates[thing].z }
+        };
+        let objects: Vec<Anchored> = (0..scene.objects.len()).map(on).collect();
+        add_joints(&mut self.world, scene, (&physics.joints, frame), &objects);
     }
 }

@@ -3,72 +3,92 @@
 use std::f64::consts::FRAC_PI_2;
 
 use rapier3d_f64::prelude::{
-    GenericJointBuilder, JointAxesMask, JointAxis, Pose3, RigidBodyBuilder, Rotation,
+    GenericJointBuilder, JointAxesMask, JointAxis, PhysicsWorld, Pose3, RigidBodyBuilder,
+    RigidBodyHandle, Rotation,
 };
 
 use crate::geometry::Pose;
-use crate::scene::{JointKind, Physics, Scene};
+use crate::scene::{Joint, JointKind, Scene};
 use crate::sim::stops::{within, zero};
 
-use super::{LOCAL, SpatialWorld, to_rapier};
+use super::place::{LOCAL, to_rapier};
 
-impl<const TIPS: bool> SpatialWorld<TIPS> {
-    pub(super) fn add_joints(&mut self, scene: &Scene, physics: &Physics) {
-        let form = |kind: &JointKind| match kind {
-            // Its objects are one body.
-            JointKind::Fixed => None,
-            JointKind::Prismatic { .. } => {
-                Some((JointAxesMask::LOCKED_PRISMATIC_AXES, JointAxis::LinX, Rotation::IDENTITY))
-            }
-            JointKind::Revolute { .. } => {
-                // rapier turns about the frame's x axis; this makes it the vertical.
-                let upright = Rotation::from_rotation_y(-FRAC_PI_2);
-                Some((JointAxesMask::LOCKED_REVOLUTE_AXES, JointAxis::AngX, upright))
-            }
-        };
-        for joint in &physics.joints {
-            let Some((axes, free, axis)) = form(&joint.kind) else { continue };
-            let frame = |object: usize, at: Pose| {
-                let (member, _) = &self.objects[object];
-                let below = -self.bodies[member.body].first_position.z;
-                let frame = to_rapier(&(member.local * at), &LOCAL, below);
-                Pose3::from_parts(frame.translation, frame.rotation * axis)
-            };
-            let ([first, second], [at_first, at_second]) =
-                (joint.between, joint.frames(&scene.objects));
-            let mut built = GenericJointBuilder::new(axes)
-                .local_frame1(frame(first, at_first * zero(&joint.kind)))
-                .local_frame2(frame(second, at_second));
-            // The frames coincide where the scene states its objects, so zero is there.
-            if let Some(limits) = within(&joint.kind) {
-                built = built.limits(free, limits);
-            }
-            let [first, second] =
-                [first, second].map(|object| self.bodies[self.objects[object].0.body].handle);
-            self.world.insert_impulse_joint(first, second, built);
+/// An object on its body.
+pub(in crate::sim) struct Anchored {
+    pub body: RigidBodyHandle,
+    /// The object's pose in the body's frame.
+    pub local: Pose,
+    /// Height of the body's frame above the table, metres.
+    pub height: f64,
+}
+
+impl Anchored {
+    /// Returns a frame of the object, on the table, in the frame of its body.
+    fn frame(&self, at: Pose, axis: Rotation) -> Pose3 {
+        turned(to_rapier(&(self.local * at), &LOCAL, -self.height), axis)
+    }
+}
+
+/// Adds all joints of a scene between the bodies of its objects, and to the world. Fixed joints inside one
+/// body hold already.
+pub(in crate::sim) fn add_joints(
+    world: &mut PhysicsWorld,
+    scene: &Scene,
+    (joints, frame): (&[Joint], &Pose),
+    objects: &[Anchored],
+) {
+    for joint in joints {
+        let [first, second] = joint.between.map(|object| &objects[object]);
+        if first.body == second.body {
+            continue;
         }
-        for mount in &scene.mounts {
-            let Some((axes, free, axis)) = form(&mount.kind) else { continue };
-            let (member, _) = &self.objects[mount.object];
-            let body = &self.bodies[member.body];
-            let turned = |frame: Pose3| Pose3::from_parts(frame.translation, frame.rotation * axis);
-            // It stands on the table all the same, and rubs.
-            let upwards = match mount.kind {
-                JointKind::Prismatic { .. } => JointAxesMask::LIN_Z,
-                _ => JointAxesMask::LIN_X,
-            };
-            let axes = axes.difference(upwards);
-            let [world, own] = mount.frames(&scene.objects);
-            let own = to_rapier(&(member.local * own), &LOCAL, -body.first_position.z);
-            let mut built = GenericJointBuilder::new(axes)
-                .local_frame1(turned(to_rapier(&(world * zero(&mount.kind)), &self.frame, 0.0)))
-                .local_frame2(turned(own));
-            if let Some(limits) = within(&mount.kind) {
-                built = built.limits(free, limits);
-            }
-            let handle = body.handle;
-            let fixed = self.world.insert_body(RigidBodyBuilder::fixed());
-            self.world.insert_impulse_joint(fixed, handle, built);
+        let (axes, free, axis) = form(&joint.kind);
+        let [at_first, at_second] = joint.frames(&scene.objects);
+        let mut built = GenericJointBuilder::new(axes)
+            .local_frame1(first.frame(at_first * zero(&joint.kind), axis))
+            .local_frame2(second.frame(at_second, axis));
+        // The frames coincide where the scene states its objects, so zero is there.
+        if let Some(limits) = within(&joint.kind) {
+            built = built.limits(free, limits);
+        }
+        world.insert_impulse_joint(first.body, second.body, built);
+    }
+    for mount in scene.mounts.iter().filter(|mount| mount.kind != JointKind::Fixed) {
+        let (axes, free, axis) = form(&mount.kind);
+        let object = &objects[mount.object];
+        // It stands on the table all the same, and rubs.
+        let upwards = match mount.kind {
+            JointKind::Prismatic { .. } => JointAxesMask::LIN_Z,
+            _ => JointAxesMask::LIN_X,
+        };
+        let [fixed, own] = mount.frames(&scene.objects);
+        let fixed = to_rapier(&(fixed * zero(&mount.kind)), frame, 0.0);
+        let mut built = GenericJointBuilder::new(axes.difference(upwards))
+            .local_frame1(turned(fixed, axis))
+            .local_frame2(object.frame(own, axis));
+        if let Some(limits) = within(&mount.kind) {
+            built = built.limits(free, limits);
+        }
+        let fixed = world.insert_body(RigidBodyBuilder::fixed());
+        world.insert_impulse_joint(fixed, object.body, built);
+    }
+}
+
+/// Returns the axes that a joint locks, the one that it leaves free, and the turn of its frame.
+fn form(kind: &JointKind) -> (JointAxesMask, JointAxis, Rotation) {
+    match kind {
+        JointKind::Fixed => (JointAxesMask::LOCKED_FIXED_AXES, JointAxis::LinX, Rotation::IDENTITY),
+        JointKind::Prismatic { .. } => {
+            (JointAxesMask::LOCKED_PRISMATIC_AXES, JointAxis::LinX, Rotation::IDENTITY)
+        }
+        JointKind::Revolute { .. } => {
+            // rapier turns about the frame's x axis; this makes it the vertical.
+            let upright = Rotation::from_rotation_y(-FRAC_PI_2);
+            (JointAxesMask::LOCKED_REVOLUTE_AXES, JointAxis::AngX, upright)
         }
     }
+}
+
+fn turned(frame: Pose3, axis: Rotation) -> Pose3 {
+    Pose3::from_parts(frame.translation, frame.rotation * axis)
 }

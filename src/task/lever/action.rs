@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Pose, Pose3, Vector, Vector3, perpendicular};
 
-use crate::scene::LeverScene;
+use crate::scene::{Blade, LeverScene, Plate};
 
 /// A place on a plate's outline.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -55,7 +55,11 @@ impl LeverUp {
 
     /// The lever frame in the world, from where the plate stands at the start.
     pub fn frame(&self, scene: &LeverScene) -> Pose3 {
-        let plate = &scene.plates[self.plate];
+        self.frame_on(&scene.plates[self.plate])
+    }
+
+    /// Returns the lever frame in the world on a plate that stands where it starts.
+    pub fn frame_on(&self, plate: &Plate) -> Pose3 {
         let local = lever_frame(plate.corners(), self.place);
         Pose3::upright(plate.pose * local, plate.z)
     }
@@ -73,10 +77,15 @@ impl LeverUp {
 
     /// Pose of the blade's centre in the world at `time` seconds from the start of the turn.
     pub fn blade(&self, scene: &LeverScene, time: f64) -> Pose3 {
+        self.blade_on(&scene.plates[self.plate], &scene.blade, time)
+    }
+
+    /// Returns the pose of the centre of `blade` at `time` seconds from the start of the turn, under a
+    /// plate that stands where it starts.
+    pub fn blade_on(&self, plate: &Plate, blade: &Blade, time: f64) -> Pose3 {
         let turn = self.turn_time();
         let angle = self.angle * (time / turn).clamp(0.0, 1.0);
         let back = ((time - turn - self.hold) * self.speed).clamp(0.0, self.retreat);
-        let blade = &scene.blade;
         let middle = Vector3::new(self.depth - 0.5 * blade.length, 0.0, -0.5 * blade.thickness);
         // Turned about +y, what lies before the axis goes up; behind it, the other way round.
         let signed = if self.pivot < 0.0 { -angle } else { angle };
@@ -84,7 +93,7 @@ impl LeverUp {
         let lying = Pose3 { position: middle, ..Pose3::default() };
         let mut turned = lying.turned_about(pivot, Vector3::y_axis(), signed);
         turned.position -= turned.rotation * Vector3::x() * back;
-        self.frame(scene) * turned
+        self.frame_on(plate) * turned
     }
 }
 

@@ -1,7 +1,9 @@
 //! Small errors under which the planner looks at its candidates; verification has its own.
 
-use crate::geometry::{Pose, Vector};
-use crate::scene::LeverScene;
+use std::sync::Arc;
+
+use crate::geometry::Vector;
+use crate::scene::Situation;
 
 /// Shift along each axis (metres), turn (radians) and relative change of frictions, in signs of
 /// which neighbours differ in two at least.
@@ -19,25 +21,21 @@ const SIGNS: [[f64; 4]; 8] = [
     [-1.0, 1.0, -1.0, 1.0],
 ];
 
-/// The scene as it may be instead, everything moved as one about the plate that is levered.
-pub(super) fn doubted(scene: &LeverScene, plate: usize, draw: usize) -> LeverScene {
+/// The situation as it may be instead, everything moved as one about the object that is levered, and the
+/// friction value of the blade.
+pub(super) fn doubted(
+    situation: &Situation,
+    plate: usize,
+    (blade, draw): (f64, usize),
+) -> (Situation, f64) {
     let [x, y, turn, friction] = SIGNS[draw % SIGNS.len()];
-    let about = scene.plates[plate].pose.position;
+    let about = situation.scene.objects[plate].pose.position;
     let shift = Vector::new(x * SHIFT, y * SHIFT);
-    let moved = |pose: &mut Pose| {
-        let arm = Pose { position: pose.position - about, ..*pose };
-        *pose = Pose { position: about + shift, heading: turn * TURN } * arm;
-    };
-    let mut scene = scene.clone();
+    let mut situation = situation.moved_as_one(about, shift, turn * TURN);
     let factor = 1.0 + friction * FRICTION;
-    for plate in &mut scene.plates {
-        moved(&mut plate.pose);
-        plate.friction *= factor;
-    }
-    for block in &mut scene.blocks {
-        moved(&mut block.pose);
-        block.friction *= factor;
-    }
-    scene.blade.friction *= factor;
-    scene
+    let scene = Arc::make_mut(&mut situation.scene);
+    scene.obstacles.iter_mut().for_each(|obstacle| obstacle.friction *= factor);
+    let physics = Arc::make_mut(&mut situation.physics);
+    physics.frictions.iter_mut().for_each(|own| *own *= factor);
+    (situation, blade * factor)
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::asset::ToolLibrary;
 use crate::geometry::Pose3;
 use crate::outcome::{Outcome, Record, Trajectory};
-use crate::scene::{LeverScene, Tool};
+use crate::scene::{Situation, Tool};
 use crate::sim::LeverSimulator;
 use crate::solve::SolveError;
 use crate::solve::attempts::Attempt;
@@ -83,9 +83,6 @@ fn simulated(
     tools: &[Arc<Tool>],
 ) -> Option<Trajectory> {
     let motions = plan.motions(tools)?;
-    let first = plan.lever_steps().next();
-    let blade = first.and_then(|step| tools.iter().find(|tool| tool.name == step.tool)?.blade());
-    let planned = LeverScene::new(&task.scene, blade.unwrap_or_default());
     let watched = (Record::Outcome, &Unwatched as _);
-    Some(engine.run_all((&planned, &planned), None, &motions, watched))
+    Some(engine.run_all(&Situation::stated(&task.scene), &task.scene, &motions, watched))
 }

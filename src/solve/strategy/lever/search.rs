@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::outcome::{Outcome, Record, Trajectory};
 use crate::plan::lever::{LeverCandidate, LeverSearch, LeverSearchStatistics, ScoredLever, merit};
-use crate::scene::{LeverScene, Scene, Situation};
+use crate::scene::{Scene, Situation, Tool};
 use crate::sim::LeverSimulator;
 use crate::solve::attempts::Attempt;
 use crate::solve::blackboard::Blackboard;
@@ -72,15 +72,15 @@ fn predict(query: &Query, scene: &Scene, jobs: &[Job]) -> Vec<Trajectory> {
     if jobs.iter().all(|job| model.takes(scene, job)) {
         model.rollout(scene, jobs, Record::Outcome)
     } else {
-        jobs.par_iter().map(|job| simulated(scene, job.motion.clone())).collect()
+        let really = Situation::stated(scene);
+        jobs.par_iter().map(|job| simulated(&really, scene, job.motion.clone())).collect()
     }
 }
 
-/// Simulates a motion coarsely.
-fn simulated(scene: &Scene, motion: Motion) -> Trajectory {
-    let planned = LeverScene::with(scene, motion.tool());
+/// Simulates a motion coarsely in the situation as it really is; it was planned in `scene`.
+fn simulated(really: &Situation, scene: &Scene, motion: Motion) -> Trajectory {
     let watched = (Record::Outcome, &Unwatched as _);
-    LeverSimulator::COARSE.run_all((&planned, &planned), None, &[motion], watched)
+    LeverSimulator::COARSE.run_all(really, scene, &[motion], watched)
 }
 
 /// Chooses the best `wanted` of different kinds: no more than an eighth of one while there are others.
@@ -95,18 +95,23 @@ fn choose(scored: Vec<ScoredLever>, wanted: usize) -> Vec<ScoredLever> {
 /// Simulates candidates coarsely, as planned and with small errors, and ranks them by that.
 fn simulate(query: &Query, task: &Task, chosen: Vec<ScoredLever>) -> Vec<Simulated> {
     let doubts = query.planner.settings().levers.doubts;
+    let stated = Situation::stated(&task.scene);
     let mut simulated: Vec<Simulated> = chosen
         .into_par_iter()
         .map(|scored| {
             let (lever, tool) = (scored.candidate.lever, &query.tools[scored.candidate.tool]);
-            let motion = Motion::Lever(LeverMotion::new(Arc::clone(tool), lever, None));
-            let planned = LeverScene::with(&task.scene, tool);
-            let run = |really: &LeverScene| coarse(task, (really, &planned), &motion);
-            let (trajectory, outcome) = run(&planned);
+            let run = |really: &Situation, friction: f64| {
+                let tool = Arc::new(Tool::clone(tool).friction(friction));
+                coarse(task, really, Motion::Lever(LeverMotion::new(tool, lever, None)))
+            };
+            let (trajectory, outcome) = run(&stated, tool.friction);
             let mut merit = merit(&task.goals[0], &outcome, &trajectory) + 1.0 - scored.company;
             if outcome.reached && doubts > 0 {
-                let missed = (0..doubts)
-                    .filter(|&draw| !run(&doubted(&planned, lever.plate, draw)).1.reached);
+                let missed = (0..doubts).filter(|&draw| {
+                    let own = (tool.friction, draw);
+                    let (really, friction) = doubted(&stated, lever.plate, own);
+                    !run(&really, friction).1.reached
+                });
                 merit += DOUBTED * missed.count() as f64 / doubts as f64;
             } else if !outcome.reached {
                 merit += DOUBTED;
@@ -120,15 +125,9 @@ fn simulate(query: &Query, task: &Task, chosen: Vec<ScoredLever>) -> Vec<Simulat
 }
 
 /// Simulates a motion in a scene as it really is and as it was planned.
-fn coarse(
-    task: &Task,
-    scenes: (&LeverScene, &LeverScene),
-    motion: &Motion,
-) -> (Trajectory, Outcome) {
-    let watched = (Record::Outcome, &Unwatched as _);
-    let motions = std::slice::from_ref(motion);
-    let trajectory = LeverSimulator::COARSE.run_all(scenes, None, motions, watched);
-    let scene = Scene { obstacles: scenes.0.blocks.clone(), ..task.scene.clone() };
+fn coarse(task: &Task, really: &Situation, motion: Motion) -> (Trajectory, Outcome) {
+    let trajectory = simulated(really, &task.scene, motion);
+    let scene = Scene { obstacles: really.scene.obstacles.clone(), ..task.scene.clone() };
     let outcome = Outcome::judge(&scene, task, &trajectory);
     (trajectory, outcome)
 }

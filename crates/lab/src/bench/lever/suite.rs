@@ -12,7 +12,7 @@ use pushplan::internals::verify::{Verifier, VerifySettings};
 use pushplan::internals::watch::Unwatched;
 use pushplan::internals::{
     outcome::{Outcome, Record},
-    scene::{Obstacle, Robot, Scene, Situation, Tool},
+    scene::{LeverScene, Obstacle, Robot, Scene, Situation, Tool},
     task::{Demand, Goal, LeverJob, LeverMotion, LeverRules, Motion, Outside, PushRules, Task},
 };
 use pushplan_bench::store::{Measured, Seconds};
@@ -68,13 +68,12 @@ impl LeverSuite {
     /// Task `index`, which is the same for the same seed.
     pub fn task(&self, index: usize) -> Task {
         let LeverJob { scene, lever } = self.drawn(index);
-        let mut obstacles = scene.blocks.clone();
+        let table = table(&scene);
+        let mut obstacles = table.obstacles.clone();
         let Obstacle { name, size, pose, .. } = pocket(&scene.blocks);
         let outside = Outside { name, size, pose };
         let goal = Goal::of(lever.plate).with(Demand::Outside(outside));
         obstacles.push(pocket(&scene.blocks));
-        let table = Scene::of_plates(scene.plates.iter().cloned()).unwrap_or_default();
-        let table = table.on_table(scene.table_friction);
         let scene = Scene { obstacles, ..table };
         Task::new(format!("board-{}", index + 1), scene, Robot::reaching(0.0, 2.0), goal)
             .choosing([TOOL])
@@ -109,7 +108,9 @@ impl LeverSuite {
         let tool = Arc::new(Tool::with_blade(TOOL, scene.blade));
         let random = [Motion::Lever(LeverMotion::new(tool, lever, None))];
         let watched = (Record::Outcome, &Unwatched as _);
-        let moved = LeverSimulator::FINE.run_all((&scene, &scene), None, &random, watched);
+        let scene = table(&scene);
+        let really = Situation::stated(&scene);
+        let moved = LeverSimulator::FINE.run_all(&really, &scene, &random, watched);
         let LeverStatistics { search, .. } = solution.statistics.levers.clone().unwrap_or_default();
         let timing = &solution.statistics.timing;
         let seconds = [
@@ -131,6 +132,12 @@ impl LeverSuite {
             seconds.into_iter().map(|(stage, time)| (stage.to_owned(), time)).collect();
         Ok(Measured { record, seconds })
     }
+}
+
+/// Returns a drive as a scene.
+fn table(drive: &LeverScene) -> Scene {
+    let plates = Scene::of_plates(drive.plates.iter().cloned()).unwrap_or_default();
+    Scene { obstacles: drive.blocks.clone(), ..plates.on_table(drive.table_friction) }
 }
 
 /// The floor between the walls, as a body of its own: what must be left.

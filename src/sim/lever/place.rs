@@ -1,0 +1,37 @@
+//! Poses in space to and from rapier, whose origin lies somewhere on the table.
+
+use rapier3d_f64::prelude::{Pose3 as RapierPose, Rotation, Vector as RapierVector};
+
+use crate::geometry::{Pose3, Vector, Vector3};
+
+/// The same turn, written with the sign that lies nearer to `last`: between opposite signs rapier
+/// sees a full turn within a step, which throws the plate off at tens of metres a second.
+pub(super) fn in_one_hemisphere(last: Rotation, next: Rotation) -> Rotation {
+    if last.dot(next) < 0.0 { -next } else { next }
+}
+
+pub(super) fn to_rapier(pose: &Pose3, origin: Vector) -> RapierPose {
+    let ([x, y, z], [i, j, k, w]) = (pose.position.into(), pose.quaternion());
+    let position = RapierVector::new(x - origin.x, y - origin.y, z);
+    RapierPose::from_parts(position, Rotation::from_xyzw(i, j, k, w))
+}
+
+pub(super) fn from_rapier(pose: &RapierPose, origin: Vector) -> Pose3 {
+    let (p, q) = (pose.translation, pose.rotation);
+    let position = Vector3::new(p.x + origin.x, p.y + origin.y, p.z);
+    Pose3::from_quaternion(position, q.to_array())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn turns_keep_their_sign() {
+        let turn = Rotation::from_rotation_y(0.3);
+        let next = Rotation::from_rotation_y(0.31);
+        assert_eq!(in_one_hemisphere(turn, -next), next);
+        assert_eq!(in_one_hemisphere(turn, next), next);
+        assert_eq!(in_one_hemisphere(-turn, next), -next);
+    }
+}

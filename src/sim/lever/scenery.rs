@@ -1,0 +1,90 @@
+//! What is played in space: the scene as it really is, and as its motions were planned.
+
+use std::sync::Arc;
+
+use crate::geometry::{Pose3, Vector};
+use crate::scene::{Body, Feet, Physics, Plate, Scene, Situation, Support, Weight};
+use crate::task::LeverJob;
+
+/// The scene as it really is, the objects as they were seen when the motions were planned, and where the
+/// objects really are.
+pub(super) struct Scenery {
+    /// What is on the table. Data sets have plates that no scene can state; theirs has none.
+    pub scene: Arc<Scene>,
+    pub physics: Arc<Physics>,
+    /// The objects with all their solids, with the masses and frictions that they really have.
+    pub plates: Vec<Plate>,
+    pub planned: Vec<Plate>,
+    pub starts: Vec<Pose3>,
+}
+
+impl Scenery {
+    /// Takes a scene as it really is; the motions go where they would in `planned`.
+    pub fn new(really: &Situation, planned: &Scene) -> Self {
+        let Situation { scene, start, physics } = really;
+        let plate = |(k, _): (usize, _)| Plate {
+            mass: scene.mass_in(physics, k),
+            friction: physics.frictions[k],
+            ..Plate::of(scene, k)
+        };
+        let plates: Vec<Plate> = scene.things().map(plate).collect();
+        let starts = match &start.space {
+            Some(space) => space.clone(),
+            None => {
+                let stands = plates.iter().zip(&start.poses);
+                stands.map(|(plate, pose)| Pose3::upright(*pose, plate.z)).collect()
+            }
+        };
+        let (scene, physics) = (Arc::clone(scene), Arc::clone(physics));
+        Self { scene, physics, plates, planned: planned.plates().collect(), starts }
+    }
+
+    /// Takes the plates of a job of a data set.
+    pub fn of_job(job: &LeverJob) -> Self {
+        let plates = job.scene.plates.clone();
+        let scene = Scene {
+            table_friction: job.scene.table_friction,
+            obstacles: job.scene.blocks.clone(),
+            ..Scene::default()
+        };
+        let starts = plates.iter().map(Plate::start).collect();
+        let (planned, physics) = (plates.clone(), Arc::new(Physics::stated(&scene)));
+        Self { scene: Arc::new(scene), physics, plates, planned, starts }
+    }
+
+    /// Returns the index of a solid of an object into the objects of the scene.
+    fn solid(&self, plate: usize, slab: usize) -> usize {
+        match slab.checked_sub(1) {
+            Some(part) => self.scene.parts_of(plate).nth(part).unwrap_or(plate),
+            None => plate,
+        }
+    }
+
+    /// Returns what a solid of an object is to the rules of contacts, and its friction value.
+    pub fn surface(&self, plate: usize, slab: usize) -> (Body, f64) {
+        let solid = self.solid(plate, slab);
+        let own = self.physics.frictions.get(solid).copied();
+        (Body::Object(solid), own.unwrap_or(self.plates[plate].friction))
+    }
+
+    /// Returns where the mass of an object lies.
+    pub fn weight(&self, plate: usize) -> Weight {
+        let (own, masses) = (&self.plates[plate], &self.physics.masses);
+        let masses: Option<Vec<f64>> =
+            (0..own.slabs.len()).map(|slab| masses.get(self.solid(plate, slab)).copied()).collect();
+        masses.map_or_else(|| own.weight(), |masses| own.weight_of(&masses))
+    }
+
+    /// Returns the points that an object stands on, in its frame: the corners of what has feet, or those
+    /// of a support that is stated.
+    pub fn stands_on(&self, plate: usize) -> Option<Vec<Vector>> {
+        let own = &self.plates[plate];
+        let stated = self.scene.objects.get(plate).filter(|one| one.support != Support::Even);
+        if stated.is_some() && own.has_feet() {
+            let (feet, masses) = (&self.physics.feet[plate], &self.physics.masses);
+            let feet: Feet = self.scene.contacts(plate, feet, masses);
+            return Some(feet.each().map(|(at, _)| at).collect());
+        }
+        (own.has_feet() && own.z > 0.0).then(|| own.corners().to_vec())
+    }
+}
