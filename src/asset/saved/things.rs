@@ -18,21 +18,20 @@ pub(super) fn parts(scene: &Scene, index: usize) -> (f64, Vec<Json>) {
     let whole = by_volume(&solids);
     let part = |(k, part): (usize, &&Object)| {
         let place = part.whole.map_or_else(Default::default, |Whole { place, .. }| place);
-        let mut fields = match own.in_space() {
-            true => json!({"shape": drawn(&part.shape), "z": part.z}),
-            false => json!({"shape": shape(&part.shape), "friction": part.friction}),
-        };
-        match (part.is_raised(), own.in_space()) {
-            (true, _) => fields["z"] = json!(part.z),
-            (false, true) => {}
-            (false, false) => fields["support"] = emitted_support(&part.support),
+        let solid = if own.in_space() { drawn(&part.shape) } else { shape(&part.shape) };
+        let mut fields = json!({"shape": solid, "friction": part.friction});
+        if part.is_raised() || own.in_space() {
+            fields["z"] = json!(part.z);
+        }
+        if !part.is_raised() {
+            fields["support"] = emitted_support(&part.support);
         }
         // A number is what a part without a name is called.
         let name = part.name.strip_prefix(&format!("{}/", own.name)).unwrap_or(&part.name);
         if name != (k + 1).to_string() {
             fields["name"] = json!(name);
         }
-        if whole.is_none() && !own.in_space() {
+        if whole.is_none() {
             fields["mass"] = json!(part.mass);
         }
         posed(fields, &place)

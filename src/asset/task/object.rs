@@ -101,7 +101,7 @@ const FIELDS: [Field<Object>; 13] = [
         key: OBJECT_SUPPORT,
         // Points are written in the frame of the solid's corners.
         read: |map, _, object| set(&mut object.support, support::support(map)),
-        write: |object| (!object.in_space()).then(|| support::emitted(&object.support)),
+        write: |object| Some(support::emitted(&object.support)),
         fault: |_| None,
     },
     Field {

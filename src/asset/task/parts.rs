@@ -86,10 +86,9 @@ pub(super) fn check(object: &Node, ledger: &mut Ledger) {
             );
         }
     }
-    if is_plate(object) {
-        return;
+    if !is_plate(object) {
+        above(object, ledger);
     }
-    above(object, ledger);
     let stated = parts.iter().filter_map(|part| part.get("mass").and_then(Node::number));
     let (stated, whole) = (stated.sum::<f64>(), object.get("mass"));
     if let (Some(node), Some(mass)) = (whole, whole.and_then(Node::number))

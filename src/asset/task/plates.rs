@@ -3,10 +3,12 @@
 use crate::asset::node::Node;
 use crate::asset::shapes::shape;
 use crate::asset::strict::Ledger;
-use crate::asset::take::{angle, pose, position, triple, vector};
+use crate::asset::prism::origin;
+use crate::asset::take::{angle, number_or, pose, position, triple, vector};
 use crate::geometry::{ConvexPolygon, Pose, Shape, Solid, Vector, centroid, common_area, cross};
-use crate::scene::{Object, Obstacle, Plate, Scene, Slab, Whole, carries};
+use crate::scene::{Object, Obstacle, Plate, Scene, Slab, Support, Whole, carries};
 
+use super::support::support;
 use super::obstacles::obstacle;
 use super::part::{self, part_name, rise, shares};
 use super::parts::objects as objects_of;
@@ -76,7 +78,7 @@ pub(super) fn solids(node: &Node, object: Object, index: usize) -> Option<Vec<Ob
     let Drawn { mut corners, height, named } = Drawn::read(node.get("shape")?)?;
     corners.iter_mut().for_each(|corner| *corner -= named);
     let mut slabs = vec![Slab { corners, bottom: 0.0, height }];
-    let mut others = Vec::new();
+    let (mut others, mut stated) = (Vec::new(), vec![None]);
     for (k, part) in part::parts(node).iter().enumerate() {
         let drawn = Drawn::read(part.get("shape")?)?;
         let turn = Pose { position: Vector::zeros(), heading: angle(part, "yaw_deg", 0.0)? };
@@ -84,12 +86,18 @@ pub(super) fn solids(node: &Node, object: Object, index: usize) -> Option<Vec<Ob
         let placed = |at: &Vector| turn.vector(*at - drawn.named) + shift;
         let corners = drawn.corners.iter().map(placed).collect();
         let (shape, centre) = drawn.solid(part.get("shape")?)?;
-        let solid = Object::new(part_name(name, part, k), shape).raised(bottom);
+        let solid = Object {
+            friction: number_or(part, "friction", object.friction)?,
+            support: support(part)?,
+            may_fall: object.may_fall,
+            ..Object::new(part_name(name, part, k), shape).raised(bottom)
+        };
+        stated.push(part.get("mass").and_then(Node::number));
         others.push((solid, Pose { position: placed(&centre), ..turn }));
         slabs.push(Slab { corners, bottom, height: drawn.height });
     }
-    let stated = |key| node.get(key).map(Node::number);
-    let (clearance, z) = match (stated("clearance"), stated("z")) {
+    let height = |key| node.get(key).map(Node::number);
+    let (clearance, z) = match (height("clearance"), height("z")) {
         (Some(clearance), Some(z)) => (clearance?, z?),
         (Some(both), None) | (None, Some(both)) => (both?, both?),
         (None, None) => (0.0, 0.0),
@@ -97,22 +105,35 @@ pub(super) fn solids(node: &Node, object: Object, index: usize) -> Option<Vec<Ob
     let Object { mass, friction, .. } = object;
     let name = object.name.clone();
     let plate = Plate { name, slabs, mass, friction, clearance, pose: pose(node)?, z };
-    let centre = plate.weight().centre.xy();
+    let own = stated.iter().flatten().sum::<f64>();
+    let volumes: Vec<f64> = plate.slabs.iter().map(Slab::volume).collect();
+    let open = |k: &usize| stated[*k].is_none();
+    let all: f64 = (0..volumes.len()).filter(open).map(|k| volumes[k]).sum();
+    let share = |k: usize| stated[k].unwrap_or_else(|| (mass - own) * (volumes[k] / all));
+    let masses: Vec<f64> = (0..volumes.len()).map(share).collect();
+    let centre = plate.weight_of(&masses).centre.xy();
     let (plate, shift) = match centre.norm() > CENTRED {
-        true => (plate.balanced(), centre),
+        true => (plate.shifted(centre), centre),
         false => (plate, Vector::zeros()),
     };
     let shape = plate.slabs[0].around_origin()?;
-    let object = Object { shape, pose: plate.pose, clearance, z, ..object };
+    // Points of a support are stated in the frame of the corners.
+    let moved = origin(node.get("shape")?)? - named - shift;
+    let support = match object.support {
+        Support::Points(points) => {
+            Support::Points(points.into_iter().map(|point| point + moved).collect())
+        }
+        other => other,
+    };
+    let object = Object { shape, pose: plate.pose, clearance, z, support, ..object };
     let part = |(solid, at): (Object, Pose)| {
         let place = Pose { position: at.position - shift, ..at };
         let whole = Some(Whole { object: index, place });
-        Object { friction, pose: object.pose * place, whole, ..solid }
+        Object { pose: object.pose * place, whole, ..solid }
     };
     let mut solids = vec![object.clone()];
     solids.extend(others.into_iter().map(part));
-    let open = vec![None; solids.len()];
-    let masses = shares(mass, &solids, &open);
+    let masses = shares(mass - own, &solids, &stated);
     solids.iter_mut().zip(masses).for_each(|(solid, mass)| solid.mass = mass);
     Some(solids)
 }

@@ -6,77 +6,41 @@ use crate::asset::take::name_of;
 
 use super::{goals, part, plates};
 
-/// Reason for keys of a goal that only a task of pushes may have.
-const NOT_PLANNED: &str = "no lever-up is planned for it";
-/// Reason for keys of a scene.
-const FREE: &str = "objects that are levered move freely, with frictions of their own";
-/// Reason for keys of an object.
-const STANDS: &str = "an object that is levered stands on its corners";
-/// Reason for keys of a part.
-const ALIKE: &str = "a blade lifts an object of one density and friction";
 /// Reason for cylinders.
 const EDGES: &str = "a blade goes under a straight edge";
+/// Reason for a centre of mass of a solid.
+const EVEN: &str = "give parts with a `mass` of their own to what a blade lifts";
 
 /// Notes what a task that allows lever-ups has and cannot have.
 pub(super) fn check(root: &Node, ledger: &mut Ledger) {
     let inner = |key| root.get("scene").and_then(|scene| scene.get(key));
     let arm = "lever-ups are planned for a hand, not for the joints of an arm";
     refuse(root.get("robot"), &["urdf"], arm, ledger);
-    refuse(Some(root), &["keep_out"], "nothing watches regions while an object is levered", ledger);
-    refuse(root.get("scene"), &["joints", "frictions", "push_height"], FREE, ledger);
-    refuse(inner("table"), &["size"], "nothing watches the table's end here", ledger);
-    let goals = root.get("goal").map(goals::each).unwrap_or_default();
-    for goal in goals {
-        let places = ["region", "gap", "coverage", "off_table", "joint_deg", "joint"];
-        refuse(Some(goal), &places, NOT_PLANNED, ledger);
-        refuse(Some(goal), &["relative_to", "weight"], NOT_PLANNED, ledger);
-    }
     let objects = inner("objects").map(Node::items).unwrap_or_default();
-    objects.iter().for_each(|one| object(one, ledger));
-    for wanted in goals.iter().filter_map(|goal| goal.get("object")?.text()) {
-        let levered = objects.iter().find(|object| name_of(object) == Some(wanted));
-        if let Some(object) = levered.filter(|object| !plates::is_plate(object)) {
-            let advice = "6 mm of feet are `clearance: 0.006`; `z` alone is a plate on obstacles";
-            ledger.fault(object, "this object has neither `clearance` nor `z`", advice);
-        }
+    for object in objects.iter().filter(|object| plates::is_plate(object)) {
+        std::iter::once(object).chain(part::parts(object)).for_each(|one| solid(one, ledger));
     }
-    if let [_, second, ..] = goals {
-        ledger.fault(second, "lever-ups have one goal", "keep one of them");
-    }
-}
-
-fn object(object: &Node, ledger: &mut Ledger) {
-    refuse(Some(object), &["may_fall", "max_force"], STANDS, ledger);
-    let is_plate = plates::is_plate(object);
-    let friction = object.get("friction").and_then(Node::number);
-    support(object, ledger);
-    if is_plate {
-        solid(object, ledger);
-    }
-    for part in part::parts(object) {
-        refuse(Some(part), &["mass"], ALIKE, ledger);
-        if part.get("friction").is_some_and(|own| own.number() != friction) {
-            refuse(Some(part), &["friction"], ALIKE, ledger);
-        }
-        support(part, ledger);
-        if is_plate {
-            solid(part, ledger);
-        }
-    }
-}
-
-/// In three dimensions an object stands on its corners, or on its underside.
-fn support(body: &Node, ledger: &mut Ledger) {
-    if body.get("support").is_some_and(|support| support.text() != Some("even")) {
-        refuse(Some(body), &["support"], STANDS, ledger);
+    let goals = root.get("goal").map(goals::each).unwrap_or_default();
+    let of = |goal: &Node| {
+        let wanted = goal.get("object")?.text();
+        objects.iter().find(|one| name_of(one) == wanted)
+    };
+    let is_plate = |goal: &Node| of(goal).is_none_or(plates::is_plate);
+    // Something must be there for a blade: the object of a goal.
+    let none = !goals.iter().any(is_plate);
+    let needs = |(k, goal): &(usize, &Node)| {
+        (goals::lifts(goal) || none && *k == 0) && !is_plate(goal)
+    };
+    for object in goals.iter().enumerate().filter(needs).filter_map(|(_, goal)| of(goal)) {
+        let advice = "6 mm of feet are `clearance: 0.006`; `z` alone is a plate on obstacles";
+        ledger.fault(object, "this object has neither `clearance` nor `z`", advice);
     }
 }
 
 fn solid(body: &Node, ledger: &mut Ledger) {
     let shape = body.get("shape");
     refuse(shape, &["cylinder"], EDGES, ledger);
-    let prism = shape.and_then(|shape| shape.get("prism"));
-    refuse(prism, &["centre_of_mass"], ALIKE, ledger);
+    refuse(shape.and_then(|shape| shape.get("prism")), &["centre_of_mass"], EVEN, ledger);
 }
 
 /// Notes the keys that a node has and cannot have.

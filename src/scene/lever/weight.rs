@@ -79,13 +79,18 @@ impl Plate {
     /// The plate of these solids, moved so that the frame lies below their centre of mass while
     /// all stays where it is: how plates are made from outlines drawn about any origin.
     #[must_use]
-    pub fn balanced(mut self) -> Self {
+    pub fn balanced(self) -> Self {
         let centre = self.weight().centre;
-        let shift = Vector::new(centre.x, centre.y);
+        self.shifted(Vector::new(centre.x, centre.y))
+    }
+
+    /// Returns the plate with its frame moved to a point of it, metres, while all stays where it is.
+    #[must_use]
+    pub fn shifted(mut self, to: Vector) -> Self {
         for slab in &mut self.slabs {
-            slab.corners.iter_mut().for_each(|corner| *corner -= shift);
+            slab.corners.iter_mut().for_each(|corner| *corner -= to);
         }
-        self.pose.position = self.pose.point(shift);
+        self.pose.position = self.pose.point(to);
         self
     }
 }
