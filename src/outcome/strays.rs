@@ -10,6 +10,14 @@ impl Scene {
         let regions = || self.keep_out.iter().filter(|region| region.objects);
         // Most scenes have none.
         regions().next()?;
+        if let Some(space) = &state.space {
+            let mut all = self.plates().zip(space);
+            return all.find_map(|(plate, pose)| {
+                let solids = plate.solids_at(pose);
+                let region = regions().find(|region| region.holds_in_space(&solids))?;
+                Some(Warning::KeptOut { object: plate.name, region: region.name.clone() })
+            });
+        }
         self.objects.iter().zip(&state.poses).find_map(|(object, pose)| {
             let footprint = object.shape.footprint();
             // What stands nearer at first may go on standing there.

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Pose, Vector};
+use crate::geometry::{Pose, Vector, wrap_angle};
 
 use super::{Object, Span};
 
@@ -95,5 +95,29 @@ impl Joint {
     /// The range of turns (radians) or shifts (metres) against the start, where limited.
     pub fn limits(&self) -> Option<Span> {
         self.kind.limits()
+    }
+
+    /// The same joint where its objects start as in `now` instead of as in `before`.
+    pub fn carried(&self, before: &[Object], now: &[Object]) -> Self {
+        let [first, second] = self.frames(before);
+        let [here, there] = self.between.map(|index| now[index].pose);
+        let world = here * first;
+        let come = world.inverse() * (there * second);
+        let left = |limits: Option<Span>, come: f64| {
+            limits.map(|span| Span::new((span.low - come).min(0.0), (span.high - come).max(0.0)))
+        };
+        let kind = match self.kind {
+            JointKind::Fixed => JointKind::Fixed,
+            JointKind::Revolute { limits, .. } => {
+                let middle = self.kind.middle();
+                let turn = middle + wrap_angle(come.heading - middle);
+                JointKind::Revolute { at: world.position, limits: left(limits, turn) }
+            }
+            JointKind::Prismatic { limits, .. } => JointKind::Prismatic {
+                axis: world.vector(Vector::x()),
+                limits: left(limits, come.position.x),
+            },
+        };
+        Self { kind, ..self.clone() }
     }
 }

@@ -4,9 +4,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Footprint, Pose, Shape, clearance};
 
-/// What overlaps a region by less is outside of it, metres: rounding.
-const SLACK: f64 = 1e-6;
-
 /// A region of the table that some bodies keep out of, at whatever height.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Region {
@@ -25,6 +22,9 @@ pub struct Region {
 }
 
 impl Region {
+    /// What overlaps a region by less is outside of it, metres: rounding.
+    pub(super) const SLACK: f64 = 1e-6;
+
     /// Objects are predicted to keep this far out of regions, metres: predictions are off by
     /// millimetres, and starts are known no better.
     pub const MARGIN: f64 = 0.01;
@@ -54,8 +54,8 @@ impl Region {
     pub fn holds(&self, footprint: &Footprint, pose: &Pose, margin: f64) -> bool {
         let own = match margin {
             margin if margin > 0.0 => self.footprint().grown(margin),
-            _ => self.footprint().shrunk(SLACK),
+            _ => self.footprint().shrunk(Self::SLACK),
         };
-        clearance((footprint, pose), (&own, &self.pose), SLACK) <= 0.0
+        clearance((footprint, pose), (&own, &self.pose), Self::SLACK) <= 0.0
     }
 }

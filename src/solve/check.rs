@@ -9,14 +9,14 @@ use crate::{
 
 use super::SolveError;
 
-/// Checks every number that planning relies on.
+/// Checks every number that planning relies on, and the tools for pushes where these are known.
 ///
 /// # Errors
 /// The first fault.
-pub(super) fn check(
+pub(super) fn check<'a>(
     task: &Task,
     situation: &Situation,
-    tools: &[Arc<Tool>],
+    tools: impl Into<Option<&'a [Arc<Tool>]>>,
 ) -> Result<(), SolveError> {
     let fault = |what: String| Err(SolveError::BadTask { task: task.name.clone(), what });
     let (rules, robot) = (&task.pushes, &task.robot);
@@ -139,7 +139,8 @@ pub(super) fn check(
             ));
         }
     }
-    for tool in tools {
+    let tools: Option<&[Arc<Tool>]> = tools.into();
+    for tool in tools.unwrap_or_default() {
         let sound = tool.grip.is_finite()
             && is_friction(tool.friction)
             && !tool.parts().is_empty()
@@ -157,7 +158,7 @@ pub(super) fn check(
     if let Some(wrong) = task.arm.as_ref().and_then(|arm| arm.fault()) {
         return fault(wrong);
     }
-    if tools.is_empty() {
+    if tools.is_some_and(<[_]>::is_empty) {
         return fault("it allows no tool".into());
     }
     Ok(())

@@ -103,7 +103,7 @@ impl Planner {
             return solve_levers(query, library);
         }
         let tools = task.tools(library)?;
-        check(task, situation, &tools)?;
+        check(task, situation, &tools[..])?;
         let motion = |tool: &Arc<Tool>| typical(task, &situation.start, tool);
         self.refuse(task, situation, tools.iter().map(motion))?;
         let until = Until::new(watch, self.time_limit);
@@ -132,7 +132,7 @@ impl Planner {
             return self.why(nearest, library, watch);
         }
         let tools = task.tools(library)?;
-        check(task, &situation, &tools)?;
+        check(task, &situation, &tools[..])?;
         let query = Query { planner: self, task, situation: &situation, tools: &tools, watch };
         let unobstructed = unobstructed(&query);
         let mut board = Blackboard::for_pushes(query, query.search());
@@ -163,7 +163,7 @@ impl Planner {
         let nearest = task.choices(&situation.start).into_iter().next();
         let task = nearest.as_ref().unwrap_or(task);
         let tools = task.tools(library)?;
-        check(task, situation, &tools)?;
+        check(task, situation, &tools[..])?;
         let until = Until::new(watch, self.time_limit);
         let query = Query { planner: self, task, situation, tools: &tools, watch: &until };
         let mut board = Blackboard::for_pushes(query, query.search());

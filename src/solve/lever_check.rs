@@ -1,4 +1,4 @@
-//! Refuses tasks in space that were made in code and that no file could hold.
+//! Refuses tasks in space that were made in code and that could not be read from a file.
 
 use std::sync::Arc;
 
@@ -8,6 +8,7 @@ use crate::{
 };
 
 use super::SolveError;
+use super::check::check;
 
 /// Checks what planning in space relies on besides what holds for every task.
 ///
@@ -18,37 +19,12 @@ pub(super) fn check_levers(
     situation: &Situation,
     blades: &[Arc<Tool>],
 ) -> Result<(), SolveError> {
+    check(task, situation, None)?;
     let fault = |what: String| Err(SolveError::BadTask { task: task.name.clone(), what });
     let positive = |value: f64| value.is_finite() && value > 0.0;
     let from_zero = |value: f64| value.is_finite() && value >= 0.0;
-    let scene = &*situation.scene;
-    let [goal] = &task.goals[..] else {
-        return fault("where something leaves the plane there is one goal".into());
-    };
-    if goal.object >= scene.objects.len() {
-        return fault(format!("the goal names object {}, which does not exist", goal.object));
-    }
-    if let Some(what) = goal.fault(scene) {
-        return fault(what);
-    }
-    if scene.joints.iter().any(|joint| !scene.is_seam(joint))
-        || !scene.frictions.is_empty()
-        || scene.table_top.is_some()
-    {
-        let what = "joints, frictions of pairs and a table that ends are for tasks of pushes";
-        return fault(what.into());
-    }
-    if let Some(what) = scene.object_fault() {
-        return fault(what);
-    }
-    for obstacle in &scene.obstacles {
-        let sound = obstacle.size.iter().all(|size| positive(*size))
-            && from_zero(obstacle.z)
-            && from_zero(obstacle.friction)
-            && obstacle.pose.is_finite();
-        if !sound {
-            return fault(format!("obstacle `{}` needs a positive finite size", obstacle.name));
-        }
+    if task.arm.is_some() {
+        return fault("lever-ups are planned for a hand, not for the joints of an arm".into());
     }
     let rules = task.lever_rules();
     let spans = [rules.depth, rules.angle];
@@ -60,12 +36,6 @@ pub(super) fn check_levers(
     }
     if rules.pivots.is_empty() {
         return fault("it allows no pivot".into());
-    }
-    if !(positive(task.robot.reach_max) && (0.0..=1.0).contains(&task.robustness)) {
-        return fault("reach and robustness make no sense".into());
-    }
-    if !from_zero(scene.table_friction) {
-        return fault("the friction of the table must not be negative".into());
     }
     for tool in blades {
         let blade = tool.blade().unwrap_or_default();

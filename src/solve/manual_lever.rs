@@ -87,7 +87,7 @@ pub fn manual_lever(
     };
     let rules = &task.lever_rules();
     let lever = LeverUp {
-        plate: task.goals[0].object,
+        plate: task.levered().object,
         place,
         depth: asked.depth,
         pivot,

@@ -24,7 +24,7 @@ pub(super) fn meet_some_goals(
     solution: &mut Solution,
 ) -> Result<(), SolveError> {
     let missed = matches!(solution.status, PlanStatus::NoPlan | PlanStatus::FailedVerification);
-    if !missed || task.goals.len() < 2 || task.in_space() {
+    if !missed || task.goals.len() < 2 {
         return Ok(());
     }
     let situation = stated(task);

@@ -217,9 +217,19 @@ impl Task {
         Self { levers: Some(levers), robot, ..self }
     }
 
-    /// The goal's object with all its solids.
+    /// The goal whose object is levered: the first that leaves the plane, or else the first of an object
+    /// with room for a blade.
+    pub fn levered(&self) -> &Goal {
+        let has_room = |goal: &&Goal| {
+            self.scene.objects.get(goal.object).is_some_and(|object| object.in_space())
+        };
+        let lifted = self.goals.iter().find(|goal| goal.in_space());
+        lifted.or_else(|| self.goals.iter().find(has_room)).unwrap_or(&self.goals[0])
+    }
+
+    /// The object that is levered with all its solids.
     pub fn plate(&self) -> Plate {
-        Plate::of(&self.scene, self.goals[0].object)
+        Plate::of(&self.scene, self.levered().object)
     }
 
     /// The lever-ups that are allowed, or would be.

@@ -269,7 +269,7 @@ impl<'a> Verifier<'a> {
     ) -> Evidence {
         let scene = &*situation.scene;
         let first = plan.lever_steps().next();
-        let about = first.map_or(task.goals[0].object, |step| step.lever.plate);
+        let about = first.map_or(task.levered().object, |step| step.lever.plate);
         let mut motions = plan.motions(tools).unwrap_or_default();
         let really = draw.map(|draw| {
             let wary = Situation { scene: Arc::new(wary(task, scene)), ..situation.clone() };

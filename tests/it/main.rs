@@ -34,6 +34,7 @@ mod jointed;
 mod judged;
 mod lever_engine;
 mod lever_follow_up;
+mod lever_scene;
 mod levers;
 mod lift_off;
 mod models;

@@ -21,6 +21,7 @@ mod mjcf;
 mod pairs;
 mod regions;
 mod seamless;
+mod solids;
 mod space;
 mod strokes;
 mod tool;

@@ -11,11 +11,13 @@ use pushplan::asset::PlanFile;
 use pushplan::geometry::{Footprint, Pose, Pose3, Shape, Vector, Vector3};
 use pushplan::{
     outcome::LEVER_FRAMES,
-    scene::{Blade, GRAVITY, LeverScene, Part, Plate, Slab, Tool},
+    scene::{Blade, Body, GRAVITY, Part, Physics, Plate, Tool},
     task::{LeverJob, LeverMotion, Motion, Task},
 };
 
 use super::error::ExportError;
+use super::forest::{Node, forest};
+use super::solids::{Meets, Stage, body, slab_name};
 use super::wanted::checks;
 use super::xml::{Xml, numbers};
 
@@ -37,45 +39,93 @@ const FRICTION_HARDNESS: f64 = 10.0;
 /// So heavy that nothing moves it, kg.
 const HAND_MASS: f64 = 1e4;
 
-/// Largest radius of an object's feet, metres.
-const FOOT: f64 = 1e-3;
-
 /// Where a blade or a tool waits for its step: beyond the table, metres.
 const AWAY: f64 = 50.0;
-
-/// A solid that others can meet, and its friction value.
-type Meets = (String, f64);
 
 /// The scene of a lever-up, as MJCF. Names are `plate/NAME`, `block/NAME`, `blade/0` and `table`; what the
 /// blade does stands under `custom`.
 pub fn lever_mjcf(job: &LeverJob) -> String {
     let tool = Arc::new(Tool::with_blade("blade", job.scene.blade));
     let motion = Motion::Lever(LeverMotion::new(tool, job.lever, None));
-    written("lever-up", &job.scene, &[motion], (job.lever.plate, None))
+    let stage = Stage {
+        plates: job.scene.plates.clone(),
+        obstacles: &job.scene.blocks,
+        table_friction: job.scene.table_friction,
+        scene: None,
+    };
+    written("lever-up", &stage, (&[motion], &[]), (job.lever.plate, None))
 }
 
-/// The scene of a plan in which something leaves the plane, its steps and goal included.
+/// The scene of a plan in which something leaves the plane, its steps and goals included.
 ///
 /// # Errors
-/// [`ExportError::Tools`].
+/// [`ExportError::Tools`], [`ExportError::JointLoop`].
 pub(super) fn plan_mjcf(file: &PlanFile) -> Result<String, ExportError> {
     let motions = file.plan.motions(&file.tools).ok_or(ExportError::Tools)?;
-    let first = motions.iter().find(|motion| motion.is_lever());
-    let blade = first.and_then(|motion| motion.tool().blade()).unwrap_or_default();
-    let scene = LeverScene::new(&file.task.scene, blade);
-    let object = file.task.goals[0].object;
-    Ok(written(&file.task.name, &scene, &motions, (object, Some(&file.task))))
+    let scene = &file.task.scene;
+    let stage = Stage {
+        plates: scene.plates().collect(),
+        obstacles: &scene.obstacles,
+        table_friction: scene.table_friction,
+        scene: Some((scene, Physics::stated(scene))),
+    };
+    let watched = file.task.levered().object;
+    let trees = forest(scene)?;
+    Ok(written(&file.task.name, &stage, (&motions, &trees), (watched, Some(&file.task))))
 }
 
 fn written(
     name: &str,
-    scene: &LeverScene,
-    motions: &[Motion],
+    stage: &Stage,
+    (motions, trees): (&[Motion], &[Node]),
     (watched, task): (usize, Option<&Task>),
 ) -> String {
     let mut xml = Xml::default();
     xml.open("mujoco", &[("model", name.into())]);
     xml.comment("Written by pushplan. Metres, kilograms, seconds, radians. Play it with lever.py.");
+    settings(&mut xml);
+    xml.open("custom", &[]);
+    for (k, motion) in motions.iter().enumerate() {
+        step(&mut xml, stage, k, motion);
+    }
+    numeric(&mut xml, &format!("levered plate/{}", stage.plates[watched].name), &[1.0]);
+    if let Some(task) = task {
+        checks(&mut xml, task);
+    }
+    xml.close();
+    xml.open("asset", &[]);
+    meshes(&mut xml, &stage.plates);
+    for (k, motion) in motions.iter().enumerate() {
+        tool_meshes(&mut xml, k, motion);
+    }
+    xml.close();
+    xml.open("worldbody", &[]);
+    let others = fixed(&mut xml, stage);
+    let mut plates: Vec<Vec<Meets>> = vec![Vec::new(); stage.plates.len()];
+    match stage.scene {
+        Some(_) => trees
+            .iter()
+            .for_each(|tree| body(&mut xml, stage, (tree.object, Some(tree)), &mut plates)),
+        None => (0..stage.plates.len()).for_each(|k| body(&mut xml, stage, (k, None), &mut plates)),
+    }
+    let hands: Vec<Meets> =
+        motions.iter().enumerate().flat_map(|(k, motion)| hand(&mut xml, k, motion)).collect();
+    xml.close();
+    xml.open("contact", &[]);
+    for (k, solids) in plates.iter().enumerate() {
+        let mounted = stage.scene.as_ref().is_some_and(|(scene, _)| scene.mount(k).is_some());
+        let others = others.iter().filter(|one| !(mounted && one.2.is_none()));
+        let later = (k + 1..plates.len()).filter(|other| !stage.is_rigid(k, *other));
+        let later = later.flat_map(|other| &plates[other]);
+        let all: Vec<&Meets> = others.chain(&hands).chain(later).collect();
+        for one in solids {
+            all.iter().for_each(|other| pair(&mut xml, stage, (one, other)));
+        }
+    }
+    xml.finish()
+}
+
+fn settings(xml: &mut Xml) {
     xml.leaf("compiler", &[("angle", "radian".into()), ("autolimits", "true".into())]);
     let option = [
         ("timestep", numbers(&[STEP])),
@@ -91,59 +141,36 @@ fn written(
     xml.leaf("geom", &[("contype", "0".into()), ("conaffinity", "0".into())]);
     xml.leaf("pair", &CONTACT.map(|(key, value)| (key, value.to_owned())));
     xml.close();
-    xml.open("custom", &[]);
-    for (k, motion) in motions.iter().enumerate() {
-        step(&mut xml, scene, k, motion);
-    }
-    numeric(&mut xml, &format!("levered plate/{}", scene.plates[watched].name), &[1.0]);
-    if let Some(task) = task {
-        checks(&mut xml, task);
-    }
-    xml.close();
-    xml.open("asset", &[]);
-    meshes(&mut xml, &scene.plates);
-    for (k, motion) in motions.iter().enumerate() {
-        tool_meshes(&mut xml, k, motion);
-    }
-    xml.close();
-    xml.open("worldbody", &[]);
-    let mut others: Vec<Meets> = vec![("table".to_owned(), scene.table_friction)];
-    let lying = Pose3 { position: Vector3::new(0.0, 0.0, -0.25), ..Pose3::default() };
-    cuboid(&mut xml, "table", [4.0, 4.0, 0.5], &lying);
-    for block in &scene.blocks {
+}
+
+/// The table and the obstacles.
+fn fixed(xml: &mut Xml, stage: &Stage) -> Vec<Meets> {
+    let mut others: Vec<Meets> = vec![("table".to_owned(), stage.table_friction, None)];
+    let brink = stage.scene.as_ref().and_then(|(scene, _)| scene.brink());
+    let (size, middle) = brink.map_or(([4.0; 2], Vector::zeros()), |top| (top.size, top.middle));
+    let position = Vector3::new(middle.x, middle.y, -0.25);
+    let lying = Pose3 { position, ..Pose3::default() };
+    cuboid(xml, "table", [size[0], size[1], 0.5], &lying);
+    for (k, block) in stage.obstacles.iter().enumerate() {
         let name = format!("block/{}", block.name);
         let middle = Pose3::upright(block.pose, block.z + 0.5 * block.size[2]);
-        cuboid(&mut xml, &name, block.size, &middle);
-        others.push((name, block.friction));
+        cuboid(xml, &name, block.size, &middle);
+        others.push((name, block.friction, Some(Body::Obstacle(k))));
     }
-    let mut plates: Vec<Vec<Meets>> = Vec::new();
-    for plate in &scene.plates {
-        plates.push(body(&mut xml, plate));
-    }
-    for (k, motion) in motions.iter().enumerate() {
-        others.extend(hand(&mut xml, k, motion));
-    }
-    xml.close();
-    xml.open("contact", &[]);
-    for (k, solids) in plates.iter().enumerate() {
-        for one in solids {
-            for other in others.iter().chain(plates[k + 1..].iter().flatten()) {
-                pair(&mut xml, one, other);
-            }
-        }
-    }
-    xml.finish()
+    others
 }
 
 /// What is done in step `k`.
-fn step(xml: &mut Xml, scene: &LeverScene, k: usize, motion: &Motion) {
+fn step(xml: &mut Xml, stage: &Stage, k: usize, motion: &Motion) {
     match motion {
         Motion::Lever(motion) => {
-            let (lever, mut seen) = (&motion.lever, scene.clone());
+            let (lever, mut seen) = (&motion.lever, stage.plates[motion.lever.plate].clone());
             if let Some(expected) = motion.expected {
-                seen.plates[lever.plate].pose = expected;
+                seen.pose = expected;
             }
-            let frame = lever.frame(&seen);
+            let plate = format!("plate/{}", seen.name);
+            xml.leaf("text", &[("name", format!("plate {k}")), ("data", plate)]);
+            let frame = lever.frame_on(&seen);
             let [x, y, z, w] = frame.quaternion();
             let at = frame.position;
             let blade = motion.tool().blade().unwrap_or_default();
@@ -193,12 +220,12 @@ fn hand(xml: &mut Xml, k: usize, motion: &Motion) -> Vec<Meets> {
     if let (true, Some(Blade { length, width, thickness, .. })) = (motion.is_lever(), tool.blade())
     {
         cuboid(xml, &name, [length, width, thickness], &Pose3::default());
-        solids.push((name, tool.friction));
+        solids.push((name, tool.friction, Some(Body::Part(0))));
     } else {
         for (p, part) in tool.parts().iter().enumerate() {
             let name = format!("{name}/part-{}", p + 1);
             tool_part(xml, &name, part);
-            solids.push((name, tool.friction));
+            solids.push((name, tool.friction, Some(Body::Part(p))));
         }
     }
     xml.close();
@@ -241,10 +268,11 @@ fn mesh(xml: &mut Xml, name: String, corners: &[Vector], span: [f64; 2]) {
     xml.leaf("mesh", &[("name", name), ("vertex", numbers(&vertices))]);
 }
 
-fn pair(xml: &mut Xml, (a, one): &Meets, (b, other): &Meets) {
-    let mean = 0.5 * (one + other);
-    let friction = numbers(&[mean, mean]);
-    xml.leaf("pair", &[("geom1", a.clone()), ("geom2", b.clone()), ("friction", friction)]);
+fn pair(xml: &mut Xml, stage: &Stage, (one, other): (&Meets, &Meets)) {
+    let friction = stage.friction(one, other);
+    let friction = numbers(&[friction, friction]);
+    let geoms = [("geom1", one.0.clone()), ("geom2", other.0.clone()), ("friction", friction)];
+    xml.leaf("pair", &geoms);
 }
 
 /// The outlines of slabs.
@@ -257,72 +285,7 @@ fn meshes(xml: &mut Xml, plates: &[Plate]) {
     }
 }
 
-/// A plate; its solids.
-fn body(xml: &mut Xml, plate: &Plate) -> Vec<Meets> {
-    let name = format!("plate/{}", plate.name);
-    let mut attributes = vec![("name", name.clone())];
-    attributes.extend(placed(&plate.start()));
-    xml.open("body", &attributes);
-    xml.leaf("freejoint", &[]);
-    let weight = plate.weight();
-    let [x, y, z] = weight.centre.into();
-    let attributes = [
-        ("pos", numbers(&[x, y, z])),
-        ("mass", numbers(&[weight.mass])),
-        ("fullinertia", numbers(&weight.inertia)),
-    ];
-    xml.leaf("inertial", &attributes);
-    let mut solids = Vec::new();
-    for (k, slab) in plate.slabs.iter().enumerate() {
-        let name = slab_name(plate, k);
-        let Slab { corners, bottom, height } = slab;
-        // MuJoCo's boxes meet on more points than its meshes.
-        if let Some((middle, size)) = upright_rectangle(corners) {
-            let position = Vector3::new(middle.x, middle.y, bottom + 0.5 * height);
-            let pose = Pose3 { position, ..Pose3::default() };
-            cuboid(xml, &name, [size[0], size[1], *height], &pose);
-        } else {
-            let mesh = [
-                ("name", name.clone()),
-                ("type", "mesh".into()),
-                ("mesh", name.clone()),
-                ("mass", "0".into()),
-            ];
-            xml.leaf("geom", &mesh);
-        }
-        solids.push((name, plate.friction));
-    }
-    let height = if plate.has_feet() { plate.z } else { 0.0 };
-    let radius = FOOT.min(0.5 * height);
-    for (k, corner) in plate.corners().iter().enumerate().filter(|_| height > 0.0) {
-        let name = format!("plate/{}/foot-{}", plate.name, k + 1);
-        let foot = [
-            ("name", name.clone()),
-            ("type", "sphere".into()),
-            ("size", numbers(&[radius])),
-            ("mass", "0".into()),
-            ("pos", numbers(&[corner.x, corner.y, radius - height])),
-        ];
-        xml.leaf("geom", &foot);
-        solids.push((name, plate.friction));
-    }
-    xml.close();
-    solids
-}
-
-/// Middle and extents of a rectangle along the axes.
-fn upright_rectangle(corners: &[Vector]) -> Option<(Vector, [f64; 2])> {
-    let [a, b, c, d] = *corners else { return None };
-    let along = |one: f64, other: f64| (one - other).abs() < 1e-12;
-    let is_upright = along(a.y, b.y) && along(b.x, c.x) && along(c.y, d.y) && along(d.x, a.x);
-    is_upright.then(|| (0.5 * (a + c), [b.x - a.x, d.y - a.y]))
-}
-
-fn slab_name(plate: &Plate, index: usize) -> String {
-    format!("plate/{}/slab-{}", plate.name, index + 1)
-}
-
-fn cuboid(xml: &mut Xml, name: &str, size: [f64; 3], pose: &Pose3) {
+pub(super) fn cuboid(xml: &mut Xml, name: &str, size: [f64; 3], pose: &Pose3) {
     let mut attributes = vec![
         ("name", name.to_owned()),
         ("type", "box".into()),

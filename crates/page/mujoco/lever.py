@@ -86,7 +86,7 @@ class Scene:
         self.steps = sorted((int(k), kind) for kind, k in steps)
         self.step = self.model.opt.timestep
         self.texts = texts(self.model)
-        self.raised = 0.0
+        self.raised = {}
         self.time = 0.0
         self.hand = None
         self.way = None
@@ -153,17 +153,23 @@ class Scene:
         for frame in range(1, count + 1):
             self.until(began + lever["turn"] * frame / count)
             lift.append(self.pose())
-        self.raised = self.edge(k, before[0])[1][2] - before[1][2]
+        self.raised[self.levered(k)] = self.edge(k, before[0])[1][2] - before[1][2]
         self.until(began + lever["turn"] + lever["hold"] + lever["retreat"] / lever["speed"])
         self.rest()
         self.hand.away()
         self.hand = None
         return lift
 
+    def levered(self, k):
+        """The plate that step k levers."""
+        name = self.texts.get(f"plate {k}")
+        return self.model.body(name).id if name else self.plate
+
     def edge(self, k, local=None):
         """The lever point in the plate's frame and in the world."""
         mujoco.mj_forward(self.model, self.data)
-        at, turn = self.data.xpos[self.plate].copy(), self.data.xquat[self.plate].copy()
+        plate = self.levered(k)
+        at, turn = self.data.xpos[plate].copy(), self.data.xquat[plate].copy()
         if local is None:
             back = turn * np.array([1, -1, -1, -1])
             local = rotated(np.array(self.numbers[f"frame {k}"][:3]) - at, back)
@@ -211,7 +217,7 @@ class Scene:
 
     def lifted(self, name):
         """How far a lever-up has lifted the edge of an object, metres."""
-        return self.raised if self.model.body(f"plate/{name}").id == self.plate else 0.0
+        return self.raised.get(self.model.body(f"plate/{name}").id, 0.0)
 
     def leaning(self, name):
         """The angle between an object's upper side and straight up, radians."""

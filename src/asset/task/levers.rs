@@ -191,7 +191,8 @@ pub(super) fn check_follow_up(pushes: &Node, goal: &Node, ledger: &mut Ledger) {
         let message = "pushes that follow a lever-up are placed, none goes on from `home`";
         ledger.fault(node, message, "remove `form`");
     }
-    if goal.get("object").is_some() && goal.get("position").is_none() {
+    let wanted = ["position", "region", "gap", "coverage", "off_table", "joint", "joint_deg"];
+    if goal.get("object").is_some() && !wanted.iter().any(|key| goal.get(key).is_some()) {
         let message = "pushes may follow, but the goal names no place to push to";
         ledger.fault(pushes, message, "add `position` and `tolerance` to the goal, or remove this");
     }

@@ -3,12 +3,12 @@
 
 use crate::geometry::{ConvexPolygon, Pose, Pose3, Vector, Vector3, clearance};
 use crate::{
-    scene::{MAX_FEET, Object, Obstacle, Scene, Support, Unknowns, carries},
-    task::{Goal, PushRules, Task},
+    scene::{
+        Body, Joint, MAX_FEET, Mount, Object, Obstacle, PairFriction, Plate, Scene, State, Support,
+        Surface, Unknowns, Whole, carries,
+    },
+    task::{Demand, Ending, Goal, PushRules, Task},
 };
-
-use crate::scene::Plate;
-use crate::task::Ending;
 
 /// A plate whose lowest point is higher above the table lies on something else, metres.
 const ON_TABLE: f64 = 1e-3;
@@ -27,49 +27,30 @@ const NAME: usize = 56;
 const CARRYING: f64 = 3e-4;
 
 impl Task {
-    /// The task of pushing the goal's object to its place once all objects lie at `rests` (their
-    /// frames): nothing if the task allows no pushes or names no place, or if the object does not
-    /// lie on the table.
+    /// The task of pushing the goals' objects to their places once all objects lie at `rests` (their
+    /// frames): nothing if the task allows no pushes or asks for nothing in the plane, or if such an object
+    /// does not lie on the table.
     ///
-    /// Seen from above objects are their outlines, on the points that carry them. Those that lie on
-    /// something else are obstacles, and obstacles count as standing on the table.
+    /// Objects that stand as they stood are those of the scene, with their joints. Of others that lie on the
+    /// table the outlines are left, on the points that carry them. Those that lie on something else are
+    /// obstacles, and obstacles count as standing on the table.
     pub fn after(&self, rests: &[Pose3]) -> Option<Task> {
-        let place = self.goals.first()?;
         if self.pushes.max_count == 0 {
             return None;
         }
-        let (position, tolerance) = (place.position()?, place.tolerance());
         // Between a lever-up and a push the tool is changed.
         let tool_changes = match (self.pushes.tool_changes, &self.levers) {
             (Some(allowed), Some(_)) => Some(allowed.checked_sub(1)?),
             (stated, _) => stated,
         };
-        let mut scene = Scene::new([]).on_table(self.scene.table_friction);
-        let mut goal = None;
-        for (k, (plate, rest)) in self.scene.plates().zip(rests).enumerate() {
-            match lying(&plate, rest).filter(|object| self.is_clear(object)) {
-                Some(object) => {
-                    if k == place.object {
-                        let there = Goal::new(scene.objects.len(), position.into(), tolerance);
-                        // The outline that is pushed is unturned where it rests.
-                        let turned = rest.from_above().heading;
-                        goal = Some(match place.heading() {
-                            Some(wanted) => there
-                                .facing(wanted.heading - turned, wanted.tolerance)
-                                .alike(wanted.symmetry),
-                            None => there,
-                        });
-                    }
-                    scene.objects.push(object);
-                }
-                None => scene.obstacles.push(standing(&plate, rest)),
-            }
-        }
-        scene.obstacles.extend(self.scene.obstacles.iter().map(Obstacle::grounded));
+        let left = Left::of(self, rests);
+        let goals: Vec<Goal> = self.goals.iter().filter_map(|goal| flat(goal)).collect();
+        let goals = goals.into_iter().map(|goal| left.goal(goal)).collect::<Option<Vec<Goal>>>()?;
+        goals.first()?;
         Some(Task {
             name: self.name.chars().take(NAME).chain("-push".chars()).collect(),
             description: format!("What is left of {} after the lever-up.", self.name),
-            scene,
+            scene: left.scene(self),
             unknown: Unknowns::NONE,
             arm: None,
             robot: self.robot,
@@ -77,23 +58,23 @@ impl Task {
             tools: self.tools.clone(),
             pushes: PushRules { tool_changes, ..self.pushes.clone() },
             levers: None,
-            goals: vec![goal?],
+            goals,
             robustness: self.robustness,
         })
     }
 
-    /// The task from where all objects lie at `rests`; nothing if one does not lie on its underside
-    /// any more, as it is then no object that a scene can state.
+    /// The task from where all objects lie at `rests`; nothing if one of several solids does not lie on its
+    /// underside any more, as it is then no object that a scene can state.
     pub fn moved_to(&self, rests: &[Pose3]) -> Option<Task> {
-        let mut task = self.clone();
-        for (object, rest) in task.scene.objects.iter_mut().zip(rests) {
-            let sunk = (rest.position.z - object.z).abs();
-            if Ending::of(rest) != Ending::Back || rest.tilt() > LEVEL || sunk > ON_TABLE {
-                return None;
+        let seen: Vec<Pose> = rests.iter().map(Pose3::from_above).collect();
+        let mut task = Task { scene: carried(&self.scene, &seen), ..self.clone() };
+        for (k, (plate, rest)) in self.scene.plates().zip(rests).enumerate() {
+            if !stands(&plate, rest) {
+                let alone = self.scene.parts_of(k).next().is_none();
+                let object = lying(&plate, rest).filter(|_| alone)?;
+                task.scene.objects[k] = Object { keep: self.scene.objects[k].keep, ..object };
             }
-            object.pose = rest.from_above();
         }
-        task.scene.place_parts();
         Some(task)
     }
 
@@ -104,6 +85,139 @@ impl Task {
             let base = obstacle.shape().footprint();
             clearance((&own, &object.pose), (&base, &obstacle.pose), BESIDE) > 0.0
         })
+    }
+}
+
+/// What of a goal pushes can bring about; nothing of one that leaves the plane and names no place.
+fn flat(goal: &Goal) -> Option<Goal> {
+    let mut flat = goal.clone();
+    flat.demands.retain(|demand| !demand.kind().in_space());
+    let wanted = flat.has_place() || !goal.in_space() && !flat.demands.is_empty();
+    wanted.then_some(flat)
+}
+
+/// Whether an object still stands on its underside as it did.
+fn stands(plate: &Plate, rest: &Pose3) -> bool {
+    let sunk = (rest.position.z - plate.z).abs();
+    Ending::of(rest) == Ending::Back && rest.tilt() <= LEVEL && sunk <= ON_TABLE
+}
+
+/// The scene with its objects at these poses, and all joints as they are then.
+fn carried(scene: &Scene, seen: &[Pose]) -> Scene {
+    let mut now = scene.moved_to(&State::at_rest(scene.with_parts(seen.to_vec())));
+    let joints = scene.joints.iter().map(|joint| joint.carried(&scene.objects, &now.objects));
+    now.joints = joints.collect();
+    now
+}
+
+/// What lies where after some steps, as a scene in the plane.
+struct Left {
+    /// The scene with its objects seen from above.
+    now: Scene,
+    /// The objects that can be pushed, then the parts of those that are objects of the scene.
+    objects: Vec<Object>,
+    /// The others.
+    fixed: Vec<Obstacle>,
+    /// For each object of the scene its place among the objects.
+    places: Vec<Option<usize>>,
+    /// Of what is an outline in its first pose, the heading in which it lies.
+    turned: Vec<Option<f64>>,
+}
+
+impl Left {
+    fn of(task: &Task, rests: &[Pose3]) -> Self {
+        let scene = &task.scene;
+        let seen: Vec<Pose> = rests.iter().map(Pose3::from_above).collect();
+        let now = carried(scene, &seen);
+        let places = vec![None; scene.objects.len()];
+        let turned = vec![None; rests.len()];
+        let mut left = Self { now, objects: Vec::new(), fixed: Vec::new(), places, turned };
+        for (k, (plate, rest)) in scene.plates().zip(rests).enumerate() {
+            let own = &left.now.objects[k];
+            let whole = !own.in_space() && stands(&plate, rest);
+            let outline = || {
+                lying(&plate, rest).map(|found| Object {
+                    keep: own.keep,
+                    may_fall: own.may_fall,
+                    max_force: own.max_force,
+                    ..found
+                })
+            };
+            let found = if whole { Some(own.clone()) } else { outline() };
+            match found.filter(|object| task.is_clear(object)) {
+                Some(object) => {
+                    left.turned[k] = (!whole).then(|| seen[k].heading);
+                    left.places[k] = Some(left.objects.len());
+                    left.objects.push(object);
+                }
+                None => left.fixed.push(standing(&plate, rest)),
+            }
+        }
+        for (k, part) in left.now.objects.iter().enumerate().skip(rests.len()) {
+            let Some(whole) = part.whole else { continue };
+            let kept = left.places[whole.object].filter(|_| left.turned[whole.object].is_none());
+            let Some(object) = kept else { continue };
+            left.places[k] = Some(left.objects.len());
+            left.objects.push(Object { whole: Some(Whole { object, ..whole }), ..part.clone() });
+        }
+        left
+    }
+
+    /// The goal of an object that can be pushed; nothing if it relates the object to one that has another
+    /// number here, or asks for an outline that is not that of the scene.
+    fn goal(&self, mut goal: Goal) -> Option<Goal> {
+        let same = |k: usize| self.places[k] == Some(k);
+        let others = goal.demands.iter().flat_map(|demand| {
+            let to = match demand.kind().to() {
+                Some(Body::Object(other)) => Some(other),
+                _ => None,
+            };
+            demand.kind().relative().into_iter().chain(to)
+        });
+        let known = others.clone().all(|other| same(other));
+        let related = others.count() > 0;
+        if let Some(turned) = self.turned[goal.object] {
+            let outlined = goal.demands.iter().any(|one| one.kind().share().is_some());
+            if outlined || related {
+                return None;
+            }
+            // The outline that is pushed is unturned where it rests.
+            let facing = goal.demands.iter_mut().filter_map(Demand::facing_mut);
+            facing.for_each(|facing| facing.heading -= turned);
+        }
+        let object = self.places[goal.object]?;
+        (known && (!related || same(goal.object))).then_some(Goal { object, ..goal })
+    }
+
+    fn scene(self, task: &Task) -> Scene {
+        let Self { now, objects, fixed, places, .. } = self;
+        let place = |k: usize| places[k];
+        let joints = now.joints.iter().filter_map(|joint| {
+            let [a, b] = joint.between;
+            Some(Joint { between: [place(a)?, place(b)?], ..joint.clone() })
+        });
+        let mounts = now
+            .mounts
+            .iter()
+            .filter_map(|mount| Some(Mount { object: place(mount.object)?, ..mount.clone() }));
+        let before = fixed.len();
+        let frictions = now.frictions.iter().filter_map(|pair| {
+            let with = match pair.with {
+                Surface::Object(other) => Surface::Object(place(other)?),
+                Surface::Obstacle(other) => Surface::Obstacle(before + other),
+                other => other,
+            };
+            Some(PairFriction { object: place(pair.object)?, with, ..*pair })
+        });
+        let grounded = task.scene.obstacles.iter().map(Obstacle::grounded);
+        Scene {
+            joints: joints.collect(),
+            mounts: mounts.collect(),
+            frictions: frictions.collect(),
+            obstacles: fixed.into_iter().chain(grounded).collect(),
+            objects,
+            ..now
+        }
     }
 }
 

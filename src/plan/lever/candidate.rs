@@ -57,7 +57,7 @@ impl LeverGrid<'_> {
                 for (q, pivot) in axes(place).enumerate() {
                     for (a, &angle) in angles.iter().enumerate() {
                         let lever = LeverUp {
-                            plate: self.task.goals[0].object,
+                            plate: self.task.levered().object,
                             place,
                             depth,
                             pivot,

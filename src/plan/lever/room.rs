@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::geometry::{Pose3, Solid, Vector, Vector3, cross, perpendicular};
 use crate::{
     outcome::LeverFault,
-    scene::LeverScene,
+    scene::{LeverScene, Region},
     task::{LeverRules, LeverUp, Task},
 };
 
@@ -25,6 +25,8 @@ pub struct LeverRoom<'a> {
     scene: &'a LeverScene,
     /// What the blade must not meet, with names.
     bodies: Vec<(String, Solid)>,
+    /// What only the hand must not meet.
+    beside: Vec<(String, Solid)>,
     /// Above this nothing can be met, metres.
     top: f64,
 }
@@ -36,16 +38,23 @@ impl<'a> LeverRoom<'a> {
             .blocks
             .iter()
             .map(|block| (block.name.clone(), block.solid(), block.z + block.size[2]));
-        let others = scene.plates.iter().enumerate().filter(|(k, _)| *k != task.goals[0].object);
+        let levered = task.levered().object;
+        let others = scene.plates.iter().enumerate().filter(|(k, _)| *k != levered);
         let others = others.flat_map(|(_, plate)| {
             plate.slabs.iter().zip(plate.solids()).map(|(slab, solid)| {
                 (plate.name.clone(), solid, plate.z + (slab.bottom + slab.height))
             })
         });
-        let all: Vec<(String, Solid, f64)> = blocks.chain(others).collect();
+        let (tool, hand): (Vec<&Region>, Vec<&Region>) = {
+            let all = task.scene.keep_out.iter().filter(|region| region.tool || region.hand);
+            all.partition(|region| region.tool)
+        };
+        let column = |region: &&Region| (region.name.clone(), region.column());
+        let regions = tool.iter().map(column).map(|(name, column)| (name, column, f64::INFINITY));
+        let all: Vec<(String, Solid, f64)> = blocks.chain(others).chain(regions).collect();
         let top = all.iter().map(|(.., top)| *top).fold(0.0, f64::max);
         let bodies = all.into_iter().map(|(name, solid, _)| (name, solid)).collect();
-        Self { task, scene, bodies, top }
+        Self { task, scene, bodies, beside: hand.iter().map(column).collect(), top }
     }
 
     /// Why a lever-up cannot be made; `None` if it can.
@@ -144,7 +153,8 @@ impl<'a> LeverRoom<'a> {
     fn held(&self, pose: &Pose3) -> Option<LeverFault> {
         self.task.robot.hand?;
         let fingers = self.scene.blade.fingers(pose);
-        let met = self.bodies.iter().find(|(_, solid)| solid.depth(&fingers) > SLACK)?;
+        let mut all = self.bodies.iter().chain(&self.beside);
+        let met = all.find(|(_, solid)| solid.depth(&fingers) > SLACK)?;
         Some(LeverFault::HandMeets { body: met.0.clone() })
     }
 

@@ -122,7 +122,7 @@ impl LeverSearch<'_> {
                 break;
             }
             let jobs: Vec<Job> = batch.iter().map(|candidate| self.job(candidate)).collect();
-            let (scene, goal) = (&self.task.scene, &self.task.goals[0]);
+            let (scene, goal) = (&self.task.scene, self.task.levered());
             outcomes.extend(predict(&jobs).into_iter().map(|trajectory| {
                 let outcome = Outcome::judge(scene, self.task, &trajectory);
                 let merit = merit(goal, &outcome, &trajectory);

@@ -65,7 +65,7 @@ impl Slab {
 }
 
 /// Corners of a solid's outline, counter-clockwise, metres.
-fn outline(shape: &Shape) -> Vec<Vector> {
+pub(super) fn outline(shape: &Shape) -> Vec<Vector> {
     match shape.footprint() {
         Footprint::Rectangle { half } => {
             let [x, y]: [f64; 2] = half.into();
@@ -164,9 +164,13 @@ impl Plate {
 
     /// Its solids where it starts.
     pub fn solids(&self) -> Vec<Solid> {
-        let start = self.start();
+        self.solids_at(&self.start())
+    }
+
+    /// Its solids with its frame in a pose.
+    pub fn solids_at(&self, pose: &Pose3) -> Vec<Solid> {
         let solid = |slab: &Slab| {
-            Solid::prism(&slab.corners, [slab.bottom, slab.bottom + slab.height], &start)
+            Solid::prism(&slab.corners, [slab.bottom, slab.bottom + slab.height], pose)
         };
         self.slabs.iter().map(solid).collect()
     }

@@ -2,10 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Pose, Pose3, Solid, Vector3};
-use crate::scene::{Obstacle, Scene, State, Tool, Velocity};
+use crate::geometry::{Pose, Pose3, Solid, Vector, Vector3};
+use crate::scene::{Feet, Obstacle, Physics, Region, Scene, State, Support, Tool, Velocity};
 
 use super::Plate;
+use super::plate::outline;
 
 /// The flat end of a tool that goes under an edge: a cuboid from its tip backwards.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -53,6 +54,26 @@ impl Scene {
         state
     }
 
+    /// The points that object `index` stands on, in its frame, metres: the corners of what has feet, or a
+    /// support that is stated; none of what lies on its underside.
+    pub fn stands_on(&self, index: usize, physics: &Physics) -> Option<Vec<Vector>> {
+        let plate = Plate::of(self, index);
+        let solids = || self.parts_of(index).chain([index]);
+        let stated = solids().any(|k| self.objects[k].support != Support::Even);
+        if !(stated && plate.has_feet()) {
+            return (plate.has_feet() && plate.z > 0.0).then(|| plate.corners().to_vec());
+        }
+        let points = |k: usize| {
+            let place = self.objects[k].whole.map_or_else(Pose::default, |whole| whole.place);
+            let feet = match k == index {
+                true => Feet::clone(&physics.feet[k]),
+                false => self.contacts(k, &physics.feet[k], &physics.masses),
+            };
+            feet.each().map(|(at, _)| place.point(at)).collect::<Vec<_>>()
+        };
+        Some(solids().flat_map(points).collect())
+    }
+
     /// Number of edges of object `index` that a blade can go under; 0 for a part or what does not exist.
     pub fn edges(&self, index: usize) -> usize {
         let is_there = self.objects.get(index).is_some_and(|object| !object.is_part());
@@ -67,6 +88,22 @@ impl Scene {
         let parts = objects.into_iter().enumerate();
         let parts = parts.flat_map(|(k, (_, parts))| parts.into_iter().map(move |part| (k, part)));
         Some(parts.fold(scene, |scene, (k, (part, place))| scene.with_part(k, part, place)))
+    }
+}
+
+impl Region {
+    /// Heights between which a region holds, metres: everything that a robot reaches.
+    const SPAN: [f64; 2] = [-1.0, 10.0];
+
+    /// All of space above and below the region, as bodies in space keep out of it.
+    pub fn column(&self) -> Solid {
+        Solid::prism(&outline(&self.shape), Self::SPAN, &Pose3::upright(self.pose, 0.0))
+    }
+
+    /// Whether a body in space is in it.
+    pub fn holds_in_space(&self, solids: &[Solid]) -> bool {
+        let column = self.column();
+        solids.iter().any(|solid| solid.depth(&column) > Self::SLACK)
     }
 }
 

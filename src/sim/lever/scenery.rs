@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::geometry::{Pose3, Vector};
-use crate::scene::{Body, Feet, Physics, Plate, Scene, Situation, Support, Weight};
+use crate::scene::{Body, Physics, Plate, Scene, Situation, Weight};
 use crate::task::LeverJob;
 
 /// The scene as it really is, the objects as they were seen when the motions were planned, and where the
@@ -75,16 +75,12 @@ impl Scenery {
         masses.map_or_else(|| own.weight(), |masses| own.weight_of(&masses))
     }
 
-    /// Returns the points that an object stands on, in its frame: the corners of what has feet, or those
-    /// of a support that is stated.
+    /// Returns the points that an object stands on, in its frame, see [`Scene::stands_on`].
     pub fn stands_on(&self, plate: usize) -> Option<Vec<Vector>> {
-        let own = &self.plates[plate];
-        let stated = self.scene.objects.get(plate).filter(|one| one.support != Support::Even);
-        if stated.is_some() && own.has_feet() {
-            let (feet, masses) = (&self.physics.feet[plate], &self.physics.masses);
-            let feet: Feet = self.scene.contacts(plate, feet, masses);
-            return Some(feet.each().map(|(at, _)| at).collect());
+        if plate < self.scene.objects.len() {
+            return self.scene.stands_on(plate, &self.physics);
         }
+        let own = &self.plates[plate];
         (own.has_feet() && own.z > 0.0).then(|| own.corners().to_vec())
     }
 }

@@ -9,7 +9,7 @@ use crate::task::Task;
 use super::change_tool::ChangeTool;
 use super::clear::Clear;
 use super::harden::Harden;
-use super::lever::{FollowUp, LeverUp, MakeRoom};
+use super::lever::{FollowUp, InTurn, LeverUp, MakeRoom};
 use super::push::Push;
 use super::transport::Transport;
 
@@ -33,13 +33,16 @@ pub(in crate::solve) fn for_pushes<'a>(alone: Option<&'a (Task, Situation)>) -> 
 }
 
 /// Returns the strategies for tasks that leave the plane: a lever-up alone, then pushes that follow one,
-/// then pushes to where one can be made.
+/// then pushes to where one can be made. Several goals are met in turn, each by these.
 pub(in crate::solve) fn for_levers<'a>(
     query: Query<'a>,
     library: &'a ToolLibrary,
 ) -> Strategies<'a> {
     let (levers, pushes) = (query.task.levers.is_some(), query.task.pushes.max_count > 0);
     let mut strategies: Strategies = Vec::new();
+    let [goal] = &query.task.goals[..] else {
+        return vec![Box::new(InTurn::new(query.task, library))];
+    };
     if levers {
         strategies.push(Box::new(LeverUp::default()));
     }
@@ -48,6 +51,9 @@ pub(in crate::solve) fn for_levers<'a>(
     }
     if levers && pushes {
         strategies.push(Box::new(MakeRoom::new(library)));
+    }
+    if pushes && levers && !goal.in_space() {
+        strategies.push(Box::new(InTurn::new(query.task, library)));
     }
     strategies
 }

@@ -2,7 +2,7 @@
 
 use crate::geometry::{Pose, Solid, Vector3};
 use crate::outcome::LeverFault;
-use crate::scene::{LeverScene, Robot, Scene, Tool};
+use crate::scene::{LeverScene, Obstacle, Region, Robot, Scene, Tool};
 use crate::task::{LeverRules, LeverStep, LeverUp, Pivot, Task};
 
 use super::{SLACK, reach};
@@ -54,7 +54,7 @@ pub(super) fn faults(task: &Task, scene: &Scene, tool: &Tool, step: &LeverStep) 
     if seen.blade.thickness > plate.clearance + SLACK {
         found.push(LeverFault::TooThick);
     }
-    found.extend(on_the_way(&task.robot, &seen, lever));
+    found.extend(on_the_way(&task.robot, (&seen, &scene.keep_out), lever));
     found
 }
 
@@ -79,9 +79,16 @@ fn outside_of_rules(task: &Task, lever: &LeverUp) -> Vec<LeverFault> {
 }
 
 /// Returns the faults of the blade's motion, each once.
-fn on_the_way(robot: &Robot, scene: &LeverScene, lever: &LeverUp) -> Vec<LeverFault> {
-    let blocks: Vec<(&str, Solid)> =
-        scene.blocks.iter().map(|block| (block.name.as_str(), block.solid())).collect();
+fn on_the_way(
+    robot: &Robot,
+    (scene, regions): (&LeverScene, &[Region]),
+    lever: &LeverUp,
+) -> Vec<LeverFault> {
+    let solid = |block: &'_ Obstacle| (block.name.clone(), block.solid(), [true; 2]);
+    let column =
+        |region: &Region| (region.name.clone(), region.column(), [region.tool, region.hand]);
+    let blocks: Vec<(String, Solid, [bool; 2])> =
+        scene.blocks.iter().map(solid).chain(regions.iter().map(column)).collect();
     let blade = &scene.blade;
     let mut found: Vec<LeverFault> = Vec::new();
     let mut note = |fault: LeverFault| {
@@ -104,12 +111,13 @@ fn on_the_way(robot: &Robot, scene: &LeverScene, lever: &LeverUp) -> Vec<LeverFa
         if solid.lowest() < -SCRATCH {
             note(LeverFault::BelowTable);
         }
-        for (name, block) in &blocks {
-            if block.depth(&solid) > SCRATCH {
-                note(LeverFault::Meets { body: (*name).to_owned() });
+        for (name, block, [by_tool, by_hand]) in &blocks {
+            if *by_tool && block.depth(&solid) > SCRATCH {
+                note(LeverFault::Meets { body: name.clone() });
             }
-            if robot.hand.is_some() && block.depth(&blade.fingers(&pose)) > SCRATCH {
-                note(LeverFault::HandMeets { body: (*name).to_owned() });
+            let held = robot.hand.is_some() && *by_hand;
+            if held && block.depth(&blade.fingers(&pose)) > SCRATCH {
+                note(LeverFault::HandMeets { body: name.clone() });
             }
         }
     }

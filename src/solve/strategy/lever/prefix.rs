@@ -67,12 +67,16 @@ pub(super) fn pushed(
     let Some(best) = pushed.best() else { return Ok(None) };
     let plan = prefix.plan.clone().then(best.plan.clone());
     let tools = prefix.with(&best.tools);
-    let trajectory = simulated(LeverSimulator::COARSE, query.task, &plan, &tools);
-    Ok(trajectory.map(|trajectory| {
+    Ok(coarse(query.task, &plan, &tools).map(|trajectory| {
         let outcome = Outcome::judge(&query.task.scene, query.task, &trajectory);
         let attempt = Attempt::simulated(plan, tools, (trajectory, outcome));
         LeverPlan { attempt, kind: (0, 0, 0, 0), promising: true }
     }))
+}
+
+/// Simulates a plan as written, coarsely.
+pub(super) fn coarse(task: &Task, plan: &Plan, tools: &[Arc<Tool>]) -> Option<Trajectory> {
+    simulated(LeverSimulator::COARSE, task, plan, tools)
 }
 
 /// Simulates a plan as written.

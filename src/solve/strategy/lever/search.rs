@@ -105,7 +105,7 @@ fn simulate(query: &Query, task: &Task, chosen: Vec<ScoredLever>) -> Vec<Simulat
                 coarse(task, really, Motion::Lever(LeverMotion::new(tool, lever, None)))
             };
             let (trajectory, outcome) = run(&stated, tool.friction);
-            let mut merit = merit(&task.goals[0], &outcome, &trajectory) + 1.0 - scored.company;
+            let mut merit = merit(task.levered(), &outcome, &trajectory) + 1.0 - scored.company;
             if outcome.reached && doubts > 0 {
                 let missed = (0..doubts).filter(|&draw| {
                     let own = (tool.friction, draw);
