@@ -7,18 +7,59 @@ use crate::geometry::Pose3;
 use crate::outcome::{
     Frame, LEVER_FRAMES, LeverTrajectory, LeverWarning, Lift, Record, Trajectory, Warning,
 };
-use crate::scene::{LeverScene, ModelSpec, Scene, State};
-use crate::task::{Job, LeverJob, LeverMotion, Motion, lever_frame};
+use crate::scene::{
+    Joint, LeverScene, ModelSpec, PairFriction, Plate, Scene, Support, Surface,
+};
+use crate::task::{Job, LeverJob, LeverMotion, LeverUp, Motion, lever_frame};
 
-/// Returns the lever-up of a job; `None` for a motion in the plane, for an object that lies elsewhere
-/// than in the scene, and for a tool without a blade.
+/// Distance from its frame to which an object comes that turns over its far corner, in distances of its
+/// farthest corner.
+const TURNED: f64 = 3.0;
+
+/// Returns the lever-up of a job, of its object as the first of those that it may come near to; `None` for
+/// a motion in the plane, for an object that lies elsewhere than in the scene, and for a tool without a
+/// blade.
 fn lever_job(scene: &Scene, job: &Job) -> Option<LeverJob> {
     let Motion::Lever(LeverMotion { lever, expected: None, .. }) = &job.motion else { return None };
-    if job.start.space.is_some() || !job.motion.fits(scene) {
+    if job.start.space.is_some() || !job.motion.fits(scene) || !is_plain(scene, lever.plate, job) {
         return None;
     }
-    let scene = Arc::new(LeverScene::with(scene, job.motion.tool()));
-    Some(LeverJob { scene, lever: *lever })
+    let mut around = LeverScene::with(scene, job.motion.tool());
+    let own = around.plates.swap_remove(lever.plate);
+    let far = own.corners().iter().map(|corner| corner.norm()).fold(0.0, f64::max);
+    let is_near = |other: &Plate| {
+        let middle = (other.pose.position - own.pose.position).norm();
+        let corners = other.slabs.iter().flat_map(|slab| &slab.corners);
+        middle - corners.map(|corner| corner.norm()).fold(0.0, f64::max) < TURNED * far
+    };
+    around.plates.retain(is_near);
+    around.plates.insert(0, own);
+    Some(LeverJob { scene: Arc::new(around), lever: LeverUp { plate: 0, ..*lever } })
+}
+
+/// Whether an object is of one density and friction, held by nothing, on its corners or its underside, and
+/// rubs as its friction value has it.
+fn is_plain(scene: &Scene, object: usize, job: &Job) -> bool {
+    let solids: Vec<usize> = scene.parts_of(object).chain([object]).collect();
+    let even = |k: &usize| {
+        let own = &scene.objects[*k];
+        own.support == Support::Even && own.friction == scene.objects[object].friction
+    };
+    let rubs = |pair: &PairFriction| {
+        solids.contains(&pair.object)
+            || matches!(pair.with, Surface::Object(other) if solids.contains(&other))
+    };
+    let joined = |joint: &Joint| {
+        !scene.is_seam(joint) && joint.between.iter().any(|k| solids.contains(k))
+    };
+    let plate = Plate::of(scene, object);
+    let own = std::iter::once(object).chain(scene.parts_of(object));
+    let masses: Vec<f64> = own.map(|k| job.physics.masses[k]).collect();
+    solids.iter().all(even)
+        && scene.mount(object).is_none()
+        && !job.physics.pairs.iter().any(rubs)
+        && !job.physics.joints.iter().any(joined)
+        && plate.weight_of(&masses) == plate.weight()
 }
 
 /// Returns the trust of a model that takes the lever-ups that it `knows` and no other motion.
@@ -41,9 +82,11 @@ pub(super) fn rollout(
     let mut courses = predict(&known).into_iter();
     let each = |(job, lever): (&Job, &Option<LeverJob>)| {
         let predicted = lever.as_ref().and_then(|lever| Some((lever, courses.next()?)));
-        match predicted {
-            Some((lever, course)) => trajectory(by.clone(), lever, course, record),
-            None => Trajectory::declined(by, job),
+        match (predicted, &job.motion) {
+            (Some((own, course)), Motion::Lever(motion)) => {
+                trajectory(by.clone(), (scene, &motion.lever, own), course, record)
+            }
+            _ => Trajectory::declined(by, job),
         }
     };
     jobs.iter().zip(&levers).map(each).collect()
@@ -52,22 +95,21 @@ pub(super) fn rollout(
 /// Returns a predicted lever-up as a trajectory of the whole scene, in which no other object moves.
 fn trajectory(
     by: ModelSpec,
-    job: &LeverJob,
+    (scene, lever, job): (&Scene, &LeverUp, &LeverJob),
     course: LeverTrajectory,
     record: Record,
 ) -> Trajectory {
-    let LeverJob { scene, lever } = job;
-    let start: Vec<Pose3> = scene.plates.iter().map(|plate| plate.start()).collect();
+    let start: Vec<Pose3> = scene.plates().map(|plate| plate.start()).collect();
     let state = |pose: Pose3| {
         let mut poses = start.clone();
         poses[lever.plate] = pose;
-        State::in_space(poses)
+        scene.resting_in_space(poses)
     };
     let frame = |time: f64, pose: Pose3| {
-        let blade = lever.blade(scene, time);
+        let blade = job.lever.blade(&job.scene, time);
         Frame { time, stroke: 0, tool: blade.from_above(), state: state(pose), blade: Some(blade) }
     };
-    let plate = &scene.plates[lever.plate];
+    let plate = &job.scene.plates[job.lever.plate];
     let at = lever_frame(plate.corners(), lever.place).position;
     let end = course.lift.last().copied().unwrap_or(course.rest);
     let lift = Lift {
@@ -89,5 +131,6 @@ fn trajectory(
         LeverWarning::Moving => Warning::NotAtRest { waited: 0.0 },
         LeverWarning::Jammed => Warning::Strained,
     }));
+    found.warnings.extend(scene.strays(found.outcome(), 0.0));
     found
 }
