@@ -15,9 +15,7 @@ mod warning;
 
 pub use crate::task::{Ending, Lift};
 pub use in_turn::in_turn;
-pub use lever::{
-    LEVER_FRAMES, LeverFault, LeverFrame, LeverRecord, LeverTrajectory, LeverWarning, has_slipped,
-};
+pub use lever::{LEVER_FRAMES, LeverFault, LeverTrajectory, LeverWarning, has_slipped};
 pub use push_fault::PushFault;
 pub use result::{Miss, Outcome};
 pub use trajectory::{Contact, Force, Frame, Record, Spread, Trajectory};

@@ -7,9 +7,7 @@ use crate::geometry::Pose3;
 use crate::outcome::{
     Frame, LEVER_FRAMES, LeverTrajectory, LeverWarning, Lift, Record, Trajectory, Warning,
 };
-use crate::scene::{
-    Joint, LeverScene, ModelSpec, PairFriction, Plate, Scene, Support, Surface,
-};
+use crate::scene::{Joint, LeverScene, ModelSpec, PairFriction, Plate, Scene, Support, Surface};
 use crate::task::{Job, LeverJob, LeverMotion, LeverUp, Motion, lever_frame};
 
 /// Distance from its frame to which an object comes that turns over its far corner, in distances of its
@@ -49,9 +47,8 @@ fn is_plain(scene: &Scene, object: usize, job: &Job) -> bool {
         solids.contains(&pair.object)
             || matches!(pair.with, Surface::Object(other) if solids.contains(&other))
     };
-    let joined = |joint: &Joint| {
-        !scene.is_seam(joint) && joint.between.iter().any(|k| solids.contains(k))
-    };
+    let joined =
+        |joint: &Joint| !scene.is_seam(joint) && joint.between.iter().any(|k| solids.contains(k));
     let plate = Plate::of(scene, object);
     let own = std::iter::once(object).chain(scene.parts_of(object));
     let masses: Vec<f64> = own.map(|k| job.physics.masses[k]).collect();

@@ -7,8 +7,8 @@ use crate::geometry::{Pose, Pose3, Vector};
 use crate::watch::Watch;
 use crate::{
     outcome::{
-        Ending, Frame, LEVER_FRAMES, LeverFrame, LeverRecord, LeverTrajectory, LeverWarning, Lift,
-        Trajectory, Warning, has_slipped,
+        Ending, Frame, LEVER_FRAMES, LeverTrajectory, LeverWarning, Lift, Trajectory, Warning,
+        has_slipped,
     },
     scene::{Blade, GRAVITY, LeverScene, Plate, REST_SPEED, State},
     task::{LeverJob, LeverUp, Motion, Stroke, ToolMotion, lever_frame},
@@ -32,11 +32,11 @@ const PATIENCE: f64 = 4.0;
 /// Everything rests when it was slow for so long, seconds: a plate on edge is slow for a moment.
 const STILL: f64 = 0.1;
 
-/// Who looks on.
-pub(super) enum Watcher<'a> {
-    Nobody,
-    Recorder { record: &'a mut LeverRecord, interval: f64 },
-    Filmer { frames: &'a mut Vec<Frame>, interval: f64 },
+/// The frames that are kept, each with the force on blade or tool during the last step, newtons.
+pub(super) struct Film {
+    pub frames: Vec<(Frame, f64)>,
+    /// Between two frames, seconds.
+    pub interval: f64,
 }
 
 /// Plays the lever-up of a job of a data set in steps of at most `longest` seconds.
@@ -44,12 +44,12 @@ pub(super) fn play(
     job: &LeverJob,
     planned: &LeverScene,
     longest: f64,
-    watcher: &mut Watcher,
-) -> LeverTrajectory {
+    film: Option<Film>,
+) -> (LeverTrajectory, Vec<(Frame, f64)>) {
     let planned_plates = planned.plates.clone();
     let scenery = Arc::new(Scenery { planned: planned_plates, ..Scenery::of_job(job) });
     let (plate, blades) = (job.lever.plate, [job.scene.blade, planned.blade]);
-    let mut game = Game::new(&scenery, Some((&job.lever, blades)), longest, watcher);
+    let mut game = Game::new(&scenery, Some((&job.lever, blades)), longest, film);
     let (lift, held) = game.lever(&job.lever);
     let rest = game.last[plate];
     let mut warnings = Vec::new();
@@ -61,25 +61,26 @@ pub(super) fn play(
         Warning::Strained => Some(LeverWarning::Jammed),
         _ => None,
     }));
-    LeverTrajectory { lift, held, rest, ending: Ending::of(&rest), warnings }
+    let found = LeverTrajectory { lift, held, rest, ending: Ending::of(&rest), warnings };
+    (found, game.film.map(|film| film.frames).unwrap_or_default())
 }
 
-/// Plays motions one after another, each lever-up where it was planned; what `trajectory` gets is
-/// everything but its frames, which are the watcher's, and how all ends.
+/// Plays motions one after another, each lever-up where it was planned; without a film the end is all that
+/// is kept.
 pub(super) fn play_all(
     scenery: &Arc<Scenery>,
     motions: &[Motion],
     longest: f64,
-    watcher: &mut Watcher,
-    (trajectory, watch): (&mut Trajectory, &dyn Watch),
-) -> State {
+    film: Option<Film>,
+    (mut trajectory, watch): (Trajectory, &dyn Watch),
+) -> Trajectory {
     let first = motions.first().and_then(|motion| match motion {
         Motion::Lever(motion) => {
             Some((&motion.lever, [motion.tool().blade().unwrap_or_default(); 2]))
         }
         Motion::Slide(_) => None,
     });
-    let mut game = Game::new(scenery, first, longest, watcher);
+    let mut game = Game::new(scenery, first, longest, film);
     for (k, motion) in motions.iter().enumerate() {
         if game.trouble.is_some() {
             break;
@@ -106,9 +107,16 @@ pub(super) fn play_all(
         }
     }
     trajectory.warnings.extend(game.trouble.take());
-    game.judge_end(motions, trajectory);
+    game.judge_end(motions, &mut trajectory);
     trajectory.force = Some(game.strain.force());
-    game.state()
+    let state = game.state();
+    let frames = game.film.map(|film| film.frames).unwrap_or_default();
+    trajectory.frames = frames.into_iter().map(|(frame, _)| frame).collect();
+    if trajectory.frames.is_empty() {
+        let end = Frame { time: 0.0, stroke: 0, tool: Pose::default(), state, blade: None };
+        trajectory.frames.push(end);
+    }
+    trajectory
 }
 
 /// What a lever-up came to.
@@ -140,8 +148,16 @@ struct Levering {
     began: f64,
 }
 
+impl Levering {
+    /// Returns the pose of the blade's centre at a time.
+    fn blade(&self, time: f64) -> Pose3 {
+        let (plate, blade) = &self.planned;
+        self.lever.blade_on(plate, blade, time - self.began)
+    }
+}
+
 /// Motions on their way.
-struct Game<'a, 'b> {
+struct Game {
     scenery: Arc<Scenery>,
     world: LeverWorld,
     longest: f64,
@@ -162,16 +178,16 @@ struct Game<'a, 'b> {
     strain: Strain,
     /// The last poses that were finite.
     last: Vec<Pose3>,
-    watcher: &'a mut Watcher<'b>,
+    film: Option<Film>,
 }
 
-impl<'a, 'b> Game<'a, 'b> {
+impl Game {
     /// Everything at the start; the blade of a first lever-up is there as it really is and as planned.
     fn new(
         scenery: &Arc<Scenery>,
         first: Option<(&LeverUp, [Blade; 2])>,
         longest: f64,
-        watcher: &'a mut Watcher<'b>,
+        film: Option<Film>,
     ) -> Self {
         let plates = &scenery.plates;
         let mass: f64 = plates.iter().map(|plate| plate.mass).sum();
@@ -201,7 +217,7 @@ impl<'a, 'b> Game<'a, 'b> {
             strain: Strain::new(&scenery.scene, false),
             last: scenery.starts.clone(),
             scenery: Arc::clone(scenery),
-            watcher,
+            film,
         };
         game.show();
         game
@@ -332,14 +348,8 @@ impl<'a, 'b> Game<'a, 'b> {
         }
     }
 
-    /// The blade's centre at a time, if there is a blade.
-    fn blade(&self, time: f64) -> Option<Pose3> {
-        let Levering { lever, planned: (plate, blade), began } = self.levering.as_ref()?;
-        Some(lever.blade_on(plate, blade, time - began))
-    }
-
     fn step(&mut self, to: f64) {
-        let blade = self.blade(to);
+        let blade = self.levering.as_ref().map(|levering| levering.blade(to));
         self.world.step(blade.as_ref());
         self.time = to;
         let found = self.world.plates();
@@ -357,49 +367,32 @@ impl<'a, 'b> Game<'a, 'b> {
         if self.trouble.is_none() && (scene.table_top.is_some() || !scene.keep_out.is_empty()) {
             self.trouble = scene.strays(&self.state(), 0.0);
         }
-        let late =
-            |last: Option<f64>, interval: f64| last.is_none_or(|last| to - last > interval - 1e-9);
-        let due = match self.watcher {
-            Watcher::Recorder { record, interval } => {
-                late(record.frames.last().map(|last| last.time), *interval)
-            }
-            Watcher::Filmer { frames, interval } => {
-                late(frames.last().map(|last| last.time), *interval)
-            }
-            Watcher::Nobody => false,
-        };
+        let due = self.film.as_ref().is_some_and(|film| {
+            let last = film.frames.last().map(|(last, _)| last.time);
+            last.is_none_or(|last| to - last > film.interval - 1e-9)
+        });
         if due {
             self.show();
         }
     }
 
-    /// Lets the watcher see how things stand.
+    /// Keeps a frame of how things stand.
     fn show(&mut self) {
-        let (time, blade) = (self.time, self.blade(self.time));
-        match self.watcher {
-            Watcher::Recorder { record, .. } => {
-                if record.frames.last().is_none_or(|last| last.time < time) {
-                    let force = self.world.force_on_tool(&|_| true);
-                    let (blade, plates) = (blade.unwrap_or_default(), self.last.clone());
-                    record.frames.push(LeverFrame { time, blade, plates, force });
-                }
+        let time = self.time;
+        let is_new = |film: &&mut Film| film.frames.last().is_none_or(|(last, _)| last.time < time);
+        let Some(film) = self.film.as_mut().filter(is_new) else { return };
+        let levering = self.levering.as_ref().filter(|_| self.world.has_blade());
+        let blade = levering.map(|levering| levering.blade(time));
+        let tool = match (self.pushing, &blade) {
+            (Some((began, stroke)), _) => {
+                let share = ((time - began) / stroke.duration).clamp(0.0, 1.0);
+                stroke.from.towards(&stroke.to, share)
             }
-            Watcher::Filmer { frames, .. } => {
-                if frames.last().is_none_or(|last| last.time < time) {
-                    let blade = blade.filter(|_| self.world.has_blade());
-                    let tool = match (self.pushing, &blade) {
-                        (Some((began, stroke)), _) => {
-                            let share = ((time - began) / stroke.duration).clamp(0.0, 1.0);
-                            stroke.from.towards(&stroke.to, share)
-                        }
-                        (None, Some(blade)) => blade.from_above(),
-                        (None, None) => self.tool,
-                    };
-                    let state = self.scenery.scene.resting_in_space(self.last.clone());
-                    frames.push(Frame { time, stroke: self.stroke, tool, state, blade });
-                }
-            }
-            Watcher::Nobody => {}
-        }
+            (None, Some(blade)) => blade.from_above(),
+            (None, None) => self.tool,
+        };
+        let state = self.scenery.scene.resting_in_space(self.last.clone());
+        let force = self.world.force_on_tool(&|_| true);
+        film.frames.push((Frame { time, stroke: self.stroke, tool, state, blade }, force));
     }
 }

@@ -3,15 +3,14 @@
 use std::num::NonZeroU16;
 use std::sync::Arc;
 
-use crate::geometry::Pose;
 use crate::watch::Watch;
 use crate::{
-    outcome::{Frame, LeverRecord, LeverTrajectory, Record, Trajectory},
+    outcome::{Frame, LeverTrajectory, Record, Trajectory},
     scene::{Engine, LeverScene, ModelKind, ModelSpec, Rate, Scene, Situation},
     task::{LeverJob, Motion},
 };
 
-use super::play::{Watcher, play, play_all};
+use super::play::{Film, play, play_all};
 use super::scenery::Scenery;
 
 /// Between two frames that are recorded, seconds.
@@ -47,15 +46,13 @@ impl LeverSimulator {
     /// [`LeverSimulator::run`] with a blade that goes where it would in the scene as `planned`: what
     /// really lies there lies a little elsewhere.
     pub fn run_as_planned(&self, job: &LeverJob, planned: &LeverScene) -> LeverTrajectory {
-        play(job, planned, self.rate.step(), &mut Watcher::Nobody)
+        play(job, planned, self.rate.step(), None).0
     }
 
-    /// [`LeverSimulator::run`], with everything that moved, every `interval` seconds.
-    pub fn record(&self, job: &LeverJob, interval: f64) -> (LeverTrajectory, LeverRecord) {
-        let mut record = LeverRecord { frames: Vec::new() };
-        let mut watcher = Watcher::Recorder { record: &mut record, interval };
-        let trajectory = play(job, &job.scene, self.rate.step(), &mut watcher);
-        (trajectory, record)
+    /// [`LeverSimulator::run`], with a frame every `interval` seconds and the force on the blade in it,
+    /// newtons.
+    pub fn record(&self, job: &LeverJob, interval: f64) -> (LeverTrajectory, Vec<(Frame, f64)>) {
+        play(job, &job.scene, self.rate.step(), Some(Film { frames: Vec::new(), interval }))
     }
 
     /// Plays motions one after another in one world, from the situation as it `really` is, until
@@ -69,24 +66,10 @@ impl LeverSimulator {
         (record, watch): (Record, &dyn Watch),
     ) -> Trajectory {
         let scenery = Arc::new(Scenery::new(really, planned));
-        let mut trajectory = Trajectory::new(self.spec());
-        let (mut frames, step) = (Vec::new(), self.rate.step());
-        let mut watcher = match record {
-            Record::Frames => Watcher::Filmer { frames: &mut frames, interval: FRAME },
-            Record::Outcome => Watcher::Nobody,
-        };
-        let end = play_all(&scenery, motions, step, &mut watcher, (&mut trajectory, watch));
-        if frames.is_empty() {
-            frames.push(Frame {
-                time: 0.0,
-                stroke: 0,
-                tool: Pose::default(),
-                state: end,
-                blade: None,
-            });
-        }
-        trajectory.frames = frames;
-        trajectory
+        let film = Film { frames: Vec::new(), interval: FRAME };
+        let film = (record == Record::Frames).then_some(film);
+        let began = (Trajectory::new(self.spec()), watch);
+        play_all(&scenery, motions, self.rate.step(), film, began)
     }
 
     /// What it is as an effect model.

@@ -8,6 +8,7 @@ use pushplan::geometry::Pose;
 use pushplan::sim::LeverSimulator;
 use pushplan::{Solution, Task};
 use pushplan::{
+    outcome::Frame,
     scene::{Engine, LeverScene},
     task::LeverJob,
 };
@@ -185,8 +186,9 @@ fn a_lever_up_is_seen_from_all_sides() {
         LeverSimulator::FINE.record(&LeverJob { scene: Arc::clone(&scene), lever }, 0.02);
     let start = scene.plates[lever.plate].start();
     let edge = start.local_point(lever.frame(&scene).position);
+    let place_of = |frame: &Frame| frame.state.space.as_ref().expect("in space")[lever.plate];
     let raised = |k: usize| {
-        let point = motion.frames[k].plates[lever.plate].point(edge);
+        let point = place_of(&motion[k].0).point(edge);
         1e3 * (point.z - start.point(edge).z)
     };
 
@@ -194,12 +196,12 @@ fn a_lever_up_is_seen_from_all_sides() {
     browser.open(&file, "t=0.01");
     browser.value("solid.begun");
     assert_eq!(browser.value("byId('solid').hidden"), false);
-    let last = motion.frames.len() - 1;
+    let last = motion.len() - 1;
     let highest = (0..=last).max_by(|a, b| raised(*a).total_cmp(&raised(*b))).expect("frames");
     assert!(raised(highest) > 5.0);
     for k in [0, highest / 2, highest, last] {
-        follow(&mut browser, &format!("t={}", motion.frames[k].time));
-        let own = motion.frames[k].plates[lever.plate].position;
+        follow(&mut browser, &format!("t={}", motion[k].0.time));
+        let own = place_of(&motion[k].0).position;
         let shown = place(&mut browser, "spatial", lever.plate).expect("it is drawn");
         let off = (shown[0] - own.x).hypot(shown[1] - own.y).hypot(shown[2] - own.z);
         assert!(off < 3e-5, "{shown:?} for {own:?}");

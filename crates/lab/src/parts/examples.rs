@@ -2,7 +2,7 @@
 
 use pushplan::internals::geometry::{Pose3, Turn3, Vector3};
 use pushplan::internals::network::Forward;
-use pushplan::internals::outcome::LeverFrame;
+use pushplan::internals::outcome::Frame;
 use pushplan::internals::seeded::generator;
 use pushplan_learn::dataset::LeverEpisode;
 use rand::Rng;
@@ -95,12 +95,12 @@ impl Track {
         let job = episode.job();
         let course = LeverCourse::new(&job, prior.then_some(&LeverParts::PRIOR))?;
         let motion = episode.motion();
-        let end = motion.frames.last()?.time;
+        let end = motion.last()?.0.time;
         let plate = job.lever.plate;
         let mut truth = vec![course.see(&job.scene.plates[plate].start())];
         let (mut k, mut at_rest) = (1, 0);
         while at_rest < AT_REST {
-            truth.push(course.see(&pose_at(&motion.frames, plate, course.time(k))));
+            truth.push(course.see(&pose_at(&motion, plate, course.time(k))));
             at_rest += usize::from(course.time(k) >= end);
             k += 1;
         }
@@ -109,11 +109,13 @@ impl Track {
 }
 
 /// Between the frames about a time.
-fn pose_at(frames: &[LeverFrame], plate: usize, time: f64) -> Pose3 {
-    let after = frames.partition_point(|frame| frame.time < time).min(frames.len() - 1);
-    let (a, b) = (&frames[after.saturating_sub(1)], &frames[after]);
+fn pose_at(frames: &[(Frame, f64)], plate: usize, time: f64) -> Pose3 {
+    let after = frames.partition_point(|(frame, _)| frame.time < time).min(frames.len() - 1);
+    let (a, b) = (&frames[after.saturating_sub(1)].0, &frames[after].0);
     let share = ((time - a.time) / (b.time - a.time).max(1e-12)).clamp(0.0, 1.0);
-    let (from, to) = (&a.plates[plate], &b.plates[plate]);
+    let of =
+        |frame: &Frame| frame.state.space.as_ref().map_or_else(Pose3::default, |all| all[plate]);
+    let (from, to) = (of(a), of(b));
     let spin = (to.rotation * from.rotation.inverse()).scaled_axis() * share;
     Pose3 {
         position: from.position + (to.position - from.position) * share,

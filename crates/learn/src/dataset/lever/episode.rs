@@ -5,7 +5,7 @@ use std::sync::Arc;
 use pushplan::internals::seeded::generator;
 use pushplan::internals::sim::LeverSimulator;
 use pushplan::internals::{
-    outcome::{LeverRecord, LeverTrajectory, LeverWarning},
+    outcome::{Frame, LeverTrajectory, LeverWarning},
     scene::LeverScene,
     task::{LeverJob, LeverUp},
 };
@@ -54,7 +54,7 @@ impl LeverEpisode {
     }
 
     /// Everything that moves, after every step of the engine: simulated again.
-    pub fn motion(&self) -> LeverRecord {
+    pub fn motion(&self) -> Vec<(Frame, f64)> {
         LeverSimulator::FINE.record(&self.job(), 0.0).1
     }
 
