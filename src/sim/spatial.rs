@@ -7,20 +7,17 @@
 //! defaults are centimetres off.
 
 use rapier3d_f64::prelude::{
-    ActiveHooks, Collider, ColliderBuilder, ColliderHandle, FrictionModel, MassProperties,
-    PhysicsWorld, Pose3, RigidBodyBuilder, RigidBodyHandle, Rotation, SpringCoefficients,
-    Vector as RapierVector,
+    ActiveHooks, Collider, ColliderBuilder, ColliderHandle, MassProperties, PhysicsWorld, Pose3,
+    RigidBodyBuilder, RigidBodyHandle, Rotation, Vector as RapierVector,
 };
 
 use crate::geometry::{Pose, Vector, wrap_angle};
-use crate::scene::{Body, Feet, GRAVITY, Physics, Scene, State, Velocity};
+use crate::scene::{Body, Feet, Physics, Scene, State, Velocity};
 use crate::task::{FrameStep, ToolMotion};
 
 use super::asleep::Asleep;
 use super::groups::{Group, Member};
-use super::parameters::{
-    ALLOWED_ERROR, ARTICULATED_ITERATIONS, STIFF_CONTACT, is_articulated, needs_stiff_contacts,
-};
+use super::parameters::{ALLOWED_ERROR, STIFF_CONTACT, is_articulated, needs_stiff_contacts};
 use super::seams::Seams;
 use super::solids::{CLEAR, FOOT, floor, foot, raised, solid, table, undersides, weighing};
 use super::solved::solved;
@@ -29,9 +26,11 @@ use super::support::Support;
 use super::upright::{Standing, Upright};
 use super::world::World;
 
+pub(super) mod empty;
 pub(super) mod joints;
 pub(super) mod place;
 
+use empty::empty_world;
 use joints::{Anchored, add_joints};
 use place::{LOCAL, brink, frame_of, to_rapier, yaw};
 
@@ -80,8 +79,10 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
         motion: &ToolMotion,
         tool: &Pose,
     ) -> Self {
+        let articulated = is_articulated(scene, physics);
+        let stiff = articulated || needs_stiff_contacts(physics);
         let mut this = Self {
-            world: empty_world(scene, physics),
+            world: empty_world(articulated, stiff.then_some(STIFF_CONTACT)),
             frame: frame_of(state, motion, tool),
             lift: motion.lift,
             tool: RigidBodyHandle::invalid(),
@@ -386,22 +387,4 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
         self.labels.push(label);
         self.world.insert_collider(collider, Some(body))
     }
-}
-
-fn empty_world(scene: &Scene, physics: &Physics) -> PhysicsWorld {
-    let gravity = RapierVector::Z * -GRAVITY;
-    let mut world = PhysicsWorld { gravity, ..PhysicsWorld::default() };
-    let settings = &mut world.integration_parameters;
-    // One friction constraint per contact point; the simplified model is 2 cm off on cuboids.
-    settings.friction_model = FrictionModel::Coulomb;
-    settings.normalized_allowed_linear_error = ALLOWED_ERROR;
-    let articulated = is_articulated(scene, physics);
-    if articulated {
-        settings.num_solver_iterations = ARTICULATED_ITERATIONS;
-    }
-    if articulated || needs_stiff_contacts(physics) {
-        let (frequency, damping) = STIFF_CONTACT;
-        settings.contact_softness = SpringCoefficients::new(frequency, damping);
-    }
-    world
 }

@@ -122,15 +122,12 @@ impl<'a> Opened<'a> {
     pub fn check_state(&mut self, node: Option<&Node>, state: &State) {
         let (Some(node), Some(task)) = (node, &self.task) else { return };
         // What has left the plane moves as one, with all its solids.
-        let expected = match state.space {
-            Some(_) => task.scene.things().count(),
-            None => task.scene.objects.len(),
-        };
-        let space = state.space.as_ref().map_or(expected, Vec::len);
-        for (what, found) in [
-            ("poses", state.poses.len()),
-            ("velocities", state.velocities.len()),
-            ("poses in space", space),
+        let (solids, things) = (task.scene.objects.len(), task.scene.things().count());
+        let space = state.space.as_ref().map_or(things, Vec::len);
+        for (what, found, expected) in [
+            ("poses", state.poses.len(), solids),
+            ("velocities", state.velocities.len(), solids),
+            ("poses in space", space, things),
         ] {
             if found != expected {
                 let message = format!("expected {expected} {what}, one per object, found {found}");

@@ -4,23 +4,21 @@ use std::sync::Arc;
 
 use rapier3d_f64::parry::query::contact;
 use rapier3d_f64::prelude::{
-    ActiveHooks, Collider, ColliderBuilder, ColliderHandle, ContactPair, FrictionModel,
-    MassProperties, PhysicsWorld, Pose3 as RapierPose, RigidBodyBuilder, RigidBodyHandle,
-    SpringCoefficients, Vector as RapierVector,
+    ActiveHooks, Collider, ColliderBuilder, ColliderHandle, ContactPair, MassProperties,
+    PhysicsWorld, Pose3 as RapierPose, RigidBodyBuilder, RigidBodyHandle, Vector as RapierVector,
 };
 
 use crate::geometry::{Pose, Pose3, Vector};
 use crate::{
-    scene::{Blade, Body, GRAVITY, TOUCHING},
+    scene::{Blade, Body, TOUCHING},
     task::{Stroke, ToolMotion},
 };
 
-use super::super::parameters::{
-    ALLOWED_ERROR, ARTICULATED_ITERATIONS, STIFF_CONTACT, is_articulated,
-};
+use super::super::parameters::{STIFF_CONTACT, is_articulated};
 use super::super::seams::Seams;
 use super::super::solids::solid;
 use super::super::solved::solved;
+use super::super::spatial::empty::empty_world;
 use super::super::spatial::joints::{Anchored, add_joints};
 use super::super::spatial::place::brink;
 use super::super::strain::force;
@@ -73,22 +71,11 @@ impl LeverWorld {
         step: f64,
     ) -> Self {
         let (scene, physics) = (&*scenery.scene, &*scenery.physics);
-        let mut world = PhysicsWorld {
-            gravity: RapierVector::Z * -GRAVITY,
-            narrow_phase: fresh_contacts(),
-            ..PhysicsWorld::default()
-        };
-        let settings = &mut world.integration_parameters;
-        settings.dt = step;
-        // The simplified model makes other plates flip.
-        settings.friction_model = FrictionModel::Coulomb;
-        settings.normalized_allowed_linear_error = ALLOWED_ERROR;
         let articulated = is_articulated(scene, physics);
-        if articulated {
-            settings.num_solver_iterations = ARTICULATED_ITERATIONS;
-        }
-        let (frequency, damping) = if articulated { STIFF_CONTACT } else { CONTACT };
-        settings.contact_softness = SpringCoefficients::new(frequency, damping);
+        let softness = if articulated { STIFF_CONTACT } else { CONTACT };
+        let mut world = empty_world(articulated, Some(softness));
+        world.narrow_phase = fresh_contacts();
+        world.integration_parameters.dt = step;
         let frame = Pose { position: origin, heading: 0.0 };
         let table = solids::table(physics.table_friction, brink(scene, &frame));
         world.insert_collider(table.user_data(TABLE), None);

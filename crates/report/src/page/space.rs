@@ -6,7 +6,7 @@ use std::sync::Arc;
 use pushplan::geometry::{Pose3, Vector3};
 use pushplan::{
     outcome::{Frame, Trajectory},
-    scene::{LeverScene, Tool},
+    scene::{Plate, Tool},
     task::{Plan, Step, Task},
 };
 
@@ -47,7 +47,7 @@ pub fn replay(
 ) -> Option<Replay> {
     let sound = |frame: &&Frame| frame.state.is_finite();
     let frames: Vec<&Frame> = trajectory.frames.iter().filter(sound).collect();
-    let objects = frames.first()?.state.poses.len();
+    let objects = frames.first().map(|_| task.scene.things().count())?;
     let at = |frame: &Frame, k: usize| match &frame.state.space {
         Some(space) => space[k],
         None => Pose3::upright(frame.state.poses[k], task.scene.objects[k].z),
@@ -67,7 +67,7 @@ pub fn replay(
     let edge = edge(task, plan, tools);
     let height = |frame: &Frame| match edge {
         Some((object, edge)) => at(frame, object).point(edge).z,
-        None => task.goals[0].error(&frame.state),
+        None => task.levered().error(&frame.state),
     };
     let before = edge.map_or(0.0, |_| height(frames[0]));
     Some(Replay {
@@ -87,9 +87,10 @@ pub fn replay(
 fn edge(task: &Task, plan: &Plan, tools: &[Arc<Tool>]) -> Option<(usize, Vector3)> {
     let step = plan.lever_steps().next()?;
     let tool = tools.iter().find(|tool| tool.name == step.tool)?;
-    let scene = LeverScene::with(&task.scene, tool);
-    let start = scene.plates.get(step.lever.plate)?.start();
-    Some((step.lever.plate, start.local_point(step.lever.frame(&scene).position)))
+    tool.blade()?;
+    let plate = Plate::of(&task.scene, step.lever.plate);
+    let point = step.lever.frame_on(&plate).position;
+    Some((step.lever.plate, plate.start().local_point(point)))
 }
 
 /// Columns of poses in space: x and y, no heading, z, and the quaternion of the turn.
