@@ -7,7 +7,7 @@ use thiserror::Error;
 use crate::plan::lever::LeverRoom;
 use crate::{
     outcome::LeverFault,
-    scene::{LeverScene, Tool},
+    scene::Tool,
     task::{LeverUp, Pivot, Place, Plan, Task},
 };
 
@@ -96,6 +96,6 @@ pub fn manual_lever(
         hold: rules.hold,
         retreat: rules.retreat,
     };
-    let broken = LeverRoom::new(task, &LeverScene::with(&task.scene, tool)).fault(&lever);
+    let broken = LeverRoom::new(task, tool).fault(&lever);
     Ok((Plan::levering(&tool.name, lever), broken))
 }

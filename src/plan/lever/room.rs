@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::geometry::{Pose3, Solid, Vector, Vector3, cross, perpendicular};
 use crate::{
     outcome::LeverFault,
-    scene::{LeverScene, Region},
+    scene::{Blade, Plate, Region, Slab, Tool},
     task::{LeverRules, LeverUp, Task},
 };
 
@@ -22,7 +22,8 @@ const DEEPEST: f64 = 0.8;
 /// What stands around a plate that is to be levered.
 pub struct LeverRoom<'a> {
     task: &'a Task,
-    scene: &'a LeverScene,
+    plate: Plate,
+    blade: Blade,
     /// What the blade must not meet, with names.
     bodies: Vec<(String, Solid)>,
     /// What only the hand must not meet.
@@ -32,34 +33,38 @@ pub struct LeverRoom<'a> {
 }
 
 impl<'a> LeverRoom<'a> {
-    /// The room around the goal's plate in `scene`, that of `task` with a blade.
-    pub fn new(task: &'a Task, scene: &'a LeverScene) -> Self {
+    /// The room around the object that a task levers, for the blade of a tool; one without has an empty
+    /// one.
+    pub fn new(task: &'a Task, tool: &Tool) -> Self {
+        let scene = &task.scene;
         let blocks = scene
-            .blocks
+            .obstacles
             .iter()
             .map(|block| (block.name.clone(), block.solid(), block.z + block.size[2]));
         let levered = task.levered().object;
-        let others = scene.plates.iter().enumerate().filter(|(k, _)| *k != levered);
+        let others = scene.plates().enumerate().filter(|(k, _)| *k != levered);
         let others = others.flat_map(|(_, plate)| {
-            plate.slabs.iter().zip(plate.solids()).map(|(slab, solid)| {
-                (plate.name.clone(), solid, plate.z + (slab.bottom + slab.height))
-            })
+            let top = |slab: &Slab| plate.z + (slab.bottom + slab.height);
+            let solids = plate.slabs.iter().zip(plate.solids());
+            let all = solids.map(|(slab, solid)| (plate.name.clone(), solid, top(slab)));
+            all.collect::<Vec<_>>()
         });
-        let (tool, hand): (Vec<&Region>, Vec<&Region>) = {
+        let (beside, hand): (Vec<&Region>, Vec<&Region>) = {
             let all = task.scene.keep_out.iter().filter(|region| region.tool || region.hand);
             all.partition(|region| region.tool)
         };
         let column = |region: &&Region| (region.name.clone(), region.column());
-        let regions = tool.iter().map(column).map(|(name, column)| (name, column, f64::INFINITY));
+        let regions = beside.iter().map(column).map(|(name, column)| (name, column, f64::INFINITY));
         let all: Vec<(String, Solid, f64)> = blocks.chain(others).chain(regions).collect();
         let top = all.iter().map(|(.., top)| *top).fold(0.0, f64::max);
         let bodies = all.into_iter().map(|(name, solid, _)| (name, solid)).collect();
-        Self { task, scene, bodies, beside: hand.iter().map(column).collect(), top }
+        let (plate, blade) = (task.plate(), tool.blade().unwrap_or_default());
+        Self { task, plate, blade, bodies, beside: hand.iter().map(column).collect(), top }
     }
 
     /// Why a lever-up cannot be made; `None` if it can.
     pub fn fault(&self, lever: &LeverUp) -> Option<LeverFault> {
-        let plate = &self.scene.plates[lever.plate];
+        let plate = &self.plate;
         let corners = plate.corners();
         let from = corners[lever.place.edge];
         let side = corners[(lever.place.edge + 1) % corners.len()] - from;
@@ -67,7 +72,7 @@ impl<'a> LeverRoom<'a> {
         if along.min(side.norm() - along) < LeverRules::CORNER - 1e-9 {
             return Some(LeverFault::NearCorner);
         }
-        if self.scene.blade.thickness > plate.clearance + 1e-9 {
+        if self.blade.thickness > plate.clearance + 1e-9 {
             return Some(LeverFault::TooThick);
         }
         if lever.depth > DEEPEST * self.way_below(corners, from + side * lever.place.fraction, side)
@@ -100,9 +105,9 @@ impl<'a> LeverRoom<'a> {
 
     /// What is wrong on the way in, during the turn or on the way back.
     fn way(&self, lever: &LeverUp) -> Option<LeverFault> {
-        let blade = &self.scene.blade;
-        let lying = lever.blade(self.scene, 0.0);
-        let end = lever.blade(self.scene, lever.turn_time());
+        let blade = &self.blade;
+        let at = |time: f64| lever.blade_on(&self.plate, blade, time);
+        let (lying, end) = (at(0.0), at(lever.turn_time()));
         let shaft = |pose: &Pose3, back: f64| {
             let mut pose = *pose;
             pose.position -= pose.rotation * Vector3::x() * back;
@@ -131,7 +136,7 @@ impl<'a> LeverRoom<'a> {
             (lever.pivot - lever.depth).abs().max((lever.pivot - lever.depth + blade.length).abs());
         let looks = (lever.angle * farthest / LOOK).ceil().clamp(1.0, 500.0) as usize;
         for k in 1..looks {
-            let pose = lever.blade(self.scene, lever.turn_time() * k as f64 / looks as f64);
+            let pose = at(lever.turn_time() * k as f64 / looks as f64);
             if !reached(&pose) {
                 return Some(LeverFault::OutOfReach);
             }
@@ -152,7 +157,7 @@ impl<'a> LeverRoom<'a> {
     /// What the fingers meet that hold the blade at `pose`.
     fn held(&self, pose: &Pose3) -> Option<LeverFault> {
         self.task.robot.hand?;
-        let fingers = self.scene.blade.fingers(pose);
+        let fingers = self.blade.fingers(pose);
         let mut all = self.bodies.iter().chain(&self.beside);
         let met = all.find(|(_, solid)| solid.depth(&fingers) > SLACK)?;
         Some(LeverFault::HandMeets { body: met.0.clone() })

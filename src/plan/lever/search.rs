@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     outcome::{Ending, LeverFault, Outcome, Trajectory, Warning},
-    scene::{LeverScene, Situation, Tool},
+    scene::{Situation, Tool},
     task::{Goal, Job, LeverMotion, Motion, Task},
 };
 
@@ -78,10 +78,9 @@ impl LeverSearch<'_> {
         let mut statistics = LeverSearchStatistics::default();
         let mut candidates = Vec::new();
         for (tool, own) in self.tools.iter().enumerate() {
-            let scene = LeverScene::with(&self.task.scene, own);
             let all = LeverGrid { task: self.task, tool, apart }.candidates();
             statistics.considered += all.len();
-            let room = LeverRoom::new(self.task, &scene);
+            let room = LeverRoom::new(self.task, own);
             let faults: Vec<Option<LeverFault>> =
                 all.par_iter().map(|candidate| room.fault(&candidate.lever)).collect();
             for (candidate, fault) in all.into_iter().zip(faults) {

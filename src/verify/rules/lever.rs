@@ -2,7 +2,7 @@
 
 use crate::geometry::{Pose, Solid, Vector3};
 use crate::outcome::LeverFault;
-use crate::scene::{LeverScene, Obstacle, Region, Robot, Scene, Tool};
+use crate::scene::{Blade, Obstacle, Plate, Region, Robot, Scene, Tool};
 use crate::task::{LeverRules, LeverStep, LeverUp, Pivot, Task};
 
 use super::{SLACK, reach};
@@ -39,11 +39,8 @@ pub(super) fn faults(task: &Task, scene: &Scene, tool: &Tool, step: &LeverStep) 
         return vec![fault];
     }
     let lever = &step.lever;
-    let mut seen = LeverScene::with(scene, tool);
-    if let Some(expected) = step.expected {
-        seen.plates[lever.plate].pose = expected;
-    }
-    let plate = &seen.plates[lever.plate];
+    let (mut plate, blade) = (Plate::of(scene, lever.plate), tool.blade().unwrap_or_default());
+    plate.pose = step.expected.unwrap_or(plate.pose);
     let corners = plate.corners();
     let mut found = outside_of_rules(task, lever);
     let next = corners[(lever.place.edge + 1) % corners.len()];
@@ -51,10 +48,10 @@ pub(super) fn faults(task: &Task, scene: &Scene, tool: &Tool, step: &LeverStep) 
     if side * lever.place.fraction.min(1.0 - lever.place.fraction) < LeverRules::CORNER - SLACK {
         found.push(LeverFault::NearCorner);
     }
-    if seen.blade.thickness > plate.clearance + SLACK {
+    if blade.thickness > plate.clearance + SLACK {
         found.push(LeverFault::TooThick);
     }
-    found.extend(on_the_way(&task.robot, (&seen, &scene.keep_out), lever));
+    found.extend(on_the_way(&task.robot, scene, (&plate, &blade), lever));
     found
 }
 
@@ -81,15 +78,16 @@ fn outside_of_rules(task: &Task, lever: &LeverUp) -> Vec<LeverFault> {
 /// Returns the faults of the blade's motion, each once.
 fn on_the_way(
     robot: &Robot,
-    (scene, regions): (&LeverScene, &[Region]),
+    scene: &Scene,
+    (plate, blade): (&Plate, &Blade),
     lever: &LeverUp,
 ) -> Vec<LeverFault> {
     let solid = |block: &'_ Obstacle| (block.name.clone(), block.solid(), [true; 2]);
     let column =
         |region: &Region| (region.name.clone(), region.column(), [region.tool, region.hand]);
     let blocks: Vec<(String, Solid, [bool; 2])> =
-        scene.blocks.iter().map(solid).chain(regions.iter().map(column)).collect();
-    let blade = &scene.blade;
+        scene.obstacles.iter().map(solid).chain(scene.keep_out.iter().map(column)).collect();
+    let at = |time: f64| lever.blade_on(plate, blade, time);
     let mut found: Vec<LeverFault> = Vec::new();
     let mut note = |fault: LeverFault| {
         if !found.contains(&fault) {
@@ -97,14 +95,14 @@ fn on_the_way(
         }
     };
     // In from behind, then the turn and the way back.
-    let (lying, span) = (lever.blade(scene, 0.0), lever.duration());
+    let (lying, span) = (at(0.0), lever.duration());
     let coming = (0..LOOKS).map(|k| {
         let mut pose = lying;
         let left = lever.retreat * (1.0 - k as f64 / LOOKS as f64);
         pose.position -= pose.rotation * Vector3::x() * left;
         pose
     });
-    let going = (0..=2 * LOOKS).map(|k| lever.blade(scene, span * k as f64 / (2 * LOOKS) as f64));
+    let going = (0..=2 * LOOKS).map(|k| at(span * k as f64 / (2 * LOOKS) as f64));
     for pose in coming.chain(going) {
         reach::blade_out_of_reach(robot, blade, &pose).into_iter().for_each(&mut note);
         let solid = Solid::cuboid([blade.length, blade.width, blade.thickness], &pose);

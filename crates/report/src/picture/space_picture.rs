@@ -7,7 +7,7 @@ use crate::svg::{Font, Style, Svg};
 use pushplan::geometry::{Footprint, Pose3, Vector, Vector3, planar_hull};
 use pushplan::{
     outcome::{Frame, Trajectory},
-    scene::{Blade, LeverScene, Part, Plate, Scene, Slab, Tool},
+    scene::{Blade, Part, Plate, Scene, Slab, Tool},
     task::{Goal, LeverStep, Mark, Plan, ShownGoal, Step, lever_frame},
 };
 
@@ -112,19 +112,16 @@ impl SpacePicture<'_> {
 
     /// The first lever-up's frame, and how high the object lies then, metres.
     fn levered(&self) -> Option<(Pose3, f64)> {
-        let (step, scene) = self.first()?;
-        Some((step.lever.frame(&scene), scene.plates.get(step.lever.plate)?.z))
+        let (step, plate) = self.first()?;
+        Some((step.lever.frame_on(&plate), plate.z))
     }
 
-    /// The first lever-up, and the scene as it is planned in it.
-    fn first(&self) -> Option<(&LeverStep, LeverScene)> {
+    /// The first lever-up, and its object as it is planned.
+    fn first(&self) -> Option<(&LeverStep, Plate)> {
         let step = self.plan.lever_steps().next()?;
-        let tool = self.tools.iter().find(|tool| tool.name == step.tool)?;
-        let mut scene = LeverScene::with(self.scene, tool);
-        if let Some(expected) = step.expected {
-            scene.plates.get_mut(step.lever.plate)?.pose = expected;
-        }
-        Some((step, scene))
+        let mut plate = Plate::of(self.scene, step.lever.plate);
+        plate.pose = step.expected.unwrap_or(plate.pose);
+        Some((step, plate))
     }
 
     /// Start, some frames between, and rest: evenly by how far the object moved.
@@ -255,8 +252,7 @@ impl SpacePicture<'_> {
         bodies::goal_area(svg, view, &goal);
         bodies::goal(svg, view, &goal);
         // The lever point, and the way that the blade goes.
-        if let Some((step, scene)) = self.first() {
-            let plate = &scene.plates[step.lever.plate];
+        if let Some((step, plate)) = self.first() {
             let frame = plate.pose * lever_frame(plate.corners(), step.lever.place);
             let back = frame.point(Vector::new(-0.03, 0.0));
             let tip = frame.point(Vector::new(step.lever.depth, 0.0));
