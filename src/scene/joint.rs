@@ -121,3 +121,34 @@ impl Joint {
         Self { kind, ..self.clone() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_carried_joint_keeps_its_axis_and_what_is_left_of_its_limits() {
+        let limits = Some(Span::new(-1.0, 1.0));
+        let at = Vector::new(0.1, 0.0);
+        let before = [0.0, 0.2].map(|x| Object::cuboid("half", [0.1, 0.1, 0.1]).at(x, 0.0, 0.0));
+        let mut now = before.clone();
+        let moved = Pose::new(0.5, 0.3, 0.7);
+        let turn = Pose { position: at, heading: 0.4 } * Pose::new(0.1, 0.0, 0.0);
+        now[0].pose = moved * before[0].pose;
+        now[1].pose = moved * turn;
+        let hinge = Joint::new([0, 1], JointKind::Revolute { at, limits }).carried(&before, &now);
+        let JointKind::Revolute { at: there, limits: Some(left) } = hinge.kind else {
+            panic!("{hinge:?}")
+        };
+        assert!((there - moved.point(at)).norm() < 1e-12);
+        assert!((left.low + 1.4).abs() < 1e-12 && (left.high - 0.6).abs() < 1e-12, "{left:?}");
+        let slide = JointKind::Prismatic { axis: Vector::x(), limits };
+        now[1].pose = moved * Pose::new(0.25, 0.0, 0.0);
+        let slide = Joint::new([0, 1], slide).carried(&before, &now);
+        let JointKind::Prismatic { axis, limits: Some(left) } = slide.kind else {
+            panic!("{slide:?}")
+        };
+        assert!((axis - moved.vector(Vector::x())).norm() < 1e-12);
+        assert!((left.high - 0.95).abs() < 1e-12, "{left:?}");
+    }
+}

@@ -13,13 +13,14 @@ use crate::judged::{file, solved};
 /// A small plate that one lever-up tips over, and what else a test adds: objects, the rest of the scene, and
 /// the rest of the task with its goals.
 fn task(objects: &str, scene: &str, rest: &str) -> Task {
+    let pushers = if rest.contains("pushes:") { ", stick, t-head" } else { "" };
     let text = format!(
         "scene:
   objects:
     - {{name: plate, shape: {{cuboid: {{size: [0.12, 0.08, 0.008]}}}}, mass: 0.1, friction: 0.4, \
 clearance: 0.006, position: [0.5, 0]}}
 {objects}{scene}robot: {{reach: {{min: 0.1, max: 0.9}}}}
-tools: [screwdriver, stick, t-head]
+tools: [screwdriver{pushers}]
 levers: {{pivot: auto}}
 {rest}"
     );
