@@ -1,8 +1,7 @@
 //! Objects with room for a blade below them: keys of their heights, their reading, and their rules.
 
 use crate::asset::node::Node;
-use crate::asset::prism::origin;
-use crate::asset::shapes::shape;
+use crate::asset::shapes::{origin, shape};
 use crate::asset::strict::Ledger;
 use crate::asset::take::{angle, number_or, pose, position, triple, vector};
 use crate::geometry::{ConvexPolygon, Pose, Shape, Solid, Vector, centroid, common_area, cross};
