@@ -58,7 +58,7 @@ pub use guess::NEARLY_TOUCHING;
 pub use hand::{Carried, Hand, SHOWN_HAND};
 pub use joint::{Joint, JointKind};
 pub use joint_trajectory::{JointPoint, JointTrajectory, MAX_JOINTS};
-pub use lever::{Blade, LeverFeatures, LeverScene, Plate, Slab, Weight};
+pub use lever::{Blade, LeverFeatures, LeverScene, Plate, Slab, Weight, stands_on};
 pub use model::{
     Assumptions, CORRECTED, Engine, FRAME_TRAVEL, JointBelief, ModelKind, ModelPart, ModelSpec,
     Models, Rate, SpecError, Stride,

@@ -1,7 +1,7 @@
 //! Objects in space as bodies of MuJoCo: solids, feet, joints, and the friction of pairs.
 
 use pushplan::geometry::{Pose3, Vector, Vector3};
-use pushplan::scene::{Body, Obstacle, Physics, Plate, Scene, Slab, Surface};
+use pushplan::scene::{Body, Obstacle, Physics, Plate, Scene, Slab, Surface, stands_on};
 
 use super::forest::Node;
 use super::hinges;
@@ -114,7 +114,7 @@ fn solids(xml: &mut Xml, stage: &Stage, k: usize) -> Vec<Meets> {
     xml.leaf("inertial", &attributes);
     let height = if plate.has_feet() { plate.z } else { 0.0 };
     let corners = || (height > 0.0).then(|| plate.corners().to_vec());
-    let feet = own.map_or_else(corners, |(scene, physics)| scene.stands_on(k, physics));
+    let feet = own.map_or_else(corners, |(scene, physics)| stands_on(scene, k, physics));
     let mut solids = Vec::new();
     for (s, slab) in plate.slabs.iter().enumerate() {
         let name = slab_name(plate, s);

@@ -7,10 +7,10 @@ use crate::asset::take::{angle, number_or, pose, position, triple, vector};
 use crate::geometry::{ConvexPolygon, Pose, Shape, Solid, Vector, centroid, common_area, cross};
 use crate::scene::{Object, Obstacle, Plate, Scene, Slab, Support, Whole, carries};
 
-use super::support::support;
 use super::obstacles::obstacle;
 use super::part::{self, part_name, rise, shares};
 use super::parts::objects as objects_of;
+use super::support::support;
 
 /// A centre of mass that is nearer to the origin of its frame is there, metres: sums of corners
 /// that were written about it do not come to zero exactly.

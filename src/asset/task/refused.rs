@@ -28,9 +28,8 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
     let is_plate = |goal: &Node| of(goal).is_none_or(plates::is_plate);
     // Something must be there for a blade: the object of a goal.
     let none = !goals.iter().any(is_plate);
-    let needs = |(k, goal): &(usize, &Node)| {
-        (goals::lifts(goal) || none && *k == 0) && !is_plate(goal)
-    };
+    let needs =
+        |(k, goal): &(usize, &Node)| (goals::lifts(goal) || none && *k == 0) && !is_plate(goal);
     for object in goals.iter().enumerate().filter(needs).filter_map(|(_, goal)| of(goal)) {
         let advice = "6 mm of feet are `clearance: 0.006`; `z` alone is a plate on obstacles";
         ledger.fault(object, "this object has neither `clearance` nor `z`", advice);

@@ -5,9 +5,11 @@
 mod features;
 mod plate;
 mod scene;
+mod stand;
 mod weight;
 
 pub use features::LeverFeatures;
 pub use plate::{Plate, Slab};
 pub use scene::{Blade, LeverScene};
+pub use stand::stands_on;
 pub use weight::Weight;

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Pose, Pose3, Solid, Vector, Vector3};
-use crate::scene::{Feet, Obstacle, Physics, Region, Scene, State, Support, Tool, Velocity};
+use crate::geometry::{Pose, Pose3, Solid, Vector3};
+use crate::scene::{Obstacle, Region, Scene, State, Tool, Velocity};
 
 use super::Plate;
 use super::plate::outline;
@@ -52,26 +52,6 @@ impl Scene {
         state.velocities.extend(parts.iter().map(|_| Velocity::default()));
         state.poses.extend(parts);
         state
-    }
-
-    /// The points that object `index` stands on, in its frame, metres: the corners of what has feet, or a
-    /// support that is stated; none of what lies on its underside.
-    pub fn stands_on(&self, index: usize, physics: &Physics) -> Option<Vec<Vector>> {
-        let plate = Plate::of(self, index);
-        let solids = || self.parts_of(index).chain([index]);
-        let stated = solids().any(|k| self.objects[k].support != Support::Even);
-        if !(stated && plate.has_feet()) {
-            return (plate.has_feet() && plate.z > 0.0).then(|| plate.corners().to_vec());
-        }
-        let points = |k: usize| {
-            let place = self.objects[k].whole.map_or_else(Pose::default, |whole| whole.place);
-            let feet = match k == index {
-                true => Feet::clone(&physics.feet[k]),
-                false => self.contacts(k, &physics.feet[k], &physics.masses),
-            };
-            feet.each().map(|(at, _)| place.point(at)).collect::<Vec<_>>()
-        };
-        Some(solids().flat_map(points).collect())
     }
 
     /// Number of edges of object `index` that a blade can go under; 0 for a part or what does not exist.

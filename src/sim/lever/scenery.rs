@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::geometry::{Pose3, Vector};
-use crate::scene::{Body, Physics, Plate, Scene, Situation, Weight};
+use crate::scene::{Body, Physics, Plate, Scene, Situation, Weight, stands_on};
 use crate::task::LeverJob;
 
 /// The scene as it really is, the objects as they were seen when the motions were planned, and where the
@@ -75,10 +75,10 @@ impl Scenery {
         masses.map_or_else(|| own.weight(), |masses| own.weight_of(&masses))
     }
 
-    /// Returns the points that an object stands on, in its frame, see [`Scene::stands_on`].
+    /// Returns the points that an object stands on, in its frame, see [`stands_on`].
     pub fn stands_on(&self, plate: usize) -> Option<Vec<Vector>> {
         if plate < self.scene.objects.len() {
-            return self.scene.stands_on(plate, &self.physics);
+            return stands_on(&self.scene, plate, &self.physics);
         }
         let own = &self.plates[plate];
         (own.has_feet() && own.z > 0.0).then(|| own.corners().to_vec())
