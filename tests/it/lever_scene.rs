@@ -87,7 +87,7 @@ goal:
 #[test]
 fn a_can_is_pushed_into_a_region_and_a_plate_turned_over() {
     let can = "    - {name: can, shape: {cylinder: {radius: 0.03, height: 0.08}}, mass: 0.3, friction: 0.4, \
-position: [0.5, 0.25]}\n";
+position: [0.5, 0.26]}\n";
     let goals = format!(
         "pushes: {{max_count: 2}}
 goal:
@@ -174,7 +174,7 @@ fn a_plate_must_not_fall_off_the_table_and_a_can_may() {
         verdict.evidence[0].warnings
     );
     let can = "    - {name: can, shape: {cylinder: {radius: 0.03, height: 0.08}}, mass: 0.3, friction: 0.4, \
-position: [0.5, 0.22]}\n";
+position: [0.5, 0.26]}\n";
     let goals = format!(
         "pushes: {{max_count: 2}}
 goal:
