@@ -29,8 +29,12 @@ pub(super) fn refined_again(
     aims: &[Goal],
     pushes: usize,
 ) -> Vec<usize> {
+    if board.refiner.deciding.is_none() {
+        return self::refined(board, candidates, aims, pushes);
+    }
     board.progress.stage_of("refine", pushes);
-    let refined = board.refiner.refine_again(&board.query, candidates, aims, pushes);
+    // What was replayed is not screened again.
+    let refined = board.refiner.decide(&board.query, candidates, aims, pushes);
     keep(board, refined, aims)
 }
 

@@ -65,29 +65,15 @@ impl<'a> Refiner<'a> {
         decided.into_iter().map(|one| continued(&screened[one.index], one)).collect()
     }
 
-    /// Refines changed candidates of plans that were replayed already: a plan of the final model is not
-    /// screened again.
-    pub fn refine_again(
-        &mut self,
-        query: &Query,
-        candidates: &[Candidate],
-        aims: &[Goal],
-        pushes: usize,
-    ) -> Vec<Refined> {
-        match self.deciding {
-            None => self.refine(query, candidates, aims, pushes),
-            Some(_) => self.decide(query, candidates, aims, pushes),
-        }
-    }
-
     /// Counts rollouts that were made elsewhere, of the screening and of the final model.
     pub fn count(&mut self, [screened, decided]: [usize; 2]) {
         self.screening.count(screened);
         self.deciding.as_mut().unwrap_or(&mut self.screening).count(decided);
     }
 
-    /// Predicts candidates with the final model, and refines the best of them with it.
-    fn decide(
+    /// Predicts candidates with the final model, and refines the best of them with it; none where one model
+    /// screens and decides.
+    pub fn decide(
         &mut self,
         query: &Query,
         candidates: &[Candidate],
