@@ -46,6 +46,8 @@ impl<'a> Ledger<'a> {
             return Err(Fault::of_file(self.source.file, "the file is incomplete", "").into());
         }
         self.found.sort_by_key(|(id, ..)| *id);
+        // A goal of several objects is checked for each of them.
+        self.found.dedup();
         let more = self.found.len().saturating_sub(MAX_SHOWN);
         let mut faults: Vec<Fault> = self
             .found

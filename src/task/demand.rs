@@ -195,6 +195,11 @@ pub trait Kind {
         Vec::new()
     }
 
+    /// Returns the object that its errors are of.
+    fn subject(&self, end: &End) -> usize {
+        end.object
+    }
+
     /// Returns sets of plainer goals, the nearest first: it is satisfied if all goals of one set are. Search
     /// pursues one set after the other. None where the demand itself is searched.
     fn choices(&self, _state: &State) -> Vec<Vec<Goal>> {

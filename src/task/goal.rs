@@ -6,7 +6,7 @@ use crate::geometry::{Pose, Shape, Vector};
 use crate::scene::{Body, Joint, Scene, State};
 
 use super::demand::{
-    Area, AtPlace, Check, Coverage, Demand, Facing, Fall, Gap, InArea, Outside, ShownGoal,
+    Area, AtPlace, Check, Coverage, Demand, End, Facing, Fall, Gap, InArea, Outside, ShownGoal,
 };
 
 /// Demands on where and how one object ends; all of them count.
@@ -289,6 +289,13 @@ impl Goal {
             }
         }
         movers
+    }
+
+    /// The object that its errors are of: its own, or another that it may move.
+    pub fn subject(&self, state: &State) -> usize {
+        let end = End::resting(self.object, state);
+        let mut subjects = self.demands.iter().map(|demand| demand.kind().subject(&end));
+        subjects.find(|subject| *subject != self.object).unwrap_or(self.object)
     }
 
     /// Names of the objects that may be moved for it.

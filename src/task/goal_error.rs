@@ -34,7 +34,7 @@ impl Goal {
             return Vector::zeros();
         }
         let place = self.in_world(state).position().filter(|_| !self.is_relation());
-        place.unwrap_or_else(|| state.poses[self.object].position - self.off(state))
+        place.unwrap_or_else(|| state.poses[self.subject(state)].position - self.off(state))
     }
 
     /// Turn from the wanted heading, or the nearest one that looks the same, to that of the object, radians

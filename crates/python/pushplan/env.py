@@ -150,7 +150,7 @@ class _TableEnv(gymnasium.Env[_Action, _Action]):
         x, y, heading = self._poses.T
         objects = np.stack([x, y, np.cos(heading), np.sin(heading)], axis=1)
         names = self.task.objects
-        own = self._poses[[names.index(name) for name in self.task.goal_objects], :2]
+        own = self._poses[[names.index(name) for name in self.task.goal_subjects(self._poses)], :2]
         off = self.task.goal_offsets(self._poses)
         goals = np.concatenate([own - off[:, :2], -off[:, :2]], axis=1)
         return np.concatenate([objects.ravel(), -off[:, 2], goals.ravel()]).astype(np.float32)
@@ -248,7 +248,7 @@ class PushEnv(_TableEnv):
 
     def _target(self) -> str:
         """The object of the first goal that is not reached."""
-        goals = zip(self.task.goal_objects, self.task.reached(self._poses), strict=True)
+        goals = zip(self.task.goal_subjects(self._poses), self.task.reached(self._poses), strict=True)
         return next((name for name, reached in goals if not reached), self.task.goal_object)
 
     def _plan(self, action: _Action) -> Plan:

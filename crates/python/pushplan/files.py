@@ -276,7 +276,8 @@ class EdgeKeys(TypedDict):
 class GoalKeys(TypedDict):
     """Where an object must come to rest, and how; position [x, y] and lengths in metres."""
 
-    object: str
+    object: NotRequired[str]
+    objects: NotRequired[Sequence[str]]
     position: NotRequired[Numbers]
     tolerance: NotRequired[float]
     region: NotRequired[GoalRegionKeys]

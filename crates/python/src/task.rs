@@ -207,6 +207,14 @@ impl PyTask {
         Ok(self.task.goals.iter().map(|goal| goal.reached(&state)).collect())
     }
 
+    /// Names of the objects that errors of the goals are of with the objects at these poses,
+    /// `[objects, 3]`, in the order of the goals: of a goal that leaves a choice the one that misses it.
+    fn goal_subjects(&self, poses: Numbers<'_>) -> PyResult<Vec<&str>> {
+        let state = State::at_rest(self.poses(&poses)?);
+        let subjects = self.task.goals.iter().map(|goal| goal.subject(&state));
+        Ok(subjects.map(|k| self.task.scene.objects[k].name.as_str()).collect())
+    }
+
     /// Offsets from the goals with the objects at these poses, `[objects, 3]`, as `[goals, 3]`: x and y
     /// from the nearest wanted place to the object, metres, and its turn from the wanted heading, radians;
     /// 0 where none is asked for.

@@ -20,8 +20,7 @@ use super::{frictions, goals, joints, keep, levers, mounts, obstacles, parts};
 pub(super) fn task(root: &Node, file: &str, arm: Option<Arc<dyn RobotArm>>) -> Option<Task> {
     let stem = || Path::new(file).file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let mut scene = scene(root.get("scene")?)?;
-    let goals = goals::each(root.get("goal")?).iter().map(|node| goals::goal(node, &scene));
-    let goals = Goal::joined(goals.collect::<Option<Vec<Goal>>>()?);
+    let goals = Goal::joined(goals::goals(root.get("goal")?, &scene)?);
     goals.first()?;
     let levers = levers::levers(root)?;
     let mut robot = match &arm {

@@ -44,9 +44,17 @@ const ASKS: [Ask; 11] = [
     joint::SHIFT,
 ];
 
+/// Meaning of the key that names the object.
+const OBJECT: &str = "Name of the object to bring to the goal.";
+
 /// The other keys of a goal.
-const SHARED: [Key; 3] = [
-    Key::required("object", Value::Name, "Name of the object to bring to the goal."),
+const SHARED: [Key; 4] = [
+    Key::optional("object", Value::Name, OBJECT),
+    Key::optional(
+        "objects",
+        Value::List { of: &Value::Name, items: "names of objects", min: 1, max: 16 },
+        "Names of objects in place of `object`, all of which are to be brought to the goal.",
+    ),
     Key::optional(
         "relative_to",
         Value::Name,
@@ -131,16 +139,65 @@ pub(super) fn is_key(name: Option<&str>) -> bool {
     KEYS.iter().any(|key| name == Some(key.name))
 }
 
-/// The goals of a task's key: it holds one, or a list.
-pub(super) fn each(node: &Node) -> &[Node] {
+/// The goals of a task's key as they are written: it holds one, or a list.
+fn written(node: &Node) -> &[Node] {
     match &node.content {
         Content::List(_) => node.items(),
         _ => std::slice::from_ref(node),
     }
 }
 
-/// The goal, or `None` if anything needed is missing or was faulty.
-pub(super) fn goal(node: &Node, scene: &Scene) -> Option<Goal> {
+/// Returns a goal of each object that a task's key names: one of several objects counts for each.
+pub(super) fn each(node: &Node) -> Vec<Node> {
+    written(node).iter().flat_map(single).collect()
+}
+
+/// Returns a goal as one for each of its objects.
+fn single(goal: &Node) -> Vec<Node> {
+    let Some(names) = goal.get("objects") else { return vec![goal.clone()] };
+    let of = |name: &Node| {
+        let key = |(key, value): &(Node, Node)| match key.text() {
+            Some("objects") => {
+                (Node { content: Content::Text("object".to_owned()), ..key.clone() }, name.clone())
+            }
+            _ => (key.clone(), value.clone()),
+        };
+        let pairs = goal.pairs().iter().map(key).collect();
+        Node { id: goal.id, content: Content::Map(pairs) }
+    };
+    names.items().iter().map(of).collect()
+}
+
+/// Notes goals that name no object, or one twice.
+pub(super) fn check_names(node: &Node, ledger: &mut Ledger) {
+    for goal in written(node) {
+        match (goal.get("object"), goal.get("objects")) {
+            (None, None) if goal.pairs().iter().all(|(key, _)| is_key(key.text())) => {
+                ledger.fault(goal, "missing key `object`", OBJECT);
+            }
+            (Some(_), Some(names)) => {
+                let advice = "keep one of them";
+                ledger.fault(names, "`object` and `objects` name the same", advice);
+            }
+            _ => {}
+        }
+        let names = goal.get("objects").map(Node::items).unwrap_or_default();
+        for (k, name) in names.iter().enumerate().filter(|(_, name)| name.text().is_some()) {
+            if names[..k].iter().any(|before| before.text() == name.text()) {
+                let message = format!("`{}` is named twice", name.text().unwrap_or_default());
+                ledger.fault(name, message, "name it once");
+            }
+        }
+    }
+}
+
+/// The goals of a task's key, or `None` if anything needed is missing or was faulty.
+pub(super) fn goals(node: &Node, scene: &Scene) -> Option<Vec<Goal>> {
+    each(node).iter().map(|node| goal(node, scene)).collect()
+}
+
+/// The goal of one object, or `None` if anything needed is missing or was faulty.
+fn goal(node: &Node, scene: &Scene) -> Option<Goal> {
     let object = scene.object(node.get("object")?.text()?)?;
     let read = |ask: &Ask| (ask.read)(node, object, scene);
     let mut goal = Goal::of(object);

@@ -58,7 +58,8 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
     if let (true, Some(pushes)) = (lifted, root.get("pushes")) {
         levers::check_follow_up(pushes, section("goal"), ledger);
     }
-    let goals = goals::each(section("goal"));
+    goals::check_names(section("goal"), ledger);
+    let goals = &goals::each(section("goal"))[..];
     goals.iter().for_each(|one| goal_rules::check(one, scene, ledger));
     one_each(goals, ledger);
     keep(section("keep"), goals, objects, ledger);
