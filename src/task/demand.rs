@@ -11,6 +11,7 @@ mod coverage;
 mod fall;
 mod flipped;
 mod gap;
+mod group;
 mod heading;
 mod mark;
 mod out_of;
@@ -32,6 +33,7 @@ pub use coverage::Coverage;
 pub use fall::{Edge, Fall};
 pub use flipped::{Ending, Flipped};
 pub use gap::Gap;
+pub use group::Group;
 pub use heading::Facing;
 pub use mark::{Mark, ShownGoal};
 pub use out_of::OutOfArea;
@@ -53,6 +55,8 @@ pub enum Demand {
     Heading(Facing),
     /// It is so far from another object or an obstacle.
     Gap(Box<Gap>),
+    /// So many objects of a group reach their goals.
+    Group(Group),
     /// It covers a share of its own outline at a pose.
     Coverage(Box<Coverage>),
     /// It falls off the table.
@@ -254,6 +258,7 @@ impl Demand {
             Self::OutOf(kind) => &**kind,
             Self::Heading(kind) => kind,
             Self::Gap(kind) => &**kind,
+            Self::Group(kind) => kind,
             Self::Coverage(kind) => &**kind,
             Self::Fall(kind) => &**kind,
             Self::Outside(kind) => kind,

@@ -278,6 +278,7 @@ class GoalKeys(TypedDict):
 
     object: NotRequired[str]
     objects: NotRequired[Sequence[str]]
+    at_least: NotRequired[int]
     position: NotRequired[Numbers]
     tolerance: NotRequired[float]
     region: NotRequired[GoalRegionKeys]

@@ -7,6 +7,7 @@ mod coverage;
 mod fall;
 mod flipped;
 mod gap;
+mod group;
 mod heading;
 mod joint;
 mod outside;
@@ -48,13 +49,14 @@ const ASKS: [Ask; 11] = [
 const OBJECT: &str = "Name of the object to bring to the goal.";
 
 /// The other keys of a goal.
-const SHARED: [Key; 4] = [
+const SHARED: [Key; 5] = [
     Key::optional("object", Value::Name, OBJECT),
     Key::optional(
         "objects",
         Value::List { of: &Value::Name, items: "names of objects", min: 1, max: 16 },
         "Names of objects in place of `object`, all of which are to be brought to the goal.",
     ),
+    group::AT_LEAST,
     Key::optional(
         "relative_to",
         Value::Name,
@@ -181,6 +183,7 @@ pub(super) fn check_names(node: &Node, ledger: &mut Ledger) {
             }
             _ => {}
         }
+        group::check(goal, ledger);
         let names = goal.get("objects").map(Node::items).unwrap_or_default();
         for (k, name) in names.iter().enumerate().filter(|(_, name)| name.text().is_some()) {
             if names[..k].iter().any(|before| before.text() == name.text()) {
@@ -193,7 +196,13 @@ pub(super) fn check_names(node: &Node, ledger: &mut Ledger) {
 
 /// The goals of a task's key, or `None` if anything needed is missing or was faulty.
 pub(super) fn goals(node: &Node, scene: &Scene) -> Option<Vec<Goal>> {
-    each(node).iter().map(|node| goal(node, scene)).collect()
+    let of = |written: &Node| {
+        let members =
+            single(written).iter().map(|node| goal(node, scene)).collect::<Option<_>>()?;
+        group::grouped(written, members)
+    };
+    let goals: Option<Vec<Vec<Goal>>> = written(node).iter().map(of).collect();
+    Some(goals?.into_iter().flatten().collect())
 }
 
 /// The goal of one object, or `None` if anything needed is missing or was faulty.
@@ -233,7 +242,12 @@ pub(in crate::asset) fn emitted_goals(goals: &[Goal], scene: &Scene) -> Json {
 fn emitted(goal: &Goal, scene: &Scene) -> Vec<Json> {
     let name = &scene.objects[goal.object].name;
     let mut entries: Vec<(Map<String, Json>, Vec<&Demand>)> = Vec::new();
+    let mut groups = Vec::new();
     for demand in &goal.demands {
+        if let Demand::Group(own) = demand {
+            groups.extend(group::emitted(own, scene, |member| emitted(member, scene)));
+            continue;
+        }
         let fields = keys(demand, goal, scene);
         if !entries.last().is_some_and(|(_, held)| held.iter().all(|other| shares(demand, other))) {
             let mut entry = Map::from_iter([("object".to_owned(), json!(name))]);
@@ -247,7 +261,7 @@ fn emitted(goal: &Goal, scene: &Scene) -> Vec<Json> {
             held.push(demand);
         }
     }
-    entries.into_iter().map(|(entry, _)| Json::Object(entry)).collect()
+    entries.into_iter().map(|(entry, _)| Json::Object(entry)).chain(groups).collect()
 }
 
 /// Returns `true` if two demands have room in one entry.

@@ -1,0 +1,67 @@
+//! Goals of a group of objects.
+
+use serde_json::{Value as Json, json};
+
+use crate::asset::node::Node;
+use crate::asset::spec::{Key, Range, Value};
+use crate::asset::strict::Ledger;
+use crate::scene::Scene;
+use crate::task::Goal;
+use crate::task::demand::Group;
+
+/// Number of objects that reach the goal.
+pub(super) const AT_LEAST: Key = Key::optional(
+    "at_least",
+    Value::Count(Range {
+        what: "a number of objects",
+        low: 1.0,
+        high: 16.0,
+        advice: "2 of 3 objects are `at_least: 2`",
+    }),
+    "How many of the `objects` must reach the goal, whichever they are; by default all.",
+);
+
+/// Returns goals of the objects of one entry, or the one goal that so many of them reach theirs.
+pub(super) fn grouped(goal: &Node, members: Vec<Goal>) -> Option<Vec<Goal>> {
+    match goal.get("at_least") {
+        Some(node) => Some(vec![Group::of(members, node.number()? as usize)?]),
+        None => Some(members),
+    }
+}
+
+/// Returns a group as in a file, `entry` being what one goal is.
+pub(super) fn emitted(
+    group: &Group,
+    scene: &Scene,
+    entry: impl Fn(&Goal) -> Vec<Json>,
+) -> Option<Json> {
+    let mut keys = entry(group.members.first()?).into_iter().next()?.as_object()?.clone();
+    keys.remove("object");
+    let names = group.members.iter().map(|member| json!(scene.objects[member.object].name));
+    keys.insert("objects".to_owned(), names.collect());
+    keys.insert("at_least".to_owned(), json!(group.at_least));
+    Some(Json::Object(keys))
+}
+
+/// Notes a number without objects, or more than there are.
+pub(super) fn check(goal: &Node, ledger: &mut Ledger) {
+    let Some(node) = goal.get("at_least") else { return };
+    let Some(names) = goal.get("objects").map(Node::items) else {
+        ledger.fault(node, "`at_least` without `objects`", "name `objects`, or remove it");
+        return;
+    };
+    if node.number().is_some_and(|count| count > names.len() as f64) {
+        let message = format!("no {} of {} objects", node.content, names.len());
+        ledger.fault(node, message, "ask for less, or name more objects");
+    }
+    for key in ["joint", "joint_deg", "gap"] {
+        if let Some(other) = goal.get(key) {
+            let message = format!("`{key}` does not go together with `at_least`");
+            ledger.fault(
+                other,
+                message,
+                "it relates one object to something; leave one of them out",
+            );
+        }
+    }
+}
