@@ -96,9 +96,4 @@ impl Outcome {
     pub fn side(&self, object: usize) -> Ending {
         End::resting(object, &self.state).side().1
     }
-
-    /// Whether something left the plane, or a goal is about more than the plane.
-    pub fn in_space(&self, task: &Task) -> bool {
-        self.state.space.is_some() || task.goals.iter().any(Goal::in_space)
-    }
 }

@@ -223,7 +223,7 @@ impl Task {
         let has_room = |goal: &&Goal| {
             self.scene.objects.get(goal.object).is_some_and(|object| object.in_space())
         };
-        let lifted = self.goals.iter().find(|goal| goal.in_space());
+        let lifted = self.goals.iter().find(|goal| !goal.is_pose());
         lifted.or_else(|| self.goals.iter().find(has_room)).unwrap_or(&self.goals[0])
     }
 
@@ -239,7 +239,7 @@ impl Task {
 
     /// Whether something of it leaves the plane, or may.
     pub fn in_space(&self) -> bool {
-        self.levers.is_some() || self.goals.iter().any(Goal::in_space) || self.scene.in_space()
+        self.levers.is_some() || self.scene.in_space()
     }
 
     /// The task with other rules for pushes.

@@ -220,11 +220,6 @@ pub trait Kind {
         false
     }
 
-    /// Returns `true` if it is about more than the pose in the plane.
-    fn in_space(&self) -> bool {
-        false
-    }
-
     /// Returns `true` if it is judged once everything rests.
     fn is_at_rest(&self) -> bool {
         true
@@ -265,6 +260,11 @@ impl Demand {
             Self::Raised(kind) => kind,
             Self::Flipped(kind) => kind,
         }
+    }
+
+    /// Returns `true` if it is about a position or a heading.
+    pub fn is_pose(&self) -> bool {
+        self.kind().tolerance().is_some() || self.kind().facing().is_some()
     }
 
     /// Returns the heading that it asks for, to be changed.

@@ -54,7 +54,7 @@ impl Goal {
     /// use pushplan::task::{Demand, Flipped};
     ///
     /// let turned = Goal::of(0).with(Demand::Flipped(Flipped { flipped: true }));
-    /// assert!(turned.in_space() && !turned.has_place());
+    /// assert!(!turned.has_place());
     /// ```
     pub fn of(object: usize) -> Self {
         Self { object, demands: Vec::new(), weight: 1.0 }
@@ -309,7 +309,7 @@ impl Goal {
     pub fn line(&self, scene: &Scene) -> String {
         let names = self.names(scene);
         let names = if names.is_empty() { "object" } else { &names };
-        let colon = if self.in_space() { ":" } else { "" };
+        let colon = if self.is_pose() { "" } else { ":" };
         format!("{names}{colon} {}", self.words(scene))
     }
 
@@ -342,9 +342,9 @@ impl Goal {
         self.demands.iter().any(|demand| demand.kind().is_relation())
     }
 
-    /// Returns `true` if it is about more than the pose of the object in the plane.
-    pub fn in_space(&self) -> bool {
-        self.demands.iter().any(|demand| demand.kind().in_space())
+    /// Returns `true` if all its demands are about positions and headings, which pushes bring about.
+    pub fn is_pose(&self) -> bool {
+        self.demands.iter().all(Demand::is_pose)
     }
 
     /// Returns `true` if the object leaves the table.
@@ -400,8 +400,8 @@ impl Goal {
 
     /// Its demands in words, without the name of its object.
     pub fn words(&self, scene: &Scene) -> String {
-        let (lifted, others): (Vec<&Demand>, Vec<&Demand>) =
-            self.demands.iter().partition(|demand| demand.kind().in_space());
+        let (poses, others): (Vec<&Demand>, Vec<&Demand>) =
+            self.demands.iter().partition(|demand| demand.is_pose());
         let mut frames: Vec<usize> = Vec::new();
         let mut phrase = |demand: &Demand| {
             let other = demand.kind().relative().filter(|other| !frames.contains(other));
@@ -410,7 +410,7 @@ impl Goal {
             let of = of.map_or(String::new(), |other| format!(" as {} sees it", other.name));
             format!("{}{of}", demand.kind().words(self.object, scene))
         };
-        lifted.into_iter().chain(others).map(&mut phrase).collect::<Vec<_>>().join(", ")
+        others.into_iter().chain(poses).map(&mut phrase).collect::<Vec<_>>().join(", ")
     }
 
     /// The check by which exported scenes are judged.

@@ -26,6 +26,7 @@ mod fixtures;
 mod foreseen;
 mod formats;
 mod gaps;
+mod group_goals;
 mod in_motion;
 #[cfg(unix)]
 #[allow(dead_code)]

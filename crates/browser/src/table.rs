@@ -59,7 +59,7 @@ pub fn look(text: &str, file: &str) -> String {
         Ok(task) => (task_stage(task), Vec::new()),
         Err(faults) => (Json::Null, listed(faults)),
     };
-    let levers = task.is_ok_and(|task| task.in_space());
+    let levers = task.is_ok_and(|task| task.levers.is_some());
     json!({"values": values, "stage": stage, "levers": levers, "faults": faults}).to_string()
 }
 

@@ -87,7 +87,7 @@ pub fn run(args: &CheckArgs, session: &Session) -> Result<u8, CliError> {
 /// Says what keeps a task from having a plan; the exit code.
 fn why(file: &Path, library: &ToolLibrary, session: &Session) -> Result<u8, CliError> {
     let task = asset::load_task(file, library)?;
-    if task.in_space() {
+    if task.levers.is_some() {
         session.print("  of tasks of levering only `pushplan solve` tells\n")?;
         return Ok(exit_code::DONE);
     }

@@ -73,7 +73,7 @@ pub fn run(args: &DesignArgs, session: &Session) -> Result<u8, CliError> {
     let library = args.results.library.load()?;
     let mut task = args.task.load(&library)?;
     task.robustness = args.robustness.unwrap_or(task.robustness);
-    if task.in_space() {
+    if task.levers.is_some() {
         let advice = "tools with blades are not proposed";
         return Err(CliError::usage("this is a task of levering, not one of pushes", advice));
     }

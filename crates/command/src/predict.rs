@@ -168,7 +168,6 @@ fn predict(args: &PredictArgs, asked: Asked, session: &Session) -> Result<u8, Cl
             "`pushplan verify` plays all of it",
         ));
     };
-    let in_space = motion.is_lever() || task.in_space();
     let spec = args.model.clone().unwrap_or(match task.levers {
         // Among other things than a plain table the network of lever-ups knows nothing.
         Some(_) => ModelKind::PRIOR.into(),
@@ -180,7 +179,8 @@ fn predict(args: &PredictArgs, asked: Asked, session: &Session) -> Result<u8, Cl
         // What leaves the plane is simulated coarsely, as planning does, and finely.
         let coarse =
             ModelKind::Simulated { engine: Engine::Spatial, rate: LeverSimulator::COARSE.rate };
-        let next = if in_space { coarse } else { ModelKind::PLANAR };
+        let levers = motion.is_lever() || task.levers.is_some();
+        let next = if levers { coarse } else { ModelKind::PLANAR };
         let simulated = [next, ModelKind::SPATIAL].map(ModelSpec::of);
         specs.extend(simulated.into_iter().filter(|other| *other != spec));
     }

@@ -53,7 +53,8 @@ fn load(file: &Path) -> Result<Recording, Faults> {
     match asset::check(file, None)? {
         Kind::Trajectory => {
             let file = TrajectoryFile::load(file)?;
-            let slides = file.plan.slides(&file.tools).filter(|_| !file.task.in_space());
+            let flat = file.trajectory.frames.iter().all(|frame| frame.state.space.is_none());
+            let slides = file.plan.slides(&file.tools).filter(|_| flat);
             let Some([motion]) = slides.as_deref() else {
                 let message =
                     "what leaves the plane, or changes the tool, is no recording of pushes";

@@ -104,7 +104,7 @@ pub struct RunArgs {
 pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
     let library = args.results.library.load()?;
     let mut task = args.task.load(&library)?;
-    if task.in_space() {
+    if task.levers.is_some() {
         return Err(CliError::usage(
             "what leaves the plane cannot be run: after a lever-up nobody looks",
             "`pushplan solve` plans it and verifies it as a whole",

@@ -43,7 +43,7 @@ pub(super) fn transform(at: u64, child: &str, frame: &Pose, height: f64) -> Json
 }
 
 /// The same of a frame in space.
-pub(super) fn transform_in_space(at: u64, child: &str, frame: &Pose3) -> Json {
+pub(super) fn transform_3d(at: u64, child: &str, frame: &Pose3) -> Json {
     let [x, y, z, w] = frame.quaternion();
     json!({
         "timestamp": time(at),

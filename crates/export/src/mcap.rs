@@ -16,9 +16,7 @@ use pushplan::{
 };
 
 use super::ExportError;
-use super::foxglove::{
-    self, Colour, TABLE, entity, list, object, titled, transform, transform_in_space,
-};
+use super::foxglove::{self, Colour, TABLE, entity, list, object, titled, transform, transform_3d};
 
 const OBJECT: Colour = [0.45, 0.60, 0.80, 1.0];
 const WANTED: Colour = [0.90, 0.55, 0.20, 1.0];
@@ -194,7 +192,7 @@ fn transforms(plan: &PlanFile, frame: &Frame, at: u64) -> Vec<Json> {
     for ((k, object), pose) in drawn(plan).zip(&frame.state.poses) {
         let name = format!("object/{}", object.name);
         found.push(match frame.state.space.as_ref().and_then(|space| space.get(k)) {
-            Some(pose) => transform_in_space(at, &name, pose),
+            Some(pose) => transform_3d(at, &name, pose),
             None => transform(at, &name, pose, object.middle()),
         });
     }
@@ -208,7 +206,7 @@ fn transforms(plan: &PlanFile, frame: &Frame, at: u64) -> Vec<Json> {
     };
     let name = frame_of(at_work.unwrap_or(0));
     found.push(match &frame.blade {
-        Some(blade) => transform_in_space(at, &name, blade),
+        Some(blade) => transform_3d(at, &name, blade),
         None => transform(at, &name, &frame.tool, lift),
     });
     found

@@ -186,7 +186,8 @@ impl PyPlan {
     fn graph<'py>(&self, py: Python<'py>, frame: usize) -> PyResult<Option<Bound<'py, PyAny>>> {
         let Some(trajectory) = &self.trajectory else { return Ok(None) };
         let PlanFile { task, plan, tools, .. } = &self.file;
-        let slides = plan.slides(tools).filter(|_| !task.in_space());
+        let flat = trajectory.frames.iter().all(|frame| frame.state.space.is_none());
+        let slides = plan.slides(tools).filter(|_| flat);
         let Some([motion]) = slides.as_deref() else { return Ok(None) };
         let job = Job::stated(&task.scene, motion.clone());
         let graph = Graph::at(&task.scene, &job, trajectory, frame);

@@ -25,12 +25,10 @@ pub fn plan_figures(
     animate: bool,
 ) -> Vec<Figure> {
     let replay = replays.nominal(Engine::Spatial).and_then(|found| found.trajectory.as_ref());
-    if task.in_space() || plan.plan.levers() {
+    let shown = replay.unwrap_or(&plan.predicted);
+    if shown.outcome().space.is_some() {
         let line = format!("verdict: {}", verdict_line(task, plan.verdict.as_ref()));
-        let plan = (&plan.plan, &plan.tools[..]);
-        return replay.map_or(Vec::new(), |replay| {
-            space_figures(task, plan, replay, &[line], (name, animate))
-        });
+        return space_figures(task, (&plan.plan, &plan.tools[..]), shown, &[line], (name, animate));
     }
     let motions = plan.plan.slides(&plan.tools).unwrap_or_default();
     let still = still(task, plan, &motions, replays).to_svg();

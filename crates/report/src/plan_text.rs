@@ -116,7 +116,7 @@ pub(super) fn outcome_table<'a>(
         |outcome: &Outcome| task.goals[0].covered(&outcome.state).map_or(NONE.to_owned(), percent);
     let heading = |outcome: &Outcome| outcome.heading_error().map_or(NONE.to_owned(), degrees);
     let outcomes: Vec<(String, &Outcome, Option<&Warning>)> = outcomes.collect();
-    if outcomes.iter().any(|(_, outcome, _)| outcome.in_space(task)) {
+    if outcomes.iter().any(|(_, outcome, _)| outcome.state.space.is_some()) {
         return lying_table(task.goals[0].object, outcomes, &end);
     }
     if task.goals.iter().map(|goal| goal.movers().len()).sum::<usize>() > 1 {

@@ -40,7 +40,7 @@ pub fn prediction_document(task: &Task, plan: &Plan, effects: &[TimedEffect]) ->
         .iter()
         .map(|effect| Outcome::judge(&task.scene, task, &effect.trajectory))
         .collect();
-    let lying = outcomes.iter().any(|outcome| outcome.in_space(task)).then(|| {
+    let lying = outcomes.iter().any(|outcome| outcome.state.space.is_some()).then(|| {
         let fault = |effect: &TimedEffect| {
             effect.trajectory.warnings.iter().find(|warning| warning.forbids_success()).cloned()
         };

@@ -12,7 +12,8 @@ use super::plan_text::plan_line;
 /// A picture of a trajectory, whose file is named `name`; `animate` adds one that moves.
 pub fn trajectory_figures(file: &TrajectoryFile, name: &str, animate: bool) -> Vec<Figure> {
     let TrajectoryFile { task, tools, plan, trajectory, .. } = file;
-    let (false, Some(motions)) = (task.in_space() || plan.levers(), plan.slides(tools)) else {
+    let flat = trajectory.outcome().space.is_none();
+    let (true, Some(motions)) = (flat, plan.slides(tools)) else {
         return space_figures(task, (plan, tools), trajectory, &[], (name, animate));
     };
     let error = task.goals[0].error(trajectory.outcome());

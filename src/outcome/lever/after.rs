@@ -91,8 +91,8 @@ impl Task {
 /// What of a goal pushes can bring about; nothing of one that leaves the plane and names no place.
 fn flat(goal: &Goal) -> Option<Goal> {
     let mut flat = goal.clone();
-    flat.demands.retain(|demand| !demand.kind().in_space());
-    let wanted = flat.has_place() || !goal.in_space() && !flat.demands.is_empty();
+    flat.demands.retain(Demand::is_pose);
+    let wanted = flat.has_place() || goal.is_pose() && !flat.demands.is_empty();
     wanted.then_some(flat)
 }
 

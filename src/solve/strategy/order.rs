@@ -52,7 +52,7 @@ pub(in crate::solve) fn for_levers<'a>(
     if levers && pushes {
         strategies.push(Box::new(MakeRoom::new(library)));
     }
-    if pushes && levers && !goal.in_space() {
+    if pushes && levers && goal.is_pose() {
         strategies.push(Box::new(InTurn::new(query.task, library)));
     }
     strategies

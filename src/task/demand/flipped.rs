@@ -93,9 +93,6 @@ impl Kind for Flipped {
         }
     }
 
-    fn in_space(&self) -> bool {
-        true
-    }
     fn check(&self, object: usize, scene: &Scene) -> Check {
         let quantity = Quantity::Tilt { object: name(object, scene) };
         match self.flipped {

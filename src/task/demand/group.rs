@@ -142,10 +142,6 @@ impl Kind for Group {
         true
     }
 
-    fn in_space(&self) -> bool {
-        self.kinds().any(|kind| kind.in_space())
-    }
-
     fn is_at_rest(&self) -> bool {
         self.kinds().all(|kind| kind.is_at_rest())
     }

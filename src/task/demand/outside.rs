@@ -55,10 +55,6 @@ impl Kind for Outside {
         1.0 - beyond / STEP
     }
 
-    fn in_space(&self) -> bool {
-        true
-    }
-
     fn fault(&self, _: usize, scene: &Scene) -> Option<String> {
         let known = scene.obstacles.iter().any(|obstacle| obstacle.name == self.name);
         (!known).then(|| "the goal names an obstacle that does not exist".to_owned())

@@ -50,10 +50,6 @@ impl Kind for Raised {
         if held { 1.0 + missing } else { 2.0 + missing.max(0.0) }
     }
 
-    fn in_space(&self) -> bool {
-        true
-    }
-
     fn is_at_rest(&self) -> bool {
         false
     }

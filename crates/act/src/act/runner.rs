@@ -144,7 +144,7 @@ impl<'a> Runner<'a> {
     /// What is believed after the first look, and what is odd about that.
     fn begin(&self, trace: &Trace) -> Result<(Belief, Vec<Note>), ActError> {
         let Trace { task, settings, first, .. } = trace;
-        if task.in_space() {
+        if task.levers.is_some() {
             let what = "what leaves the plane is planned, and run by nobody who looks".to_owned();
             return Err(SolveError::BadTask { task: task.name.clone(), what }.into());
         }

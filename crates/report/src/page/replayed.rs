@@ -55,7 +55,7 @@ pub(super) fn shown_replay(
     (plan, tools): (&Plan, &[Arc<Tool>]),
     (layer, trajectory, reached): (Layer, &Trajectory, bool),
 ) -> Option<Replay> {
-    if is_in_space(task, plan) {
+    if trajectory.outcome().space.is_some() {
         return space::replay(layer, task, (plan, tools), trajectory, reached);
     }
     let mut replay = replay(layer, trajectory, reached)?;
@@ -93,7 +93,7 @@ pub fn prediction_page(
     let mut ends = Vec::new();
     for (k, trajectory) in trajectories.iter().enumerate() {
         let outcome = Outcome::judge(&task.scene, task, trajectory);
-        let end = match (outcome.in_space(task), outcome.reached) {
+        let end = match (outcome.state.space.is_some(), outcome.reached) {
             (false, _) => millimetres(outcome.error()),
             (true, true) => "reaches the goal".to_owned(),
             (true, false) => "misses the goal".to_owned(),

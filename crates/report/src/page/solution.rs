@@ -41,8 +41,9 @@ pub fn solution_page(
         let mut list = Vec::new();
         let predicted = (Layer::Predicted, &ranked.predicted, ranked.outcome.reached);
         // Of what leaves the plane only the end is predicted.
-        let predicted = Some(predicted)
-            .filter(|(_, shown, _)| !ranked.outcome.in_space(task) || shown.frames.len() > 1);
+        let predicted = Some(predicted).filter(|(_, shown, _)| {
+            !ranked.outcome.state.space.is_some() || shown.frames.len() > 1
+        });
         let shown = predicted.into_iter().chain(replayed.into_iter().flat_map(replays));
         let own = (&ranked.plan, &ranked.tools[..]);
         list.extend(shown.filter_map(|one| shown_replay(task, own, one)));
@@ -50,7 +51,7 @@ pub fn solution_page(
         let plan = making.plan(&ranked.tools, &ranked.plan, recipe(ranked));
         plan.standing = verdict.map_or(Standing::Open, standing);
         plan.verdict = if k == 0 { verdict_line(task, verdict) } else { why.clone() };
-        plan.cells = cells(task, ranked, replayed, why);
+        plan.cells = cells(ranked, replayed, why);
         plan.ends = verdict.map_or(Vec::new(), |verdict| ends(task, verdict));
         plan.replays = list;
     }
@@ -65,12 +66,14 @@ pub fn solution_page(
     html::page(&making.data, view)
 }
 
-fn cells(task: &Task, ranked: &RankedPlan, replayed: Option<&Verdict>, why: String) -> Vec<String> {
+fn cells(ranked: &RankedPlan, replayed: Option<&Verdict>, why: String) -> Vec<String> {
     let error = |outcome: Option<&Outcome>| {
-        outcome.map_or(NONE.to_owned(), |outcome| match (outcome.in_space(task), outcome.reached) {
-            (false, _) => millimetres(outcome.error()),
-            (true, true) => "reaches the goal".to_owned(),
-            (true, false) => "misses the goal".to_owned(),
+        outcome.map_or(NONE.to_owned(), |outcome| {
+            match (outcome.state.space.is_some(), outcome.reached) {
+                (false, _) => millimetres(outcome.error()),
+                (true, true) => "reaches the goal".to_owned(),
+                (true, false) => "misses the goal".to_owned(),
+            }
         })
     };
     let nominal = |engine| replayed.and_then(|verdict| verdict.nominal(engine));

@@ -51,7 +51,7 @@ pub(super) fn check(goal: &Node, ledger: &mut Ledger) {
         return;
     };
     if node.number().is_some_and(|count| count > names.len() as f64) {
-        let message = format!("no {} of {} objects", node.content, names.len());
+        let message = format!("only {} objects are named", names.len());
         ledger.fault(node, message, "ask for less, or name more objects");
     }
     for key in ["joint", "joint_deg", "gap"] {

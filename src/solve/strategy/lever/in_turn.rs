@@ -161,7 +161,7 @@ fn solved(
 /// pushes first, and of several lever-ups either first.
 fn orders(task: &Task) -> VecDeque<Vec<Stage>> {
     let (lifted, flat): (Vec<Goal>, Vec<Goal>) =
-        task.goals.iter().cloned().partition(|goal| goal.in_space());
+        task.goals.iter().cloned().partition(|goal| !goal.is_pose());
     let pushes = |goals: Vec<Goal>| (!goals.is_empty()).then(|| Stage::Push(goals));
     let mut orders = VecDeque::new();
     let mut add = |levers: &[Goal], flat: &[Goal]| {
