@@ -17,7 +17,7 @@ scene:
     - {name: can, shape: {cylinder: {radius: 0.04, height: 0.10}}, mass: 0.4, friction: 0.4, position: [0.58, 0.10]}
     - {name: cup, shape: {cylinder: {radius: 0.04, height: 0.10}}, mass: 0.4, friction: 0.4, position: [0.58, -0.10]}
 robot: {reach: {min: 0.1, max: 1.0}}
-tools: [bar]
+tools: [paddle]
 pushes: {max_count: 2}
 goal:
   objects: [crate, can, cup]
@@ -32,7 +32,7 @@ scene:
   objects:
     - {name: box, shape: {cuboid: {size: [0.08, 0.08, 0.08]}}, mass: 0.4, friction: 0.4, position: [0.55, 0.02]}
 robot: {reach: {min: 0.1, max: 1.0}}
-tools: [bar]
+tools: [paddle]
 goal: {object: box, region: {outside: true, area: {circle: {radius: 0.12}}, position: [0.55, 0.0]}}
 ";
 
@@ -116,6 +116,6 @@ fn an_object_leaves_a_region_the_shortest_way() {
     let solution = solved(&task);
     assert_eq!(solution.status, PlanStatus::Solved);
     let end = solution.plans[0].outcome.state.poses[0].position;
-    assert!((0.12..0.2).contains(&(end - pushplan::Vector::new(0.55, 0.0)).norm()), "{end}");
+    assert!((0.12..0.25).contains(&(end - pushplan::Vector::new(0.55, 0.0)).norm()), "{end}");
     works_in_mujoco(&file(&task, &solution));
 }
