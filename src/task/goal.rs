@@ -5,9 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::{Pose, Shape, Vector};
 use crate::scene::{Body, Joint, Scene, State};
 
-use super::demand::{
-    Area, AtPlace, Check, Coverage, Demand, End, Facing, Fall, Gap, InArea, Outside, ShownGoal,
-};
+use super::demand::{Area, AtPlace, Coverage, Demand, End, Facing, Fall, Gap, InArea, Outside};
 
 /// Demands on where and how one object ends; all of them count.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -298,21 +296,6 @@ impl Goal {
         subjects.find(|subject| *subject != self.object).unwrap_or(self.object)
     }
 
-    /// Names of the objects that may be moved for it.
-    pub fn names(&self, scene: &Scene) -> String {
-        let movers = self.movers().into_iter();
-        let names = movers.filter_map(|k| scene.objects.get(k)).map(|object| object.name.as_str());
-        names.collect::<Vec<_>>().join(", ")
-    }
-
-    /// Its objects and its demands in words.
-    pub fn line(&self, scene: &Scene) -> String {
-        let names = self.names(scene);
-        let names = if names.is_empty() { "object" } else { &names };
-        let colon = if self.is_pose() { "" } else { ":" };
-        format!("{names}{colon} {}", self.words(scene))
-    }
-
     /// Sets of plainer goals any of which reaches it, the nearest first, at least one.
     pub fn choices(&self, state: &State) -> Vec<Vec<Self>> {
         let chosen: Vec<Vec<Vec<Self>>> =
@@ -396,37 +379,5 @@ impl Goal {
     /// The share of its own outline that the object must cover, where one is asked for.
     pub fn wanted_share(&self) -> Option<f64> {
         self.demands.iter().find_map(|demand| demand.kind().share())
-    }
-
-    /// Its demands in words, without the name of its object.
-    pub fn words(&self, scene: &Scene) -> String {
-        let (poses, others): (Vec<&Demand>, Vec<&Demand>) =
-            self.demands.iter().partition(|demand| demand.is_pose());
-        let mut frames: Vec<usize> = Vec::new();
-        let mut phrase = |demand: &Demand| {
-            let other = demand.kind().relative().filter(|other| !frames.contains(other));
-            frames.extend(other);
-            let of = other.and_then(|other| scene.objects.get(other));
-            let of = of.map_or(String::new(), |other| format!(" as {} sees it", other.name));
-            format!("{}{of}", demand.kind().words(self.object, scene))
-        };
-        others.into_iter().chain(poses).map(&mut phrase).collect::<Vec<_>>().join(", ")
-    }
-
-    /// The check by which exported scenes are judged.
-    pub fn check(&self, scene: &Scene) -> Check {
-        let of = self.demands.iter().map(|demand| demand.kind().check(self.object, scene));
-        let of: Vec<Check> = of.collect();
-        Check::AtLeast { count: of.len(), of }
-    }
-
-    /// Its marks in pictures, with everything at its start.
-    pub fn shown(&self, scene: &Scene) -> ShownGoal {
-        let start = scene.start();
-        let goal = self.in_world(&start);
-        let own = || start.poses.get(self.object).map(|pose| pose.position);
-        let marks = goal.demands.iter().flat_map(|one| one.kind().marks(self.object, scene));
-        let centre = goal.position().or_else(own).unwrap_or_default();
-        ShownGoal { objects: self.movers(), centre, marks: marks.collect() }
     }
 }

@@ -9,6 +9,7 @@ mod definition;
 pub mod demand;
 mod goal;
 mod goal_error;
+mod goal_words;
 mod job;
 mod lever;
 mod motion;
