@@ -9,7 +9,7 @@ mod definition;
 pub mod demand;
 mod goal;
 mod goal_error;
-mod goal_words;
+mod goal_in_code;
 mod job;
 mod lever;
 mod motion;
