@@ -16,6 +16,8 @@ mod tree;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use clap::Parser;
@@ -58,6 +60,7 @@ fn main() -> ExitCode {
         true => Target::ALL.to_vec(),
         false => arguments.target.clone(),
     };
+    keep_panics();
     let mut failures = 0;
     for target in targets {
         failures += fuzz(target, &arguments);
@@ -65,38 +68,90 @@ fn main() -> ExitCode {
     if failures == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
-/// Runs the corpus of a target and then mutations of it; the number of failures.
+/// A case of a target.
+struct Case {
+    name: String,
+    input: Vec<u8>,
+}
+
+/// The result of a case.
+struct Tried {
+    took: Duration,
+    /// Whether the file was accepted, or the message of the panic.
+    outcome: Result<bool, String>,
+}
+
+impl Tried {
+    /// Runs a case; after a panic the message is that of the last panic of any thread.
+    fn of(target: Target, case: &Case) -> Self {
+        let since = Instant::now();
+        let outcome = panic::catch_unwind(AssertUnwindSafe(|| target.run(&case.input)))
+            .map_err(|_| LAST_PANIC.lock().map(|text| text.clone()).unwrap_or_default());
+        Self { took: since.elapsed(), outcome }
+    }
+
+    /// The reason why it fails, if it does.
+    fn failure(&self) -> Option<String> {
+        match &self.outcome {
+            Err(why) => Some(why.clone()),
+            Ok(_) if self.took > LONGEST => Some(format!("took {:.1} s", self.took.as_secs_f64())),
+            Ok(_) => None,
+        }
+    }
+}
+
+/// Runs the corpus of a target and then mutations of it, on all processors; the number of failures. A case
+/// that fails beside others is run once more alone, so that its message and its time are its own.
 fn fuzz(target: Target, arguments: &Arguments) -> u64 {
     let corpus = Corpus::of(target);
+    let began = Instant::now();
+    let case = |index: usize| match corpus.files.get(index) {
+        Some((name, bytes)) => Case { name: name.clone(), input: bytes.clone() },
+        None => {
+            let number = arguments.from + (index - corpus.files.len()) as u64;
+            let mut random = Random::new(target, arguments.seed, number);
+            Case { name: number.to_string(), input: corpus.mutated(target, &mut random) }
+        }
+    };
+    let count = corpus.files.len() + arguments.count as usize;
+    let tried = Mutex::new((0..count).map(|_| None).collect::<Vec<Option<Tried>>>());
+    let next = AtomicUsize::new(0);
+    let work = || {
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            if index >= count {
+                return;
+            }
+            let case = case(index);
+            if let Some(path) = &arguments.current {
+                std::fs::write(path, &case.input).expect("the file for the current case");
+            }
+            let found = Tried::of(target, &case);
+            tried.lock().expect("no panic while it is held")[index] = Some(found);
+        }
+    };
+    // One by one where the process may end in a case, as only one is written.
+    let threads = if arguments.current.is_some() { 1 } else { rayon::current_num_threads() };
+    std::thread::scope(|scope| (0..threads).for_each(|_| drop(scope.spawn(work))));
+    let tried = tried.into_inner().expect("no panic while it was held");
+
     let (mut accepted, mut failures) = (0u64, 0);
     let mut slowest = (Duration::ZERO, String::new());
-    let began = Instant::now();
-    let seeds = corpus.files.iter().map(|(name, bytes)| (name.clone(), bytes.clone()));
-    let mutations = (arguments.from..arguments.from + arguments.count).map(|index| {
-        let mut random = Random::new(target, arguments.seed, index);
-        (format!("{index}"), corpus.mutated(target, &mut random))
-    });
-    for (name, input) in seeds.chain(mutations) {
-        if let Some(path) = &arguments.current {
-            std::fs::write(path, &input).expect("the file for the current case");
+    for (index, tried) in tried.into_iter().enumerate() {
+        let Some(tried) = tried else { continue };
+        if tried.took > slowest.0 {
+            slowest = (tried.took, case(index).name);
         }
-        let since = Instant::now();
-        let outcome = quietly(|| target.run(&input));
-        let took = since.elapsed();
-        if took > slowest.0 {
-            slowest = (took, name.clone());
-        }
-        let why = match outcome {
-            Ok(true) if took <= LONGEST => {
-                accepted += 1;
-                continue;
-            }
-            Ok(_) if took > LONGEST => format!("took {:.1} s", took.as_secs_f64()),
-            Ok(_) => continue,
-            Err(why) => why,
+        accepted += u64::from(tried.outcome == Ok(true));
+        let Some(first) = tried.failure() else { continue };
+        let case = case(index);
+        let Some(why) = Tried::of(target, &case).failure().or(tried.outcome.err().and(Some(first)))
+        else {
+            continue;
         };
         failures += 1;
-        let place = save(target, &name, &input, arguments);
+        let place = save(target, &case.name, &case.input, arguments);
+        let name = &case.name;
         eprintln!("{} case {name} of seed {}: {why}\n  {place}", target.name(), arguments.seed);
     }
     println!(
@@ -112,19 +167,16 @@ fn fuzz(target: Target, arguments: &Arguments) -> u64 {
     failures
 }
 
-/// What `run` returns, or the message of its panic.
-fn quietly(run: impl FnOnce() -> bool) -> Result<bool, String> {
-    let hook = panic::take_hook();
-    let place = std::sync::Arc::new(std::sync::Mutex::new(String::new()));
-    let noted = std::sync::Arc::clone(&place);
-    panic::set_hook(Box::new(move |info| {
-        if let Ok(mut place) = noted.lock() {
-            *place = info.to_string();
+/// The message of the last panic of any thread.
+static LAST_PANIC: Mutex<String> = Mutex::new(String::new());
+
+/// Keeps messages of panics instead of printing them.
+fn keep_panics() {
+    panic::set_hook(Box::new(|info| {
+        if let Ok(mut last) = LAST_PANIC.lock() {
+            *last = info.to_string();
         }
     }));
-    let outcome = panic::catch_unwind(AssertUnwindSafe(run));
-    panic::set_hook(hook);
-    outcome.map_err(|_| place.lock().map(|text| text.clone()).unwrap_or_default())
 }
 
 /// Keeps a failing file, and says where.
