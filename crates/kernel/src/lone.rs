@@ -85,8 +85,8 @@ impl LoneFrame<'_> {
     }
 }
 
-/// The vectors of this processor that code is compiled for. Not every number of frames is compiled for each,
-/// as nothing here compiles longer: what is left out was slower where it was measured.
+/// The vectors of this processor that code is compiled for. Not every number of frames is compiled for each, as
+/// a pair of both takes ten seconds to compile: eight frames only for AVX-512, fewer for AVX2, one for neither.
 #[derive(Clone, Copy)]
 enum Vectors {
     /// The ones that every processor of its kind has.
@@ -94,9 +94,9 @@ enum Vectors {
     /// AVX2.
     #[cfg(target_arch = "x86_64")]
     Four(V3),
-    /// AVX-512.
+    /// AVX-512, and AVX2 for fewer frames than these hold.
     #[cfg(target_arch = "x86_64")]
-    Eight(V4),
+    Eight(V4, V3),
 }
 
 impl Vectors {
@@ -105,11 +105,10 @@ impl Vectors {
         *FOUND.get_or_init(|| {
             #[cfg(target_arch = "x86_64")]
             {
-                if let Some(wide) = V4::try_new() {
-                    return Self::Eight(wide);
-                }
-                if let Some(narrow) = V3::try_new() {
-                    return Self::Four(narrow);
+                match (V4::try_new(), V3::try_new()) {
+                    (Some(wide), Some(narrow)) => return Self::Eight(wide, narrow),
+                    (_, Some(narrow)) => return Self::Four(narrow),
+                    _ => {}
                 }
             }
             Self::Any
@@ -122,7 +121,7 @@ pub fn batch(waiting: usize) -> usize {
     match (waiting, Vectors::of_processor()) {
         (0..FEW, _) => 1,
         #[cfg(target_arch = "x86_64")]
-        (_, Vectors::Eight(_)) if waiting > LANES => WIDE,
+        (_, Vectors::Eight(..)) if waiting > LANES => WIDE,
         _ => LANES,
     }
 }
@@ -140,17 +139,11 @@ pub fn solve(
     let (frames, solutions) = (&frames[..count], &mut solutions[..count]);
     match Vectors::of_processor() {
         #[cfg(target_arch = "x86_64")]
-        Vectors::Eight(wide) => match count {
-            0..=1 => {
-                in_lanes::<1>(frames, solutions, tally, |frames, tally| frames.by(wide, tally))
-            }
-            2..=LANES => {
-                in_lanes::<LANES>(frames, solutions, tally, |frames, tally| frames.by(wide, tally))
-            }
-            _ => in_lanes::<WIDE>(frames, solutions, tally, |frames, tally| frames.by(wide, tally)),
-        },
+        Vectors::Eight(wide, _) if count > LANES => {
+            in_lanes::<WIDE>(frames, solutions, tally, |frames, tally| frames.by(wide, tally))
+        }
         #[cfg(target_arch = "x86_64")]
-        Vectors::Four(narrow) => match count {
+        Vectors::Eight(_, narrow) | Vectors::Four(narrow) => match count {
             0..=1 => {
                 in_lanes::<1>(frames, solutions, tally, |frames, tally| frames.by(narrow, tally))
             }
