@@ -280,7 +280,8 @@ fn crates_do_not_know_what_is_above_them() {
             let manifest = Path::new(ROOT).join(folder.trim_end_matches("src")).join("Cargo.toml");
             let cargo = fs::read_to_string(manifest).unwrap_or_default();
             for name in unknown {
-                let known = cargo.contains(&format!("\npushplan-{name} "));
+                // A dependency: profiles may name what they compile in another way.
+                let known = cargo.contains(&format!("\npushplan-{name} = {{ path"));
                 assert!(!known, "the manifest of {folder} names {name}");
                 for (path, text) in sources(folder) {
                     let named = names(&code_of(&text), &format!("pushplan_{name}"));

@@ -85,7 +85,7 @@ impl LoneFrame<'_> {
     }
 }
 
-/// The vectors of this processor that code is compiled for. Not every number of frames is compiled for each, as
+/// The vectors of this processor that code is compiled for. Not every number of frames is compiled for each, because
 /// a pair of both takes ten seconds to compile: eight frames only for AVX-512, fewer for AVX2, one for neither.
 #[derive(Clone, Copy)]
 enum Vectors {
