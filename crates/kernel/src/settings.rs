@@ -64,7 +64,7 @@ pub enum Quantity {
 
 impl Quantity {
     /// Smallest length s, metres: smaller motions of a frame count as stuck. Velocities need a
-    /// finer one, as what is left of them must count as rest.
+    /// finer one, because what is left of them must count as rest.
     #[inline(always)]
     pub fn stuck(self) -> f64 {
         match self {

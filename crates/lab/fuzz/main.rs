@@ -130,7 +130,7 @@ fn fuzz(target: Target, arguments: &Arguments) -> u64 {
             tried.lock().expect("no panic while it is held")[index] = Some(found);
         }
     };
-    // One by one where the process may end in a case, as only one is written.
+    // One by one where the process may end in a case, because only one is written.
     let threads = if arguments.current.is_some() { 1 } else { rayon::current_num_threads() };
     std::thread::scope(|scope| (0..threads).for_each(|_| drop(scope.spawn(work))));
     let tried = tried.into_inner().expect("no panic while it was held");

@@ -64,7 +64,7 @@ impl Task {
     }
 
     /// The task from where all objects lie at `rests`; nothing if one of several solids does not lie on its
-    /// underside any more, as it is then no object that a scene can state.
+    /// underside any more, because it is then no object that a scene can state.
     pub fn moved_to(&self, rests: &[Pose3]) -> Option<Task> {
         let seen: Vec<Pose> = rests.iter().map(Pose3::from_above).collect();
         let mut task = Task { scene: carried(&self.scene, &seen), ..self.clone() };
