@@ -9,7 +9,7 @@
   const measured = page.measure?.name ?? 'Off the goal';
   byId('measure').textContent = measured;
   byId('task').textContent = page.task;
-  const { goal } = page.stage;
+  const [goal] = goals;
   byId('goal').textContent = [page.description, goal && `Goal: ${goal.words}.`, page.models].filter(Boolean).join(' ');
 
   function head() {

@@ -50,11 +50,15 @@ const OBJECT: &str = "Name of the object to bring to the goal.";
 
 /// The other keys of a goal.
 const SHARED: [Key; 5] = [
-    Key::optional("object", Value::Name, OBJECT),
+    Key::optional(
+        "object",
+        Value::Name,
+        "Name of an object of the scene; by default `objects` names several.",
+    ),
     Key::optional(
         "objects",
         Value::List { of: &Value::Name, items: "names of objects", min: 1, max: 16 },
-        "Names of objects in place of `object`, all of which are to be brought to the goal.",
+        "Names of objects that are all to be brought to the goal; by default `object` names one.",
     ),
     group::AT_LEAST,
     Key::optional(
