@@ -75,13 +75,11 @@ fn a_hinge_and_a_heading_hold_beside_a_lever_up() {
     let door = "    - {name: door, shape: {cuboid: {size: [0.02, 0.20, 0.10]}}, mass: 0.8, friction: 0.2, \
 position: [0.6, -0.35]}\n";
     let joint = "  joints: [{between: [door, world], kind: revolute, at: [0.6, -0.25], limits_deg: [-90, 90]}]\n";
-    let goals = format!(
-        "pushes: {{max_count: 2}}
+    let goals = "pushes: {max_count: 2}
 goal:
-  - {{object: plate, flipped: true, heading_deg: 180, heading_tolerance_deg: 15}}
-  - {{object: door, joint_deg: 30, heading_tolerance_deg: 8}}\n"
-    );
-    plan(&task(door, joint, &goals));
+  - {object: plate, flipped: true, heading_deg: 180, heading_tolerance_deg: 15}
+  - {object: door, joint_deg: 30, heading_tolerance_deg: 8}\n";
+    plan(&task(door, joint, goals));
 }
 
 #[test]

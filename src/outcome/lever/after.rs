@@ -44,7 +44,7 @@ impl Task {
             (stated, _) => stated,
         };
         let left = Left::of(self, rests);
-        let goals: Vec<Goal> = self.goals.iter().filter_map(|goal| flat(goal)).collect();
+        let goals: Vec<Goal> = self.goals.iter().filter_map(flat).collect();
         let goals = goals.into_iter().map(|goal| left.goal(goal)).collect::<Option<Vec<Goal>>>()?;
         goals.first()?;
         Some(Task {
@@ -174,7 +174,7 @@ impl Left {
             };
             demand.kind().relative().into_iter().chain(to)
         });
-        let known = others.clone().all(|other| same(other));
+        let known = others.clone().all(same);
         let related = others.count() > 0;
         if let Some(turned) = self.turned[goal.object] {
             let outlined = goal.demands.iter().any(|one| one.kind().share().is_some());

@@ -41,9 +41,8 @@ pub fn solution_page(
         let mut list = Vec::new();
         let predicted = (Layer::Predicted, &ranked.predicted, ranked.outcome.reached);
         // Of what leaves the plane only the end is predicted.
-        let predicted = Some(predicted).filter(|(_, shown, _)| {
-            !ranked.outcome.state.space.is_some() || shown.frames.len() > 1
-        });
+        let predicted = Some(predicted)
+            .filter(|(_, shown, _)| ranked.outcome.state.space.is_none() || shown.frames.len() > 1);
         let shown = predicted.into_iter().chain(replayed.into_iter().flat_map(replays));
         let own = (&ranked.plan, &ranked.tools[..]);
         list.extend(shown.filter_map(|one| shown_replay(task, own, one)));

@@ -162,7 +162,7 @@ fn solved(
 fn orders(task: &Task) -> VecDeque<Vec<Stage>> {
     let (lifted, flat): (Vec<Goal>, Vec<Goal>) =
         task.goals.iter().cloned().partition(|goal| !goal.is_pose());
-    let pushes = |goals: Vec<Goal>| (!goals.is_empty()).then(|| Stage::Push(goals));
+    let pushes = |goals: Vec<Goal>| (!goals.is_empty()).then_some(Stage::Push(goals));
     let mut orders = VecDeque::new();
     let mut add = |levers: &[Goal], flat: &[Goal]| {
         let levers: Vec<Stage> = levers.iter().cloned().map(Stage::Lever).collect();
