@@ -9,7 +9,7 @@ use super::{JointKind, Object, Span};
 /// How an object may move against the world: a revolute or a prismatic joint.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mount {
-    /// Index into [`Scene::objects`].
+    /// Index into [`Scene::objects`](super::Scene::objects).
     pub object: usize,
     /// What it allows. Turns and shifts are those of the object, from the start.
     pub kind: JointKind,

@@ -194,7 +194,7 @@ impl Object {
 /// What an object is a part of.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Whole {
-    /// Index of the thing's first solid in [`Scene::objects`].
+    /// Index of the thing's first solid in [`Scene::objects`](super::Scene::objects).
     pub object: usize,
     /// The part's pose in the frame of that one.
     pub place: Pose,

@@ -2,8 +2,8 @@
 //!
 //! A gated recurrent unit per pair of objects (Cho et al., EMNLP 2014) on evidence about that pair and
 //! on the effects of the frozen propagation network, with messages between pairs that share an object
-//! (Tekden et al., ICRA 2020, section III-C; thesis 7.2.3 and 8.1.1). With features x_p [F], hidden
-//! states h_p [H] and the message m_p = the sum of h_q over pairs q != p that share an object with p,
+//! (Tekden et al., ICRA 2020, section III-C; thesis 7.2.3 and 8.1.1). With features x_p `[F]`, hidden
+//! states h_p `[H]` and the message m_p = the sum of h_q over pairs q != p that share an object with p,
 //! counted once for each shared object:
 //!
 //! ```text
