@@ -156,17 +156,59 @@ impl Serialize for PlanFile {
 }
 
 /// Returns a plan without ends that state the error of one first goal, the form before goals were a list:
-/// `verify` finds them again.
+/// `verify` finds them again. Blanks stand in their place, so that everything else keeps its own.
 fn without_earlier_ends(text: &str) -> Cow<'_, str> {
-    let ends = ["predicted", "verdict"];
-    if text.contains("\"goals\"") || !ends.iter().any(|key| text.contains(key)) {
+    let is_end =
+        |rest: &str| ["\"predicted\"", "\"verdict\""].iter().any(|key| rest.starts_with(key));
+    if text.contains("\"goals\"") || !text.char_indices().any(|(at, _)| is_end(&text[at..])) {
         return text.into();
     }
-    match serde_json::from_str::<serde_json::Map<String, serde_json::Value>>(text) {
-        Ok(mut map) => {
-            ends.iter().for_each(|key| drop(map.remove(*key)));
-            serde_json::Value::Object(map).to_string().into()
+    let mut kept = String::with_capacity(text.len());
+    let (mut depth, mut quoted, mut escaped, mut blank) = (0usize, false, false, false);
+    // Where the last comma between two keys of the file stands, as long as no key has followed it.
+    let mut comma: Option<usize> = None;
+    for (at, c) in text.char_indices() {
+        match c {
+            _ if escaped => escaped = false,
+            '\\' if quoted => escaped = true,
+            '"' => {
+                // The file's first key is its kind, so that a comma stands before all others.
+                if let Some(at) = comma.filter(|_| !quoted && is_end(&text[at..])) {
+                    blank = true;
+                    kept.replace_range(at..=at, " ");
+                }
+                comma = None;
+                quoted = !quoted;
+            }
+            _ if quoted => {}
+            '{' | '[' => depth += 1,
+            '}' | ']' => {
+                depth = depth.saturating_sub(1);
+                blank &= depth > 0;
+            }
+            ',' if depth == 1 => (blank, comma) = (false, Some(kept.len())),
+            _ => {}
         }
-        Err(_) => text.into(),
+        kept.push(if blank && !c.is_whitespace() { ' ' } else { c });
+    }
+    kept.into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_out_leaves_everything_else_in_its_place() {
+        let text = "{\"kind\": \"plan\",\n\"predicted\": {\"a\\\"}\": [1, 2]},\n \"plan\": {\"verdict\": 3},\n\"verdict\": \"ä,\"}";
+        let kept = without_earlier_ends(text);
+        let found: serde_json::Value = serde_json::from_str(&kept).expect("it is JSON as before");
+        assert_eq!(found, serde_json::json!({"kind": "plan", "plan": {"verdict": 3}}));
+        let places = |text: &str| text.lines().map(|line| line.chars().count()).collect::<Vec<_>>();
+        assert_eq!(places(&kept), places(text));
+        assert_eq!(
+            without_earlier_ends("{\"goals\": 1, \"verdict\": 2}"),
+            "{\"goals\": 1, \"verdict\": 2}"
+        );
     }
 }
