@@ -1,6 +1,6 @@
 //! The strict check of a tree against what a file may hold, and the ledger of faults.
 
-use super::fault::{Fault, Faults, did_you_mean, one_of};
+use super::fault::{Fault, Faults, Place, did_you_mean, one_of};
 use super::node::{Content, Node};
 use super::reader::locate;
 use super::spec::{Key, Range, Value};
@@ -43,7 +43,15 @@ impl<'a> Ledger<'a> {
         }
         if self.found.is_empty() {
             // Whatever leaves a value missing notes a fault; this is for a rule that forgot to.
-            return Err(Fault::of_file(self.source.file, "the file is incomplete", "").into());
+            let fault = Fault {
+                file: self.source.file.into(),
+                place: Some(Place { line: 1, column: 1 }),
+                message: "the file is incomplete".into(),
+                advice: "look at `robot`, and at solids that do not lie around the centre of mass \
+                         of their object"
+                    .into(),
+            };
+            return Err(fault.into());
         }
         self.found.sort_by_key(|(id, ..)| *id);
         // A goal of several objects is checked for each of them.

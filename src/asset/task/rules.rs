@@ -267,7 +267,8 @@ pub(super) fn without_arm(robot: &Node, ledger: &mut Ledger) {
         let advice = did_you_mean(key.text().unwrap_or_default(), ["reach"]);
         advice.starts_with("did you mean")
     };
-    if !given.is_empty() && robot.get("reach").is_none() && !given.iter().any(meant) {
+    let is_map = matches!(robot.content, crate::asset::node::Content::Map(_));
+    if is_map && robot.get("reach").is_none() && !given.iter().any(meant) {
         ledger.fault(robot, "missing key `reach`", REACH_KEY.meaning);
     }
     if let Some(home) = robot.get("home")
