@@ -47,9 +47,7 @@ impl<'a> Ledger<'a> {
                 file: self.source.file.into(),
                 place: Some(Place { line: 1, column: 1 }),
                 message: "the file is incomplete".into(),
-                advice: "look at `robot`, and at solids that do not lie around the centre of mass \
-                         of their object"
-                    .into(),
+                advice: String::new(),
             };
             return Err(fault.into());
         }

@@ -16,12 +16,12 @@ use super::{
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Waiting {
     pub contacts: usize,
-    /// Of the frame before.
+    /// Work on the frame before.
     pub effort: Effort,
     pub place: usize,
 }
 
-/// Whether a frame is one that is solved here.
+/// Returns `true` for a frame that is solved here.
 pub(super) fn is_lone(scenery: &Scenery, contacts: &[Contact]) -> bool {
     let bodies = scenery.bodies;
     bodies.objects.len() == 1 && bodies.mounts.is_empty() && contacts.len() <= MOST

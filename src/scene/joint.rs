@@ -97,7 +97,7 @@ impl Joint {
         self.kind.limits()
     }
 
-    /// The same joint where its objects start as in `now` instead of as in `before`.
+    /// Returns the joint where its objects start as in `now` instead of as in `before`.
     pub fn carried(&self, before: &[Object], now: &[Object]) -> Self {
         let [first, second] = self.frames(before);
         let [here, there] = self.between.map(|index| now[index].pose);

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Most joints that move.
+/// Maximum number of joints that move.
 pub const MAX_JOINTS: usize = 16;
 
 /// The joints at an instant.

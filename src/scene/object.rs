@@ -14,19 +14,19 @@ pub struct Object {
     pub name: String,
     /// Its solid.
     pub shape: Shape,
-    /// How its weight is spread over its underside.
+    /// Distribution of its weight over its underside.
     #[serde(default)]
     pub support: Support,
     /// Mass, kg.
     pub mass: f64,
     /// Friction value; the coefficient of a pair is the mean of the two values.
     pub friction: f64,
-    /// Where it stands at the start.
+    /// Pose at the start.
     pub pose: Pose,
-    /// How far a plan may move it, metres; as far as it likes where nothing is said.
+    /// Largest distance by which a plan may move it, metres; unlimited where nothing is stated.
     #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
     pub keep: Option<f64>,
-    /// Whether it may topple or leave the table.
+    /// `true` if it may topple or leave the table.
     #[serde(with = "planar_only", default, skip_serializing_if = "std::ops::Not::not")]
     pub may_fall: bool,
     /// The largest force that may act on it through the tool for longer than an impact, newtons; any by
@@ -45,7 +45,7 @@ pub struct Object {
     /// [`Self::is_raised`].
     #[serde(with = "planar_only", default, skip_serializing_if = "is_zero")]
     pub z: f64,
-    /// What it is a part of, if it is no thing of its own.
+    /// The object that it is a part of, if it is a part.
     #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
     pub whole: Option<Whole>,
 }
@@ -133,7 +133,7 @@ impl Object {
         Self { clearance: height, z: height, ..self }
     }
 
-    /// Whether it is more than an upright solid on the table.
+    /// Returns `true` if it is more than an upright solid on the table.
     pub fn in_space(&self) -> bool {
         let above = self.z != 0.0 && !self.is_part();
         above || self.clearance != 0.0
@@ -144,7 +144,7 @@ impl Object {
         Self { pose: Pose::new(x, y, heading), ..self }
     }
 
-    /// Whether it is a part of another object.
+    /// Returns `true` if it is a part of another object.
     pub fn is_part(&self) -> bool {
         self.whole.is_some()
     }
@@ -163,7 +163,7 @@ impl Object {
         Self { z, ..self }
     }
 
-    /// Whether it is a part above the table.
+    /// Returns `true` if it is a part above the table.
     pub fn is_raised(&self) -> bool {
         self.is_part() && self.z > 0.0
     }
@@ -184,14 +184,14 @@ impl Object {
         self.span()[0] + self.shape.height() / 2.0
     }
 
-    /// Whether what is between these two heights above the table is as high as some of it.
+    /// Returns `true` if some of it is as high as what is between these two heights above the table, metres.
     pub fn meets(&self, [low, high]: [f64; 2]) -> bool {
         let [underside, top] = self.span();
         low < top && underside < high
     }
 }
 
-/// What an object is a part of.
+/// The object that a solid is a part of.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Whole {
     /// Index of the thing's first solid in [`Scene::objects`](super::Scene::objects).
@@ -201,7 +201,7 @@ pub struct Whole {
 }
 
 impl Whole {
-    /// The same where the first solid has another index.
+    /// Returns the link where the first solid has another index.
     pub(super) fn under(self, object: usize) -> Self {
         Self { object, ..self }
     }

@@ -26,7 +26,7 @@ impl Part {
         Self::new(name, Shape::Cuboid { size }, pose)
     }
 
-    /// What it covers on the table.
+    /// Outline that it covers on the table.
     pub fn footprint(&self) -> Footprint {
         self.shape.footprint()
     }

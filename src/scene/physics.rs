@@ -96,7 +96,7 @@ impl Physics {
         pair_friction(&self.pairs, object, with, [self.frictions[object], value])
     }
 
-    /// The same with this coefficient of friction between an object and another body.
+    /// Returns the parameters with this coefficient of friction between an object and another body.
     pub fn with_pair(mut self, object: usize, with: Surface, coefficient: f64) -> Self {
         self.pairs.retain(|pair| !pair.is_of(object, with));
         self.pairs.push(PairFriction { object, with, coefficient });

@@ -22,7 +22,7 @@ pub struct Region {
 }
 
 impl Region {
-    /// What overlaps a region by less is outside of it, metres: rounding.
+    /// Overlap with a region below which a body is outside of it, metres: rounding.
     pub(super) const SLACK: f64 = 1e-6;
 
     /// Objects are predicted to keep this far out of regions, metres: predictions are off by

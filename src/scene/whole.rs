@@ -179,7 +179,7 @@ impl Scene {
         self.thing(a) == self.thing(b)
     }
 
-    /// Whether an object has parts above the table, or is such a part.
+    /// Returns `true` if an object has parts above the table, or is such a part.
     pub fn has_raised(&self, object: usize) -> bool {
         // Most scenes have no parts, which would come last.
         self.objects.last().is_some_and(Object::is_part)

@@ -43,7 +43,7 @@ pub(super) trait World: Sized {
     /// The objects that no longer stand upright.
     fn toppled(&self) -> Vec<usize>;
 
-    /// Whether this object is off the table, where falling is simulated.
+    /// Returns `true` if this object is off the table, where falling is simulated.
     fn has_fallen(&self, _object: usize) -> Option<bool> {
         None
     }

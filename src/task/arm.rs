@@ -115,7 +115,7 @@ pub struct ArmRefusal {
     pub message: String,
     /// Remedy.
     pub advice: String,
-    /// Whether the fault is in the stated home.
+    /// `true` if the fault is in the stated home.
     pub at_home: bool,
 }
 

@@ -10,11 +10,9 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::Vector;
 
 use super::arm::{self, RobotArm};
+use super::demand::MOST_CHOICES;
 use super::{Goal, LeverRules, ShownGoal};
 use crate::scene::{Plate, Scene, State, Unknowns};
-
-/// Maximum number of choices among objects: each is searched as a task of its own.
-const MOST_CHOICES: usize = 12;
 
 /// Which tools a task allows.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -159,9 +157,9 @@ impl Task {
                 let longer = |choice: &Vec<Goal>| set.iter().chain(choice).cloned().collect();
                 choices.iter().map(longer).collect::<Vec<Vec<Goal>>>()
             };
-            sets = sets.iter().flat_map(with).collect();
+            // Those that are left out would be left out in the end, and groups multiply.
+            sets = sets.iter().flat_map(with).take(MOST_CHOICES).collect();
         }
-        sets.truncate(MOST_CHOICES);
         sets.into_iter().map(|goals| Self { goals: Goal::joined(goals), ..self.clone() }).collect()
     }
 

@@ -41,6 +41,9 @@ pub use outside::Outside;
 pub use place::AtPlace;
 pub use raised::{Lift, Raised};
 
+/// Maximum number of choices among objects, because each is searched as a task of its own.
+pub(super) const MOST_CHOICES: usize = 12;
+
 /// A demand on the final state of a goal's object.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -55,7 +58,7 @@ pub enum Demand {
     Heading(Facing),
     /// It is so far from another object or an obstacle.
     Gap(Box<Gap>),
-    /// So many objects of a group reach their goals.
+    /// A number of objects of a group reach their goals.
     Group(Group),
     /// It covers a share of its own outline at a pose.
     Coverage(Box<Coverage>),

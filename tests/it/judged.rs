@@ -5,7 +5,8 @@ use std::process::Command;
 use pushplan::asset::{PlanFile, ToolLibrary};
 use pushplan::solve::{Effort, Planner, Solution};
 use pushplan::task::Task;
-use pushplan_export::{REPLAY_SCRIPT, mjcf};
+use pushplan_export::{LEVER_SCRIPT, REPLAY_SCRIPT, mjcf};
+use serde_json::Value as Json;
 
 use crate::mujoco_python::python;
 
@@ -32,4 +33,17 @@ pub fn works_in_mujoco(file: &PlanFile) {
     std::fs::write(&scene, mjcf(file).expect("a scene")).expect("written");
     let output = Command::new(python).args([&script, &scene]).output().expect("Python");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+}
+
+/// Whether MuJoCo finds all goals reached by a plan that leaves the plane; `None` without it.
+pub fn is_reached_in_mujoco(file: &PlanFile) -> Option<bool> {
+    let python = python()?;
+    let folder = tempfile::tempdir().expect("a folder");
+    let [script, scene] = ["lever.py", "plan.xml"].map(|name| folder.path().join(name));
+    std::fs::write(&script, LEVER_SCRIPT).expect("written");
+    std::fs::write(&scene, mjcf(file).expect("a scene")).expect("written");
+    let output = Command::new(python).args([&script, &scene]).output().expect("Python");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let found: Json = serde_json::from_slice(&output.stdout).expect("a line of JSON");
+    Some(found["reached"] == true)
 }

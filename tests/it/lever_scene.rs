@@ -8,7 +8,7 @@ use pushplan::task::Task;
 use pushplan::verify::broken_rules;
 use pushplan_export::mjcf;
 
-use crate::judged::{file, solved};
+use crate::judged::{file, is_reached_in_mujoco, solved};
 
 /// A small plate that one lever-up tips over, and what else a test adds: objects, the rest of the scene, and
 /// the rest of the task with its goals.
@@ -46,7 +46,8 @@ fn plan(task: &Task) -> (Solution, PlanFile) {
     let text = serde_json::to_string(&file).expect("numbers");
     let again = PlanFile::parse(&text, "again.json").unwrap_or_else(|faults| panic!("{faults}"));
     assert_eq!((&again.task, &again.plan), (&file.task, &file.plan));
-    mjcf(&file).expect("a scene of MuJoCo");
+    // An engine that shares none of our contacts, joints and regions.
+    assert_ne!(is_reached_in_mujoco(&file), Some(false), "{text}");
     (solution, file)
 }
 
@@ -209,4 +210,32 @@ goal: {{object: disc, flipped: true}}\n"
     );
     let faults = Task::parse(&text, "scene.yaml").expect_err("no edge").to_string();
     assert!(faults.contains("`cylinder` does not go together with lever-ups"), "{faults}");
+}
+
+#[test]
+fn a_robot_without_a_reach_and_a_plate_off_its_centre_of_mass_are_refused_where_they_stand() {
+    let refused = |text: &str| {
+        let faults = Task::parse(text, "scene.yaml").expect_err("it cannot be planned");
+        assert!(faults.0.iter().all(|fault| fault.place.is_some()), "{faults}");
+        faults.to_string()
+    };
+    let off_centre = "
+scene:
+  objects:
+    - name: board
+      shape: {cuboid: {size: [0.002, 0.06, 0.08]}}
+      parts: [{shape: {cuboid: {size: [0.02, 0.06, 0.08]}}, position: [0.015, 0]}]
+      mass: 0.1
+      friction: 0.4
+      clearance: 0.006
+      position: [0.5, 0]
+robot: {reach: {min: 0.1, max: 0.9}}
+tools: [screwdriver]
+levers: {}
+goal: {object: board, flipped: true}
+";
+    let none = refused(&off_centre.replace("{reach: {min: 0.1, max: 0.9}}", "{}"));
+    assert!(none.contains("missing key `reach`"), "{none}");
+    let off = refused(off_centre);
+    assert!(off.starts_with("scene.yaml:5:14") && off.contains("centre of mass"), "{off}");
 }

@@ -139,7 +139,7 @@ fn is_better(one: &Option<Grade>, other: &Option<Grade>) -> bool {
     }
 }
 
-/// Whether it is worth proposing, where `bar` is what the tools that there are reach.
+/// Returns `true` if it is worth proposing, where `bar` is the reach of the tools that there are.
 fn has_more(one: &Option<Grade>, bar: &Option<Grade>) -> bool {
     match (one, bar) {
         (Some(one), Some(bar)) => one.has_more_margin(bar),

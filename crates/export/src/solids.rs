@@ -11,14 +11,14 @@ use super::xml::{Xml, numbers};
 /// Largest radius of an object's feet, metres.
 const FOOT: f64 = 1e-3;
 
-/// How far what lies on stated points hangs above the table, metres.
+/// Distance by which objects on stated points hang above the table, metres.
 const CLEAR: f64 = 5e-4;
 
 /// A solid that others can meet: its name, its friction value, and what it is in the scene, the table being
 /// nothing.
 pub(super) type Meets = (String, f64, Option<Body>);
 
-/// What is on the table.
+/// The scene on the table.
 pub(super) struct Stage<'a> {
     pub plates: Vec<Plate>,
     pub obstacles: &'a [Obstacle],
@@ -28,7 +28,7 @@ pub(super) struct Stage<'a> {
 }
 
 impl Stage<'_> {
-    /// Whether two objects are one rigid body.
+    /// Returns `true` if two objects are one rigid body.
     pub fn is_rigid(&self, one: usize, other: usize) -> bool {
         let of = self.scene.as_ref().map(|(_, physics)| physics.rigid_groups().of);
         of.is_some_and(|of| of[one] == of[other])

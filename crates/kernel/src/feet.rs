@@ -2,7 +2,7 @@
 
 use crate::Vector;
 
-/// Most points of a support.
+/// Maximum number of points of a support.
 pub const MAX_FEET: usize = 16;
 
 /// Loads whose centre is nearer to the middle than this are about it, metres: rounding.
@@ -17,16 +17,16 @@ pub struct Feet {
     pub y: [f64; MAX_FEET],
     /// Shares of the weight; they add up to one.
     pub load: [f64; MAX_FEET],
-    /// How many there are.
+    /// Number of points.
     pub count: usize,
     /// What they carry together, as a share of the object's weight: one but of things with parts above
     /// the table.
     pub share: f64,
     /// Where the centre of the load is, metres: the object's but of such things.
     pub centre: Vector,
-    /// Whether they stand for an object that looks the same at every turn.
+    /// `true` if they stand for an object that looks the same at every turn.
     pub round: bool,
-    /// Whether they stand for even pressure, so that other points would do as well.
+    /// `true` if they stand for even pressure, so that other points would do as well.
     pub even: bool,
     /// Mean distance from the centre, metres: the ratio of the largest friction torque to the
     /// largest friction force.
@@ -46,7 +46,7 @@ impl Feet {
         Self::of([])
     }
 
-    /// The same points where they carry this share of the object's weight, with its centre there.
+    /// Returns these points where they carry this share of the object's weight, with its centre there.
     pub fn loaded(&self, share: f64, centre: Vector) -> Self {
         if centre.norm() < MIDDLE {
             return Self { share, ..self.clone() };

@@ -18,7 +18,7 @@ const LANES: usize = 4;
 /// Frames side by side where vectors hold as many, as with AVX-512: a push takes a sixth less than with four.
 const WIDE: usize = 8;
 
-/// Most frames that are ever solved together, see [`batch`].
+/// Maximum number of frames that are solved together, see [`batch`].
 pub const MANY: usize = WIDE;
 
 /// Fewer frames than this take less time one by one.

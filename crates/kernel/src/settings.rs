@@ -9,7 +9,7 @@ pub const WHOLE: f64 = 1.0;
 /// Length that turns angles into lengths, metres: about the radius of objects on a table.
 pub const JOINT_ARM: f64 = 0.05;
 
-/// Most updates of the weights A.
+/// Maximum number of updates of the weights A.
 pub const UPDATES: usize = 8;
 
 /// Change by an update below which it is the last, metres.

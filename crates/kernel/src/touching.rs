@@ -41,7 +41,7 @@ pub(crate) struct Touching<const N: usize> {
     /// The radius of the other body, and which are discs.
     pub radius: Lanes<N>,
     pub round: Which<N>,
-    /// What the normal turns with, see [`Follows`]: a face of the object, of the other,
+    /// Feature that the normal turns with, see [`Follows`]: a face of the object, of the other,
     /// of both, or two points.
     pub first: Which<N>,
     pub second: Which<N>,

@@ -77,7 +77,7 @@ struct Case {
 /// The result of a case.
 struct Tried {
     took: Duration,
-    /// Whether the file was accepted, or the message of the panic.
+    /// `true` if the file was accepted, or the message of the panic.
     outcome: Result<bool, String>,
 }
 

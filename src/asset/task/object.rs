@@ -15,11 +15,11 @@ use crate::scene::{Object, Scene, Whole};
 use super::part::PARTS;
 use super::support::{self, OBJECT_SUPPORT};
 
-/// What messages and other keys call an object.
+/// Key of an object's name.
 pub(in crate::asset) const OBJECT_NAME: Key =
     Key::required("name", Value::Name, "The object's name, unique in the scene.");
 
-/// What an object looks like.
+/// Key of an object's shape.
 pub(in crate::asset) const OBJECT_SHAPE: Key =
     Key::required("shape", SHAPE, "The object's solid, standing upright.");
 

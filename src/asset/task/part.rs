@@ -10,14 +10,14 @@ use crate::scene::Object;
 use super::obstacles::{PLACE, height};
 use super::support::OBJECT_SUPPORT;
 
-/// What else belongs to an object.
+/// Key of an object's further solids.
 pub(super) const PARTS: Key = Key::optional(
     "parts",
     Value::List { of: &PART, items: "parts", min: 0, max: 16 },
     "Further solids that are one with it, as a mug's handle is; by default none.",
 );
 
-/// How high above its object's underside a part may begin: as high as solids may be.
+/// Largest height of a part above its object's underside, metres: as high as solids may be.
 const RISE: Value = Value::Number(Range {
     what: "a height in metres",
     low: 0.0,
@@ -59,7 +59,7 @@ pub(super) fn parts(object: &Node) -> &[Node] {
     object.get("parts").map(Node::items).unwrap_or_default()
 }
 
-/// What messages call part `number` of an object.
+/// Returns the name of part `number` of an object in messages.
 pub(super) fn part_name(object: &str, part: &Node, number: usize) -> String {
     match name_of(part) {
         Some(name) => format!("{object}/{name}"),
@@ -67,7 +67,7 @@ pub(super) fn part_name(object: &str, part: &Node, number: usize) -> String {
     }
 }
 
-/// Where a part is in its object's frame.
+/// Returns the pose of a part in its object's frame.
 pub(super) fn place(part: &Node) -> Option<Pose> {
     placed(part)
 }

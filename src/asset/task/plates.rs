@@ -150,7 +150,17 @@ pub(super) fn heights(object: &Node, ledger: &mut Ledger) {
 
 /// Notes what shares space in three dimensions, and what nothing holds.
 pub(super) fn bodies(objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) {
-    let Some(solids) = objects_of(objects) else { return };
+    let Some(solids) = objects_of(objects) else {
+        let unread = |node: &&Node| objects_of(std::slice::from_ref(*node)).is_none();
+        for node in objects.iter().filter(|node| is_plate(node)).filter(unread) {
+            let message =
+                "the outline of `shape` does not lie around the centre of mass of all parts";
+            let advice =
+                "a blade lifts that outline: enlarge it, move the parts, or make them lighter";
+            ledger.fault(node.get("shape").unwrap_or(node), message, advice);
+        }
+        return;
+    };
     let plates: Vec<Plate> = Scene::new(solids).plates().collect();
     let blocks: Vec<Option<Obstacle>> = obstacles.iter().map(obstacle).collect();
     for (k, (node, plate)) in objects.iter().zip(&plates).enumerate() {

@@ -13,7 +13,7 @@ use crate::scene::Support;
 pub(in crate::asset) const OBJECT_SUPPORT: Key =
     Key::optional("support", SUPPORT, "How the weight rests on the table; default `even`.");
 
-/// How an object's weight is spread over its underside.
+/// Distribution of an object's weight over its underside.
 const SUPPORT: Value = Value::Either(&[
     Value::Word(&["even", "corners"]),
     Value::Variant(&[

@@ -35,7 +35,7 @@ fn lever_job(scene: &Scene, job: &Job) -> Option<LeverJob> {
     Some(LeverJob { scene: Arc::new(around), lever: LeverUp { plate: 0, ..*lever } })
 }
 
-/// Whether an object is of one density and friction, held by nothing, on its corners or its underside, and
+/// Returns `true` if an object is of one density and friction, held by nothing, on its corners or its underside, and
 /// rubs as its friction value has it.
 fn is_plain(scene: &Scene, object: usize, job: &Job) -> bool {
     let solids: Vec<usize> = scene.parts_of(object).chain([object]).collect();

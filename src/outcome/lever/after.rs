@@ -88,7 +88,7 @@ impl Task {
     }
 }
 
-/// What of a goal pushes can bring about; nothing of one that leaves the plane and names no place.
+/// Returns the demands of a goal that pushes can satisfy; `None` for one that leaves the plane and names no place.
 fn flat(goal: &Goal) -> Option<Goal> {
     let mut flat = goal.clone();
     flat.demands.retain(Demand::is_pose);
@@ -96,7 +96,7 @@ fn flat(goal: &Goal) -> Option<Goal> {
     wanted.then_some(flat)
 }
 
-/// Whether an object still stands on its underside as it did.
+/// Returns `true` if an object still stands on its underside as it did.
 fn stands(plate: &Plate, rest: &Pose3) -> bool {
     let sunk = (rest.position.z - plate.z).abs();
     Ending::of(rest) == Ending::Back && rest.tilt() <= LEVEL && sunk <= ON_TABLE
@@ -110,7 +110,7 @@ fn carried(scene: &Scene, seen: &[Pose]) -> Scene {
     now
 }
 
-/// What lies where after some steps, as a scene in the plane.
+/// The scene in the plane that some steps leave.
 struct Left {
     /// The scene with its objects seen from above.
     now: Scene,
@@ -120,7 +120,7 @@ struct Left {
     fixed: Vec<Obstacle>,
     /// For each object of the scene its place among the objects.
     places: Vec<Option<usize>>,
-    /// Of what is an outline in its first pose, the heading in which it lies.
+    /// Heading of an object that is an outline in its first pose.
     turned: Vec<Option<f64>>,
 }
 

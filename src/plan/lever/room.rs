@@ -26,7 +26,7 @@ pub struct LeverRoom<'a> {
     blade: Blade,
     /// What the blade must not meet, with names.
     bodies: Vec<(String, Solid)>,
-    /// What only the hand must not meet.
+    /// Solids that the hand alone must not meet.
     beside: Vec<(String, Solid)>,
     /// Above this nothing can be met, metres.
     top: f64,

@@ -80,7 +80,7 @@ impl Region {
         Solid::prism(&outline(&self.shape), Self::SPAN, &Pose3::upright(self.pose, 0.0))
     }
 
-    /// Whether a body in space is in it.
+    /// Returns `true` if a body in space is in it.
     pub fn holds_in_space(&self, solids: &[Solid]) -> bool {
         let column = self.column();
         solids.iter().any(|solid| solid.depth(&column) > Self::SLACK)

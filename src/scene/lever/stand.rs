@@ -1,4 +1,4 @@
-//! What objects in space stand on.
+//! The points that objects in space stand on.
 
 use crate::geometry::{Pose, Vector};
 use crate::scene::{Feet, Physics, Scene, Support};

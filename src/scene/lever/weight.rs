@@ -33,7 +33,7 @@ impl Slab {
 }
 
 impl Plate {
-    /// Where its mass lies, all solids being of one density.
+    /// Returns the distribution of its mass, all solids being of one density.
     pub fn weight(&self) -> Weight {
         let volume: f64 = self.slabs.iter().map(Slab::volume).sum();
         let density = self.mass / volume;

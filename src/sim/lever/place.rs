@@ -4,7 +4,7 @@ use rapier3d_f64::prelude::{Pose3 as RapierPose, Rotation, Vector as RapierVecto
 
 use crate::geometry::{Pose3, Vector, Vector3};
 
-/// The same turn, written with the sign that lies nearer to `last`: between opposite signs rapier
+/// Returns the turn, written with the sign that lies nearer to `last`: between opposite signs rapier
 /// sees a full turn within a step, which throws the plate off at tens of metres a second.
 pub(super) fn in_one_hemisphere(last: Rotation, next: Rotation) -> Rotation {
     if last.dot(next) < 0.0 { -next } else { next }

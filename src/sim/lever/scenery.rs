@@ -1,4 +1,4 @@
-//! What is played in space: the scene as it really is, and as its motions were planned.
+//! The scene that is played in space, as it really is and as its motions were planned.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use crate::task::LeverJob;
 /// The scene as it really is, the objects as they were seen when the motions were planned, and where the
 /// objects really are.
 pub(super) struct Scenery {
-    /// What is on the table. Data sets have plates that no scene can state; theirs has none.
+    /// The scene on the table. Data sets have plates that no scene can state; theirs has none.
     pub scene: Arc<Scene>,
     pub physics: Arc<Physics>,
     /// The objects with all their solids, with the masses and frictions that they really have.

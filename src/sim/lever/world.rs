@@ -30,7 +30,7 @@ use super::solids;
 /// The `user_data` of the table, which no label names.
 const TABLE: u128 = u128::MAX;
 
-/// What has come so far below where it stood has left the table, metres.
+/// Distance below its start at which an object has left the table, metres.
 const FALLEN: f64 = 0.1;
 
 /// A plate this near to the blade lies on it, metres; contacts flicker by less.
@@ -47,7 +47,7 @@ const CONTACT: (f64, f64) = (100.0, 5.0);
 pub(super) struct LeverWorld {
     world: PhysicsWorld,
     scenery: Arc<Scenery>,
-    /// What the `user_data` of a collider stands for.
+    /// Bodies that the `user_data` of colliders stand for.
     labels: Vec<Body>,
     seams: Seams,
     /// Where rapier's origin lies on the table: a scene far from the world's loses no digits.
@@ -157,7 +157,7 @@ impl LeverWorld {
         }
     }
 
-    /// Whether an object has fallen off a table that ends.
+    /// Returns `true` if an object has fallen off a table that ends.
     pub fn has_fallen(&self, index: usize) -> bool {
         !self.world.bodies[self.plates[index]].is_enabled()
     }

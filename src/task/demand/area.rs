@@ -71,7 +71,7 @@ impl Area {
         self.of(self.shape.footprint().shrunk(margin))
     }
 
-    /// The same larger by `margin` metres on every side.
+    /// Returns the area larger by `margin` metres on every side.
     pub fn grown(self, margin: f64) -> Self {
         self.of(self.shape.footprint().grown(margin))
     }

@@ -6,7 +6,7 @@ use crate::geometry::{Pose, Vector};
 use crate::scene::{Scene, State};
 use crate::task::Goal;
 
-use super::{Check, Demand, End, Kind, Mark};
+use super::{Check, Demand, End, Kind, MOST_CHOICES, Mark};
 
 /// Maximum number of objects of a group: all sets of them that are large enough are listed.
 const MOST: usize = 16;
@@ -135,6 +135,7 @@ impl Kind for Group {
             sets.filter(|set| chosen(*set).count() == self.at_least).collect();
         let sum = |set: usize| chosen(set).map(|k| scores[k].max(1.0)).sum::<f64>();
         sets.sort_by(|a, b| sum(*a).total_cmp(&sum(*b)));
+        sets.truncate(MOST_CHOICES);
         sets.into_iter().map(|set| chosen(set).map(|k| self.members[k].clone()).collect()).collect()
     }
 

@@ -11,7 +11,7 @@ use std::path::Path;
 use super::reading::{code_of, in_word, sources};
 
 /// Maximum number of cycles, and of files in one.
-const CYCLES: usize = 10;
+const CYCLES: usize = 8;
 const LARGEST: usize = 6;
 
 /// Maximum number of files with methods of one type.

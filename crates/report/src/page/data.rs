@@ -139,7 +139,7 @@ pub struct Goal {
 pub struct Area {
     pub shape: Outline,
     pub at: [i64; 3],
-    /// Whether a centre must leave it.
+    /// `true` if a centre must leave it.
     pub leave: bool,
 }
 

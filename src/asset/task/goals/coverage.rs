@@ -17,7 +17,7 @@ use super::ask::{About, Ask};
 /// The share that Push-T asks for.
 const SHARE: f64 = 0.95;
 
-/// How much of its outline is to be covered, and where.
+/// Entry for a share of the object's own outline that is to be covered, and the pose of that outline.
 pub(super) const COVERAGE: Ask = Ask {
     keys: &[Key::optional(
         "coverage",

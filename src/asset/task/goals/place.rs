@@ -8,7 +8,7 @@ use crate::task::{AtPlace, Demand};
 
 use super::ask::{About, Ask};
 
-/// Where the centre is.
+/// Entry for a position of the centre.
 pub(super) const POSITION: Ask = Ask {
     keys: &[
         Key::optional(
