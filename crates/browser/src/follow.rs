@@ -10,7 +10,7 @@ extern "C" {
     #[wasm_bindgen(js_name = pushplanTold)]
     fn told(stage: &str, done: f64, total: f64);
 
-    /// The best plan so far.
+    /// Reports the best plan so far.
     #[wasm_bindgen(js_name = pushplanSoFar)]
     fn so_far(answer: &str);
 
