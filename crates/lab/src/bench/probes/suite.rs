@@ -22,7 +22,8 @@ use crate::bench::{CrowdFamily, CrowdSet, Sighting};
 
 use super::pushes::random_push;
 
-/// Salts that separate the random numbers of noise, probes and test pushes from the numbers of scenes.
+/// Salts that separate the random numbers of noise, probes and test pushes from the numbers of
+/// scenes.
 const NOISE: u64 = 0x5052_4F42_4500_0000;
 const PUSHES: u64 = 0x5052_4F42_4500_0001;
 const TESTS: u64 = 0x5052_4F42_4500_0002;
