@@ -20,7 +20,7 @@ use crate::trivial;
 /// Name of the suite in manifests.
 pub const SUITE: &str = "evaluation";
 
-/// All pushes of a kind, or all trajectories of a set.
+/// Pushes of a kind, or trajectories of a set.
 enum Part<'a> {
     Tools(SuiteKind),
     Crowd(&'a CrowdSet),
