@@ -34,8 +34,10 @@ pub struct Feet {
     pub mean_radius: f64,
     /// Mean square distance from the centre, square metres.
     pub mean_square: f64,
-    /// Sums of load (r / c)^k exp(i k phi) over the points at (r, phi), for k = 2, 3, 4, c being
-    /// the mean radius: the deviation of the support from a round one, real and imaginary parts.
+    /// Deviation of the support from a round one, real and imaginary parts.
+    ///
+    /// The numbers are the sums of load (r / c)^k exp(i k phi) over the points at (r, phi), for k =
+    /// 2, 3, 4, with the mean radius c.
     pub harmonics: [Vector; 3],
     /// Inverse of the second moments of the load, xx, xy and yy, 1 / m^2.
     pub(crate) stiffness: [f64; 3],

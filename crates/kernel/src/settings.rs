@@ -43,7 +43,7 @@ pub const ROUNDS: usize = 16;
 
 /// Number of weight updates in which the load follows the contact forces. Afterwards the load is
 /// kept, because motion and contact forces could otherwise alternate forever. On 400 held-out
-/// pushes of one object, the mean error against the planar engine is 2.85 mm with 1 update, 2.33
+/// pushes of one object, the mean error against the 2-D engine is 2.85 mm with 1 update, 2.33
 /// with 2, 1.70 with 4, 1.60 with 5, 1.63 with 6 and 1.8 without a limit.
 pub const FOLLOWING: usize = 5;
 

@@ -5,8 +5,8 @@
 //! ```
 //!
 //! Every convolution halves rows and columns until both are at most four. An image is [rows,
-//! columns, channels]; `patches` has a row for every second pixel of every second row, with all
-//! channels of the 3 x 3 pixels around it, zero beyond the image.
+//! columns, channels]. `patches` has a row for every second pixel of every second row: all channels
+//! of the 3 x 3 pixels around it, zero beyond the image.
 
 use pushplan::internals::network::{Layout, Parameters, matrix_product};
 use serde::{Deserialize, Serialize};

@@ -31,8 +31,8 @@ impl Seen {
     }
 }
 
-/// Returns the inputs of a network with image input for a job: the features beside the image, with
-/// the prediction of `prior` if it is corrected, and the image, row by row.
+/// Returns the inputs of a network with image input for a job: the features beside the image, and
+/// the image, row by row. The features include the prediction of `prior` if it is corrected.
 pub fn image_inputs(
     features: ImageFeatures,
     job: &LeverJob,

@@ -13,8 +13,8 @@ use serde::{Deserialize, Serialize};
 /// The weights of a network of parts.
 pub type PartsWeights = Weights<PartsCard>;
 
-/// Columns of its tables. A node's output is the motion of the body: displacements along x and z
-/// and the rotation about y are even, the displacement along y and rotations about x and z are odd.
+/// Columns of its tables. A node's output is the motion of the body. Displacements along x and z
+/// and the rotation about y are even; the displacement along y and rotations about x and z are odd.
 pub const PARTS: Tables =
     Tables { node: [19, 13], given: [0, 0], relation: [24, 8], output: [3, 3] };
 

@@ -37,8 +37,9 @@ struct Near {
     spread: Matrix3,
 }
 
-/// A described step: its begin and end, the duration of the step before, seconds, the motion of the
-/// body without the network, and the deviation from its start (metres; rotation, radians).
+/// A described step: its begin and end and the duration of the step before, seconds. Also the
+/// motion of the body without the network, and the deviation from its start (metres; rotation,
+/// radians).
 pub(super) struct Step {
     pub from: f64,
     pub to: f64,

@@ -1,10 +1,11 @@
 //! Bodies of a projection: objects, and groups of objects with fixed joints, each displaced and
 //! rotated as little as possible.
 //!
-//! The cost is the area that moves. A correction of the distance of two points along a direction is
-//! divided between the two bodies, and in each between displacement and rotation, so that the sum
-//! of squared travels of all their points is smallest (position based dynamics of rigid bodies,
-//! Macklin et al. 2016, doi:10.1145/2994258.2994272, with areas for masses).
+//! The cost of a correction is the sum of squared travels of all points of both bodies. A
+//! correction of the distance of two points along a direction is divided between the two bodies,
+//! and in each between displacement and rotation, so that this cost is smallest. The method is
+//! position based dynamics of rigid bodies (Macklin et al. 2016, doi:10.1145/2994258.2994272), with
+//! areas for masses.
 
 use pushplan::internals::{
     geometry::{Pose, Vector, cross},

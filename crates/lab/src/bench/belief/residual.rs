@@ -1,7 +1,7 @@
 //! Geometric residual tests, the baseline: the joint that best explains all observed relative poses
 //! of a pair, without physics.
 //!
-//! After Sturm, Stachniss and Burgard (JAIR 41, 2011): every type of joint is fitted by least
+//! After Sturm, Stachniss and Burgard (JAIR 41, 2011). Every type of joint is fitted by least
 //! squares, and the one with the smallest Bayesian information criterion k ln n - 2 ln L is
 //! selected. Free coordinates of a joint, and all coordinates without a joint, have a wide
 //! distribution around their mean.

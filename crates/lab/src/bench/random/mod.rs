@@ -1,9 +1,9 @@
 //! Random tasks that are solvable by construction.
 //!
-//! The goals of each task are the true outcome of a plan that the task allows: in the 2-D engine
-//! for [`random_task`] (one object, one push; used to measure refinement), and in both engines for
-//! [`RandomSuite`] (several kinds, up to five pushes). In the suite, the plan behind a task
-//! therefore passes its verification.
+//! The goals of each task are the true outcome of a plan that the task allows. [`random_task`] uses
+//! the 2-D engine (one object, one push; the tasks that measure refinement). [`RandomSuite`] uses
+//! both engines (several kinds, up to five pushes), so that the plan behind a task passes its
+//! verification.
 
 mod cluster;
 mod everyday;

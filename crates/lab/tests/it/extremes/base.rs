@@ -55,7 +55,7 @@ impl Draw<'_> {
         let tools: Vec<_> = self.library.iter().collect();
         let case = |index: usize| {
             let mut rng = generator(self.seed ^ 0xE57E, index as u64);
-            // Models receive the height at which the 2-D engine presses, which judges them.
+            // Models receive the push height of the 2-D engine, their reference.
             let scene = Scene { push_height: Some(Physics::PUSH_HEIGHT), ..scene(&mut rng) };
             let state = scene.start();
             let tool = match &way.tool {

@@ -1,7 +1,7 @@
 //! Judgement of a cell: the model against the 2-D engine, and the engine against itself.
 //!
-//! A push is *wrong* when its error exceeds [`TIMES_P95`] times the 95th percentile of ordinary
-//! pushes of its kind and [`SHARE`] of the true motion, and also [`TIMES_OWN`] times the
+//! A push is *wrong* when its error exceeds three bounds: [`TIMES_P95`] times the 95th percentile
+//! of ordinary pushes of its kind, [`SHARE`] of the true motion, and [`TIMES_OWN`] times the
 //! uncertainty of the ground truth. This uncertainty is the change of its motion with half the time
 //! step or the start shifted by 0.1 mm. An error within that uncertainty is *undecided*. A cell is
 //! wrong (or undecided) when more than [`PUSHES`] of its pushes are, because single pushes beyond
