@@ -20,7 +20,7 @@ static ARCH: OnceLock<Arch> = OnceLock::new();
 pub struct Drag {
     /// Sum of the weights.
     pub sum: f64,
-    /// Sum of weight times place against the centre, in world axes.
+    /// Sum of weight times position relative to the centre, in world axes.
     pub first: Vector,
     /// Sum of weight times squared distance from the centre.
     pub second: f64,

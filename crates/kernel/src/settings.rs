@@ -6,13 +6,13 @@ pub const HALF: f64 = 0.5;
 /// Instant of a frame at which contacts are evaluated for velocities.
 pub const WHOLE: f64 = 1.0;
 
-/// Length that turns angles into lengths, metres: about the radius of objects on a table.
+/// Length that converts angles to lengths, metres: about the radius of objects on a table.
 pub const JOINT_ARM: f64 = 0.05;
 
 /// Maximum number of updates of the weights A.
 pub const UPDATES: usize = 8;
 
-/// Change by an update below which it is the last, metres.
+/// Change by an update below which the updates end, metres.
 pub const SETTLED: f64 = 1e-5;
 
 /// Compliance added to every force, without joints, relative to the force's own effect. The

@@ -46,7 +46,7 @@ impl CrowdFamily {
 /// A test set: the content of its scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CrowdSet {
-    /// Its family.
+    /// Family of its scenes.
     pub family: CrowdFamily,
     /// Number of objects.
     pub objects: usize,

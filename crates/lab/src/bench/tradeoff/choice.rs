@@ -22,7 +22,7 @@ pub fn is_open_to(effort: Effort, level: &PlanLevel) -> bool {
 }
 
 /// Returns the level of each effort: the cheapest on the front of the eligible levels whose
-/// failures are within [`LOSSES`]. If a cheap level is as robust as any, efforts share it.
+/// failures are within `LOSSES`. If a cheap level is as robust as any, efforts share it.
 pub fn choose_efforts(plans: &[PlanRow], noise: Noise) -> BTreeMap<Effort, PlanLevel> {
     let choose = |(effort, loss)| {
         let open = |row: &&PlanRow| row.is_complete() && is_open_to(effort, &row.level);

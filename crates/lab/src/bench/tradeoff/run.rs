@@ -46,7 +46,7 @@ pub struct TradeOffSettings {
     /// Tolerances of the tasks relative to the tolerances of the suite. Smaller tolerances
     /// require more search.
     pub tolerance: f64,
-    /// Seed of all of them.
+    /// Seed of pushes and tasks.
     pub seed: u64,
 }
 
