@@ -129,7 +129,7 @@ def rollout(rounds, count):
 
 
 def ours(plan, pushes, model):
-    """Returns the final poses of the goal's object."""
+    """Returns the final positions of the goal's object."""
     rolled = pushplan.rollout(
         plan.task, plan.tool, pushes, grip_yaw=plan.grip_yaw, model=model, threads=1
     )
