@@ -20,8 +20,8 @@ pub const SETTLED: f64 = 1e-5;
 /// of a joint.
 pub const GIVE: f64 = 2e-3;
 
-/// Smallest compliance along the normal of a sliding contact, as a share of the compliance without
-/// friction. Below this share the contact wedges, and these equations have no answer.
+/// Smallest ratio of a sliding contact's compliance along the normal to its compliance without
+/// friction. Below it the contact wedges, and these equations have no answer.
 pub const MIN_COMPLIANCE: f64 = 0.2;
 
 /// Displacement below which a contact counts as open, metres, so that rounding decides nothing.

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::random::random_task;
 
-/// Results of the tasks with a planner; errors are those of the selected plans, metres.
+/// Results of the tasks with a planner; errors refer to the selected plans, metres.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlanErrors {
     /// Error predicted by the effect model.
