@@ -1,4 +1,4 @@
-// The library: fetched and compiled once, and handed to the workers as it is.
+// The library, fetched and compiled once, and shared with the workers.
 
 import init, * as library from './library.js';
 
@@ -10,8 +10,8 @@ globalThis.pushplanSoFar = () => {};
 globalThis.pushplanFailed = (message) => console.error(message);
 
 /**
- * The compiled library, which is ready for calls then. It is packed by us, as not every server does
- * that; the name keeps servers from unpacking it.
+ * Loads and compiles the library, which is ready for calls afterwards. The file is compressed in
+ * advance, because not every server compresses; its name keeps servers from decompressing it.
  */
 export async function load() {
   const response = await fetch('library.wasm-gz');

@@ -1,4 +1,4 @@
-// What the chosen thing is like, as fields; and the tools that the task allows.
+// Input fields of the selected item, and the tools that the task allows.
 
 import { task, at, change } from './task.js';
 import { chosenThing } from './table.js';
@@ -16,7 +16,7 @@ const known = JSON.parse(library.tools());
 
 const numeric = (label, path, { unit = 'm', step = 0.005, may = false } = {}) => ({ label, path, unit, step, may });
 
-/** The fields of a thing: label, path in the file, unit. */
+/** Returns the fields of an item: label, path in the file, unit. */
 function fieldsOf({ kind, path, goal }) {
   const own = (...steps) => [...path, ...steps];
   const place = [numeric('x', own('position', 0)), numeric('y', own('position', 1))];
@@ -58,7 +58,7 @@ function fieldsOf({ kind, path, goal }) {
   }
 }
 
-/** The fields anew where another thing is chosen, and their values in any case. */
+/** Updates the values of the fields, and rebuilds the fields if another item is selected. */
 export function drawForm() {
   const form = byId('form');
   const thing = chosenThing();
@@ -74,7 +74,7 @@ export function drawForm() {
   }
   fields.forEach((field, k) => {
     const input = form.querySelectorAll('input, select')[k];
-    // What is being written is not written over.
+    // A field that is being edited is not overwritten.
     if (input !== document.activeElement || input.tagName === 'SELECT') input.value = field.now ?? at(field.path) ?? '';
   });
 }
@@ -86,7 +86,7 @@ function fieldShape(field) {
     : html('input', field.word ? { type: 'text' } : { type: 'number', step: 'any', inputmode: 'decimal' });
   input.addEventListener('change', () => write(field, input));
   if (!words && !field.word) {
-    // Arrow keys step by what makes sense for the quantity.
+    // Arrow keys step by a size that suits the quantity.
     input.addEventListener('keydown', (event) => {
       const sign = { ArrowUp: 1, ArrowDown: -1 }[event.key];
       if (!sign) return;
@@ -108,7 +108,7 @@ function write(field, input, steady = null) {
   else drawForm();
 }
 
-/** Whatever names an object goes on naming it. */
+/** Renames an object and all references to it. */
 function rename(path, name) {
   const before = at(path);
   const edits = [{ path, value: name }];
@@ -120,7 +120,7 @@ function rename(path, name) {
   change(edits, 'form');
 }
 
-/** A box for each tool that the task could allow. */
+/** Draws a checkbox for each tool that the task could allow. */
 export function drawTools() {
   const allowed = at(['tools']);
   const all = allowed === 'all';

@@ -1,24 +1,24 @@
-// A task in an address: `#example=NAME`, or `#task=` and the packed text.
+// Encoding of a task in a URL: `#example=NAME`, or `#task=` and the compressed text.
 
 async function through(stream, bytes) {
   const body = new Response(bytes).body.pipeThrough(stream);
   return new Uint8Array(await new Response(body).arrayBuffer());
 }
 
-/** The part of an address behind `#` that holds a text. */
+/** Returns the URL fragment that holds a text. */
 export async function packed(text) {
   const bytes = await through(new CompressionStream('deflate-raw'), new TextEncoder().encode(text));
   const letters = btoa(String.fromCharCode(...bytes));
   return `task=${letters.replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '')}`;
 }
 
-/** No task is longer; what unpacks to more is no task. */
+/** Maximum length of a task's text, bytes. */
 const LONGEST = 1 << 18;
 
 /**
- * The text in the part of an address behind `#`, or the name of a shipped task, or nothing.
+ * Returns the text in a URL fragment, or the name of a shipped task, or nothing.
  *
- * A link that was cut on its way is an error.
+ * Throws for a truncated link.
  */
 export async function unpacked(part) {
   const parts = new URLSearchParams(part);

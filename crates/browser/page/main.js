@@ -1,4 +1,4 @@
-// The page: one task, seen as a table, as fields and as a file, and what is planned for it.
+// The page: a task, shown as a table, as fields and as a file, and its plans.
 
 import { library, load } from './core.js';
 import { Planner } from './planner.js';
@@ -6,19 +6,19 @@ import { task, change, fileName, onChange, undo, redo, canUndo, canRedo, write }
 import { packed, unpacked } from './link.js';
 
 const FIRST = 'pull-back-behind-wall';
-/** A pause in writing after which the link follows, milliseconds. */
+/** Pause in editing after which the link is updated, milliseconds. */
 const PAUSE = 300;
 
-/** The shipped tasks by name. */
+/** Texts of the shipped tasks by name. */
 const shipped = new Map();
-let whole = null; // the wish for a plan with its page
+let whole = null; // the request for a plan with its report
 let last = null; // the answer that is shown
-let paged = null; // the one whose page is shown
+let paged = null; // the answer whose report is shown
 let version = 0;
 
 async function main() {
   const module = await load();
-  // They ask the library as soon as they are read.
+  // These modules call the library when they are loaded.
   const [table, form, text, things] = await Promise.all(['table', 'form', 'text', 'things'].map((name) => import(`./${name}.js`)));
   const planner = new Planner(module, 2);
   for (const name of library.examples()) shipped.set(name, library.example(name));
@@ -43,7 +43,7 @@ async function main() {
     if (from !== 'load' && byId('live').checked && task.sound) draft();
   });
 
-  /** A wish for what the task is now. */
+  /** Returns a request for the present task. */
   const wish = (more) => {
     const example = exampleOf(task.text, true) ?? '';
     const file = example ? `${example}.yaml` : fileName();
@@ -53,7 +53,7 @@ async function main() {
   function draft() {
     const own = wish({ effort: 'draft', whole: false });
     own.done = ({ answer, broken }) => {
-      // Answers may overtake each other; that of the newest task stays.
+      // Answers may arrive out of order; the answer for the newest task is kept.
       if (broken || answer.fault || (last && last.version >= own.version)) return;
       take({ ...answer, version: own.version, effort: own.effort, took: performance.now() - own.since });
     };
@@ -109,7 +109,7 @@ async function main() {
     age();
   }
 
-  /** Says of what is shown whether it is of the task as it is now. */
+  /** Marks results that are older than the present task. */
   function age() {
     const old = Boolean(last) && last.version !== version;
     byId('answer').classList.toggle('old', old);
@@ -164,7 +164,7 @@ async function main() {
   document.documentElement.dataset.ready = Math.round(performance.now());
 }
 
-/** Shows the task of the address. */
+/** Shows the task in the URL. */
 async function open(table, form) {
   let found = {};
   try {
@@ -181,7 +181,7 @@ async function open(table, form) {
   form.drawForm();
 }
 
-/** The shipped task that a text is; with `known`, one that the command knows. */
+/** Returns the name of the shipped task that equals a text; with `known`, only a task of the command. */
 function exampleOf(text, known = false) {
   for (const [name, own] of shipped) if (own === text) return known && name.includes(' ') ? undefined : name;
   return undefined;

@@ -1,4 +1,4 @@
-// Workers that plan. A live wish waits for a free one, the newest alone; a whole plan takes one at once.
+// Pool of planning workers. The newest live request waits for a free worker; a full plan takes a worker at once.
 
 export class Planner {
   #module;
@@ -11,8 +11,8 @@ export class Planner {
   }
 
   /**
-   * Plans; `wish` says what, and hears of it: `told({stage, done, total, soFar})` and once `done({answer})` or
-   * `done({broken})`.
+   * Plans for the request `wish`. Its callbacks are `told({stage, done, total, soFar})` for progress, and
+   * once `done({answer})` or `done({broken})`.
    */
   plan(wish) {
     this.#waiting = null;
@@ -21,14 +21,14 @@ export class Planner {
     this.#start(worker, wish);
   }
 
-  /** The same when a worker is free; a newer wish takes its place. */
+  /** Plans for `wish` as soon as a worker is free; a newer request replaces a waiting one. */
   planLive(wish) {
     const worker = this.#workers.find((one) => !one.wish);
     if (worker) this.#start(worker, wish);
     else this.#waiting = wish;
   }
 
-  /** Ends what is done for a wish; nobody hears of it any more. */
+  /** Cancels a request; its callbacks are no longer called. */
   cancel(wish) {
     if (this.#waiting === wish) this.#waiting = null;
     const worker = this.#workers.find((one) => one.wish === wish);

@@ -1,20 +1,20 @@
-// The table from above, and what can be dragged on it.
+// The table from above, with draggable items.
 
 import { task, change, settle } from './task.js';
 import { things, movedTo, turnedTo, removed, words } from './things.js';
 
 const MARGIN = 0.12; // metres around everything
-const KNOB = 0.035; // metres from a thing's rim to the knob that turns it
-const SNAP = 0.005; // metres to which a drag snaps; with Shift it does not
-const TURN = 5; // degrees of a key press
+const KNOB = 0.035; // metres from an item's rim to the knob that rotates it
+const SNAP = 0.005; // metres to which a drag snaps without Shift
+const TURN = 5; // degrees per key press
 
 const root = svg('svg', { role: 'group', 'aria-label': 'The table from above', 'aria-describedby': 'keys' });
 let width = 800; // pixels
-let scale = 1; // pixels a metre
+let scale = 1; // pixels per metre
 let low = [0, 0];
 let high = [1, 1];
 let drag = null;
-/** What was planned last: pushes and where objects end. */
+/** The last plan: pushes and final poses of objects. */
 let overlay = null;
 let choose = () => {};
 
@@ -26,14 +26,14 @@ const map = ([x, y]) => [px(x - low[0]), px(high[1] - y)];
 const degrees = (heading) => +((-heading * 180) / Math.PI).toFixed(2);
 const placedAt = (pose) => `translate(${map(pose).join(' ')}) rotate(${degrees(pose[2])})`;
 
-/** Where a pointer is on the table, metres. */
+/** Returns the position of a pointer on the table, metres. */
 function under(event) {
   const box = root.getBoundingClientRect();
   const share = width / box.width;
   return [low[0] + ((event.clientX - box.left) * share) / scale, high[1] - ((event.clientY - box.top) * share) / scale];
 }
 
-/** `whenChosen` hears of every choice of a thing. */
+/** Sets up the table; `whenChosen` is called for every selection of an item. */
 export function begin(whenChosen) {
   choose = (id) => {
     chosen.id = id;
@@ -57,7 +57,7 @@ export function begin(whenChosen) {
   }).observe(byId('table'));
 }
 
-/** Shows pushes and ends, or none. */
+/** Shows the pushes and final poses of a plan, or none. */
 export function show(summary) {
   overlay = summary;
   draw();
@@ -74,7 +74,7 @@ export function fit() {
       high[k] = Math.max(high[k], pose[k] + room);
     }
   }
-  // Room to drag to both sides.
+  // Room for drags to both sides.
   low = [low[0] - MARGIN, Math.min(low[1] - MARGIN, -0.4)];
   high = [high[0] + MARGIN, Math.max(high[1] + MARGIN, 0.4)];
   width = widthOf(byId('table'));
@@ -133,13 +133,13 @@ function grid() {
   }
 }
 
-/** What is drawn and changes in the file alone. */
+/** Draws a shape that can only be edited in the file. */
 function still(form, at, className, name) {
   root.append(outlined(form, px, { transform: placedAt(posed(at)), class: className }));
   root.lastChild.append(svg('title', {}, name));
 }
 
-/** What stands for a thing: it is reached by hand and by key, and says what it is. */
+/** Returns the group of an item, which has a label and accepts pointer and keyboard. */
 function group(thing, ...children) {
   const own = thing.own ? ' own' : '';
   const mark = thing.id === chosen.id ? ' chosen' : '';

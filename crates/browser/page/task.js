@@ -1,17 +1,17 @@
-// The task: its text, what that says, and its changes. Everything else follows it.
+// The task: its text, its content, and its changes. Everything else is derived from it.
 
 import { library } from './core.js';
 
-/** What the text says: `values` as they stand there, `stage` as the library draws it, `faults`. */
+/** Content of the text: `values` as written, `stage` as drawn by the library, and `faults`. */
 export const task = { text: '', values: null, stage: null, faults: [], levers: false, sound: false };
 
 const whenChanged = [];
 const past = [];
 const future = [];
-/** A number or position that goes on changing is one step back. */
+/** Name of a continuous change, which is undone in one step. */
 let group = null;
 
-/** `hear(from)` is called after every change; `from` says who made it. */
+/** Registers `hear(from)`, which is called after every change; `from` names its source. */
 export const onChange = (hear) => whenChanged.push(hear);
 
 export const fileName = () => `${name()}.yaml`;
@@ -21,7 +21,7 @@ function name() {
   return typeof own === 'string' && /^[\w-]{1,64}$/u.test(own) ? own : 'my-task';
 }
 
-/** A new text; `steady` says of what it is the same change as the last one. */
+/** Sets a new text. Changes with an equal name `steady` are undone in one step. */
 export function write(text, from, steady = null) {
   if (text === task.text) return;
   if (task.text && !(steady && steady === group)) past.push(task.text);
@@ -30,7 +30,7 @@ export function write(text, from, steady = null) {
   take(text, from);
 }
 
-/** Changes of values, as the library makes them in the text. */
+/** Changes values; the library edits the text. */
 export function change(edits, from, steady = null) {
   write(library.edit(task.text, fileName(), JSON.stringify(edits)), from, steady);
 }
@@ -52,15 +52,15 @@ export function redo() {
   take(future.pop(), 'undo');
 }
 
-/** Ends a change that goes on, such as a drag. */
+/** Ends a continuous change, such as a drag. */
 export const settle = () => { group = null; };
 
-/** The value at the end of a path, if there is one. */
+/** Returns the value at the end of a path, if any. */
 export const at = (path) => path.reduce((value, step) => value?.[step], task.values);
 
 function take(text, from) {
   const seen = JSON.parse(library.look(text, fileName()));
-  // Where a text says nothing that can be drawn, the last that could stands still.
+  // A text that cannot be drawn keeps the last drawing.
   const stage = seen.stage ?? task.stage;
   Object.assign(task, seen, { text, stage, sound: seen.faults.length === 0 });
   for (const hear of whenChanged) hear(from);

@@ -38,11 +38,11 @@ function faultShape({ line, column, message, advice }) {
   return item;
 }
 
-/** Marks the rest of a line from a column on. */
+/** Selects the rest of a line from a column on. */
 function jump(line, column) {
   const before = task.text.split('\n').slice(0, line - 1).join('\n').length + (line > 1 ? 1 : 0);
   const rest = task.text.slice(before).split('\n')[0];
-  // Columns count letters, and some letters are two units long.
+  // Columns count characters, and some characters have two UTF-16 units.
   const ahead = [...rest].slice(0, column - 1).join('').length;
   area.focus();
   area.setSelectionRange(before + ahead, before + rest.length);

@@ -1,5 +1,4 @@
-// What can be taken by hand: objects, walls, goals, and where the robot reaches. Each knows its place in the
-// file.
+// Draggable items: objects, walls, goals, and the robot's reach. Each has its path in the file.
 
 import { task, at } from './task.js';
 
@@ -7,8 +6,8 @@ const degree = Math.PI / 180;
 const isPoint = (value) => Array.isArray(value) && value.length >= 2 && value.slice(0, 2).every(Number.isFinite);
 
 /**
- * All of them: `id`, `kind`, `name`, `path` in the file, and `pose` as its values say, in metres and
- * radians; what is drawn of it is in `body`.
+ * Returns all items: `id`, `kind`, `name`, `path` in the file, and `pose` from its values, in metres and
+ * radians; `body` is the drawing.
  */
 export function things() {
   const { stage, values } = task;
@@ -37,7 +36,7 @@ function thing(kind, index, path, body) {
   return { id: `${kind}-${index}`, kind, index, name: String(name), path, body, pose, turn: turns ? turn : null, own: false };
 }
 
-/** A goal with a place; it is named after what must come there, and may be in the frame of something else. */
+/** Returns a goal with a place, named after its object; it may be in the frame of another object. */
 function goalThing(goal, path, index, objects) {
   const place = goal?.coverage ? [...path, 'coverage'] : path;
   const own = thing('goal', index, place, { tolerance: (goal?.tolerance || 0) / LENGTH });
@@ -51,13 +50,13 @@ function goalThing(goal, path, index, objects) {
     own.frame = other.pose;
     own.pose = [...placed(other.pose, own.pose), own.pose[2] + other.pose[2]];
   } else if (goal.heading_deg === undefined && !goal.coverage && object >= 0) {
-    // Any heading will do, so it is drawn as it stands.
+    // Any heading is accepted, so the present one is drawn.
     own.pose[2] = objects[object].pose[2];
   }
   return own;
 }
 
-/** The ends of the reach, and where chained pushes start. */
+/** Returns the limits of the reach, and the start of chained pushes. */
 function reaches(stage) {
   const robot = at(['robot']);
   const list = ['min', 'max'].map((end, k) => ({
@@ -73,17 +72,17 @@ function reaches(stage) {
 
 const rounded = (value, digits) => +value.toFixed(digits);
 
-/** The edits that bring a thing to a position in metres. */
+/** Returns the edits that move an item to a position in metres. */
 export function movedTo(thing, [x, y], digits = 3) {
   if (thing.kind === 'reach') return [{ path: thing.path, value: Math.max(0, rounded(Math.hypot(x, y), digits)) }];
   const path = thing.kind === 'home' ? thing.path : [...thing.path, 'position'];
   const { frame } = thing;
   const at = frame ? placed([0, 0, -frame[2]], [x - frame[0], y - frame[1]]) : [x, y];
-  // One by one: a third number may follow.
+  // One at a time, because a third number may follow.
   return at.map((value, k) => ({ path: [...path, k], value: rounded(value, digits) }));
 }
 
-/** The edits that turn it to a heading in radians. */
+/** Returns the edits that rotate an item to a heading in radians. */
 export function turnedTo(thing, heading) {
   if (!thing.turn) return [];
   const whole = Math.round((heading - (thing.frame?.[2] ?? 0)) / degree);
@@ -91,7 +90,7 @@ export function turnedTo(thing, heading) {
   return [{ path: [...thing.path, thing.turn], value }];
 }
 
-/** In words, for those who hear it. */
+/** Returns a description for screen readers. */
 export function words(thing) {
   const [x, y, heading] = thing.pose;
   const kinds = { object: 'object', obstacle: 'wall', goal: 'goal', reach: '', home: '' };
@@ -101,7 +100,7 @@ export function words(thing) {
   return `${name}, at x ${x.toFixed(3)}, y ${y.toFixed(3)} metres${turned}`;
 }
 
-/** A name that nothing on the table has. */
+/** Returns an unused name. */
 function free(word) {
   const taken = new Set([...(at(['scene', 'objects']) ?? []), ...(at(['scene', 'obstacles']) ?? [])].map((one) => one?.name));
   let k = 1;
@@ -109,7 +108,7 @@ function free(word) {
   return `${word}-${k}`;
 }
 
-/** Somewhere on the table with room around it. */
+/** Returns a position on the table with room around it. */
 function room() {
   const taken = things().filter(({ kind }) => kind === 'object' || kind === 'obstacle');
   const clear = (x, y) => taken.every(({ pose, body }) => Math.hypot(pose[0] - x, pose[1] - y) > radius(body.shape) + 0.09);
@@ -119,7 +118,7 @@ function room() {
   return [0.5, 0];
 }
 
-/** The edits that add an object or a wall. */
+/** Returns the edits that add an object or a wall. */
 export function added(kind) {
   const position = room();
   if (kind === 'obstacle') {
@@ -132,7 +131,7 @@ export function added(kind) {
   return [{ path: ['scene', 'objects', index], value: { name: free('object'), shape, mass: 0.4, friction: 0.4, ...more, position } }];
 }
 
-/** The edits that take a thing away; none where the task would be none without it. */
+/** Returns the edits that remove an item; none if the task needs the item. */
 export function removed(thing) {
   const listed = (path) => at(path.slice(0, -1))?.length ?? 0;
   const last = thing.path.at(-1);

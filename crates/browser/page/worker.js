@@ -1,4 +1,4 @@
-// Plans, one task after the other, apart from the page. It is stopped by ending it.
+// Worker that plans one task after the other. The page cancels it by terminating it.
 
 import init, { solve } from './library.js';
 
@@ -7,7 +7,7 @@ let stage = '';
 let soFar = '';
 globalThis.pushplanTold = (what, done, total) => {
   stage = what || stage;
-  // A page shows no more than that.
+  // The page shows at most 20 updates per second.
   const now = performance.now();
   if (!what && now - told < 50) return;
   told = now;
@@ -31,7 +31,7 @@ addEventListener('message', async ({ data }) => {
     solved.free();
     postMessage({ answer });
   } catch (error) {
-    // What is wrong with a task is text; anything else is a defect, after which nothing is sure.
+    // Faults of a task are strings; anything else is a defect, after which the state is undefined.
     if (typeof error === 'string') postMessage({ answer: { fault: error } });
     else postMessage({ broken: defect || String(error) });
   }

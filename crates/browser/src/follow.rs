@@ -1,25 +1,25 @@
-//! What a worker hears while it plans. It is stopped from outside, by ending it: a worker that plans hears
-//! nothing.
+//! Progress reports of a worker that plans. The page cancels a worker by terminating it, because a
+//! planning worker receives no messages.
 
 use pushplan::watch::Watch;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 #[wasm_bindgen]
 extern "C" {
-    /// What is being done, and how much of how much of it is.
+    /// Reports the present stage and the finished share of its work.
     #[wasm_bindgen(js_name = pushplanTold)]
     fn told(stage: &str, done: f64, total: f64);
 
-    /// The best plan so far.
+    /// Reports the best plan so far.
     #[wasm_bindgen(js_name = pushplanSoFar)]
     fn so_far(answer: &str);
 
-    /// A defect of the planner.
+    /// Reports a defect of the planner.
     #[wasm_bindgen(js_name = pushplanFailed)]
     pub fn failed(message: &str);
 }
 
-/// Tells the page.
+/// Progress observer that reports to the page.
 pub struct Following;
 
 impl Watch for Following {

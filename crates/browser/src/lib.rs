@@ -1,8 +1,7 @@
-//! The planner in a page: the library in WebAssembly, behind texts and JSON.
+//! The planner in a web page: the library in WebAssembly, behind texts and JSON.
 //!
-//! What a task file says, what is wrong with it, what changes in it, what is planned and how that is
-//! shown: the library says all of it. Here it is only handed over. What is drawn and dragged is in
-//! `page`.
+//! The library reads, edits and solves tasks, and renders results and faults; this crate only
+//! passes them on. Drawing and dragging is implemented in `page`.
 
 mod edit;
 mod follow;
@@ -17,13 +16,13 @@ use wasm_bindgen::prelude::wasm_bindgen;
 pub use solve::{Solved, solve};
 pub use table::{bare, edit, example, examples, look, tools};
 
-/// Once, before anything else: what goes wrong is told, and not only that something does.
+/// Installs a panic hook that reports the message of a panic; runs once, before anything else.
 #[wasm_bindgen(start)]
 pub fn start() {
     std::panic::set_hook(Box::new(|panic| follow::failed(&panic.to_string())));
 }
 
-/// The shipped tools.
+/// Returns the shipped tools.
 fn library() -> Result<&'static ToolLibrary, String> {
     static LIBRARY: OnceLock<Result<ToolLibrary, String>> = OnceLock::new();
     let library = LIBRARY.get_or_init(|| {

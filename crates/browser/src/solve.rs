@@ -1,4 +1,4 @@
-//! A task is solved.
+//! Solving of a task.
 
 use pushplan::asset::{PlanFile, parse_task};
 use pushplan::{Effort, Planner, Situation, Solution, Task};
@@ -9,7 +9,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 use crate::follow::Following;
 use crate::library;
 
-/// What came of a task.
+/// A task and its solution.
 #[wasm_bindgen]
 pub struct Solved {
     task: Task,
@@ -17,11 +17,10 @@ pub struct Solved {
     solution: Solution,
 }
 
-/// Solves the task of a text; `file` names it, and `example` the shipped task that it is, if it is one.
-/// `effort` is `draft`, `standard` or `thorough`.
+/// Solves the task of a text. `file` is the name of the text, and `example` the name of the shipped
+/// task, or empty. `effort` is `draft`, `standard` or `thorough`.
 ///
-/// # Errors
-/// What is wrong with the task.
+/// # Errors Returns the faults of the task.
 #[wasm_bindgen]
 pub fn solve(text: &str, file: &str, example: &str, effort: &str) -> Result<Solved, String> {
     let library = library()?;
@@ -40,8 +39,8 @@ pub fn solve(text: &str, file: &str, example: &str, effort: &str) -> Result<Solv
 
 #[wasm_bindgen]
 impl Solved {
-    /// Everything in short, as JSON: `status`, a `headline`, the pushes of the best plan in metres and
-    /// radians, and where they end.
+    /// Returns a summary as JSON: `status`, a `headline`, the pushes of the best plan in metres and
+    /// radians, and their final state.
     pub fn summary(&self) -> String {
         let best = self.solution.best();
         json!({
@@ -56,12 +55,13 @@ impl Solved {
         .to_string()
     }
 
-    /// What the command prints.
+    /// Returns the text that the command prints.
     pub fn text(&self) -> String {
         self.document().to_text()
     }
 
-    /// The page that plays the best plan and says why the others lost; empty where there is none.
+    /// Returns the page that plays the best plan and explains why others were rejected; empty
+    /// without a plan.
     pub fn page(&self) -> String {
         let Some(best) = self.solution.best() else { return String::new() };
         let replays = best.replays(&self.task, &Situation::stated(&self.task.scene));
@@ -72,7 +72,7 @@ impl Solved {
         solution_page(&self.task, &self.solution, &replays, &recipe, PageView::Above)
     }
 
-    /// The best plan as a file; empty where there is none.
+    /// Returns the best plan as a file; empty without a plan.
     pub fn plan(&self) -> String {
         let Some(best) = self.solution.best() else { return String::new() };
         let file = PlanFile {

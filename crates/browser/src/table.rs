@@ -1,4 +1,4 @@
-//! The text of a task, what it says, and changes of it.
+//! The text of a task, its content, and its changes.
 
 use pushplan::asset::{self, Fault, Faults, parse_task};
 use pushplan::{Task, ToolLibrary};
@@ -9,31 +9,29 @@ use wasm_bindgen::prelude::wasm_bindgen;
 use crate::edit::{self, Edit};
 use crate::library;
 
-/// Names of the shipped tasks.
+/// Returns the names of the shipped tasks.
 #[wasm_bindgen]
 pub fn examples() -> Vec<String> {
     Task::examples().map(str::to_owned).collect()
 }
 
-/// The text of a shipped task.
+/// Returns the text of a shipped task.
 ///
-/// # Errors
-/// If there is none of this name.
+/// # Errors If there is no task of this name.
 #[wasm_bindgen]
 pub fn example(name: &str) -> Result<String, String> {
     asset::example_text(name).map(str::to_owned).map_err(|faults| faults.to_string())
 }
 
-/// A task to begin with.
+/// Returns a minimal task to start from.
 #[wasm_bindgen]
 pub fn bare() -> String {
     include_str!("bare.yaml").to_owned()
 }
 
-/// Names of the shipped tools as JSON: those that push, and those that lever.
+/// Returns the names of the shipped tools as JSON: tools that push, and tools that lever.
 ///
-/// # Errors
-/// If the library was built around damaged tools.
+/// # Errors If the library was built around damaged tools.
 #[wasm_bindgen]
 pub fn tools() -> Result<String, String> {
     let library = library()?;
@@ -48,8 +46,8 @@ pub fn tools() -> Result<String, String> {
     Ok(json!({"push": names(pushplan::Tool::pushes), "lever": names(lever)}).to_string())
 }
 
-/// What a text says, as JSON: `values` as they stand in it, `stage` as a page draws it, and `faults`;
-/// what cannot be said is null.
+/// Returns the content of a text as JSON: `values` as written, `stage` as drawn by a page, and
+/// `faults`. Unknown content is null.
 #[wasm_bindgen]
 pub fn look(text: &str, file: &str) -> String {
     let values = edit::values(text, file).unwrap_or_default();
@@ -63,11 +61,10 @@ pub fn look(text: &str, file: &str) -> String {
     json!({"values": values, "stage": stage, "levers": levers, "faults": faults}).to_string()
 }
 
-/// The text after changes, which are JSON: a list of `{path, value}`; without a value something is
-/// taken away.
+/// Returns the text after changes, which are a JSON list of `{path, value}`. A change without a
+/// value removes the entry.
 ///
-/// # Errors
-/// A text that is not YAML; a path that leads nowhere.
+/// # Errors If the text is not YAML or a path does not exist.
 #[wasm_bindgen]
 pub fn edit(text: &str, file: &str, edits: &str) -> Result<String, String> {
     let edits: Vec<Edit> = serde_json::from_str(edits).map_err(|error| error.to_string())?;

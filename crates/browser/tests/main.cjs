@@ -1,7 +1,7 @@
-// The page in a real browser: `node main.cjs FOLDER [tasks|page]`.
+// Tests of the page in a real browser: `node main.cjs FOLDER [tasks|page]`.
 //
-// `tasks` compares every shipped task with the command that PUSHPLAN names: plans, answers and times.
-// `page` uses the page as people do. Without a word both.
+// `tasks` compares every shipped task with the command in PUSHPLAN: plans, answers and times.
+// `page` operates the page like a user. The default is both.
 
 const fs = require('node:fs');
 const http = require('node:http');
@@ -13,7 +13,7 @@ const { usedAsPeopleDo } = require('./use.cjs');
 
 const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css' };
 
-/** Serves a folder as the plainest server does; how much was sent is in `sent`. */
+/** Serves a folder as a minimal server; `sent` is the number of bytes sent. */
 function serve(folder) {
   const server = http.createServer((request, response) => {
     const name = path.normalize(decodeURIComponent(request.url.split('?')[0])).replace(/\/$/, '/index.html');

@@ -5,16 +5,16 @@ const fs = require('node:fs');
 const os = require('node:os');
 const path = require('node:path');
 
-/** `draft` is closed-form: the same plan, to this. */
+/** Tolerance of plans with `draft`, which is closed-form. */
 const SAME = 1e-9;
-/** `standard` asks a network, whose products are rounded differently: where it ends, metres. */
+/** Tolerance of final positions with `standard`, whose network is rounded differently, metres. */
 const NEAR = 1e-4;
 
 /**
- * Tasks whose plans differ all the same, by efforts: their answers are equal and both plans verified. Sines
- * and cosines are Rust's here and the C library's there, vectors have other widths, and so last digits
- * differ; these turn the choice between two plans that are as good as each other, or a collision that no
- * engine foretells. Of `standard` the plans of the last two are the same, and lie down otherwise by prediction.
+ * Tasks whose plans differ, by effort; their answers are equal and both plans are verified. The last digits
+ * differ because sines and cosines are Rust's here and the C library's there, and vectors have other widths.
+ * They decide between two equally good plans, or the outcome of an unpredictable collision. With `standard`,
+ * the plans of the last two are equal, and the predicted final poses differ.
  */
 const KNOWN = {
   draft: [
@@ -24,24 +24,24 @@ const KNOWN = {
   standard: ['drawer-or-box', 'everything-hidden', 'taken-place', 'drive-board', 'flip-plate'],
 };
 
-/** What the command says of a shipped task: its answer, and the plan that it writes. */
+/** Returns the command's answer for a shipped task, and its plan. */
 function commanded(name, effort, folder) {
   const words = ['solve', '--example', name, '--effort', effort, '--threads', '1', '--json', '--quiet', '--out', folder];
   let text;
   try {
     text = execFileSync(process.env.PUSHPLAN, words, { encoding: 'utf8', maxBuffer: 1 << 28, stdio: ['ignore', 'pipe', 'ignore'] });
   } catch (error) {
-    // No plan is an answer as well.
+    // The answer may be that there is no plan.
     text = error.stdout;
   }
   const { status, plans, statistics } = JSON.parse(text);
   return { status, steps: plans[0]?.plan.steps ?? [], ends: plans[0]?.predicted, seconds: statistics.timing.total };
 }
 
-/** Angles of a step: whole turns make no difference. */
+/** Angles of a step, compared modulo a full rotation. */
 const ANGLES = ['direction', 'grip_yaw'];
 
-/** Largest difference of two numbers at the same place; of anything else that differs, infinite. */
+/** Returns the largest difference of corresponding numbers; infinity if anything else differs. */
 function apart(a, b, key = '') {
   if (typeof a === 'number' && typeof b === 'number') {
     const off = Math.abs(a - b);
@@ -52,7 +52,7 @@ function apart(a, b, key = '') {
   return Math.max(0, ...[...keys].map((key) => (key in a && key in b ? apart(a[key], b[key], key) : Infinity)));
 }
 
-/** Where everything ends, metres. */
+/** Returns the final positions of an outcome, metres. */
 const places = (outcome) => outcome?.state.poses.map(({ position }) => position) ?? [];
 
 const tools = (steps) => steps.map((step) => Object.values(step)[0].tool ?? step.tool).join(' ');
@@ -62,7 +62,7 @@ const median = (values) => {
   return sorted.length ? sorted[Math.floor(sorted.length / 2)] : NaN;
 };
 
-/** What differs by more than it may, a line each; prints every task. */
+/** Returns a line for each difference beyond its tolerance; prints every task. */
 async function tasks(browser, address, [only, ...efforts]) {
   const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'playground-'));
   const page = await browser.newPage();

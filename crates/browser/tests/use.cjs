@@ -1,7 +1,7 @@
-// The page is used as people do: by hand, by key, by link, on a phone.
+// Operation of the page: by pointer, by key, by link, on a phone.
 
 const READY = 1000; // milliseconds from opening to ready
-/** From a move of the goal to its plan, milliseconds, median of the shipped tasks, with two cores to itself. */
+/** Time from a move of the goal to its plan, milliseconds, median of the shipped tasks, on two free cores. */
 const AGAIN = Number(process.env.PUSHPLAN_AGAIN ?? 300);
 
 const median = (values) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];
@@ -20,7 +20,7 @@ async function opened(browser, address, size = { width: 1280, height: 900 }) {
 const text = (page) => page.locator('#text').inputValue();
 const shown = (page, id) => page.locator(id).textContent();
 
-/** Drags a thing by pixels, and lets go. */
+/** Drags an item by pixels, and releases it. */
 async function drag(page, id, by, steps = 4) {
   const box = await page.locator(`[data-id="${id}"] .body`).boundingBox();
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
@@ -46,7 +46,7 @@ async function usedAsPeopleDo(browser, address) {
   }
   check(median(times) <= READY, `ready in ${median(times)} ms, median of ${times.length}`);
 
-  // By hand: the file follows, its comments stay, and a draft is planned.
+  // Pointer: the file is updated, its comments are kept, and a draft is planned.
   const before = await text(page);
   await drag(page, 'goal-0', [40, 20]);
   const after = await text(page);
@@ -57,7 +57,7 @@ async function usedAsPeopleDo(browser, address) {
   await page.locator('#undo').click();
   check((await text(page)) === before, 'undo brings the text back');
 
-  // By key, and what is said of it.
+  // Keyboard, and the description of the item.
   await page.locator('[data-id="goal-0"]').focus();
   await page.keyboard.press('ArrowUp');
   check((await text(page)) !== before, 'an arrow key moves what has the focus');
@@ -70,7 +70,7 @@ async function usedAsPeopleDo(browser, address) {
   check(await page.locator('#plan').isDisabled(), 'a faulty task cannot be planned');
   await page.locator('#text').fill(before);
 
-  // A plan with its page.
+  // A plan with its report.
   await page.locator('#plan').click();
   await page.waitForFunction(() => /standard, /.test(document.getElementById('answer').textContent), null, { timeout: 60000 });
   check(/solved/.test(await shown(page, '#answer')), `planned: ${await shown(page, '#answer')}`);
@@ -79,7 +79,7 @@ async function usedAsPeopleDo(browser, address) {
   check(/pushplan predict/.test(await frame.locator('#command').textContent()), 'the page offers a command');
   check((await frame.locator('#tools tr').count()) > 2, 'the page says why other tools lost');
 
-  // Fields, and what is added and taken away.
+  // Fields, additions and removals.
   await page.locator('#add-obstacle').click();
   check(/wall-1/.test(await text(page)), 'a wall is added');
   await page.locator('#form label', { hasText: 'width y' }).locator('input').fill('0.31');
@@ -89,7 +89,7 @@ async function usedAsPeopleDo(browser, address) {
   await page.keyboard.press('Delete');
   check(!/wall-1/.test(await text(page)), 'Delete takes it away');
 
-  // A link is the task.
+  // A link holds the task.
   await drag(page, 'goal-0', [15, 15]);
   await page.waitForTimeout(600);
   const [link, own] = [page.url(), await text(page)];
@@ -108,7 +108,7 @@ async function usedAsPeopleDo(browser, address) {
   await page.waitForTimeout(500);
   check((await shown(page, '#answer')) === 'cancelled', 'and stays so');
 
-  // All shipped tasks: the goal is moved by 1 cm, as by key, and a plan comes back.
+  // All shipped tasks: the goal is moved by 1 cm, as by key, and a plan follows.
   await page.locator('#tools-of-task').evaluate((details) => { details.open = true; });
   const latencies = [];
   for (const name of await page.locator('#example option').evaluateAll((all) => all.map((one) => one.value).filter(Boolean))) {
@@ -137,7 +137,7 @@ async function usedAsPeopleDo(browser, address) {
   check(complaints.length === 0, `no complaints ${[...new Set(complaints)].slice(0, 5).join('; ')}`);
   await page.close();
 
-  // On a phone nothing sticks out, and everything that can be used has a name.
+  // On a phone nothing overflows, and every control has a name.
   const phone = await opened(browser, address, { width: 360, height: 700 });
   const wide = await phone.page.evaluate(() => document.documentElement.scrollWidth);
   check(wide <= 360, `on a phone the page is ${wide} px wide`);

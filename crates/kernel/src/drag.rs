@@ -1,4 +1,4 @@
-//! How the points that an object stands on drag when it moves.
+//! Friction of the points of support of a moving object.
 
 use std::sync::OnceLock;
 
@@ -8,11 +8,11 @@ use crate::Vector;
 
 use crate::feet::{Feet, MAX_FEET};
 
-/// Points that are summed side by side. All sums are taken in this order whatever the processor,
-/// so that their bits are the same.
+/// Number of points summed side by side. All sums are taken in this order on every processor, so
+/// that their bits are the same.
 const LANES: usize = 8;
 
-/// The widest vectors of this processor.
+/// Widest vectors of this processor.
 static ARCH: OnceLock<Arch> = OnceLock::new();
 
 /// Moments of the weights of points that drag, see [`Feet::drag`].
@@ -20,24 +20,22 @@ static ARCH: OnceLock<Arch> = OnceLock::new();
 pub struct Drag {
     /// Sum of the weights.
     pub sum: f64,
-    /// Sum of weight times place against the centre, in world axes.
+    /// Sum of weight times position relative to the centre, in world axes.
     pub first: Vector,
     /// Sum of weight times squared distance from the centre.
     pub second: f64,
 }
 
 impl Feet {
-    /// What resists a planar motion of the object, whose own x axis points along the unit vector
-    /// `axis`, when every point drags with its load along its own motion, and those slower than
-    /// `least` as if they moved at that speed. With d the motion of a point, the weight of its
-    /// place is load / max(|d|, `least`). The object leans: the centre of its load is off by `lean`
-    /// metres.
+    /// Computes the resistance to a planar motion of the object, whose own x axis points along the
+    /// unit vector `axis`. Every point drags with its load against its own motion; points slower
+    /// than `least` drag as if they moved at that speed. With d the motion of a point, its weight
+    /// is load / max(|d|, `least`). The centre of the load is displaced by `lean`, metres.
     pub fn drag(&self, axis: Vector, motion: (Vector, f64), least: f64, lean: Vector) -> Drag {
         ARCH.get_or_init(Arch::new).dispatch(Moving { feet: self, axis, motion, least, lean })
     }
 
-    /// The same as part of the function that it is called from, which is compiled for wide vectors
-    /// already.
+    /// Computes [`Self::drag`] inlined into its caller, which is already compiled for wide vectors.
     #[inline(always)]
     pub fn drag_here(
         &self,
@@ -47,7 +45,8 @@ impl Feet {
         lean: Vector,
     ) -> Drag {
         let speed = (linear.x * linear.x + linear.y * linear.y).sqrt();
-        // The points of a round object stand for all of its turns, so they turn with the motion.
+        // The points of a round object represent all of its rotations, so they rotate with the
+        // motion.
         let (cos, sin) = match self.round {
             true if speed > 0.0 => (linear.x / speed, linear.y / speed),
             true => (1.0, 0.0),
@@ -61,7 +60,7 @@ impl Feet {
         Drag { sum, first, second }
     }
 
-    /// The same where every point moves by `moved`.
+    /// Computes [`Self::drag`] for a translation of every point by `moved`.
     #[inline]
     pub fn even_drag(&self, axis: Vector, moved: f64) -> Drag {
         let (x, y) = (self.centre.x, self.centre.y);
@@ -69,9 +68,9 @@ impl Feet {
         Drag { sum: 1.0 / moved, first, second: self.mean_square / moved }
     }
 
-    /// The moments in the points' own frame: plain loops over lanes, of which the compiler makes
-    /// the vectors that the processor has; spare points carry nothing. `slope` says how much more of
-    /// its load than at the centre a point carries per metre.
+    /// Computes the moments in the points' own frame. The compiler turns the plain loops over lanes
+    /// into the processor's vectors, in which spare points carry no load. `slope` is the relative
+    /// increase of a point's load per metre from the centre.
     #[inline(always)]
     fn moments(&self, linear: [f64; 2], angular: f64, least: f64, slope: [f64; 2]) -> [f64; 4] {
         let mut sums = [[0.0; LANES]; 5];
@@ -102,7 +101,7 @@ impl Feet {
     }
 }
 
-/// Points that move: see [`Feet::drag`].
+/// Arguments of [`Feet::drag`].
 struct Moving<'a> {
     feet: &'a Feet,
     axis: Vector,
@@ -120,8 +119,8 @@ impl WithSimd for Moving<'_> {
     }
 }
 
-/// 1 / sqrt(x) to some 14 digits, for x from 1e-30 to 1e30: in single precision, and one step of
-/// Newton's method. Processors take a quarter of the time for roots and quotients in single
+/// Computes 1 / sqrt(x) to about 14 digits for x from 1e-30 to 1e30, in single precision with one
+/// step of Newton's method. Processors take a quarter of the time for roots and quotients in single
 /// precision, and these took half of the time of a frame in a crowd.
 #[inline(always)]
 fn inverse_root(x: f64) -> f64 {

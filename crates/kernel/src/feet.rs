@@ -1,17 +1,18 @@
-//! The points that an object stands on.
+//! The points of support of an object.
 
 use crate::Vector;
 
 /// Maximum number of points of a support.
 pub const MAX_FEET: usize = 16;
 
-/// Loads whose centre is nearer to the middle than this are about it, metres: rounding.
+/// Distance from the middle below which the centre of a load counts as the middle, metres:
+/// rounding.
 const MIDDLE: f64 = 1e-9;
 
-/// Points under an object with their shares of its weight, which together stand for its support.
+/// Points of support of an object with their shares of its weight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Feet {
-    /// Coordinates in the object's frame, metres; what is beyond `count` carries nothing.
+    /// Coordinates in the object's frame, metres; entries beyond `count` carry nothing.
     pub x: [f64; MAX_FEET],
     /// See `x`.
     pub y: [f64; MAX_FEET],
@@ -19,34 +20,36 @@ pub struct Feet {
     pub load: [f64; MAX_FEET],
     /// Number of points.
     pub count: usize,
-    /// What they carry together, as a share of the object's weight: one but of things with parts above
-    /// the table.
+    /// Load of all points as a share of the object's weight: one, except for compound objects with
+    /// parts above the table.
     pub share: f64,
-    /// Where the centre of the load is, metres: the object's but of such things.
+    /// Centre of the load, metres: the object's centre, except for such compound objects.
     pub centre: Vector,
-    /// `true` if they stand for an object that looks the same at every turn.
+    /// Whether the points represent an object that is symmetric under every rotation.
     pub round: bool,
-    /// `true` if they stand for even pressure, so that other points would do as well.
+    /// Whether the points represent even pressure, so that other points would be equivalent.
     pub even: bool,
     /// Mean distance from the centre, metres: the ratio of the largest friction torque to the
     /// largest friction force.
     pub mean_radius: f64,
     /// Mean square distance from the centre, square metres.
     pub mean_square: f64,
-    /// Sums of load (r / c)^k exp(i k phi) over the points at (r, phi), for k = 2, 3, 4, c being the
-    /// mean radius: how the support differs from a round one, real and imaginary parts.
+    /// Deviation of the support from a round one, real and imaginary parts.
+    ///
+    /// The numbers are the sums of load (r / c)^k exp(i k phi) over the points at (r, phi), for k =
+    /// 2, 3, 4, with the mean radius c.
     pub harmonics: [Vector; 3],
-    /// The inverse of the second moments of the load, xx, xy and yy, 1 / m^2.
+    /// Inverse of the second moments of the load, xx, xy and yy, 1 / m^2.
     pub(crate) stiffness: [f64; 3],
 }
 
 impl Feet {
-    /// The points of a solid that carries nothing.
+    /// Returns the support of a solid that carries nothing.
     pub fn none() -> Self {
         Self::of([])
     }
 
-    /// Returns these points where they carry this share of the object's weight, with its centre there.
+    /// Returns these points with the given share of the object's weight, centred at `centre`.
     pub fn loaded(&self, share: f64, centre: Vector) -> Self {
         if centre.norm() < MIDDLE {
             return Self { share, ..self.clone() };
@@ -57,14 +60,14 @@ impl Feet {
         Self { share, centre, even: self.even, ..Self::of(points()) }
     }
 
-    /// Points with equal loads.
+    /// Returns points with equal loads.
     pub fn equal(points: impl IntoIterator<Item = Vector>) -> Self {
         let points: Vec<Vector> = points.into_iter().collect();
         let load = 1.0 / points.len() as f64;
         Self::of(points.into_iter().map(|point| (point, load)))
     }
 
-    /// Points with their shares of the weight; at most [`MAX_FEET`] of them count.
+    /// Returns points with their shares of the weight; only the first [`MAX_FEET`] are kept.
     pub fn of(points: impl IntoIterator<Item = (Vector, f64)>) -> Self {
         let none = [0.0; MAX_FEET];
         let mut feet = Self {
@@ -100,7 +103,7 @@ impl Feet {
                 *harmonic += feet.load[k] * power;
             }
         }
-        // Nothing leans on points in a line, which could not carry it.
+        // Points in a line could not carry a displaced load.
         let whole = xx * yy - xy * xy;
         if whole > 1e-9 * (xx + yy) * (xx + yy) {
             feet.stiffness = [yy / whole, -xy / whole, xx / whole];
@@ -108,8 +111,8 @@ impl Feet {
         feet
     }
 
-    /// The [`Self::harmonics`] as seen along a unit vector to which the object's own x axis is
-    /// turned by an angle of these cosine and sine.
+    /// Returns the [`Self::harmonics`] in a frame along a unit vector, with `turn` the cosine and
+    /// sine of the object's rotation in that frame.
     pub fn harmonics_turned(&self, turn: Vector) -> [Vector; 3] {
         let mut power = turn;
         self.harmonics.map(|harmonic| {
@@ -118,22 +121,22 @@ impl Feet {
         })
     }
 
-    /// Every point with its share of the weight.
+    /// Iterates over the points with their shares of the weight.
     pub fn each(&self) -> impl Iterator<Item = (Vector, f64)> + '_ {
         (0..self.count).map(|k| (Vector::new(self.x[k], self.y[k]), self.load[k]))
     }
 
-    /// How much more of its load than at the centre a point carries per metre, so that the centre
-    /// of the load lies at `lean`: the least change that does it (even springs).
+    /// Returns the relative increase of a point's load per metre that moves the centre of the load
+    /// to `lean`. The change is the least possible, as with equal springs.
     #[inline(always)]
     pub(crate) fn slope(&self, lean: Vector) -> Vector {
         let [xx, xy, yy] = self.stiffness;
         Vector::new(xx * lean.x + xy * lean.y, xy * lean.x + yy * lean.y)
     }
 
-    /// Shares of the weight when the centre of the load lies at `lean`, in the object's frame.
-    /// Points do not pull: where some would have to, the others carry all, with the centre a little
-    /// less far off.
+    /// Returns the shares of the weight with the centre of the load at `lean`, in the object's
+    /// frame. Points cannot pull. Where some would have to, the others carry the whole load, and
+    /// its centre is closer to the middle.
     pub fn leaning(&self, lean: Vector) -> [f64; MAX_FEET] {
         let slope = self.slope(lean);
         let mut load = self.load;
@@ -145,7 +148,7 @@ impl Feet {
     }
 }
 
-/// The product of two complex numbers.
+/// Returns the product of two complex numbers.
 fn multiplied(a: Vector, b: Vector) -> Vector {
     Vector::new(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x)
 }

@@ -7,18 +7,19 @@ use crate::{
     tally::Tally,
 };
 
-/// Largest number of contacts of a frame.
+/// Maximum number of contacts of a frame.
 pub const MOST: usize = 2;
 
 /// A contact as equations.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Pressing<const N: usize> {
-    /// Which frames have it.
+    /// Frames that have the contact.
     pub present: Which<N>,
     pub to: [Triple<N>; 2],
     pub target: Pair<N>,
     pub friction: Lanes<N>,
-    /// What it does, and on which edge of the friction cone it slides.
+    /// Frames in which the contact sticks, frames in which it slides, and the edge of the friction
+    /// cone on which it slides.
     sticks: Which<N>,
     slides: Which<N>,
     edge: Lanes<N>,
@@ -26,12 +27,12 @@ pub(crate) struct Pressing<const N: usize> {
     trial: Pair<N>,
     value: Pair<N>,
     moved: [Triple<N>; 2],
-    /// nn, nt, tn and tt.
+    /// Compliances nn, nt, tn and tt.
     own: [Lanes<N>; 4],
     give: Lanes<N>,
 }
 
-/// What a contact would do, and by which force.
+/// State and force of a contact if nothing else changes.
 #[derive(Clone, Copy)]
 struct Response<const N: usize> {
     sticks: Which<N>,
@@ -50,8 +51,8 @@ struct Row<const N: usize> {
     target: Lanes<N>,
 }
 
-/// Finds forces and twists in the frames `of` interest, beginning with what the contacts did last;
-/// returns where that went well.
+/// Computes forces and twists in the frames `of`, starting from the last states of the contacts.
+/// Returns the frames in which a consistent set was found.
 #[inline(always)]
 pub(crate) fn solve<const N: usize>(
     moves: &mut Moves<N>,
@@ -100,9 +101,9 @@ pub(crate) fn solve<const N: usize>(
     of & found
 }
 
-/// Where every contact would do under its trial force what it was taken to do. Elsewhere all are taken to
-/// do what they would, or in later rounds only the one that is farthest off. Where all agree another
-/// round finds the same.
+/// Returns the frames in which the state of every contact is consistent with its trial force. In
+/// other frames all contacts change to the state of their response, in later rounds only the
+/// contact with the largest error. A further round in a consistent frame finds the same forces.
 #[inline(always)]
 fn agreed<const N: usize>(
     moves: &Moves<N>,
@@ -136,7 +137,7 @@ fn agreed<const N: usize>(
 }
 
 impl<const N: usize> Pressing<N> {
-    /// Takes how the object answers its forces from the present weights.
+    /// Computes the motion due to the contact's forces from the present weights.
     #[inline(always)]
     fn weigh(&mut self, inverse: &Inverse<N>) {
         let (n, t) = (inverse.by(self.to[0]), inverse.by(self.to[1]));
@@ -147,7 +148,7 @@ impl<const N: usize> Pressing<N> {
         self.give = Lanes::all(0.5 * GIVE) * (self.own[0] + self.own[3]);
     }
 
-    /// By how much more than it should a force along the normal gives way where it slides and wedges.
+    /// Returns the compliance added to a normal force that slides and wedges.
     #[inline(always)]
     fn wedge(&self) -> Lanes<N> {
         let knn = self.own[0] + self.give;
@@ -155,19 +156,19 @@ impl<const N: usize> Pressing<N> {
         wedge.max(Lanes::ZERO)
     }
 
-    /// Where its forces move the object by more than rounding does.
+    /// Returns the frames in which the force moves the object by more than rounding.
     #[inline(always)]
     pub fn presses(&self) -> Which<N> {
         Lanes::all(OPEN).below(self.trial[0] * self.own[0])
     }
 
-    /// How many equations it is in frame `k`.
+    /// Returns the number of equations in frame `k`.
     #[inline(always)]
     pub fn rows(&self, k: usize) -> u32 {
         2 * u32::from(self.sticks.has(k)) + u32::from(self.slides.has(k))
     }
 
-    /// Is there only in some of the frames where it is.
+    /// Restricts the contact to the frames `of`.
     #[inline(always)]
     pub fn keep(&mut self, of: Which<N>) {
         self.present = self.present & of;
@@ -175,7 +176,7 @@ impl<const N: usize> Pressing<N> {
         self.slides = self.slides & of;
     }
 
-    /// How many equations it is in any of the frames.
+    /// Returns the largest number of equations in any frame.
     #[inline(always)]
     fn equations(&self) -> usize {
         match (self.sticks.any(), self.slides.any()) {
@@ -184,7 +185,7 @@ impl<const N: usize> Pressing<N> {
         }
     }
 
-    /// Equation `k` of so `many`.
+    /// Returns equation `k` of `many`.
     #[inline(always)]
     fn row(&self, k: usize, many: usize, left: &Pair<N>) -> Row<N> {
         let (moved, target) = (self.moved[k], left[k]);
@@ -198,7 +199,7 @@ impl<const N: usize> Pressing<N> {
         row
     }
 
-    /// Its force, from those of its equations.
+    /// Returns the force of the contact from the unknowns of its equations.
     #[inline(always)]
     fn by(&self, normal: Lanes<N>, tangent: Lanes<N>) -> Pair<N> {
         let zero = Lanes::ZERO;
@@ -206,7 +207,7 @@ impl<const N: usize> Pressing<N> {
         [normal, self.sticks.pick(tangent, self.slides.pick(self.edge * normal, zero))]
     }
 
-    /// What it would do if nothing else changed.
+    /// Computes the response of the contact if nothing else changes.
     #[inline(always)]
     fn respond(&self) -> Response<N> {
         let (trial, give, zero) = (self.trial, self.give, Lanes::ZERO);
@@ -217,7 +218,7 @@ impl<const N: usize> Pressing<N> {
         let stick = plus(trial, step);
         let cone = stick[1].abs().within(self.friction * stick[0]);
         let sticks = self.present & zero.within(stick[0]) & cone;
-        // Sliding: on the edge of the cone that the sticking force lies beyond.
+        // Sliding: on the edge of the cone beyond which the sticking force lies.
         let edge = self.friction * stick[1].sign();
         let compliance = (knn + edge * knt).max(Lanes::all(MIN_COMPLIANCE) * knn);
         let normal = (left[0] + knn * trial[0] + knt * trial[1]) / compliance;
@@ -226,14 +227,14 @@ impl<const N: usize> Pressing<N> {
         Response { sticks, slides, edge, force: sticks.pick_each(stick, slid) }
     }
 
-    /// Where it does that.
+    /// Returns the frames in which the contact's state is that response.
     #[inline(always)]
     fn does(&self, Response { sticks, slides, edge, .. }: &Response<N>) -> Which<N> {
         let slides = self.slides.either(*slides & edge.equals(self.edge), !(*sticks | *slides));
         self.sticks.either(*sticks, slides)
     }
 
-    /// Takes it to do that in the frames `of` interest.
+    /// Changes the contact's state to the response in the frames `of`.
     #[inline(always)]
     fn follow(&mut self, of: Which<N>, response: &Response<N>) {
         self.sticks = of.either(response.sticks, self.sticks);
@@ -241,7 +242,7 @@ impl<const N: usize> Pressing<N> {
         self.edge = of.pick(response.edge, self.edge);
     }
 
-    /// How far its trial force is from another one, metres.
+    /// Returns the distance between its trial force and another force, metres.
     #[inline(always)]
     fn off(&self, force: Pair<N>) -> Lanes<N> {
         let [x, y] = minus(force, self.trial);
@@ -249,7 +250,7 @@ impl<const N: usize> Pressing<N> {
         (nn * x + nt * y).abs().max((tn * x + tt * y).abs())
     }
 
-    /// Takes the state of another in the frames `of` interest.
+    /// Copies the state of `other` in the frames `of`.
     #[inline(always)]
     pub fn take(&mut self, of: Which<N>, other: &Self) {
         self.present = of.either(other.present, self.present);
@@ -266,7 +267,7 @@ impl<const N: usize> Pressing<N> {
     }
 }
 
-/// J twist.
+/// Returns J twist.
 #[inline(always)]
 fn apply<const N: usize>(to: &[Triple<N>; 2], twist: Triple<N>) -> Pair<N> {
     [dot(to[0], twist), dot(to[1], twist)]
@@ -282,10 +283,10 @@ fn count<const N: usize>(contacts: &[Pressing<N>; MOST], of: Which<N>, tally: &m
     }
 }
 
-/// The forces of contacts of which the first has A equations, the second B and both M, and where these
-/// have an answer, by elimination with pivots. An equation that does not hold in a frame
-/// says there that an unknown, which is in no other one, is zero: what zeros are taken from keeps its
-/// bits.
+/// Solves for the forces of contacts by elimination with pivots, and returns the frames with a
+/// solution. The first contact has A equations, the second B, both together M. An equation that
+/// does not hold in a frame sets its unknown to zero there. Subtracting zeros keeps the bits of the
+/// other unknowns.
 #[inline(always)]
 fn eliminated<const A: usize, const B: usize, const M: usize, const N: usize>(
     contacts: &[Pressing<N>; MOST],
@@ -308,7 +309,7 @@ fn eliminated<const A: usize, const B: usize, const M: usize, const N: usize>(
         }
         matrix[k][k] += row.give;
         target[k] = row.target;
-        // Alone, all equations hold.
+        // With a single frame all equations hold.
         if N > 1 {
             for j in 0..M {
                 let other = if j == k { one } else { zero };
@@ -344,7 +345,7 @@ fn eliminated<const A: usize, const B: usize, const M: usize, const N: usize>(
         for row in k + 1..M {
             let share = matrix[row][k] * inverse;
             let first = matrix[k];
-            // What is before the pivot is not looked at again.
+            // Entries before the pivot are not read again.
             for (entry, above) in matrix[row].iter_mut().zip(first) {
                 *entry = *entry - share * above;
             }

@@ -15,7 +15,7 @@ use crate::{
     touching::{Follows, Look, Touching},
 };
 
-/// The frames, with what they begin with in lanes.
+/// Frames in lanes, with their initial states.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Frames<'a, const N: usize> {
     present: Which<N>,
@@ -24,7 +24,7 @@ pub(crate) struct Frames<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Frames<'a, N> {
-    /// Puts a frame in place `k`.
+    /// Sets frame `k`.
     #[inline(always)]
     pub fn set(&mut self, k: usize, frame: &LoneFrame<'a>) {
         let object = &mut self.object;
@@ -77,12 +77,13 @@ impl<'a, const N: usize> Frames<'a, N> {
         }
     }
 
-    /// Solves all of them in vectors of a kind; none where the contacts' forces were not found.
+    /// Solves all frames in vectors of a kind. An entry is `None` if the contact forces were not
+    /// found.
     pub fn by(&self, simd: impl Simd, tally: &mut Tally) -> [Option<LoneSolution>; N] {
         simd.vectorize(Solving { frames: self, tally })
     }
 
-    /// The displacements and the forces that make them, and where these were found.
+    /// Returns the displacements, the contact forces, and the frames in which these were found.
     #[inline(always)]
     fn displace(&self, tally: &mut Tally) -> (Moves<N>, [Pressing<N>; MOST], Which<N>) {
         let Self { present, object, contacts } = self;
@@ -128,8 +129,8 @@ impl<'a, const N: usize> Frames<'a, N> {
         (ended, presses, found)
     }
 
-    /// The velocities at the frame's end, times its duration, from displacements and their forces, where
-    /// those were `found`: what has come into contact stays there.
+    /// Returns the velocities at the frame's end, times its duration, from the displacements and
+    /// their forces in the frames `found`. Contacts that have closed stay closed.
     #[inline(always)]
     fn release(
         &self,
@@ -173,7 +174,7 @@ impl<'a, const N: usize> Frames<'a, N> {
         end
     }
 
-    /// Forces and twists at fixed weights.
+    /// Solves for forces and twists at fixed weights.
     #[inline(always)]
     fn settle(
         &self,
@@ -191,15 +192,15 @@ impl<'a, const N: usize> Frames<'a, N> {
     }
 }
 
-/// What an update did.
+/// Outcome of an update.
 struct Settled<const N: usize> {
-    /// Where forces were found.
+    /// Frames in which forces were found.
     found: Which<N>,
-    /// Where the motion has changed by more than what ends the updates.
+    /// Frames in which the motion has changed by more than the tolerance that ends the updates.
     changed: Which<N>,
 }
 
-/// Puts a vector in place `k`.
+/// Sets a vector of frame `k`.
 #[inline(always)]
 fn set<const K: usize, const N: usize>(
     lanes: &mut [Lanes<N>; K],
@@ -264,7 +265,7 @@ impl<const N: usize> WithSimd for Solving<'_, '_, N> {
     }
 }
 
-/// Displacement of a point `arm` metres from the centre, to first order, metres.
+/// Returns the displacement of a point `arm` metres from the centre, to first order, metres.
 #[inline(always)]
 fn shift(twist: &Vector3<f64>, arm: Vector) -> Vector {
     Vector::new(twist.x, twist.y) + twist.z * Vector::new(-arm.y, arm.x)

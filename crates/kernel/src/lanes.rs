@@ -1,24 +1,24 @@
 //! Numbers of several frames side by side.
 //!
-//! Plain loops over arrays, of which the compiler makes the vectors that the processor has. Every
-//! lane goes through the same operations in the same order as a number alone would, none of them
-//! fused, so that no bit depends on how many there are. Everything is inlined into the one function
-//! that is compiled for wide vectors: functions called from there are not compiled so.
+//! The compiler turns the plain loops over arrays into the processor's vectors. Every lane goes
+//! through the operations of a single number in the same order, none of them fused, so that no bit
+//! depends on the number of lanes. Everything is inlined into the one function that is compiled for
+//! wide vectors, because functions called from there are not.
 
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-/// One number of each frame.
+/// A number of each frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lanes<const N: usize>(pub [f64; N]);
 
-/// Some of the frames: all bits are set for one of them, none for another.
+/// A subset of the frames, as masks: all bits are set for its members, none for others.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Which<const N: usize>(pub [u64; N]);
 
 /// A planar vector of each frame.
 pub(crate) type Pair<const N: usize> = [Lanes<N>; 2];
 
-/// Shift and turn, or force and torque, of each frame.
+/// Shift and rotation, or force and torque, of each frame.
 pub(crate) type Triple<const N: usize> = [Lanes<N>; 3];
 
 macro_rules! operations {
@@ -66,13 +66,13 @@ impl<const N: usize> Neg for Lanes<N> {
 impl<const N: usize> Lanes<N> {
     pub const ZERO: Self = Self::all(0.0);
 
-    /// The same number in every frame.
+    /// Returns the number in every frame.
     #[inline(always)]
     pub const fn all(value: f64) -> Self {
         Self([value; N])
     }
 
-    /// The larger one; the other one where this is not a number.
+    /// Returns the larger number, or `other` where this one is not a number.
     #[inline(always)]
     pub fn max(self, other: Self) -> Self {
         other.below(self).pick(self, other)
@@ -94,7 +94,7 @@ impl<const N: usize> Lanes<N> {
         self
     }
 
-    /// One with its sign.
+    /// Returns one with the sign of the number.
     #[inline(always)]
     pub fn sign(mut self) -> Self {
         for k in 0..N {
@@ -103,7 +103,7 @@ impl<const N: usize> Lanes<N> {
         self
     }
 
-    /// Where it is less than the other.
+    /// Returns the frames in which the number is less than the other.
     #[inline(always)]
     pub fn below(self, other: Self) -> Which<N> {
         let mut which = Which::NONE;
@@ -113,7 +113,7 @@ impl<const N: usize> Lanes<N> {
         which
     }
 
-    /// Where it is not more than the other.
+    /// Returns the frames in which the number is at most the other.
     #[inline(always)]
     pub fn within(self, other: Self) -> Which<N> {
         let mut which = Which::NONE;
@@ -123,7 +123,7 @@ impl<const N: usize> Lanes<N> {
         which
     }
 
-    /// Where both are equal.
+    /// Returns the frames in which both are equal.
     #[inline(always)]
     pub fn equals(self, other: Self) -> Which<N> {
         let mut which = Which::NONE;
@@ -153,7 +153,7 @@ impl<const N: usize> Which<N> {
         self.0[frame] != 0
     }
 
-    /// How many.
+    /// Returns the number of frames in the subset.
     #[inline(always)]
     pub fn count(&self) -> u64 {
         let mut count = 0;
@@ -172,7 +172,7 @@ impl<const N: usize> Which<N> {
         bits != 0
     }
 
-    /// The one number in these frames, the other one elsewhere.
+    /// Returns `one` in these frames and `other` elsewhere.
     #[inline(always)]
     pub fn pick(self, one: Lanes<N>, other: Lanes<N>) -> Lanes<N> {
         let mut picked = Lanes::ZERO;
@@ -182,7 +182,7 @@ impl<const N: usize> Which<N> {
         picked
     }
 
-    /// The same of several numbers each.
+    /// Returns [`Self::pick`] for several numbers each.
     #[inline(always)]
     pub fn pick_each<const K: usize>(
         self,
@@ -195,7 +195,7 @@ impl<const N: usize> Which<N> {
         other
     }
 
-    /// Those of `one` in these frames, of `other` elsewhere.
+    /// Returns the members of `one` in these frames and of `other` elsewhere.
     #[inline(always)]
     pub fn either(self, one: Self, other: Self) -> Self {
         (self & one) | (!self & other)
@@ -266,7 +266,7 @@ pub(crate) fn minus<const K: usize, const N: usize>(
     a
 }
 
-/// A vector times a number.
+/// Returns a vector times a number.
 #[inline(always)]
 pub(crate) fn times<const K: usize, const N: usize>(
     mut a: [Lanes<N>; K],
@@ -292,13 +292,13 @@ pub(crate) fn norm<const N: usize>(a: Pair<N>) -> Lanes<N> {
     dot(a, a).sqrt()
 }
 
-/// A quarter turn to the left.
+/// Rotates by a quarter turn counter-clockwise.
 #[inline(always)]
 pub(crate) fn left_of<const N: usize>([x, y]: Pair<N>) -> Pair<N> {
     [-y, x]
 }
 
-/// A turn of each frame, see [`crate::Turn`].
+/// A rotation of each frame, see [`crate::Turn`].
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Turns<const N: usize> {
     sin: Lanes<N>,

@@ -1,13 +1,14 @@
-//! The innermost loop of [`pushplan`](https://crates.io/crates/pushplan): the equations of a frame of one
-//! pushed object that nothing is joined to, in at most two contacts, without lists and with several frames
-//! side by side.
+//! The innermost loop of [`pushplan`](https://crates.io/crates/pushplan): the equations of a frame
+//! of one pushed object without joints, in at most two contacts. Several frames are solved side by
+//! side, without lists.
 //!
-//! Most frames of a search are of one pushed object, and each of its updates is one chain of quotients
-//! and roots that the processor waits for. The chains of other candidates fill that waiting. Nothing in
-//! a frame depends on those next to it, so a result is the same bits with any number of them.
+//! A search mostly has frames of one pushed object. Each of its updates is one chain of quotients
+//! and roots that the processor waits for, and the chains of other candidates fill that time. A
+//! frame does not depend on its neighbours, so a result has the same bits with any number of them.
 //!
-//! The crate holds numbers alone, and nothing that is specific to scenes or files. No function that calls its
-//! vectorised code is generic, so that users of it compile none of that code again.
+//! The crate holds numbers alone, and nothing that is specific to scenes or files. No function that
+//! calls its vectorised code is generic, so that users of the crate compile none of that code
+//! again.
 
 mod drag;
 mod feet;

@@ -1,4 +1,4 @@
-//! Frames of one object as numbers, and the choice of vectors that they are solved in.
+//! Frames of one object as numbers, and the choice of the vectors that solve them.
 
 use std::sync::OnceLock;
 
@@ -11,17 +11,18 @@ use crate::{
     touching::Follows,
 };
 
-/// Frames side by side. With AVX2 a vector holds as many numbers; with eight, more of which wait,
-/// a push takes 5 to 17 % longer.
+/// Number of frames side by side. An AVX2 vector holds as many numbers. With eight frames, which
+/// wait more often, a push takes 5 to 17 % longer.
 const LANES: usize = 4;
 
-/// Frames side by side where vectors hold as many, as with AVX-512: a push takes a sixth less than with four.
+/// Number of frames side by side where vectors hold as many, as with AVX-512: a push takes a sixth
+/// less time than with four.
 const WIDE: usize = 8;
 
 /// Maximum number of frames that are solved together, see [`batch`].
 pub const MANY: usize = WIDE;
 
-/// Fewer frames than this take less time one by one.
+/// Number of frames below which solving one by one takes less time.
 const FEW: usize = 3;
 
 /// A frame of one object in at most [`MOST`] contacts. World axes, SI units.
@@ -31,7 +32,7 @@ pub struct LoneFrame<'a> {
     pub feet: &'a Feet,
     /// Centre as the frame begins.
     pub position: Vector,
-    /// Unit vector along the object's own x axis; of no interest for round ones.
+    /// Unit vector along the object's own x axis; ignored for round objects.
     pub axis: Vector,
     /// Mass, kg.
     pub mass: f64,
@@ -47,13 +48,13 @@ pub struct LoneFrame<'a> {
     pub duration: f64,
     /// Distance that the object is first assumed to move, metres.
     pub reach: f64,
-    /// Shift and turn of the object if it coasts.
+    /// Shift and rotation of the object if it coasts.
     pub coast: Vector3<f64>,
-    /// Velocity and spin as the frame begins.
+    /// Linear and angular velocity as the frame begins.
     pub velocity: Vector3<f64>,
-    /// Radius of a disc.
+    /// Radius, if the object is a disc.
     pub radius: Option<f64>,
-    /// Its contacts; `None` for those that it does not have.
+    /// Contacts of the object; `None` for absent ones.
     pub contacts: [Option<LoneContact>; MOST],
 }
 
@@ -66,9 +67,9 @@ pub struct LoneContact {
     pub arm: Vector,
     /// Displacement of the point on the other body.
     pub given: Vector,
-    /// Turn of the other body, radians.
+    /// Rotation of the other body, radians.
     pub given_turn: f64,
-    /// Distance of the two.
+    /// Distance between the bodies.
     pub gap: f64,
     /// Coefficient of friction.
     pub friction: f64,
@@ -85,16 +86,17 @@ impl LoneFrame<'_> {
     }
 }
 
-/// The vectors of this processor that code is compiled for. Not every number of frames is compiled for each, because
-/// a pair of both takes ten seconds to compile: eight frames only for AVX-512, fewer for AVX2, one for neither.
+/// The vectors of this processor that code is compiled for. Not every number of frames is compiled
+/// for each, because a pair of both takes ten seconds to compile: eight frames only for AVX-512,
+/// fewer for AVX2, one for neither.
 #[derive(Clone, Copy)]
 enum Vectors {
-    /// The ones that every processor of its kind has.
+    /// The baseline of the processor's architecture.
     Any,
     /// AVX2.
     #[cfg(target_arch = "x86_64")]
     Four(V3),
-    /// AVX-512, and AVX2 for fewer frames than these hold.
+    /// AVX-512, with AVX2 for fewer frames than it holds.
     #[cfg(target_arch = "x86_64")]
     Eight(V4, V3),
 }
@@ -116,7 +118,7 @@ impl Vectors {
     }
 }
 
-/// Returns the number of frames that are best solved together where so many wait.
+/// Returns the number of frames to solve together when `waiting` frames wait.
 pub fn batch(waiting: usize) -> usize {
     match (waiting, Vectors::of_processor()) {
         (0..FEW, _) => 1,
@@ -126,10 +128,10 @@ pub fn batch(waiting: usize) -> usize {
     }
 }
 
-/// Solves frames side by side; leaves `None` for those whose forces were not found, and where there is no
-/// frame. Frames beyond the number of `solutions` are not solved.
+/// Solves frames side by side. Leaves `None` where there is no frame and where the forces were not
+/// found. Frames beyond the number of `solutions` are not solved.
 ///
-/// A solution is the same bits whatever frames stand beside it.
+/// The bits of a solution do not depend on the frames beside it.
 pub fn solve(
     frames: &[Option<LoneFrame>],
     solutions: &mut [Option<LoneSolution>],

@@ -1,4 +1,4 @@
-//! What a body does in a frame.
+//! The motion of a body in a frame.
 
 use crate::Vector;
 
@@ -7,7 +7,7 @@ use crate::Vector;
 pub struct Motion {
     /// Displacement of the centre, metres.
     pub shift: Vector,
-    /// Turn, radians.
+    /// Rotation, radians.
     pub turn: f64,
     /// Velocity of the centre at the end, m/s.
     pub velocity: Vector,
@@ -16,7 +16,8 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// Displacement of the body's point `arm` metres from its centre, to first order, metres.
+    /// Returns the displacement of the point `arm` metres from the body's centre, to first order,
+    /// metres.
     #[inline]
     pub fn at(&self, arm: Vector) -> Vector {
         self.shift + self.turn * Vector::new(-arm.y, arm.x)

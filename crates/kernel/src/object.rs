@@ -1,4 +1,4 @@
-//! The resistance of an object that nothing is joined to, several frames side by side.
+//! The resistance of an object without joints, several frames side by side.
 
 use crate::{
     Vector,
@@ -13,26 +13,27 @@ use crate::{
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Object<'a, const N: usize> {
     pub feet: [Option<&'a Feet>; N],
-    /// Where it is, metres, and where its own x axis points.
+    /// Centre, metres, and unit vector along the object's own x axis.
     pub place: Pair<N>,
     pub axis: Pair<N>,
     pub mass: Lanes<N>,
-    /// Largest friction of the table, N, and how far the load leans at most, metres.
+    /// Largest friction of the table, N, and largest distance by which the load leans, metres.
     pub load: Lanes<N>,
     pub lean: Lanes<N>,
-    /// The radius of a disc, and which are discs.
+    /// Radius of a disc, and the frames whose object is a disc.
     pub radius: Lanes<N>,
     pub round: Which<N>,
-    /// Radius of gyration of the support over that of the mass, and its square: see [`crate::Lone`].
+    /// Mean distance c of the support's points from the centre, metres, and (c / rho)^2: see
+    /// [`crate::LoneFrame`].
     pub support: Lanes<N>,
     pub spin: Lanes<N>,
-    /// How it would coast: shift, metres, and turn.
+    /// Shift, metres, and rotation of the object if it coasts.
     pub coast: Triple<N>,
-    /// How it moves as the frame begins, m/s and rad/s.
+    /// Velocity as the frame begins, m/s and rad/s.
     pub velocity: Triple<N>,
-    /// Of the frame, seconds.
+    /// Duration of the frame, seconds.
     pub duration: Lanes<N>,
-    /// How far it is first assumed to move, metres.
+    /// Distance that the object is first assumed to move, metres.
     pub reach: Lanes<N>,
 }
 
@@ -58,29 +59,30 @@ impl<const N: usize> Default for Object<'_, N> {
 }
 
 impl<const N: usize> Object<'_, N> {
-    /// Its mass, kg, and its moment of inertia, kg m^2.
+    /// Returns the mass, kg, and the moment of inertia, kg m^2.
     #[inline(always)]
     fn inertia(&self) -> (Lanes<N>, Lanes<N>) {
         (self.mass, self.mass * self.support * self.support / self.spin)
     }
 }
 
-/// What it does, and how it resists.
+/// Motion and resistance of the object.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Moves<const N: usize> {
-    /// Shift, metres, and turn.
+    /// Shift, metres, and rotation.
     pub twist: Triple<N>,
     /// Force and torque of all contacts.
     pub pressed: Triple<N>,
-    /// What it does without them.
+    /// Motion without contacts.
     pub free: Triple<N>,
     pub inverse: Inverse<N>,
-    /// How it moved as the frame began, kg m/s and kg m^2/s, and m v^2, J.
+    /// Momentum as the frame begins, kg m/s and kg m^2/s, and m v^2, J.
     momentum: Triple<N>,
     square: Lanes<N>,
-    /// How hard contacts press, as a share of the largest friction.
+    /// Force of the contacts as a share of the largest friction.
     pressing: Pair<N>,
-    /// Updates so far, and the motion that weights were last taken for, where they were.
+    /// Number of updates so far, the motion that weights were last computed for, and the frames in
+    /// which this motion is known.
     pub updates: Lanes<N>,
     weighed: Triple<N>,
     known: Which<N>,
@@ -98,7 +100,7 @@ impl<const N: usize> Inverse<N> {
     }
 }
 
-/// The moments of what resists, about the centre: N/m, N, N m.
+/// Moments of the resistance about the centre: N/m, N, N m.
 #[derive(Clone, Copy)]
 struct Rub<const N: usize> {
     sum: Lanes<N>,
@@ -107,8 +109,8 @@ struct Rub<const N: usize> {
 }
 
 impl<const N: usize> Rub<N> {
-    /// Of `object` where it moves by `moved` in the frames that are `wanted`, its own x axis pointing
-    /// along `axis` and its load having moved by `lean`.
+    /// Computes the moments for the motion `moved` of `object` in the frames `wanted`. The own x
+    /// axis points along `axis`, and the load is displaced by `lean`.
     #[inline(always)]
     fn new(
         object: &Object<N>,
@@ -129,19 +131,19 @@ impl<const N: usize> Rub<N> {
             }
         }
         let load = object.load;
-        // Of zeros none is a minus zero.
+        // Adding zero removes minus zeros.
         let first = [load * x + Lanes::ZERO, load * y + Lanes::ZERO];
         Self { sum: load * sum, first, second: load * second }
     }
 
-    /// The inverse of the resistance, in closed form.
+    /// Computes the inverse of the resistance, in closed form.
     #[inline(always)]
     fn inverse(&self) -> Inverse<N> {
         let Self { sum: s, first: [x, y], second: t } = *self;
         let y = -(Lanes::ZERO - y);
         let (p, q) = (-x / s, y / s);
         let one = Lanes::all(1.0);
-        // Turning about the point that turning alone leaves in place.
+        // Rotation about the point that a pure torque leaves in place.
         let turn = one / (t - (x * x + y * y) / s);
         Inverse([
             one / s + q * q * turn,
@@ -155,7 +157,7 @@ impl<const N: usize> Rub<N> {
 }
 
 impl<const N: usize> Moves<N> {
-    /// At rest, before anything presses.
+    /// Returns the state at rest, before any contact force.
     #[inline(always)]
     pub fn begin(object: &Object<N>) -> Self {
         let mut moves = Self::default();
@@ -169,7 +171,7 @@ impl<const N: usize> Moves<N> {
         let (mut sum, mut second) = (Lanes::ZERO, Lanes::ZERO);
         for k in 0..N {
             if let Some(feet) = object.feet[k] {
-                // A lone object has no parts, so its load is about its middle.
+                // A lone object has no parts, so its load is centred.
                 let drag = feet.even_drag(Vector::x(), moved.0[k]);
                 (sum.0[k], second.0[k]) = (drag.sum, drag.second);
             }
@@ -182,14 +184,14 @@ impl<const N: usize> Moves<N> {
         moves
     }
 
-    /// Another quantity is wanted now.
+    /// Invalidates the weights because another quantity is solved next.
     #[inline(always)]
     pub fn turn_to_another(&mut self) {
         self.known = Which::NONE;
     }
 
-    /// Takes resistance and free motion as it moves now, in the frames `of` interest, where it has
-    /// made that `turn`.
+    /// Updates resistance and free motion for the present motion in the frames `of`, where the
+    /// object has rotated by `turn`.
     #[inline(always)]
     pub fn weigh(
         &mut self,
@@ -236,8 +238,8 @@ impl<const N: usize> Moves<N> {
         self.free = near.pick_each(free, self.free);
     }
 
-    /// Takes resistance and free motion from what rubs. If the displacement is wanted and the object
-    /// comes as far as the root of `square`, lengths being weighted by its inertia.
+    /// Computes resistance and free motion from the moments `rub`. For displacements, the object
+    /// moves by the root of `square`, lengths being weighted by its inertia.
     #[inline(always)]
     fn answer(
         &mut self,
@@ -265,7 +267,7 @@ impl<const N: usize> Moves<N> {
         self.free = self.inverse.by(pull);
     }
 
-    /// For how many of the frame's seconds it moves.
+    /// Returns the duration of the motion within the frame, seconds.
     #[inline(always)]
     fn moving(&self, square: Lanes<N>, duration: Lanes<N>) -> Lanes<N> {
         let way = Lanes::all(2.0) * (square / self.square).sqrt();
@@ -274,13 +276,13 @@ impl<const N: usize> Moves<N> {
         rests.pick(way, duration)
     }
 
-    /// Moves as what presses makes it.
+    /// Computes the motion from the contact forces.
     #[inline(always)]
     pub fn settle(&mut self) {
         self.twist = plus(self.free, self.inverse.by(self.pressed));
     }
 
-    /// Takes the state of another in the frames `of` interest.
+    /// Copies the state of `other` in the frames `of`.
     #[inline(always)]
     pub fn take(&mut self, of: Which<N>, other: &Self) {
         self.twist = of.pick_each(other.twist, self.twist);

@@ -1,31 +1,32 @@
-//! What solving frames took, counted.
+//! Counts of the work on equations of frames.
 
 use serde::{Deserialize, Serialize};
 
 /// Counts of the work on many frames' equations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Tally {
-    /// Systems solved: two a piece of a frame, for displacements and for velocities.
+    /// Number of systems solved: two for each piece of a frame, for displacements and for
+    /// velocities.
     pub systems: u64,
-    /// Contacts and limits in them.
+    /// Number of contacts and joint limits in them.
     pub constraints: u64,
-    /// Updates of their weights.
+    /// Number of updates of their weights.
     pub updates: u64,
-    /// Objects whose resistance was taken anew in them.
+    /// Number of times that the resistance of an object was computed.
     pub weighed: u64,
-    /// Sets of contacts that were tried.
+    /// Number of active sets tried.
     pub rounds: u64,
-    /// Linear equations in these.
+    /// Number of linear equations in these sets.
     pub rows: u64,
-    /// Updates in which no set was right, so that the answer was approached by iteration.
+    /// Number of updates without a consistent set, whose solution was approximated by iteration.
     pub approached: u64,
-    /// Floating-point operations of points that drag and of linear equations: the unavoidable work
-    /// of the method.
+    /// Floating-point operations on points of support and linear equations: the unavoidable work of
+    /// the method.
     pub operations: u64,
 }
 
 impl Tally {
-    /// Adds another's numbers.
+    /// Adds the counts of `other`.
     pub fn add(&mut self, other: &Tally) {
         self.systems += other.systems;
         self.constraints += other.constraints;
@@ -37,8 +38,9 @@ impl Tally {
         self.operations += other.operations;
     }
 
-    /// Counts an object with this many points under it: two products and a sum for the speed along
-    /// either axis, their length, a quotient, and five sums of products.
+    /// Counts the resistance of an object with `points` points of support. Each point takes two
+    /// products and a sum for the speed along either axis, their length, a quotient, and five sums
+    /// of products.
     #[inline(always)]
     pub fn weigh(&mut self, points: usize) {
         self.weighed += 1;

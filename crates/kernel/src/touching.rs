@@ -1,5 +1,5 @@
-//! Contacts of an object with bodies whose motion is given, part-way through a frame, for several frames
-//! side by side.
+//! Contacts of an object with bodies whose motion is given, part-way through a frame, for several
+//! frames side by side.
 
 use crate::{
     Vector,
@@ -15,30 +15,30 @@ pub enum Follows {
     First,
     /// A face of the second body.
     Second,
-    /// A face of both: they lie flush, end to end.
+    /// Flush faces of both bodies, end to end.
     Both,
-    /// The line between two points that belong to the bodies: centres of discs, or corners.
-    /// World frame, metres.
+    /// The line between two points of the bodies: centres of discs, or corners. World frame,
+    /// metres.
     Between(Vector, Vector),
-    /// Nothing: two corners, whose line may point anywhere a moment later.
+    /// Nothing: two corners, the line between which may change its direction arbitrarily.
     Nothing,
 }
 
-/// A contact of each frame, where the frame has that many. World axes, metres, as the frame begins.
+/// A contact of each frame that has as many contacts. World axes, metres, as the frame begins.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Touching<const N: usize> {
-    /// Which frames have it.
+    /// Frames that have the contact.
     pub present: Which<N>,
-    /// Unit, into the object.
+    /// Unit vector into the object.
     pub normal: Pair<N>,
     pub gap: Lanes<N>,
     pub friction: Lanes<N>,
-    /// From the object's centre to the point on it.
+    /// Vector from the object's centre to the point on it.
     pub arm: Pair<N>,
-    /// Displacement of the point on the other body, and its turn, radians.
+    /// Displacement of the point on the other body, and rotation of that body, radians.
     pub given: Pair<N>,
     pub given_turn: Lanes<N>,
-    /// The radius of the other body, and which are discs.
+    /// Radius of the other body, and the frames in which it is a disc.
     pub radius: Lanes<N>,
     pub round: Which<N>,
     /// Feature that the normal turns with, see [`Follows`]: a face of the object, of the other,
@@ -50,14 +50,14 @@ pub(crate) struct Touching<const N: usize> {
     pub points: [Pair<N>; 2],
 }
 
-/// How far an object has come part-way through a frame.
+/// Displacement of an object part-way through a frame.
 #[derive(Clone, Copy)]
 pub(crate) struct Look<const N: usize> {
     share: Lanes<N>,
     shift: Pair<N>,
-    /// How far it has turned.
+    /// Rotation so far.
     pub turn: Turns<N>,
-    /// Where its centre is then.
+    /// Centre at that moment.
     centre: Pair<N>,
 }
 
@@ -71,7 +71,7 @@ impl<const N: usize> Look<N> {
         look
     }
 
-    /// Where a point of the object has come to.
+    /// Returns the displaced point of the object.
     #[inline(always)]
     fn moved(&self, object: &Object<N>, point: Pair<N>) -> Pair<N> {
         plus(plus(object.place, self.shift), self.turn.of(minus(point, object.place)))
@@ -82,12 +82,12 @@ impl<const N: usize> Look<N> {
 #[derive(Clone, Copy)]
 pub(crate) struct Met<const N: usize> {
     pub normal: Pair<N>,
-    /// From the object's centre to the point.
+    /// Vector from the object's centre to the point.
     arm: Pair<N>,
 }
 
 impl<const N: usize> Met<N> {
-    /// The displacements along normal and tangent by a twist.
+    /// Returns the displacements along normal and tangent per unit of twist.
     #[inline(always)]
     pub fn rows(&self) -> [Triple<N>; 2] {
         let [ax, ay] = self.arm;
@@ -97,7 +97,7 @@ impl<const N: usize> Met<N> {
 }
 
 impl<const N: usize> Touching<N> {
-    /// Where it has come to.
+    /// Returns the contact at the moment of `look`.
     #[inline(always)]
     pub fn at(&self, object: &Object<N>, look: &Look<N>) -> Met<N> {
         let own = plus(object.place, self.arm);
@@ -128,7 +128,7 @@ impl<const N: usize> Touching<N> {
             normal = usable.pick_each([between[0] / now, between[1] / now], normal);
         }
 
-        // A face is met wherever the other's point has come to. A disc rolls beneath its own.
+        // A contact on a face follows the other body's point. A disc rolls beneath its own point.
         let mut point = object.round.pick_each(object.place, own);
         point = look.moved(object, point);
         let rim = plus(point, times([-normal[0], -normal[1]], object.radius));
@@ -142,8 +142,8 @@ impl<const N: usize> Touching<N> {
         Met { normal, arm: minus(point, look.centre) }
     }
 
-    /// What the object must be displaced by along normal and tangent, so as not to overlap and not to
-    /// slide. Friction acts only after the gap has closed: the sliding before is not held back.
+    /// Returns the displacement of the object along normal and tangent without overlap and without
+    /// sliding. Friction acts only after the gap has closed, so earlier sliding is not held back.
     #[inline(always)]
     pub fn target(&self, object: &Object<N>, moves: &Moves<N>, met: &Met<N>) -> Pair<N> {
         let (normal, tangent) = (met.normal, left_of(met.normal));
@@ -151,7 +151,7 @@ impl<const N: usize> Touching<N> {
         let held = dot(self.given, tangent);
         let coast = shift(object.coast, self.arm);
         let own = shift(moves.twist, met.arm);
-        // How far the two would have come into each other had either only coasted.
+        // Larger of the overlaps after free coasting and after the present motion.
         let closing =
             dot(minus(self.given, coast), normal).max(dot(minus(self.given, own), normal));
         let one = Lanes::all(1.0);
@@ -161,7 +161,7 @@ impl<const N: usize> Touching<N> {
     }
 }
 
-/// Displacement of a point `arm` metres from the centre, to first order, metres.
+/// Returns the displacement of a point `arm` metres from the centre, to first order, metres.
 #[inline(always)]
 fn shift<const N: usize>([x, y, turn]: Triple<N>, arm: Pair<N>) -> Pair<N> {
     plus([x, y], times(left_of(arm), turn))

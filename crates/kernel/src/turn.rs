@@ -1,11 +1,11 @@
-//! A turn in the plane whose sine and cosine are taken once.
+//! A planar rotation with its sine and cosine.
 
 use crate::Vector;
 
 /// Angle below which five terms of a Taylor series are exact, radians.
 const SMALL: f64 = 0.1;
 
-/// A turn, for vectors that are turned by the same angle.
+/// A planar rotation, stored as sine and cosine to rotate many vectors by one angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turn {
     sin: f64,
@@ -19,17 +19,17 @@ impl Default for Turn {
 }
 
 impl Turn {
-    /// Turns nothing.
+    /// The identity.
     pub const NONE: Self = Self { sin: 0.0, cos: 1.0 };
 
-    /// By `angle`, radians, to the left.
+    /// Returns the rotation by `angle`, radians, counter-clockwise.
     #[inline]
     pub fn by(angle: f64) -> Self {
         let [[sin], [cos]] = sines([angle]);
         Self { sin, cos }
     }
 
-    /// This turn on top of another.
+    /// Returns the composition of `first` and this rotation.
     #[inline]
     pub fn after(&self, first: &Self) -> Self {
         Self {
@@ -38,7 +38,7 @@ impl Turn {
         }
     }
 
-    /// The turn that leads from another to this one.
+    /// Returns the rotation from `other` to this one.
     #[inline]
     pub fn from(&self, other: &Self) -> Self {
         Self {
@@ -47,29 +47,30 @@ impl Turn {
         }
     }
 
-    /// Where it turns the axis x to, a unit vector.
+    /// Returns the rotated x axis, a unit vector.
     #[inline]
     pub fn axis(&self) -> Vector {
         Vector::new(self.cos, self.sin)
     }
 
-    /// `v`, turned.
+    /// Returns `v`, rotated.
     #[inline]
     pub fn of(&self, v: Vector) -> Vector {
         Vector::new(self.cos * v.x - self.sin * v.y, self.sin * v.x + self.cos * v.y)
     }
 
-    /// `v`, turned the other way.
+    /// Returns `v`, rotated by the inverse.
     #[inline]
     pub fn back(&self, v: Vector) -> Vector {
         Vector::new(self.cos * v.x + self.sin * v.y, -self.sin * v.x + self.cos * v.y)
     }
 }
 
-/// Sines and cosines of angles, radians: those of one are the same bits whatever the others are.
+/// Computes sines and cosines of angles, radians. The bits of each do not depend on the other
+/// angles.
 #[inline(always)]
 pub fn sines<const N: usize>(angles: [f64; N]) -> [[f64; N]; 2] {
-    // Nearly all turns of a frame are small, and most tools never turn.
+    // Nearly all rotations of a frame are small, and most tools never rotate.
     let [mut sin, mut cos] = [[0.0; N], [1.0; N]];
     let (mut none, mut large) = (true, false);
     for angle in angles {
@@ -87,13 +88,13 @@ pub fn sines<const N: usize>(angles: [f64; N]) -> [[f64; N]; 2] {
         }
     }
     for k in 0..N {
-        // Not minus zero.
+        // Avoids minus zero.
         sin[k] = if angles[k] == 0.0 { 0.0 } else { sin[k] };
     }
     [sin, cos]
 }
 
-/// Sine and cosine of less than [`SMALL`]: Taylor series, exact to rounding.
+/// Computes sine and cosine of an angle below [`SMALL`] by Taylor series, exact to rounding.
 #[inline(always)]
 fn series(angle: f64) -> (f64, f64) {
     let x = angle * angle;

@@ -5,10 +5,10 @@
     python3 crates/lab/benches/arms.py --program target/release/pushplan --out arms [--mujoco]
 
 Every task that is solved without an arm is solved again with a Panda, a UR5 and an xArm7, its flange 12 and
-25 cm above the tool's underside. Of what is called solved Pinocchio says, from the URDF itself and the joint
-trajectory in the plan file, whether the flange is where the pushes have it (1 mm, half a degree), joints keep
-their limits and speeds, and no two links that are apart at home run into each other. With --mujoco the arm also
-carries the plans out there, its joints moved by servos: how many reach their goals. Lengths are in metres.
+25 cm above the tool's underside. Pinocchio checks solved plans from the URDF and the joint trajectory in the
+plan file: the pose of the flange (1 mm, half a degree), the limits and speeds of joints, and collisions between
+links that are apart at home. With --mujoco the arm also executes the plans in MuJoCo, its joints moved by
+servos, and the plans that reach their goals are counted. Lengths are in metres.
 """
 
 import argparse
@@ -34,7 +34,7 @@ OFF, TURNED = 1e-3, math.radians(0.5)
 
 
 def robots():
-    """Where example-robot-data keeps its robots, if it is there."""
+    """Returns the folder of robots of example-robot-data, if installed."""
     for folder in sys.path:
         found = Path(folder) / "cmeel.prefix/share/example-robot-data/robots"
         if found.is_dir():
@@ -43,7 +43,7 @@ def robots():
 
 
 class Judge:
-    """An arm as Pinocchio sees it."""
+    """An arm in Pinocchio."""
 
     def __init__(self, urdf, flange):
         packages = [str(urdf.parents[4])]
@@ -51,7 +51,7 @@ class Judge:
         self.solids = pin.buildGeomFromUrdf(self.model, str(urdf), pin.COLLISION, packages)
         self.solids.addAllCollisionPairs()
         self.flange = self.model.getFrameId(flange)
-        # The chain to the flange moves; a gripper is not ours.
+        # Only the chain to the flange is checked, not a gripper.
         self.chain = set(self.model.supports[self.model.frames[self.flange].parentJoint])
         self.data = self.model.createData()
 
@@ -66,7 +66,7 @@ class Judge:
         return q
 
     def hits(self, q):
-        """Pairs of links of the chain, not neighbours, that are in each other."""
+        """Returns colliding pairs of links of the chain, except neighbours."""
         data = self.solids.createData()
         pin.computeCollisions(self.model, self.data, self.solids, data, q, False)
         found = set()
@@ -79,7 +79,7 @@ class Judge:
         return found
 
     def faults(self, plan, length):
-        """What is wrong with the joint trajectory of a plan."""
+        """Returns the faults of a plan's joint trajectory."""
         path = plan["joints"]
         names, points, model = path["joints"], path["points"], self.model
         found = []
@@ -139,7 +139,7 @@ def heading(step):
 
 
 def between(a, b, s):
-    """Joint positions a share of the way from a point to the next."""
+    """Interpolates joint positions between a point and the next."""
     dt = b["time"] - a["time"]
     p, q = np.array(a["positions"]), np.array(b["positions"])
     v, w = np.array(a["velocities"]), np.array(b["velocities"])
@@ -157,7 +157,7 @@ def solve(program, task, out, arguments):
 
 
 def played(program, plans, out):
-    """What becomes of plans in MuJoCo, where servos move the arm: a line for each."""
+    """Replays plans in MuJoCo, where servos move the arm, and returns a line for each."""
     subprocess.run([program, "export", *plans, "--out", out], capture_output=True, check=True)
     done = subprocess.run([sys.executable, out / "replay.py", out], capture_output=True, text=True)
     return [json.loads(line) for line in done.stdout.splitlines()]

@@ -6,9 +6,9 @@
     python3 crates/lab/benches/bullet.py OUT --out bullet
     pushplan predict bullet
 
-Of every plan with one object the first push is made, shifted aside and from farther behind by random distances, so
-that no model has chosen it; obstacles are left out. Objects stand on the feet that the export for MuJoCo gives
-them, tools move at the speed of the push whatever resists. Lengths are in metres, times in seconds.
+The first push of every plan with one object is executed, shifted aside and back by random distances, so that no
+model has chosen it. Obstacles are left out. Objects stand on the feet of the MuJoCo export, and tools move at the
+speed of the push against any resistance. Lengths are in metres, times in seconds.
 """
 
 import argparse
@@ -23,7 +23,7 @@ import pybullet as bullet
 
 STEP = 1 / 960
 FRAME = 0.1
-# Heavy beside all that is pushed, and its velocity is set anew in every step.
+# Heavy relative to all objects; the velocity of the tool is also set anew in every step.
 TOOL_MASS = 1e4
 
 
@@ -32,7 +32,7 @@ def numbers(text):
 
 
 def body(mass, solids, position, heading, friction, group, mask):
-    """A rigid body of several solids with a group of its own."""
+    """Creates a rigid body of several solids with its own collision group."""
     one = bullet.createMultiBody(
         mass, basePosition=position, baseOrientation=bullet.getQuaternionFromEuler([0, 0, heading]),
         baseCollisionShapeIndex=compound(solids))
@@ -58,7 +58,7 @@ def solid_round(kind, radius, length, at=(0, 0, 0)):
 
 
 class Push:
-    """One object, one tool, one push."""
+    """A push of an object by a tool."""
 
     def __init__(self, plan, scene, rng):
         document, root = json.loads(plan.read_text()), xml.parse(scene).getroot()
@@ -66,7 +66,7 @@ class Push:
         self.tool, self.push = document["tools"][0], document["plan"]["steps"][0]["push"]
         self.table = document["task"]["scene"]["table"].get("friction", 0.5)
         self.body = root.find(f".//body[@name='object/{self.object['name']}']")
-        # Rules of the draw: up to 15 mm aside, up to 20 mm from farther behind.
+        # Range of the draw: up to 15 mm aside, up to 20 mm back.
         ahead = [math.cos(self.push["direction"]), math.sin(self.push["direction"])]
         aside, behind = rng.uniform(-0.015, 0.015), rng.uniform(0.0, 0.02)
         start = self.push["start"]
@@ -74,7 +74,7 @@ class Push:
         self.ahead, self.length = ahead, self.push["length"] + behind
 
     def frame(self, travelled):
-        """The tool's own frame after so much of the way."""
+        """Returns the tool frame at a distance along the push."""
         grip = self.tool.get("grip", {"position": [0, 0], "yaw_deg": 0})
         heading = self.push["grip_yaw"] - math.radians(grip.get("yaw_deg", 0))
         c, s = math.cos(heading), math.sin(heading)
@@ -103,7 +103,7 @@ class Push:
         bullet.setPhysicsEngineParameter(fixedTimeStep=STEP, numSolverIterations=200, enableConeFriction=1, solverResidualThreshold=0)
         friction = self.object["friction"]
         pair = lambda other: 0.5 * (friction + other)
-        # Bullet multiplies the values of two bodies: the object's is one.
+        # Bullet multiplies the friction values of two bodies; the object's value is one.
         plane = bullet.createMultiBody(0, bullet.createCollisionShape(bullet.GEOM_PLANE))
         bullet.changeDynamics(plane, -1, lateralFriction=pair(self.table), restitution=0)
         bullet.setCollisionFilterGroupMask(plane, -1, 1, 2)

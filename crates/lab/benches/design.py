@@ -24,7 +24,7 @@ NO_PLAN, FAILED, PARTIAL = 4, 5, 8
 
 
 class Draw:
-    """One task as it is drawn, mirrored in half of the cases."""
+    """A task while it is drawn, mirrored in half of the cases."""
 
     def __init__(self, seed):
         self.rng = random.Random(seed)
@@ -54,7 +54,7 @@ class Draw:
         self.obstacles.append({"name": name, "size": [round(long, 4), round(wide, 4), height], "position": self.at(x, y)})
 
     def slot(self, x, y, width, height, thick=0.03):
-        """A wall across the table with one way through."""
+        """Adds a wall across the table with one gap."""
         for sign in (-1, 1):
             self.wall(x, y + sign * (width / 2 + 0.7), thick, 1.4, height)
 
@@ -68,14 +68,14 @@ class Draw:
 
 
 def far(d):
-    """Farther away than the longest tool, to be pushed on or pulled back."""
+    """An object beyond the longest tool, to be pushed on or pulled back."""
     x, y = d.u(1.17, 1.32), d.u(0.0, 0.1)
     d.rng.choice([lambda: d.can(x, y, d.u(0.03, 0.05)), lambda: d.box(x, y, d.u(0.06, 0.1))])()
     return d.task(0.5, ("can", x + d.rng.choice([-1, 1]) * d.u(0.08, 0.16), y))
 
 
 def around(d):
-    """Behind the middle of a wide wall, to be pulled to it or to its end."""
+    """An object behind the middle of a wide wall, to be pulled to it or to its end."""
     x, half = d.u(0.72, 0.8), d.u(0.24, 0.3)
     d.wall(x, 0.0, 0.03, 2 * half, 0.2)
     radius = d.u(0.03, 0.04)
@@ -87,7 +87,7 @@ def around(d):
 
 
 def slot(d):
-    """Behind a wall with a slot too narrow for a shipped handle, to be pushed on."""
+    """An object behind a wall with a slot too narrow for a shipped handle, to be pushed on."""
     x, y, width = d.u(0.72, 0.8), d.u(0.0, 0.1), d.u(0.024, 0.037)
     d.slot(x, y, width, 0.15)
     at = x + d.u(0.1, 0.2)
@@ -96,7 +96,7 @@ def slot(d):
 
 
 def pocket(d):
-    """In a pocket with little room around it, to be pulled out."""
+    """An object in a pocket with little room around it, to be pulled out."""
     radius, x, y = d.u(0.028, 0.04), d.u(0.8, 0.9), d.u(-0.1, 0.1)
     beside, behind, deep = d.u(0.022, 0.034), d.u(0.024, 0.037), d.u(0.0, 0.03)
     back = x + radius + behind
@@ -119,7 +119,7 @@ def together(d):
 
 
 def walls(d):
-    """Behind two walls whose ways through are not in line, to be pushed on."""
+    """An object behind two walls whose gaps are not in line, to be pushed on."""
     x, apart, aside = d.u(0.66, 0.72), d.u(0.2, 0.26), d.u(0.1, 0.2)
     d.slot(x, aside, d.u(0.05, 0.08), 0.2)
     d.slot(x + apart, 0.0, d.u(0.05, 0.08), 0.2)
@@ -129,7 +129,7 @@ def walls(d):
 
 
 def gap(d):
-    """Deep in a gap that no hand fits into, to be pushed on or pulled back."""
+    """An object deep in a gap too narrow for the hand, to be pushed on or pulled back."""
     x, width, deep = d.u(0.5, 0.56), d.u(0.09, 0.115), d.u(0.64, 0.72)
     for sign in (-1, 1):
         d.wall(x + 0.5, sign * (width / 2 + 0.02), 1.0, 0.04, 0.25)
@@ -138,7 +138,7 @@ def gap(d):
 
 
 def beside(d):
-    """Next to a long wall, out of the hand's reach, to be pushed away from it."""
+    """An object next to a long wall, beyond the hand's reach, to be pushed away from it."""
     radius, x, y = d.u(0.03, 0.04), d.u(0.75, 0.9), d.u(0.0, 0.1)
     d.wall(x, y + radius + d.u(0.024, 0.03) + 0.015, 0.8, 0.03, 0.2)
     d.can(x, y, radius)
@@ -152,7 +152,7 @@ KINDS = {
 
 
 def unsolved(arguments, kind):
-    """Up to `--count` tasks of a kind that no shipped tool solves."""
+    """Returns up to `--count` tasks of a kind that no shipped tool solves."""
     kept = []
     for k in range(8 * arguments.count):
         if len(kept) == arguments.count:

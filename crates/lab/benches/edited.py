@@ -4,8 +4,8 @@
     crates/lab/benches/mujoco OUT 300 7
     python3 crates/lab/benches/edited.py OUT/plans --out edited --verify target/release/pushplan
 
-Every edit is wrong by construction: `verify` has to say so, or refuse the file. Lengths are in metres. Nothing
-but Python is needed. The exit code is 0 if none passes.
+Every edit is wrong by construction, so `verify` must reject it or refuse the file. Lengths are in metres. Only
+Python is needed. The exit code is 0 if none passes.
 """
 
 import argparse
@@ -22,7 +22,7 @@ def end(push):
 
 
 def longer(plan, task, push):
-    """The same end, from farther behind than refinement may go."""
+    """Keeps the end of a push, and starts farther back than refinement may."""
     at, length = end(push), 1.6 * task["pushes"]["length"]
     push["start"] = [e - length * f(push["direction"]) for e, f in zip(at, (math.cos, math.sin))]
     push["length"] = length
@@ -39,7 +39,7 @@ def in_the_base(plan, task, push):
 
 
 def split(plan, task, push):
-    """As many pushes more as make one too many, each of the last millimetre of the way."""
+    """Adds pushes of the last millimetre until there is one too many."""
     at = plan["steps"][-1]["push"]
     short = dict(at, start=[e - 0.001 * f(at["direction"]) for e, f in zip(end(at), (math.cos, math.sin))], length=0.001)
     plan["steps"] += [{"push": dict(short)} for _ in range(task["pushes"]["max_count"] + 1 - len(plan["steps"]))]
@@ -77,7 +77,7 @@ def main():
     parser.add_argument("--count", type=int, default=20, help="plans that every edit is made of; default 20")
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
-    # `NAME.failed.plan.json` and the like are not solved.
+    # Names like `NAME.failed.plan.json` are unsolved plans.
     plans = [path for path in sorted(arguments.plans.glob("*.plan.json")) if path.name.count(".") == 2]
     plans = plans[:: max(1, len(plans) // arguments.count)][: arguments.count]
     wrong = 0

@@ -5,10 +5,10 @@
     python3 crates/lab/benches/impossible.py --out impossible --solve target/release/pushplan
     python3 crates/lab/benches/impossible.py --out impossible --solve target/release/pushplan --run
 
-Whatever a planner calls solved among them is wrong, or reached in closed loop (`--run`), where masses and frictions
-are drawn and not known. Some are refused before anything is planned, which
-is right as well. Lengths are in metres, masses in kilograms; nothing but Python is needed. The exit code
-is 0 if none is called solved.
+A planner that solves one of them is wrong, also in closed loop (`--run`), where masses and frictions
+are random and unknown. Some are refused before planning, which
+is also correct. Lengths are in metres, masses in kilograms; only Python is needed. The exit code
+is 0 if none is solved.
 """
 
 import argparse
@@ -29,7 +29,7 @@ def turned(x, y, turn):
 
 
 class Draw:
-    """One task as it is drawn; everything is turned about the robot's base by `turn`."""
+    """A task while it is drawn; everything is rotated about the robot's base by `turn`."""
 
     def __init__(self, seed):
         self.rng = random.Random(seed)
@@ -61,13 +61,13 @@ class Draw:
         self.obstacles.append(f"{{name: {name}, size: [{num(a)}, {num(b)}, {num(height)}], {self.place(x, y, yaw)}}}")
 
     def pen(self, x, y, inner_x, inner_y, thick, height=0.12):
-        """Four walls around a rectangle."""
+        """Adds four walls around a rectangle."""
         for sign in (-1, 1):
             self.wall(x + sign * (inner_x + thick) / 2, y, thick, inner_y + 2 * thick, height)
             self.wall(x, y + sign * (inner_y + thick) / 2, inner_x, thick, height)
 
     def gap(self, x, width, thick=0.02, height=0.12):
-        """Two walls that no push leads around."""
+        """Adds two walls that no push leads around."""
         for sign in (-1, 1):
             self.wall(x, sign * (width / 2 + 0.6), thick, 1.2, height)
 
@@ -179,7 +179,7 @@ def penned_partner(d):
     d.can(0.5, 0.0, 0.03)
     d.can(0.61, 0.0, 0.03, name="partner")
     d.joints.append("{between: [can, partner], kind: fixed}")
-    # A fork of walls about the partner, closed but for the way in of what joins both: nothing is there.
+    # A fork of walls around the partner, open only where the joint passes, which has no body.
     for sign in (-1, 1):
         d.wall(0.61, sign * 0.045, 0.08, 0.02)
         d.wall(0.56, sign * 0.035, 0.015, 0.04)
@@ -189,7 +189,7 @@ def penned_partner(d):
 
 def joint_limits(d):
     penned_partner(d)
-    # One that cannot turn in its pen as far as the goal asks.
+    # A partner that cannot rotate in its pen as far as the goal requires.
     d.objects.pop()
     d.box(0.61, 0.0, 0.06, 0.06, name="partner")
     d.joints[:] = [f"{{between: [partner, can], kind: revolute, at: [0.61, 0], limits_deg: [-{num(d.u(3, 8))}, {num(d.u(3, 8))}]}}"]
@@ -248,7 +248,7 @@ def goal_off_the_table(d):
 
 
 def over_the_edge(d):
-    # A wall right through the table, but for less than half of the can at its ends.
+    # A wall across the whole table; the gaps at its ends are narrower than half the can.
     r = d.u(0.03, 0.045)
     d.table += ", size: [0.7, 0.5], position: [0.6, 0]"
     d.can(0.48, d.u(-0.08, 0.08), r)
@@ -300,7 +300,7 @@ def ring_of_pegs(d):
 
 
 def long_box_locked_in(d):
-    # A corner that is too tight: of two lanes w and w a box longer than 2.83 w does not get around it.
+    # A corner that is too tight: a box longer than 2.83 w does not pass between two lanes of width w.
     w = d.u(0.065, 0.08)
     a, b = w * d.u(2.9, 3.3), 0.8 * w
     d.box(0.5, 0.0, a, b)

@@ -8,8 +8,8 @@
 
 Every object comes to rest on a table in MuJoCo, becomes a task by `pushplan.scene_from` (12 cm to go, in all
 directions, tolerance 2 cm), and is solved with all shipped tools. In the exported scene the footprint's
-solid and the points that it stands on give way to the file's own solids that touch, meshes with all their
-vertices, with the mass, centre and inertia that MuJoCo gives them; `replay.py` plays it and says whether it
+solid and its feet are replaced by the colliding solids of the file, meshes with all their
+vertices, with mass, centre and inertia from MuJoCo. `replay.py` replays it and reports whether it
 reaches the goal. A line of JSON for each object goes to OUT/results.jsonl. Lengths are in metres.
 """
 
@@ -50,16 +50,16 @@ FILES = {
 }
 PLACE, WAY, TOLERANCE = np.array([0.5, 0.05]), 0.12, 0.02
 TABLE = 0.5  # friction
-SETTLED, RESTS = 20.0, 5e-3  # seconds, and m/s or rad/s then
+SETTLED, RESTS = 20.0, 5e-3  # seconds, and speed afterwards, m/s or rad/s
 SOLIDS = {mujoco.mjtGeom.mjGEOM_BOX: "box", mujoco.mjtGeom.mjGEOM_CYLINDER: "cylinder", mujoco.mjtGeom.mjGEOM_MESH: "mesh"}
 
 
 class Left(Exception):
-    """Why an object does not get as far as a replay."""
+    """Reason why an object has no replay."""
 
 
 def rested(path):
-    """The object of a file by itself on a table, at rest: the model and its data."""
+    """Returns model and data of a file's object alone on a table, at rest."""
     scene = mujoco.MjSpec()
     scene.worldbody.add_geom(name="table", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], friction=[TABLE, 0.005, 1e-4])
     mass = None
@@ -87,8 +87,8 @@ def rested(path):
 
 
 def link(path, scene):
-    """Takes the only link of a URDF file into a scene; gives its mass. Inertias of these files
-    are those of no solid: here they follow from the meshes."""
+    """Adds the only link of a URDF file to a scene, and returns its mass. The inertias of these files
+    fit no solid, so they are computed from the meshes."""
     root = ElementTree.parse(path).getroot()
     (one,) = root.findall("link")
     body = scene.worldbody.add_body(name="thing")
@@ -110,19 +110,19 @@ def link(path, scene):
             )
             geom.type, geom.meshname = mujoco.mjtGeom.mjGEOM_MESH, f"mesh {k}"
         if friction is not None:
-            # Bullet multiplies the two values, and MuJoCo takes the larger one.
+            # Bullet multiplies the two friction values, MuJoCo uses the larger one.
             geom.friction[0] = TABLE * float(friction.get("value"))
     return float(one.find("inertial/mass").get("value"))
 
 
 def solids(model):
-    """Geoms of the object that touch."""
+    """Returns the colliding geoms of the object."""
     touches = model.geom_contype | model.geom_conaffinity
     return [geom for geom in range(model.ngeom) if model.geom_bodyid[geom] and touches[geom]]
 
 
 def corners(model, data, geom):
-    """Points in the world around which a geom is the hull, or that it lies within."""
+    """Returns points in the world whose hull is the geom or contains it."""
     mesh = model.geom_dataid[geom]
     if mesh >= 0:
         first, count = model.mesh_vertadr[mesh], model.mesh_vertnum[mesh]
@@ -134,7 +134,7 @@ def corners(model, data, geom):
 
 
 def task_of(name, model, data):
-    """The object's task, and by how much everything was shifted in it."""
+    """Returns the object's task, and the shift of all poses in it."""
     shift = PLACE - data.body("thing").xipos[:2]
     with warnings.catch_warnings(record=True) as notes:
         warnings.simplefilter("always")
@@ -142,7 +142,7 @@ def task_of(name, model, data):
     keys = task.to_dict()
     turn = zlib.crc32(name.encode()) / 2**32 * math.tau
     start = np.array(keys["scene"]["objects"][0]["position"])
-    # Nearer to the robot than this nothing is pushed, nor farther away.
+    # Range of goals from the robot, within which pushes are possible.
     turns = [turn + k * math.tau / 16 for k in range(16)]
     goals = [start + WAY * np.array([math.cos(turn), math.sin(turn)]) for turn in turns]
     goal = next(goal for goal in goals if 0.4 < np.hypot(*goal) < 0.62)
@@ -152,7 +152,7 @@ def task_of(name, model, data):
 
 
 def own_solids(text, name, model, data, shift):
-    """The exported scene with the file's own solids as the object's."""
+    """Returns the exported scene with the file's own solids in the object."""
     root = ElementTree.fromstring(text)
     body = next(one for one in root.iter("body") if one.get("name") == f"object/{name}")
     ours = {geom.get("name") for geom in body.iter("geom")}
@@ -167,7 +167,7 @@ def own_solids(text, name, model, data, shift):
     mujoco.mju_quat2Mat(matrix, turn)
 
     def seen(at, turned):
-        """A pose of the file in the frame of the body, as attributes."""
+        """Returns a pose of the file in the frame of the body, as attributes."""
         quat, own = np.zeros(4), np.zeros(4)
         mujoco.mju_mat2Quat(quat, turned)
         mujoco.mju_mulQuat(own, back, quat)
@@ -206,7 +206,7 @@ def own_solids(text, name, model, data, shift):
             continue
         contact.remove(pair)
         (other,) = set(ends) - ours or {None}
-        # Between its parts nothing touches; with all else each touches alike.
+        # Its parts do not collide with each other; all of them collide with other bodies alike.
         if other is None or other in told:
             continue
         told.add(other)
@@ -220,7 +220,7 @@ def own_solids(text, name, model, data, shift):
 
 
 def measure(name, path, out):
-    """What becomes of one object."""
+    """Tests an object."""
     model, data = rested(path)
     task, shift, notes = task_of(name, model, data)
     row = {"support": task.to_dict()["scene"]["objects"][0].get("support"), "mass": float(model.body("thing").mass[0]), "solids": len(solids(model)), "notes": notes}
@@ -238,7 +238,7 @@ def measure(name, path, out):
 
 
 def replayed(folder, replay):
-    """What the replays of a folder's scenes say, by their names."""
+    """Returns the results of replays of a folder's scenes, by name."""
     done = subprocess.run([sys.executable, replay, folder], capture_output=True, text=True)
     if done.returncode not in (0, 1):
         sys.exit(done.stderr)

@@ -5,8 +5,8 @@
     crates/lab/benches/python.py rollout     # asked: at least 20 times less processor time than MuJoCo
 
 Needs the package built here (`pip install .`), for `rollout` MuJoCo's (`pip install mujoco`), and the
-command in target/release, or where PUSHPLAN says. All times are of one thread; runs alternate, and the
-median is shown, so that a neighbour on a shared machine disturbs both alike. Prints Markdown.
+command in target/release or in PUSHPLAN. All times are of one thread. Runs alternate, and the
+median is shown, so that other load on a shared machine affects both alike. Prints Markdown.
 """
 
 import argparse
@@ -24,10 +24,10 @@ import pushplan
 
 ROOT = Path(__file__).resolve().parents[3]
 COMMAND = os.environ.get("PUSHPLAN", str(ROOT / "target/release/pushplan"))
-# Of one push and of two, with and without obstacles, alone and in a crowd.
+# Tasks of one push and of two, with and without obstacles, alone and in a crowd.
 TASKS = ["pull-back", "pull-back-behind-wall", "pull-back-twice", "diagonal", "hinged-train", "crowd"]
 
-#: What the command does for a user, from Python: the plan and the page as files.
+#: The work of the command, from Python: the plan and the report as files.
 SCRIPT = """
 import sys, pushplan
 solution = pushplan.solve(pushplan.Task.load(sys.argv[1]), threads=1)
@@ -35,18 +35,18 @@ solution.best.save(sys.argv[2] + "/plan.json")
 open(sys.argv[2] + "/page.html", "w").write(solution.page())
 """
 
-#: MuJoCo as most scenes have it, and as our export needs it for Coulomb's friction.
+#: Settings of MuJoCo: as in most scenes, and as the export needs for Coulomb friction.
 USUAL, EXACT = "MuJoCo, usual contacts, 2 ms", "MuJoCo, as exported, 0.25 ms"
 
 
 def children():
-    """Processor time of all processes that were waited for, seconds."""
+    """Returns the processor time of all finished child processes, seconds."""
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage.ru_utime + usage.ru_stime
 
 
 def processor(words):
-    """Processor time of a process, seconds."""
+    """Runs a process and returns its processor time, seconds."""
     began = children()
     subprocess.run(words, capture_output=True, check=True)
     return children() - began
@@ -79,7 +79,7 @@ def solve(rounds):
 
 
 def candidates(plan, count):
-    """Pushes around that of a plan, all of which meet the object."""
+    """Returns pushes around the push of a plan, all of which touch the object."""
     rng = np.random.default_rng(7)
     [push] = plan.pushes
     pushes = np.tile([*push.start, push.direction, push.length, push.speed], (count, 1))
@@ -108,7 +108,7 @@ def rollout(rounds, count):
                 ends[way] = roll()
                 times[way].append(time.process_time() - began)
         each = {way: statistics.median(found) / count for way, found in times.items()}
-        # So dear that a tenth must do.
+        # A tenth of the pushes, because these rollouts are expensive.
         few = max(1, count // 10)
         began = time.process_time()
         exact = theirs(plan, pushes[:few], 2.5e-4)[:, :2]
@@ -129,7 +129,7 @@ def rollout(rounds, count):
 
 
 def ours(plan, pushes, model):
-    """Where the goal's object ends."""
+    """Returns the final positions of the goal's object."""
     rolled = pushplan.rollout(
         plan.task, plan.tool, pushes, grip_yaw=plan.grip_yaw, model=model, threads=1
     )
@@ -137,12 +137,11 @@ def ours(plan, pushes, model):
 
 
 def theirs(plan, pushes, step, usual=False):
-    """The same and the heading by `mujoco.rollout`, in the scene that `pushplan export` writes: with its contacts, or
-    with MuJoCo's usual ones, which are softer, let things creep, and allow larger steps.
+    """Returns final positions and headings by `mujoco.rollout`, in the scene that `pushplan export` writes: with its
+    contacts, or with MuJoCo's usual ones, which are softer, let objects creep, and allow larger steps.
 
-    The tool is a heavy body on sliding joints that nothing stops, and made weightless: with the speed of
-    the push as its starting velocity it makes the push. Then it stands still until the object rests, which at
-    most takes v / (mu g) and is given twice that time.
+    The tool is a heavy, weightless body on free sliding joints. Its initial velocity is the speed of the push.
+    Afterwards it stands still until the object rests, for twice the maximum time v / (mu g).
     """
     import mujoco
     from mujoco import rollout
@@ -165,13 +164,13 @@ def theirs(plan, pushes, step, usual=False):
     joints = [model.joint("tool x"), model.joint("tool y")]
     places = [1 + joint.qposadr[0] for joint in joints]
     speeds = [1 + model.nq + joint.dofadr[0] for joint in joints]
-    # Where the tool frame is against the end effector; the same for all, as the grip is.
+    # Position of the tool frame relative to the end effector; constant, like the grip.
     shift = model.numeric("push 1").data[:2] - np.array(plan.pushes[0].start)
     joint = model.body(f"object/{plan.task.goal_object}").jntadr[0]
     goal = 1 + model.jnt_qposadr[joint]
     ends = np.empty((len(pushes), 3))
     coast = round(2.0 * pushes[:, 4].max() / (0.4 * 9.81) / step) + 1
-    # Of like lengths together, so that few steps are made for nothing; as many as memory holds.
+    # Batches of similar lengths, so that few steps are wasted, as large as memory allows.
     for some in np.array_split(np.argsort(pushes[:, 3]), max(1, len(pushes) // 25)):
         x, y, direction, length, speed = pushes[some].T
         states = np.tile(start, (len(some), 1))

@@ -26,7 +26,7 @@ STEP, EXACT = 4e-3, 2.5e-4
 
 
 class Draw:
-    """Random pushes that can be made."""
+    """Sampler of feasible pushes."""
 
     def __init__(self, task, seed):
         self.task, self.rng = task, np.random.default_rng(seed)
@@ -48,7 +48,7 @@ class Draw:
         return [tool, yaw, direction + self.rng.normal(0, 0.05), offset + self.rng.normal(0, 0.01), length]
 
     def plans(self, draw, count):
-        """Such drawn pushes as can be made, with what was drawn."""
+        """Draws feasible pushes, and returns them with their parameters."""
         made = []
         while len(made) < count:
             words = draw()
@@ -62,7 +62,7 @@ class Draw:
 
 
 def rolled(made, **settings):
-    """Where each ends: in tolerances, metres and radians off the goal, and the seconds that the rollouts take."""
+    """Returns the final errors in tolerances, metres and radians, and the seconds of the rollouts."""
     off, seconds = np.empty((len(made), 3)), 0.0
     grips = {}
     for k, (words, _) in enumerate(made):

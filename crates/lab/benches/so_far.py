@@ -3,7 +3,7 @@
 
     crates/lab/benches/so_far.py            # the shipped tasks; PUSHPLAN names another binary
 
-Wall-clock seconds from the start of the process, so on an idle machine. Nothing but Python is needed.
+Times are wall-clock seconds from the start of the process, so the machine must be idle. Only Python is needed.
 """
 
 import os
@@ -19,7 +19,7 @@ COMMAND = os.environ.get("PUSHPLAN", str(ROOT / "target/release/pushplan"))
 
 
 def waited(task):
-    """Seconds until the first plan, and until the end."""
+    """Returns the seconds until the first plan, and until the end."""
     ours, theirs = pty.openpty()
     with tempfile.TemporaryDirectory() as out:
         began, first, seen = time.monotonic(), None, b""

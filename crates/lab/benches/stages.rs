@@ -1,5 +1,5 @@
-//! Times of every stage, one thread each: `cargo bench -p pushplan-lab --bench stages`. What the numbers mean is
-//! in `crates/lab/benches/README.md`.
+//! Times of every stage, one thread each: `cargo bench -p pushplan-lab --bench stages`. The numbers
+//! are explained in `crates/lab/benches/README.md`.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -23,20 +23,20 @@ use pushplan::{
 };
 use pushplan_lab::bench::{Case, Suite, SuiteKind, crowd_cases, random_task};
 
-/// Candidates that a search predicts together.
+/// Number of candidates that a search predicts together.
 const BATCH: usize = 64;
 
-/// Seed of scenes and pushes: that of the published numbers.
+/// Seed of scenes and pushes, as in the published numbers.
 const SEED: u64 = 7;
 
-/// A frame in which something is near the tool: bodies, state, step and axis.
+/// A frame with an object near the tool: bodies, state, step and axis.
 type Near = (Bodies, State, FrameStep, pushplan::geometry::Vector);
 
 fn library() -> ToolLibrary {
     ToolLibrary::embedded().expect("the shipped tools are sound")
 }
 
-/// One object or three that touch and a shipped tool, or ten objects and the hand.
+/// Returns one object or three that touch and a shipped tool, or ten objects and the hand.
 fn cases() -> [(&'static str, Vec<Case>); 3] {
     let single = Suite::draw(SuiteKind::Single, &library(), SEED, 11).cases;
     let mut touching = Suite::draw(SuiteKind::Touching, &library(), SEED, 22).cases;
@@ -44,7 +44,7 @@ fn cases() -> [(&'static str, Vec<Case>); 3] {
     [("one object", single), ("three objects", touching), ("ten objects", crowd_cases(10, SEED, 6))]
 }
 
-/// Frames of the cases that have a graph, as the planar engine passes through them.
+/// Returns the frames of the cases that have a graph, from trajectories of the 2-D engine.
 fn frames(cases: &[Case]) -> Vec<Near> {
     let mut solver = FrameSolver::default();
     let mut near = Vec::new();
@@ -74,8 +74,8 @@ fn fill(solver: &mut FrameSolver, batch: &mut Batch, frames: &[Near]) {
     }
 }
 
-/// What everything does in a frame, without forces and features: one after another, and those of one
-/// object side by side as in a search.
+/// Motions of all bodies in a frame, without forces and features: one after another, and with a
+/// single object side by side as in a search.
 fn frame(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("64 frames");
     group.throughput(Throughput::Elements(BATCH as u64));
@@ -106,7 +106,7 @@ fn frame(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Contacts, prior and features; then the network on the same batch.
+/// Contacts, analytic model and features; then the network on the batch.
 fn graph_and_network(criterion: &mut Criterion) {
     let forward = Forward::new(&EffectModels::weights().expect("the shipped weights are sound"));
     let mut group = criterion.benchmark_group("graph of 64 candidate-steps");
@@ -132,7 +132,7 @@ fn graph_and_network(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Whole pushes: a batch of the network and of its prior, one at a time in the engines.
+/// Whole pushes: a batch of the network and of its analytic model, one at a time in the engines.
 fn rollouts(criterion: &mut Criterion) {
     let weights = EffectModels::weights().expect("the shipped weights are sound");
     let models: [(Box<dyn EffectModel>, usize); 4] = [
@@ -199,7 +199,7 @@ fn planning(criterion: &mut Criterion) {
     });
 }
 
-/// A programme of the size that one push makes, by a kept solver.
+/// A quadratic programme of the size for a push, by a reused solver.
 fn programme(criterion: &mut Criterion) {
     let n = 3;
     let unit = |i: usize, sign: f64| (0..n).map(|j| if i == j { sign } else { 0.0 }).collect();
@@ -216,10 +216,10 @@ fn programme(criterion: &mut Criterion) {
     });
 }
 
-/// One thread, so that numbers of different machines and days can be compared; seconds a
-/// stage, so that all are done within a minute.
+/// Uses one thread, so that numbers of different machines and days are comparable, and seconds per
+/// stage, so that all finish within a minute.
 fn settings() -> Criterion {
-    // Were the pool there already, its threads would only make the numbers worse.
+    // If the pool existed already, its threads would only make the numbers worse.
     let _ = rayon::ThreadPoolBuilder::new().num_threads(1).build_global();
     Criterion::default()
         .sample_size(10)

@@ -1,9 +1,9 @@
-//! Damage that knows nothing of what it damages: bits, bytes and stretches of bytes.
+//! Mutations without knowledge of the format: bits, bytes and ranges of bytes.
 
 use crate::random::Random;
 use crate::snippets::SNIPPETS;
 
-/// `input` with one to four pieces of damage.
+/// Returns `input` with one to four mutations.
 pub fn damaged(input: &[u8], other: &[u8], random: &mut Random) -> Vec<u8> {
     let mut bytes = input.to_vec();
     for _ in 0..=random.below(4) {

@@ -1,4 +1,4 @@
-//! Where mutations start: shipped files, files made from them, and `crates/lab/fuzz/corpus`.
+//! Seeds of mutations: shipped files, files derived from them, and `crates/lab/fuzz/corpus`.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -20,13 +20,13 @@ use crate::random::Random;
 use crate::targets::Target;
 use crate::tree::Tree;
 
-/// The files that a target starts from, by name.
+/// Seed files of a target, by name.
 pub struct Corpus {
     pub files: Vec<(String, Vec<u8>)>,
 }
 
 impl Corpus {
-    /// All files of a target.
+    /// Returns all files of a target.
     pub fn of(target: Target) -> Self {
         let mut files = match target {
             Target::Tool => folder("tools"),
@@ -36,7 +36,7 @@ impl Corpus {
             Target::Blade => folder("tools"),
             Target::LeverTask => folder("tasks/levers"),
             Target::LeverPlan => levers::plans(),
-            // Written in `corpus`.
+            // Stored in `corpus`.
             Target::Recording => Vec::new(),
             Target::Weights => vec![("small".into(), weights())],
             Target::Foreign => folder("tests/cmd/import.in"),
@@ -45,7 +45,7 @@ impl Corpus {
         Self { files }
     }
 
-    /// A mutation of a random file.
+    /// Returns a mutation of a random file.
     pub fn mutated(&self, target: Target, random: &mut Random) -> Vec<u8> {
         let (_, bytes) = random.pick(&self.files);
         let (_, other) = random.pick(&self.files);
@@ -63,7 +63,7 @@ impl Corpus {
             return spoiled(bytes, random);
         }
         let text = String::from_utf8_lossy(bytes);
-        // JSON is YAML, but for very long files the YAML parser takes its time.
+        // JSON is YAML, but the YAML parser is slow on very long files.
         let parsed = match serde_json::from_str::<Json>(&text) {
             Ok(value) => Some(value),
             Err(_) => serde_yaml::from_str::<Json>(&text).ok(),
@@ -79,8 +79,7 @@ impl Corpus {
     }
 }
 
-/// A weights file with its header taken apart, spoiled and put together again, now and then
-/// with numbers that are none among its values.
+/// Returns a weights file with a mutated header, sometimes with values that are not finite.
 fn header(bytes: &[u8], random: &mut Random) -> Vec<u8> {
     let Some((length, rest)) = bytes.split_first_chunk::<8>() else { return bytes.to_vec() };
     let length = usize::try_from(u64::from_le_bytes(*length)).unwrap_or(usize::MAX).min(rest.len());
@@ -108,13 +107,13 @@ fn header(bytes: &[u8], random: &mut Random) -> Vec<u8> {
     [&(header.len() as u64).to_le_bytes()[..], &header, &values].concat()
 }
 
-/// Every file of a folder of the repository, in order; none if there is no such folder.
+/// Returns every file of a folder of the repository, in order; none if there is no such folder.
 fn folder(name: &str) -> Vec<(String, Vec<u8>)> {
     let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
     let Ok(entries) = std::fs::read_dir(root.join(name)) else { return Vec::new() };
     let mut paths: Vec<PathBuf> =
         entries.filter_map(|entry| entry.ok().map(|entry| entry.path())).collect();
-    // Pictures and sources lie next to some of them.
+    // Pictures and sources are next to some of them.
     let is_data = |path: &PathBuf| {
         path.extension().is_some_and(|end| {
             ["yaml", "json", "safetensors", "xml", "urdf"].iter().any(|e| end == *e)
@@ -129,7 +128,7 @@ fn folder(name: &str) -> Vec<(String, Vec<u8>)> {
     paths.into_iter().filter_map(read).collect()
 }
 
-/// What `make` makes of some shipped tasks.
+/// Returns the files that `make` derives from some shipped tasks.
 fn made(make: fn(&Sample) -> String) -> Vec<(String, Vec<u8>)> {
     ["pull-back", "keep-heading", "hinged-train", "around-corner"]
         .into_iter()
@@ -137,7 +136,7 @@ fn made(make: fn(&Sample) -> String) -> Vec<(String, Vec<u8>)> {
         .collect()
 }
 
-/// A shipped task with a plan of two pushes, which need not lead anywhere.
+/// A shipped task with a plan of two pushes, which need not reach the goal.
 struct Sample {
     plan: PlanFile,
     trajectory: pushplan::outcome::Trajectory,
@@ -169,14 +168,14 @@ fn plan(sample: &Sample) -> String {
 
 fn trajectory(sample: &Sample) -> String {
     let mut trajectory = sample.trajectory.clone();
-    // A few frames say as much as all of them, and are read faster.
+    // A few frames are sufficient and faster to read.
     trajectory.frames.truncate(6);
     trajectory.contacts.retain(|contact| contact.frame < 6);
     let PlanFile { task, tools, plan, .. } = sample.plan.clone();
     serde_json::to_string(&TrajectoryFile { task, tools, plan, trajectory }).unwrap_or_default()
 }
 
-/// The shipped card with a network of four units.
+/// Returns the shipped card with a network of four units.
 fn weights() -> Vec<u8> {
     let shipped = EffectModels::weights().expect("the shipped weights are sound");
     let config = Config { width: 4, steps: 1 };

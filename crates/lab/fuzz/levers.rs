@@ -1,5 +1,5 @@
-//! What accepted files of levering must survive: a search with little physics, a replay, and being
-//! written and read again.
+//! Uses that accepted lever files must survive: a search with little physics, a replay, and a round
+//! trip through a file.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use pushplan::{
     task::{LeverUp, Place, Plan, Push, PushForm, Task},
 };
 
-/// Longer lever-ups and larger scenes show nothing new.
+/// Limits of lever-ups and scenes, beyond which nothing new is found.
 const LONGEST: f64 = 6.0;
 const CROWD: usize = 20;
 
@@ -46,7 +46,7 @@ pub fn task(task: Task) {
     }
     let settings = Settings { levers, ..Settings::FIRST_LOOK };
     let planner = Planner::builder(Simulated::new(Simulator::planar())).settings(settings).build();
-    // Pushes have a target of their own, and tools that push lever nothing.
+    // Pushes have their own target, and pushing tools cannot lever.
     let blades = tools.iter().map(|tool| tool.name.clone());
     let alone = task.clone().pushing(pushplan::PushRules::none()).choosing(blades);
     match planner.solve(&alone, &library) {
@@ -72,7 +72,7 @@ pub fn plan(file: PlanFile) {
     }
 }
 
-/// Plans of shipped tasks, which need not lead anywhere.
+/// Returns plans of shipped tasks, which need not reach the goal.
 pub fn plans() -> Vec<(String, Vec<u8>)> {
     let root =
         std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("tasks/levers");

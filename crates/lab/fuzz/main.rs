@@ -1,7 +1,7 @@
-//! Fuzzes the readers of user files, and what a file that was read must survive.
+//! Fuzzer of the readers of user files, and of the uses of accepted files.
 //!
-//! Every case is a function of the target, the seed and its number, so it can be run again; no
-//! toolchain but stable Rust is needed. See `crates/lab/fuzz/README.md`.
+//! Every case is a function of the target, the seed and its number, so it can be repeated. Stable
+//! Rust is the only toolchain needed. See `crates/lab/fuzz/README.md`.
 
 mod bytes;
 mod corpus;
@@ -26,7 +26,7 @@ use corpus::Corpus;
 use random::Random;
 use targets::Target;
 
-/// A case that takes longer than this is a failure: something is done without a bound.
+/// Maximum duration of a case; a longer one is a failure because its work is unbounded.
 const LONGEST: Duration = Duration::from_secs(60);
 
 /// Mutate user files and see that nothing panics, hangs, or is refused without a reason
@@ -82,7 +82,7 @@ struct Tried {
 }
 
 impl Tried {
-    /// Runs a case; after a panic the message is that of the last panic of any thread.
+    /// Runs a case; after a panic the message is the last one of any thread.
     fn of(target: Target, case: &Case) -> Self {
         let since = Instant::now();
         let outcome = panic::catch_unwind(AssertUnwindSafe(|| target.run(&case.input)))
@@ -90,7 +90,7 @@ impl Tried {
         Self { took: since.elapsed(), outcome }
     }
 
-    /// The reason why it fails, if it does.
+    /// Returns the reason of a failure, if any.
     fn failure(&self) -> Option<String> {
         match &self.outcome {
             Err(why) => Some(why.clone()),
@@ -100,8 +100,9 @@ impl Tried {
     }
 }
 
-/// Runs the corpus of a target and then mutations of it, on all processors; the number of failures. A case
-/// that fails beside others is run once more alone, so that its message and its time are its own.
+/// Runs the corpus of a target and then mutations of it, on all processors, and returns the number
+/// of failures. A case that fails beside others is run again alone, so that its message and its
+/// time are its own.
 fn fuzz(target: Target, arguments: &Arguments) -> u64 {
     let corpus = Corpus::of(target);
     let began = Instant::now();
@@ -130,7 +131,7 @@ fn fuzz(target: Target, arguments: &Arguments) -> u64 {
             tried.lock().expect("no panic while it is held")[index] = Some(found);
         }
     };
-    // One by one where the process may end in a case, because only one is written.
+    // One at a time if the process may end in a case, because only one case is written.
     let threads = if arguments.current.is_some() { 1 } else { rayon::current_num_threads() };
     std::thread::scope(|scope| (0..threads).for_each(|_| drop(scope.spawn(work))));
     let tried = tried.into_inner().expect("no panic while it was held");
@@ -167,10 +168,10 @@ fn fuzz(target: Target, arguments: &Arguments) -> u64 {
     failures
 }
 
-/// The message of the last panic of any thread.
+/// Message of the last panic of any thread.
 static LAST_PANIC: Mutex<String> = Mutex::new(String::new());
 
-/// Keeps messages of panics instead of printing them.
+/// Stores messages of panics instead of printing them.
 fn keep_panics() {
     panic::set_hook(Box::new(|info| {
         if let Ok(mut last) = LAST_PANIC.lock() {
@@ -179,7 +180,7 @@ fn keep_panics() {
     }));
 }
 
-/// Keeps a failing file, and says where.
+/// Stores a failing file, and returns its place.
 fn save(target: Target, name: &str, input: &[u8], arguments: &Arguments) -> String {
     let name: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
     let file = format!("{}-{}-{name}{}", target.name(), arguments.seed, target.ending());

@@ -1,8 +1,8 @@
-//! Damage that knows XML: attributes with other values, elements twice or not at all.
+//! Mutations of XML: attributes with other values, duplicated and missing elements.
 
 use crate::random::Random;
 
-/// Values that attributes get.
+/// Values of mutated attributes.
 const VALUES: [&str; 16] = [
     "",
     "0",
@@ -22,7 +22,7 @@ const VALUES: [&str; 16] = [
     "\u{e9} b",
 ];
 
-/// `input` with one to four attributes or elements changed.
+/// Returns `input` with one to four attributes or elements changed.
 pub fn spoiled(input: &[u8], random: &mut Random) -> Vec<u8> {
     let mut text = String::from_utf8_lossy(input).into_owned();
     for _ in 0..=random.below(4) {
@@ -38,14 +38,14 @@ pub fn spoiled(input: &[u8], random: &mut Random) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// Where the value of a random attribute stands.
+/// Returns the range of the value of a random attribute.
 fn value(text: &str, random: &mut Random) -> Option<(usize, usize)> {
     let starts: Vec<usize> = text.match_indices("=\"").map(|(at, _)| at + 2).collect();
     let from = *starts.get(random.below(starts.len().max(1)))?;
     Some((from, from + text[from..].find('"')?))
 }
 
-/// Where a random element without others in it stands.
+/// Returns the range of a random element without children.
 fn element(text: &str, random: &mut Random) -> Option<(usize, usize)> {
     let ends: Vec<usize> = text.match_indices("/>").map(|(at, _)| at + 2).collect();
     let to = *ends.get(random.below(ends.len().max(1)))?;

@@ -1,5 +1,4 @@
-//! What somebody may have written in place of something else; the tests of the readers use it,
-//! too.
+//! Texts that replace values of a file; also used by the tests of the readers.
 
 /// Texts that break readers: quotes, brackets, anchors, tags, control and wide characters.
 pub const SNIPPETS: [&str; 30] = [

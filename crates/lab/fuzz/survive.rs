@@ -1,8 +1,8 @@
-//! What a file that was accepted must survive: being used.
+//! Uses that an accepted file must survive.
 //!
-//! A rollout of the prior, a small search, a picture, and being written and read
-//! again. Scenes and motions that are long or large but sound are left out, because they cost
-//! time without showing anything new.
+//! They are a rollout of the analytic model, a small search, a picture, and a round trip through a
+//! file. Scenes and motions that are long or large but sound are left out, because they cost time
+//! without showing anything new.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -20,10 +20,10 @@ use pushplan::{
 };
 use pushplan_report::{ScenePicture, Source, Track};
 
-/// Frames above which a motion is not rolled out.
+/// Number of frames above which a motion is not rolled out.
 const LONGEST: usize = 400;
 
-/// Objects above which a scene is not searched.
+/// Number of objects above which a scene is not searched.
 const CROWD: usize = 6;
 
 pub fn tool(tool: Tool) {
@@ -84,7 +84,7 @@ pub fn task(task: Task) {
     }
 }
 
-/// The tool of a plan in the plane; what leaves it has a target of its own.
+/// Returns the tool of a 2-D plan; 3-D plans have their own target.
 fn flat<'a>(task: &Task, plan: &Plan, tools: &'a [Arc<Tool>]) -> Option<&'a Arc<Tool>> {
     tools.first().filter(|_| !task.in_space() && !plan.levers())
 }
@@ -110,7 +110,7 @@ pub fn recording(recording: Recording) {
     picture(&recording.scene, Some(&replay.motion), rolled.as_ref());
     let folder = tempfile::tempdir().expect("a folder for a moment");
     let path = folder.path().join("fuzz.recording.json");
-    // Angles go through degrees, so only the number of frames is the same to the bit.
+    // Angles are converted to degrees, so only the number of frames is exact.
     recording.write(&path).unwrap_or_else(|faults| panic!("cannot be written:\n{faults}"));
     let read = Recording::load(&path).unwrap_or_else(|faults| panic!("{faults}"));
     assert_eq!(read.frames.len(), recording.frames.len());
@@ -131,7 +131,8 @@ pub fn weights(weights: PredictorWeights) {
     rollout(&model, &scene, &motion);
 }
 
-/// Rolls out what is not too long; every frame must be finite, or a warning says otherwise.
+/// Rolls out motions of moderate length; every frame must be finite, unless a warning states
+/// otherwise.
 fn rollout(model: &dyn EffectModel, scene: &Scene, motion: &ToolMotion) -> Option<Trajectory> {
     let frames: usize = motion.strokes.iter().map(|stroke| stroke.frames()).sum();
     if frames > LONGEST || frames * scene.objects.len() > 4 * LONGEST {
@@ -148,7 +149,7 @@ fn rollout(model: &dyn EffectModel, scene: &Scene, motion: &ToolMotion) -> Optio
     Some(trajectory)
 }
 
-/// Draws everything; no number of a picture may be undefined.
+/// Draws everything; every number of a picture must be defined.
 fn picture(scene: &Scene, motion: Option<&ToolMotion>, trajectory: Option<&Trajectory>) {
     let track = |trajectory| Track { source: Source::Predicted, trajectory };
     let picture = ScenePicture {
@@ -167,7 +168,7 @@ fn picture(scene: &Scene, motion: Option<&ToolMotion>, trajectory: Option<&Traje
     }
 }
 
-/// Writes a file into an empty folder and reads it back; nothing else may be left there.
+/// Writes a file into an empty folder and reads it back; the folder must hold nothing else.
 fn written<T: PartialEq>(
     write: impl Fn(&Path) -> Result<(), Faults>,
     read: impl Fn(&Path) -> Result<T, Faults>,

@@ -1,4 +1,4 @@
-//! The kinds of files, and what must hold for whatever is read.
+//! The kinds of files, and the conditions on their readers.
 
 use std::path::Path;
 
@@ -56,7 +56,7 @@ impl Target {
         }
     }
 
-    /// The ending that such files have.
+    /// Returns the extension of such files.
     pub fn ending(self) -> &'static str {
         match self {
             Self::Tool | Self::Task | Self::Blade | Self::LeverTask => ".yaml",
@@ -66,7 +66,7 @@ impl Target {
         }
     }
 
-    /// Reads `input`, and uses what it holds; whether it was accepted.
+    /// Reads `input` and uses its content. Returns `true` if it was accepted.
     pub fn run(self, input: &[u8]) -> bool {
         if self == Self::Weights {
             return match sealed(input) {
@@ -100,7 +100,7 @@ impl Target {
     }
 }
 
-/// Reads a file of another program as a tool and as a scene; what comes of it is used like any other.
+/// Reads a file of another program as a tool and as a scene; the results are used like any other.
 fn foreign(text: &str, file: &str) -> bool {
     let wanted = Wanted::default();
     let spoken = |faults: Faults| {
@@ -119,7 +119,7 @@ fn foreign(text: &str, file: &str) -> bool {
     tool.is_ok() | scene.map_err(spoken).is_ok()
 }
 
-/// Weights from `input`, with a checksum that fits: damage must not hide behind it.
+/// Reads weights from `input`, with the checksum corrected so that damage is not hidden behind it.
 fn sealed(input: &[u8]) -> Result<PredictorWeights, WeightsError> {
     let result = PredictorWeights::from_bytes(input);
     let Err(WeightsError::Checksum { written, found }) = &result else { return result };
@@ -147,21 +147,21 @@ fn read<T>(result: Result<T, Faults>, text: &str, survive: impl FnOnce(T)) -> bo
     }
 }
 
-/// Every fault says what and where, within the text.
+/// Asserts that every fault has a message, advice and a place within the text.
 fn explained(faults: &Faults, text: &str) {
     assert!(!faults.0.is_empty(), "refused without a fault");
     let lines: Vec<&str> = text.split('\n').collect();
     for fault in &faults.0 {
         assert!(!fault.message.trim().is_empty(), "a fault without words");
         let Some(place) = fault.place else {
-            // What stands for many faults has no place of its own.
+            // A summary of many faults has no place of its own.
             let many = fault.message.starts_with("and ") && fault.message.ends_with(" more");
             assert!(many, "no place: {fault}");
             continue;
         };
         assert!(place.line >= 1 && place.column >= 1, "{place:?}: {fault}");
         assert!(place.line <= lines.len() + 1, "behind the last line: {fault}");
-        // YAML knows other ends of lines, too.
+        // YAML has further line ends.
         if text.contains(['\r', '\u{85}', '\u{2028}', '\u{2029}']) {
             continue;
         }
@@ -171,7 +171,7 @@ fn explained(faults: &Faults, text: &str) {
     }
 }
 
-/// A file that is no text is refused by its path.
+/// Asserts that a file that is not a text is refused by its path.
 fn refused_as_file(input: &[u8], ending: &str) {
     let folder = tempfile::tempdir().expect("a folder for a moment");
     let path = folder.path().join(format!("fuzz{ending}"));

@@ -1,7 +1,7 @@
-//! Damage that knows the structure of a file: keys, lists and numbers.
+//! Mutations of the structure of a file: keys, lists and numbers.
 //!
-//! A file is taken apart into a tree, spoiled, and written in flow style, which is YAML and, as
-//! long as its tokens are, JSON. So most mutations get past the parser and reach the rules.
+//! A file is converted to a tree, mutated, and written in flow style, which is YAML and, if its
+//! tokens are, JSON. Most mutations therefore pass the parser and reach the rules.
 
 use std::fmt::Write;
 
@@ -9,7 +9,7 @@ use serde_json::Value as Json;
 
 use crate::random::Random;
 
-/// A value whose scalars are kept as they are written.
+/// A value whose scalars are kept as written.
 #[derive(Clone, Debug)]
 pub enum Tree {
     Map(Vec<(String, Tree)>),
@@ -66,7 +66,7 @@ const EXTREMES: [&str; 44] = [
 ];
 
 impl Tree {
-    /// The tree of a parsed file.
+    /// Returns the tree of a parsed file.
     pub fn of(value: &Json) -> Self {
         match value {
             Json::Object(map) => {
@@ -77,7 +77,7 @@ impl Tree {
         }
     }
 
-    /// The text in flow style.
+    /// Returns the text in flow style.
     pub fn write(&self) -> String {
         let mut text = String::new();
         self.write_to(&mut text);
@@ -107,7 +107,7 @@ impl Tree {
         }
     }
 
-    /// One to four changes, at random places.
+    /// Makes one to four changes, at random places.
     pub fn spoil(&mut self, random: &mut Random) {
         for _ in 0..=random.below(4) {
             let donor = self.at(random.below(self.count())).clone();
@@ -138,7 +138,7 @@ impl Tree {
         }
     }
 
-    /// Number of nodes.
+    /// Returns the number of nodes.
     fn count(&self) -> usize {
         1 + match self {
             Tree::Scalar(_) => 0,
@@ -147,7 +147,7 @@ impl Tree {
         }
     }
 
-    /// The place of a random list or map.
+    /// Returns the index of a random list or map.
     fn branch(&self, random: &mut Random) -> Option<usize> {
         let mut branches = Vec::new();
         self.find_branches(&mut 0, &mut branches);
@@ -162,7 +162,7 @@ impl Tree {
         self.children().for_each(|child| child.find_branches(next, found));
     }
 
-    /// Node `index` in the order of writing.
+    /// Returns node `index` in the order of writing.
     fn at(&self, index: usize) -> &Tree {
         let mut left = index;
         let mut node = self;
@@ -214,7 +214,7 @@ impl Tree {
 fn spoiled(scalar: &str, random: &mut Random) -> String {
     let number: Option<f64> = scalar.parse().ok();
     match (number, random.below(3)) {
-        // Small changes stay within the rules most often and reach deepest.
+        // Small changes usually satisfy the rules and reach deepest.
         (Some(number), 0 | 1) => {
             let factor =
                 *random.pick(&[-1.0, 0.0, 0.5, 0.99, 1.0 + 1e-9, 1.01, 1.5, 2.0, 10.0, 0.1]);

@@ -1,9 +1,9 @@
-//! What pushplan's published numbers are measured with.
+//! Measurements behind pushplan's published numbers.
 //!
 //! `bench` measures, `report` presents the results, and `cli` is the command `pushplan-lab`, whose
-//! answers are in `results.md`. `image` and `parts` are networks of lever-ups that were tried and lost,
-//! and `trivial` models of pushes that any model must beat.
-//! Nothing in `pushplan` knows this crate.
+//! outputs are in `results.md`. `image` and `parts` are rejected networks for lever-ups, and
+//! `trivial` holds baseline models of pushes that any model must beat. No crate of the product
+//! depends on this one.
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 

@@ -1,4 +1,4 @@
-//! Applies edits to a text: each where its value stands or, failing that, by writing the whole text again.
+//! Application of edits to a text: in place if possible, otherwise by writing the whole text anew.
 
 use serde::Deserialize;
 use serde_json::Value as Json;
@@ -8,30 +8,29 @@ use pushplan::asset::{Fault, Faults, Node, Source};
 
 use super::{change, tree};
 
-/// One change of a text in YAML.
+/// A change of a YAML text.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Edit {
-    /// Keys and indices that lead to the value. What is missing on the way is made.
+    /// Keys and indices that lead to the value. Missing entries on the path are created.
     pub path: Vec<Step>,
-    /// The value that is to stand there; nothing takes key or item away.
+    /// New value; `None` removes the key or item.
     #[serde(default)]
     pub value: Option<Json>,
 }
 
-/// One step into a map or a list.
+/// A step into a map or a list.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(untagged)]
 pub enum Step {
     /// The value of this key.
     Key(String),
-    /// The item at this index; as many as there are, and it is added.
+    /// The item at this index; an index equal to the length appends an item.
     Item(usize),
 }
 
-/// The text after all `edits`, one after the other; `file` names it in faults.
+/// Returns the text after all `edits`, one after the other; `file` names it in faults.
 ///
-/// # Errors
-/// A text that is not YAML; an edit that leads nowhere.
+/// # Errors If the text is not YAML or the path of an edit does not exist.
 pub fn edit(text: &str, file: &str, edits: &[Edit]) -> Result<String, Faults> {
     let mut text = text.to_owned();
     for one in edits {
@@ -40,10 +39,9 @@ pub fn edit(text: &str, file: &str, edits: &[Edit]) -> Result<String, Faults> {
     Ok(text)
 }
 
-/// The values of a text in YAML.
+/// Returns the values of a YAML text.
 ///
-/// # Errors
-/// A text that is not YAML.
+/// # Errors If the text is not YAML.
 pub fn values(text: &str, file: &str) -> Result<Json, Faults> {
     let root = Node::parse(Source::yaml(file, text))?;
     serde_json::to_value(tree::of(&root)).map_err(|error| unwritable(file, &error))
@@ -70,7 +68,7 @@ fn edited(text: &str, file: &str, edit: &Edit) -> Result<String, Faults> {
     }
 }
 
-/// A path as people read it.
+/// Returns a path in readable form.
 fn named(path: &[Step]) -> String {
     let words = path.iter().map(|step| match step {
         Step::Key(key) => key.clone(),
@@ -84,7 +82,7 @@ fn unwritable(file: &str, error: &dyn std::error::Error) -> Faults {
     Fault::of_file(file, message, "keys of maps must be words").into()
 }
 
-/// The step into a value.
+/// Returns the entry of `value` at `step`.
 pub(super) fn entry<'a>(value: &'a mut Yaml, step: &Step) -> Option<&'a mut Yaml> {
     match step {
         Step::Key(key) => value.as_mapping_mut()?.get_mut(key.as_str()),

@@ -1,4 +1,4 @@
-//! A value is changed, added or taken away where it stands.
+//! Changes, additions and removals of values in place.
 
 use std::ops::Range;
 
@@ -11,8 +11,8 @@ use super::flow::written;
 use super::place::{is_flow, line_end, line_start, span, start};
 use super::tree;
 
-/// The text with `value` at the end of `path`, or without what is there; `None` where that is not
-/// known to be possible. The caller reads what comes back.
+/// Returns the text with `value` at the end of `path`, or without the entry there. Returns `None`
+/// where the change is not known to be possible. The caller must parse and check the result.
 pub fn at_its_place(
     source: Source,
     root: &Node,
@@ -37,7 +37,7 @@ pub fn at_its_place(
         Some(value) => {
             let mut found = Vec::new();
             replacements(source, node, flow, value, &mut found)?;
-            // From behind, so that places stay what they are.
+            // Backwards, so that earlier places remain valid.
             found.sort_by_key(|(place, _)| std::cmp::Reverse(place.start));
             let mut text = text.to_owned();
             for (place, new) in found {
@@ -59,7 +59,7 @@ fn inner<'a>(node: &'a Node, step: &Step) -> Option<&'a Node> {
     }
 }
 
-/// What must be written in place of what: as little as there is.
+/// Collects the smallest replacements that write `value` at `node`.
 fn replacements(
     source: Source,
     node: &Node,
@@ -81,7 +81,7 @@ fn replacements(
     Some(())
 }
 
-/// Where, and what, is written to add `value` to a map or a list.
+/// Returns the position and the text that add `value` to a map or a list.
 fn addition(
     source: Source,
     node: &Node,
@@ -111,7 +111,8 @@ fn addition(
     Some((place.end, format!("\n{}{new}", " ".repeat(column))))
 }
 
-/// What goes with the value at `step`: its key, and the comma or the lines around it.
+/// Returns the range removed with the value at `step`: its key, and the comma or the lines around
+/// it.
 fn removed(source: Source, parent: &Node, step: &Step, flow: bool) -> Option<Range<usize>> {
     let text = source.text;
     let (index, last, first, value) = match (step, &parent.content) {

@@ -1,10 +1,10 @@
-//! Values in one line, as people write them.
+//! Values in one line, as in hand-written files.
 
 use serde_yaml::Value as Yaml;
 
 use pushplan::asset::is_in_names;
 
-/// `{cylinder: {radius: 0.05, height: 0.1}}`.
+/// Returns a value in flow style, as in `{cylinder: {radius: 0.05, height: 0.1}}`.
 pub fn written(value: &Yaml) -> String {
     match value {
         Yaml::Sequence(items) => {
@@ -15,9 +15,9 @@ pub fn written(value: &Yaml) -> String {
             format!("{{{}}}", pairs.iter().map(pair).collect::<Vec<_>>().join(", "))
         }
         Yaml::String(text) if is_plain(text) => text.clone(),
-        // Words in quotes are the same in both languages.
+        // Quoted words are written alike in YAML and JSON.
         Yaml::String(text) => quoted(text),
-        // A line of its own is all that is written of anything else.
+        // Every other value is written as a single line.
         other => serde_yaml::to_string(other).unwrap_or_default().trim_end().to_owned(),
     }
 }
@@ -26,7 +26,7 @@ fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }
 
-/// Whether a word stands for itself without quotes.
+/// Returns `true` if a word needs no quotes.
 fn is_plain(text: &str) -> bool {
     let begins = text.chars().next().is_some_and(char::is_alphabetic);
     let reads_as_text = || matches!(serde_yaml::from_str(text), Ok(Yaml::String(_)));

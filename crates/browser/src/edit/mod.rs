@@ -1,9 +1,10 @@
-//! Changes of single values in a file that somebody wrote: their comments and layout stay.
+//! Changes of single values in a hand-written file, which keep comments and layout.
 //!
-//! A value is changed at its place, which the reader knows (`place`, `change`, `flow`). What comes of that is
-//! read again and compared with what was wanted (`tree`); where it is something else (anchors, words over
-//! several lines), the whole text is written again, which loses comments but never a value. (`yamlpatch` does
-//! as much on tree-sitter, which is C; the page, and those who link the library, compile none.)
+//! A value is changed at its place, which the reader knows (`place`, `change`, `flow`). The result
+//! is read again and compared with the wanted values (`tree`). If they differ (anchors, words over
+//! several lines), the whole text is written anew, which loses comments but never a value.
+//! (`yamlpatch` does the same on tree-sitter, which is C; the page and users of the library compile
+//! no C.)
 
 mod apply;
 mod change;

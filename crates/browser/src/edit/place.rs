@@ -1,11 +1,11 @@
-//! Where in a text a value begins and ends.
+//! Positions of values in a text.
 
 use std::ops::Range;
 
 use pushplan::asset::{Content, Node, Place, Source, locate};
 
-/// The bytes of a node; `None` where its end cannot be told without reading as the parser does: words
-/// over several lines, anchors. `flow` says whether brackets are around it.
+/// Returns the byte range of a node. Returns `None` where its end is known only to a full parser:
+/// words over several lines, anchors. `flow` states whether brackets surround the node.
 pub fn span(source: Source, node: &Node, flow: bool) -> Option<Range<usize>> {
     let start = start(source, node)?;
     let text = source.text;
@@ -19,7 +19,7 @@ pub fn span(source: Source, node: &Node, flow: bool) -> Option<Range<usize>> {
     Some(start..end)
 }
 
-/// The byte at which a node begins.
+/// Returns the byte at which a node begins.
 pub fn start(source: Source, node: &Node) -> Option<usize> {
     let Place { line, column } = locate(source, node.id)?;
     let begin = line_starts(source.text).nth(line - 1)?;
@@ -28,17 +28,17 @@ pub fn start(source: Source, node: &Node) -> Option<usize> {
     Some(begin + place)
 }
 
-/// Whether a node stands in brackets of its own.
+/// Returns `true` if a node has brackets of its own.
 pub fn is_flow(text: &str, start: usize) -> bool {
     text[start..].starts_with(['[', '{'])
 }
 
-/// The byte at which the line of `at` begins.
+/// Returns the byte at which the line of `at` begins.
 pub fn line_start(text: &str, at: usize) -> usize {
     text[..at].rfind('\n').map_or(0, |end| end + 1)
 }
 
-/// The byte behind the line of `at`, its end included.
+/// Returns the byte behind the line of `at`, its end included.
 pub fn line_end(text: &str, at: usize) -> usize {
     text[at..].find('\n').map_or(text.len(), |end| at + end + 1)
 }
@@ -47,7 +47,7 @@ fn line_starts(text: &str) -> impl Iterator<Item = usize> {
     std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1))
 }
 
-/// The bracket that closes the one at `start`.
+/// Returns the position of the bracket that closes the one at `start`.
 fn closing(text: &str, start: usize) -> Option<usize> {
     let mut depth = 0;
     let mut at = start;
@@ -80,7 +80,7 @@ fn closing(text: &str, start: usize) -> Option<usize> {
     None
 }
 
-/// The byte behind the quotes that open at `start`.
+/// Returns the byte behind the quotes that open at `start`.
 fn end_of_quotes(text: &str, start: usize) -> Option<usize> {
     let quote = text[start..].chars().next()?;
     let mut letters = text[start + 1..].char_indices().peekable();
@@ -100,7 +100,7 @@ fn end_of_quotes(text: &str, start: usize) -> Option<usize> {
     None
 }
 
-/// The end of the last line that stands as far to the right as the first.
+/// Returns the end of the last line that is indented at least as far as the first.
 fn end_of_block(text: &str, start: usize, content: &Content) -> usize {
     let column = text[line_start(text, start)..start].chars().count();
     let listed = matches!(content, Content::List(_));
@@ -112,7 +112,7 @@ fn end_of_block(text: &str, start: usize, content: &Content) -> usize {
         let words = line.trim_start();
         let indent = line.len() - words.len();
         let blank = words.is_empty() || words.starts_with('#');
-        // The dashes of a list may stand below the key that it belongs to.
+        // The dashes of a list may be aligned with its key.
         let inside = indent > column || indent == column && listed == words.starts_with("- ");
         match (blank, inside) {
             (true, _) => {}
@@ -124,7 +124,7 @@ fn end_of_block(text: &str, start: usize, content: &Content) -> usize {
     text[..end].trim_end_matches(['\n', '\r']).len().max(start)
 }
 
-/// The end of a word without quotes in one line.
+/// Returns the end of a word without quotes in one line.
 fn end_of_word(text: &str, start: usize, flow: bool) -> usize {
     let line = &text[start..line_end(text, start)];
     let ends = |(at, letter): &(usize, char)| match letter {

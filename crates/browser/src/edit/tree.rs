@@ -1,4 +1,4 @@
-//! The values of a text without their places, in the order in which they were written.
+//! The values of a text without their places, in the order of the text.
 
 use serde_yaml::{Mapping, Value as Yaml};
 
@@ -6,7 +6,7 @@ use pushplan::asset::{Content, Node};
 
 use super::apply::{Step, entry};
 
-/// The values of a node.
+/// Returns the values of a node.
 pub fn of(node: &Node) -> Yaml {
     match &node.content {
         Content::Nothing => Yaml::Null,
@@ -24,7 +24,7 @@ pub fn of(node: &Node) -> Yaml {
     }
 }
 
-/// Puts a value at the end of a path, or takes away what is there; false if the path leads nowhere.
+/// Sets or removes the value at the end of a path. Returns `false` if the path does not exist.
 pub fn set(tree: &mut Yaml, path: &[Step], value: Option<&Yaml>) -> bool {
     let (Some((step, rest)), false) = (path.split_first(), path.is_empty()) else {
         if let Some(value) = value {
@@ -54,7 +54,7 @@ pub fn set(tree: &mut Yaml, path: &[Step], value: Option<&Yaml>) -> bool {
                     list.push(value);
                     true
                 }
-                // A key without a value holds whatever comes first.
+                // A key without a value becomes a map or a list as needed.
                 (_, tree @ Yaml::Null) => match wrapped(&value, std::slice::from_ref(step)) {
                     Some(value) => {
                         *tree = value;
@@ -68,7 +68,7 @@ pub fn set(tree: &mut Yaml, path: &[Step], value: Option<&Yaml>) -> bool {
     }
 }
 
-/// A value within maps and lists that are made for it.
+/// Returns a value within new maps and lists along `path`.
 pub fn wrapped(value: &Yaml, path: &[Step]) -> Option<Yaml> {
     path.iter().rev().try_fold(value.clone(), |value, step| match step {
         Step::Key(key) => {
@@ -79,7 +79,7 @@ pub fn wrapped(value: &Yaml, path: &[Step]) -> Option<Yaml> {
     })
 }
 
-/// Whether two trees say the same: 1 and 1.0 do, and so do two that are no number.
+/// Returns `true` if two trees have equal values: 1 equals 1.0, and NaN equals NaN.
 pub fn same(a: &Yaml, b: &Yaml) -> bool {
     match (a, b) {
         (Yaml::Number(a), Yaml::Number(b)) => match (a.as_f64(), b.as_f64()) {

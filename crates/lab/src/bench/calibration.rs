@@ -1,18 +1,17 @@
-//! Whether events are as frequent as their probabilities say.
+//! Agreement of predicted probabilities with observed frequencies.
 
-/// Bins of probability.
+/// Number of bins of probability.
 const BINS: usize = 10;
 
-/// Probabilities of several answers and which one was true, counted by how high they were.
+/// Histogram of the probabilities of answers and of the true answers among them.
 #[derive(Clone, Debug, Default)]
 pub struct Calibration {
-    /// Of every bin how many probabilities there were, their sum, and how many of them were of the
-    /// true answer.
+    /// Number of probabilities in every bin, their sum, and the number of true answers among them.
     bins: [[f64; 3]; BINS],
 }
 
 impl Calibration {
-    /// Takes the probabilities of all answers, of which the one with this index is true.
+    /// Adds the probabilities of all answers, of which the answer with index `truth` is true.
     pub fn count(&mut self, probabilities: &[f64], truth: usize) {
         for (answer, probability) in probabilities.iter().enumerate() {
             let bin = ((probability * BINS as f64) as usize).min(BINS - 1);
@@ -23,8 +22,8 @@ impl Calibration {
         }
     }
 
-    /// The expected calibration error over all answers (Guo et al. 2017, arXiv 1706.04599); 0 before
-    /// anything was counted.
+    /// Returns the expected calibration error over all answers (Guo et al. 2017, arXiv 1706.04599);
+    /// 0 before anything was counted.
     pub fn error(&self) -> f64 {
         let count: f64 = self.bins.iter().map(|[n, ..]| n).sum();
         let apart: f64 = self.bins.iter().map(|[_, share, hit]| (share - hit).abs()).sum();

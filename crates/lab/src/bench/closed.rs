@@ -1,4 +1,4 @@
-//! What the closed loop brings on tasks that do not know their scene, compared with planning once.
+//! Benefit of the closed loop over planning once, on tasks with unknown scenes.
 
 use std::time::Instant;
 
@@ -16,29 +16,29 @@ use serde::{Deserialize, Serialize};
 
 use super::random::{HiddenWorld, RandomError, RandomSuite, TaskKind};
 
-/// The result of a task that does not know its scene.
+/// The result of a task with an unknown scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ClosedRecord {
-    /// What kind of task.
+    /// Kind of the task.
     pub kind: TaskKind,
-    /// How the run ended; `None` where the world could no longer be acted in.
+    /// End of the run; `None` if the world became unusable.
     pub end: Option<End>,
-    /// Where the loop left the object, really.
+    /// True final state of the object after the loop.
     pub closed: Left,
-    /// Pushes that it took.
+    /// Number of pushes of the loop.
     pub pushes: usize,
-    /// How many of them were made only to learn something.
+    /// Number of exploratory pushes among them.
     pub probes: usize,
-    /// Where one plan left it that was made with the guesses and carried out without looking.
+    /// Final state after a plan for the initial guesses, executed without observations.
     pub once: Left,
-    /// Where one plan left it that was made with everything known.
+    /// Final state after a plan with full knowledge.
     pub known: Left,
 }
 
-/// Where the goal's object is left.
+/// The final state of the goal's object.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Left {
-    /// Whether that is at the goal.
+    /// Whether the object is at the goal.
     pub reached: bool,
     /// Distance from the goal, metres.
     pub error: f64,
@@ -51,10 +51,10 @@ impl Left {
 }
 
 impl RandomSuite {
-    /// Runs task `index` with everything hidden in a `world` of this kind in a loop with `settings`, and plans it once.
+    /// Runs task `index` with everything hidden in a `world` of this kind in a loop with
+    /// `settings`, and plans it once.
     ///
-    /// # Errors
-    /// If the task cannot be made or the planner refuses it.
+    /// # Errors If the task cannot be made or the planner refuses it.
     pub fn run_hidden(
         &self,
         planner: &Planner,
@@ -89,7 +89,7 @@ impl RandomSuite {
     }
 }
 
-/// Plans once for what is seen at the start, and carries the plan out to its end.
+/// Plans once for the observation at the start, and executes the plan to its end.
 fn once(
     planner: &Planner,
     library: &ToolLibrary,

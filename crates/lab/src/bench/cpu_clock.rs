@@ -1,11 +1,12 @@
-//! Processor time that a piece of work takes.
+//! Processor time of a piece of work.
 
 use std::time::{Duration, Instant};
 
 use pushplan_bench::thread_time;
 
-/// Runs `work` and returns the processor time that this thread spent on it, so that other work on the
-/// machine does not count. Outside Linux, where the system does not report it, returns wall-clock time.
+/// Runs `work` and returns the processor time that this thread spent on it, so that other work on
+/// the machine does not count. Returns wall-clock time outside Linux, where the system does not
+/// report processor time.
 pub fn processor_time(work: impl FnOnce()) -> Duration {
     timed(work).1
 }

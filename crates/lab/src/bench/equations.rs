@@ -1,5 +1,5 @@
-//! Where the time of a push goes in the prior: how many equations there are, how often they are
-//! solved, and how many operations that takes at least.
+//! Cost of a push in the analytic model: number of equations, number of solutions, and minimum
+//! number of operations.
 
 use std::num::NonZeroU16;
 
@@ -23,34 +23,36 @@ use super::timing::push_seconds;
 /// Numbers of objects on the table.
 const COUNTS: [usize; 6] = [1, 2, 3, 6, 9, 12];
 
-/// Most free objects that touch each other from the start; more are scattered or dense in turn.
+/// Maximum number of free objects that touch each other at the start; larger sets are scattered or
+/// dense in turn.
 const TOUCHING: usize = 3;
 
-/// Rounds, of which the fastest counts: other work on the machine can only lengthen one.
+/// Number of rounds. The fastest counts, because other work on the machine can only lengthen a
+/// round.
 const ROUNDS: usize = 3;
 
-/// Processor time of a round, at least, seconds.
+/// Minimum processor time of a round, seconds.
 const ROUND: f64 = 0.1;
 
-/// The engine's rate that the prior is compared with, steps a second.
+/// Rate of the engine that the analytic model is compared with, steps per second.
 const RIVAL: Rate = Rate(NonZeroU16::MIN.saturating_add(119));
 
-/// What pushes among a number of objects cost the prior.
+/// Cost of pushes among a number of objects in the analytic model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EquationCost {
-    /// Objects on the table.
+    /// Number of objects on the table.
     pub objects: usize,
     /// Whether some are joined.
     pub jointed: bool,
-    /// Pushes that were counted.
+    /// Number of pushes.
     pub pushes: usize,
     /// Processor time of a push, seconds.
     pub seconds: f64,
-    /// The same of the planar engine at 1/120 s.
+    /// Processor time of a push in the 2-D engine at 1/120 s, seconds.
     pub rival: f64,
-    /// What all of them took.
+    /// Counts of the work on all pushes.
     pub tally: Tally,
-    /// Operations a second that matrix products reach here.
+    /// Matrix-product rate of this machine, operations per second.
     pub peak: f64,
 }
 
@@ -95,7 +97,8 @@ fn cases(
     match (objects, jointed) {
         (1, _) => Suite::draw(SuiteKind::Single, library, seed, count).cases,
         (2..=TOUCHING, false) => {
-            // Of touching cases those of one pass over the tools have two objects, the next three.
+            // Touching cases of one pass over the tools have two objects, cases of the next pass
+            // three.
             let enough = 2 * (library.len() + count);
             let all = Suite::draw(SuiteKind::Touching, library, seed, enough).cases.into_iter();
             all.filter(|case| case.scene.objects.len() == objects).take(count).collect()

@@ -1,5 +1,5 @@
-//! The cost of objects that no push can touch: nothing, if a model computes only what the scene
-//! needs.
+//! The cost of objects that no push can touch: none, if a model computes only the relevant
+//! part of the scene.
 
 use pushplan::internals::effect::EffectModel;
 use pushplan::internals::{
@@ -14,19 +14,20 @@ use super::timing::{batches, push_seconds};
 /// Numbers of far objects.
 pub const FAR_COUNTS: [usize; 7] = [0, 1, 3, 10, 30, 60, 100];
 
-/// Distance of the nearest far object from everything else, metres: a push moves nothing so far.
+/// Distance of the nearest far object from everything else, metres, beyond the reach of any push.
 const FAR: f64 = 5.0;
 
 /// Distance of far objects from each other, metres; they do not touch.
 const APART: f64 = 0.15;
 
-/// Columns in which they stand.
+/// Number of columns of far objects.
 const COLUMNS: usize = 10;
 
-/// Rounds, of which the fastest counts: other work on the machine can only lengthen one.
+/// Number of rounds. The fastest counts, because other work on the machine can only lengthen a
+/// round.
 const ROUNDS: usize = 5;
 
-/// Processor time of a round, at least, seconds; the kernel may count in ticks of 4 ms.
+/// Minimum processor time of a round, seconds; the kernel may count in ticks of 4 ms.
 const ROUND: f64 = 0.06;
 
 /// Cost of a push with a number of far objects on the table.
@@ -34,22 +35,21 @@ const ROUND: f64 = 0.06;
 pub struct FarCost {
     /// Name of the model.
     pub model: String,
-    /// Objects that no push can touch.
+    /// Number of objects that no push can touch.
     pub far: usize,
-    /// Jobs handed over together.
+    /// Number of jobs per rollout call.
     pub batch: usize,
-    /// Processor time of one push, seconds.
+    /// Processor time of a push, seconds.
     pub seconds: f64,
-    /// Largest distance by which an object near the tool ends from where it does without the far
-    /// ones, metres.
+    /// Largest distance between final positions of an object near the tool with and without the far
+    /// objects, metres.
     pub difference: f64,
 }
 
-/// Times the pushes of `suite` with more and more far objects beside them by every model, on one
-/// thread; each model comes with how many jobs it is given at a time.
+/// Times the pushes of `suite` by every model on one thread, with increasing numbers of far
+/// objects. Each model is paired with its number of jobs per call.
 ///
-/// # Errors
-/// If the thread cannot be started.
+/// # Errors If the thread cannot be started.
 pub fn far_costs(
     models: &[(&dyn EffectModel, usize)],
     suite: &Suite,
@@ -59,7 +59,7 @@ pub fn far_costs(
     Ok(pool.install(|| {
         let crowded: Vec<(usize, Suite)> =
             counts.iter().map(|&far| (far, with_far(suite, far))).collect();
-        // Model by model: what comes right after another finds its memory warm.
+        // Model by model, because a model that runs right after another finds its memory warm.
         let mut costs = Vec::new();
         for &(model, batch) in models {
             for (far, crowded) in &crowded {
@@ -76,7 +76,7 @@ pub fn far_costs(
     }))
 }
 
-/// The suite with `far` objects more in every scene.
+/// Returns the suite with `far` additional objects in every scene.
 fn with_far(suite: &Suite, far: usize) -> Suite {
     let mut suite = suite.clone();
     for case in &mut suite.cases {
@@ -93,13 +93,13 @@ fn add_far(scene: &mut Scene, far: usize) {
     }
 }
 
-/// Processor time of one push, seconds.
+/// Returns the processor time of a push, seconds.
 fn seconds(model: &dyn EffectModel, suite: &Suite, batch: usize) -> f64 {
     let round = |_| push_seconds(model, &suite.cases, batch, ROUND);
     (0..ROUNDS).map(round).fold(f64::INFINITY, f64::min)
 }
 
-/// How far the ends with and without the far objects are apart, metres.
+/// Returns the largest distance between final positions with and without the far objects, metres.
 fn difference(model: &dyn EffectModel, alone: &Suite, crowded: &Suite) -> f64 {
     let ends = |suite: &Suite| {
         let ends = batches(&suite.cases, 1).into_iter().map(|(scene, jobs)| {

@@ -1,11 +1,11 @@
 //! Errors of effect models on held-out pushes, against both engines.
 //!
-//! Counted are objects whose true (planar) motion exceeds 1 cm; the others have their own
-//! numbers, because predicting that nothing happens is another skill. Evaluating the simulated
-//! 3-D model gives the table of how far the two engines differ.
+//! Objects whose true (2-D) motion exceeds 1 cm are counted. The others have their own numbers,
+//! because predicting rest is another skill. Evaluating the simulated 3-D model gives the table of
+//! differences between the two engines.
 //!
-//! The planar engine presses at a stated height, which models are then told; in 3-D faces meet flat,
-//! and how high they press is open.
+//! The 2-D engine presses at a stated height, which models receive. In 3-D, faces meet flat and the
+//! height of the contact force is open.
 
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::effect::{EffectModel, shifted_start};
@@ -22,65 +22,67 @@ use serde::{Deserialize, Serialize};
 
 use super::suite::{Suite, SuiteKind};
 
-/// How far the start is shifted to see the planar truth's own spread, metres.
+/// Perturbation of the start for the spread of the 2-D ground truth, metres.
 pub const DISTURBANCE: f64 = 1e-4;
 
-/// A suite with its truths.
+/// A suite with its ground truths.
 #[derive(Clone, Debug)]
 pub struct HeldOut {
     kind: SuiteKind,
     seed: u64,
     planar: Vec<Trial>,
-    /// The same pushes in 3-D; `None` where their ends have no planar meaning: an object fell over.
+    /// The pushes in 3-D; `None` where an object fell over, because its pose has no 2-D meaning.
     spatial: Vec<Option<Trial>>,
 }
 
-/// Errors of one model on one suite.
+/// Errors of a model on a suite.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HeldOutErrors {
     /// Name of the model.
     pub model: String,
-    /// All objects first, then by shape and by number of objects on the table.
+    /// Rows for all objects first, then by shape and by number of objects on the table.
     pub rows: Vec<ErrorRow>,
 }
 
-/// Errors over one group of objects.
+/// Errors over a group of objects.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ErrorRow {
-    /// Which objects.
+    /// Name of the group.
     pub group: String,
-    /// Distance of the predicted from the planar final position, moved objects, metres.
+    /// Distance of the predicted from the 2-D final position, moved objects, metres.
     pub position: Option<Summary>,
-    /// Heading error of moved cuboids, degrees.
+    /// Rotation error of moved cuboids, degrees.
     pub heading_deg: Option<Summary>,
-    /// Distance from the 3-D engine's final position, the same objects, metres.
+    /// Distance from the 3-D engine's final position, moved objects, metres.
     pub position_3d: Option<Summary>,
-    /// Heading error against the 3-D engine, moved cuboids, degrees.
+    /// Rotation error against the 3-D engine, moved cuboids, degrees.
     pub heading_3d_deg: Option<Summary>,
-    /// Distance from the planar final position of objects that did not move, metres.
+    /// Distance from the 2-D final position, unmoved objects, metres.
     pub unmoved: Option<Summary>,
-    /// Objects for which the model gave no finite answer; they are in no other number.
+    /// Number of objects without a finite answer of the model, which are excluded from all other
+    /// numbers.
     pub failed: usize,
 }
 
-/// Errors of several models on one suite, and the truth's own spread.
+/// Errors of several models on a suite, and the spread of the ground truth.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HeldOutReport {
-    /// Which pushes.
+    /// Kind of the pushes.
     pub suite: SuiteKind,
     /// Seed of the pushes.
     pub seed: u64,
     /// Number of pushes.
     pub pushes: usize,
-    /// Pushes in which an object fell over in the 3-D engine; left out against it.
+    /// Number of pushes in which an object fell over in the 3-D engine, excluded from its
+    /// comparison.
     pub toppled: usize,
     /// True motion of the moved objects, metres.
     pub motion: Option<Summary>,
-    /// One entry a model; the planar engine from a disturbed start comes first.
+    /// Errors of each model; the 2-D engine from a perturbed start comes first.
     pub models: Vec<HeldOutErrors>,
 }
 
-/// One object of one push, judged.
+/// Errors of an object in a push.
 struct Judged {
     cylinder: bool,
     objects: usize,
@@ -113,7 +115,7 @@ impl HeldOut {
         Self { kind, seed, planar, spatial }
     }
 
-    /// Errors of all models and the planar truth's own spread.
+    /// Computes the errors of all models and the spread of the 2-D ground truth.
     pub fn report(&self, models: &[&dyn EffectModel]) -> HeldOutReport {
         let mut errors = vec![self.spread()];
         errors.extend(models.iter().map(|model| self.evaluate(*model)));
@@ -129,13 +131,13 @@ impl HeldOut {
         }
     }
 
-    /// Errors of one model.
+    /// Computes the errors of a model.
     pub fn evaluate(&self, model: &dyn EffectModel) -> HeldOutErrors {
         self.judge(&model.spec().to_string(), |trial, _| Comparison::of(model, trial))
     }
 
-    /// The planar engine against itself, every object's start shifted by 0.1 mm in a random
-    /// direction: errors that no model can be expected to undercut.
+    /// Compares the 2-D engine with itself, every object's start shifted by 0.1 mm in a random
+    /// direction. No model can be expected to have smaller errors.
     pub fn spread(&self) -> HeldOutErrors {
         self.judge("planar, start off by 0.1 mm", |trial, index| {
             let mut rng = generator(self.seed ^ 0xD157, index as u64);
@@ -183,7 +185,7 @@ fn rows(judged: &[Judged]) -> Vec<ErrorRow> {
         let name = if count == 1 { "1 object".to_owned() } else { format!("{count} objects") };
         rows.push(row(&name, judged, |one| one.objects == count));
     }
-    // A suite without a group needs no row of nothing.
+    // Empty groups need no row.
     rows.retain(|row| row.position.is_some() || row.unmoved.is_some() || row.failed > 0);
     rows
 }

@@ -1,5 +1,5 @@
-//! What the network alone costs: fused network and candle graph on the same batches, against
-//! what the machine's matrix products reach in the same run.
+//! Cost of the network alone: fused network and candle graph on the same batches, against the
+//! matrix-product rate of the machine in the same run.
 
 use std::time::Duration;
 
@@ -14,41 +14,42 @@ use serde::{Deserialize, Serialize};
 use super::cpu_clock::processor_time;
 use super::suite::Case;
 
-/// Each figure is the best of this many rounds: other work on the machine can only lengthen it.
+/// Number of rounds. The fastest counts, because other work on the machine can only lengthen a
+/// round.
 const ROUNDS: usize = 7;
 
-/// Processor time of a round, at least; the kernel may count in ticks of 4 ms.
+/// Minimum processor time of a round; the kernel may count in ticks of 4 ms.
 const ROUND: Duration = Duration::from_millis(100);
 
-/// Sides of the square products of which the faster stands for the machine's peak: large enough to
-/// hide their packing, small enough for the second-level cache. One alone may have the bad luck of
-/// memory that the cache does not hold: 80 instead of 130 GFLOP/s in some processes at 512.
+/// Sides of the square products, the faster of which is the machine's peak: large enough to hide
+/// their packing, small enough for the second-level cache. A single size may hit memory that the
+/// cache does not hold: 80 instead of 130 GFLOP/s in some processes at 512.
 const PEAK_SIDES: [usize; 2] = [256, 384];
 
 /// Processor time of the network on a batch of graphs, one thread.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct InferenceCost {
-    /// Graphs in the batch: candidate-steps.
+    /// Number of graphs in the batch: candidate-steps.
     pub graphs: usize,
-    /// Movable nodes in the batch.
+    /// Number of movable nodes in the batch.
     pub nodes: usize,
-    /// Relations in the batch.
+    /// Number of relations in the batch.
     pub relations: usize,
-    /// Fused network, seconds per graph.
+    /// Time of the fused network, seconds per graph.
     pub fused: f64,
-    /// candle graph, seconds per graph; `None` in a build without the feature `train`.
+    /// Time of the candle graph, seconds per graph; `None` in a build without the feature `train`.
     pub candle: Option<f64>,
-    /// Graph building (contacts, prior, features), seconds per graph.
+    /// Time of graph building (contacts, analytic model, features), seconds per graph.
     pub graph: f64,
-    /// Share of the peak that the fused network's matrix products would have if they took all
-    /// of its time, 0 to 1.
+    /// Share of the peak that the fused network's matrix products would reach if they took all of
+    /// its time, 0 to 1.
     pub of_peak: f64,
     /// Matrix-product rate of one thread in the same run, floating-point operations per second.
     pub peak: f64,
 }
 
-/// Times batches of `sizes` graphs, taken from frames of the cases' first strokes in which the
-/// tool is near an object.
+/// Times batches of `sizes` graphs, taken from frames of the cases' first strokes in which the tool
+/// is near an object.
 pub fn inference_costs(
     weights: &PredictorWeights,
     cases: &[Case],
@@ -79,7 +80,7 @@ pub fn inference_costs(
         .collect()
 }
 
-/// Seconds of one forward pass of the candle graph over `batch`.
+/// Returns the time of a forward pass of the candle graph over `batch`, seconds.
 fn candle(weights: &PredictorWeights, batch: &Batch) -> Option<f64> {
     // candle refuses no graph with parameters that were read from a weights file.
     let network = Predictor::new(weights.card.config, &weights.parameters).ok()?;
@@ -90,7 +91,7 @@ fn candle(weights: &PredictorWeights, batch: &Batch) -> Option<f64> {
     }))
 }
 
-/// Fills `batch` with `size` graphs and returns the processor time that building them took.
+/// Fills `batch` with `size` graphs and returns the processor time of building them.
 fn fill(batch: &mut Batch, cases: &[Case], size: usize) -> f64 {
     let simulator = Simulator::planar();
     let mut found = Vec::new();
@@ -122,7 +123,7 @@ fn fill(batch: &mut Batch, cases: &[Case], size: usize) -> f64 {
     })
 }
 
-/// Matrix-product rate of one thread, floating-point operations per second.
+/// Returns the matrix-product rate of a thread, floating-point operations per second.
 pub(super) fn peak() -> f64 {
     let rates = PEAK_SIDES.map(|n| {
         let (a, b) = (vec![0.5; n * n], vec![0.25; n * n]);
@@ -133,9 +134,9 @@ pub(super) fn peak() -> f64 {
     rates.into_iter().fold(0.0, f64::max)
 }
 
-/// Shortest processor time of one call, seconds.
+/// Returns the shortest processor time of a call, seconds.
 fn best(mut work: impl FnMut()) -> f64 {
-    // Bounded, should the clock stand still.
+    // Bounded in case the clock stands still.
     let mut calls = 1u32;
     let mut time = |calls: u32| processor_time(|| (0..calls).for_each(|_| work()));
     while time(calls) < ROUND && calls < 1 << 20 {

@@ -1,7 +1,7 @@
-//! Suites, baselines, statistics and timings: what the published numbers are made of.
+//! Suites, baselines, statistics and timings behind the published numbers.
 //!
-//! Everything is seeded, takes any [`pushplan::EffectModel`] and gives plain data that can
-//! be written as JSON; nothing is drawn here.
+//! Everything is seeded, takes any [`pushplan::EffectModel`] and returns plain data that can be
+//! written as JSON; nothing is rendered here.
 
 mod adapted;
 mod baselines;

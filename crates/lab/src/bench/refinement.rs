@@ -1,5 +1,4 @@
-//! What refinement brings: random tasks that are known to be solvable, solved without and with
-//! it, everything else alike.
+//! Benefit of refinement: solvable random tasks, solved without and with it, everything else alike.
 
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::solve::{PlanStatus, Planner, Solution, SolveError};
@@ -11,22 +10,22 @@ use serde::{Deserialize, Serialize};
 
 use super::random::random_task;
 
-/// The results of the tasks with one planner; errors are those of the plans to use, metres.
+/// Results of the tasks with a planner; errors refer to the selected plans, metres.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlanErrors {
-    /// As the effect model predicts them.
+    /// Error predicted by the effect model.
     pub predicted: Option<Summary>,
-    /// As executed in the planar engine.
+    /// Error in the 2-D engine.
     pub planar: Option<Summary>,
-    /// As executed in the 3-D engine.
+    /// Error in the 3-D engine.
     pub spatial: Option<Summary>,
-    /// Tasks solved.
+    /// Number of tasks solved.
     pub solved: usize,
-    /// Plans that work in both engines on even pressure, corners and in between.
+    /// Number of plans that work in both engines on even pressure, corners and in between.
     pub on_all_supports: usize,
-    /// Plans replayed a task, on average.
+    /// Mean number of plans replayed per task.
     pub attempts: f64,
-    /// Rollouts of the effect model a task, on average.
+    /// Mean number of rollouts of the effect model per task.
     pub rollouts: f64,
 }
 
@@ -41,39 +40,39 @@ pub struct RefinementReport {
     pub tasks: usize,
     /// Tolerance of the goals, metres.
     pub tolerance: f64,
-    /// Without refinement.
+    /// Results without refinement.
     pub before: PlanErrors,
-    /// With it.
+    /// Results with refinement.
     pub after: PlanErrors,
-    /// Refined plans whose predicted error is larger than before: must be none.
+    /// Number of refined plans with a larger predicted error than before: must be zero.
     pub worse: usize,
-    /// Quadratic programmes solved.
+    /// Number of quadratic programmes solved.
     pub programmes: usize,
-    /// Quadratic programmes that ended in another status.
+    /// Number of quadratic programmes that ended in another status.
     pub programmes_failed: usize,
 }
 
-/// What refinement did in one task.
+/// Effect of refinement in a task.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RefinedTask {
     /// The task solved without refinement.
     pub before: Tried,
-    /// The same with it.
+    /// The task solved with refinement.
     pub after: Tried,
-    /// Refined plans whose predicted error is larger than before.
+    /// Number of refined plans with a larger predicted error than before.
     pub worse: usize,
-    /// Quadratic programmes solved.
+    /// Number of quadratic programmes solved.
     pub programmes: usize,
-    /// Quadratic programmes that ended in another status.
+    /// Number of quadratic programmes that ended in another status.
     pub programmes_failed: usize,
 }
 
-/// A task solved, and whether its plan works on whatever the objects may rest.
+/// A solved task, and whether its plan works on every support model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tried {
     /// The task and its result.
     pub solved: SolvedTask,
-    /// Whether the plan to use works in both engines on even pressure, corners and in between.
+    /// Whether the selected plan works in both engines on even pressure, corners and in between.
     pub on_all_supports: bool,
 }
 
@@ -89,11 +88,11 @@ impl Tried {
     }
 }
 
-/// Solves random task `index` of `seed` with two planners, of which `without` differs from `with` by
-/// not refining; `library` holds at least one tool. The same bits for any number of threads.
+/// Solves random task `index` of `seed` with two planners. `without` differs from `with` only in
+/// that it does not refine. `library` holds at least one tool. The result has the same bits for any
+/// number of threads.
 ///
-/// # Errors
-/// What the planners refuse.
+/// # Errors Returns the error of a planner that refuses the task.
 pub fn refine_task(
     [without, with]: [&Planner; 2],
     library: &ToolLibrary,
@@ -119,7 +118,7 @@ pub fn refine_task(
 }
 
 impl RefinementReport {
-    /// What tasks of `seed` say together that were solved by means of the effect model `model`.
+    /// Combines the results of tasks of `seed` that were solved with the effect model `model`.
     pub fn of(model: &str, seed: u64, done: &[&RefinedTask]) -> Self {
         let (before, after): (Vec<&Tried>, Vec<&Tried>) =
             done.iter().map(|one| (&one.before, &one.after)).unzip();

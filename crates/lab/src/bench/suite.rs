@@ -1,4 +1,4 @@
-//! Suites of held-out pushes: scenes like those of training, but with the shipped tools, which
+//! Suites of held-out pushes: scenes like the training scenes, but with the shipped tools, which
 //! training never sees.
 
 use std::sync::Arc;
@@ -18,13 +18,13 @@ use serde::{Deserialize, Serialize};
 /// Travel of every push, metres.
 const TRAVEL: f64 = 0.20;
 
-/// Speed of the pushes, m/s, where it is not drawn.
+/// Speed of pushes with a fixed speed, m/s.
 const SPEED: f64 = 0.10;
 
-/// Speeds where they are drawn, m/s.
+/// Range of random speeds, m/s.
 const SPEEDS: Span = Span::new(0.03, 0.3);
 
-/// Gap between tool and object at the start, metres: where planners set the tool down.
+/// Gap between tool and object at the start, metres, as planners place the tool.
 const STAND_OFF: f64 = 0.005;
 
 /// Height of the tools' underside above the table, metres.
@@ -34,20 +34,20 @@ const LIFT: f64 = 0.002;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SuiteKind {
-    /// One object, pushed 20 cm at 0.1 m/s.
+    /// A single object, pushed 20 cm at 0.1 m/s.
     Single,
-    /// One object, pushed 20 cm at 0.03 to 0.3 m/s.
+    /// A single object, pushed 20 cm at 0.03 to 0.3 m/s.
     SingleAnySpeed,
     /// Two or three objects that touch each other, pushed 20 cm at 0.1 m/s.
     Touching,
 }
 
 impl SuiteKind {
-    /// All of them.
+    /// Every kind.
     pub const ALL: [SuiteKind; 3] =
         [SuiteKind::Single, SuiteKind::SingleAnySpeed, SuiteKind::Touching];
 
-    /// A line for tables.
+    /// Returns a title for tables.
     pub fn title(self) -> &'static str {
         match self {
             SuiteKind::Single => "one object, 20 cm at 0.1 m/s",
@@ -57,28 +57,27 @@ impl SuiteKind {
     }
 }
 
-/// One push to predict.
+/// A push to predict.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
-    /// What stands on the table.
+    /// Scene on the table.
     pub scene: Scene,
-    /// One stroke of a shipped tool.
+    /// A stroke of a shipped tool.
     pub motion: ToolMotion,
 }
 
 /// Pushes of one kind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Suite {
-    /// Which kind.
+    /// Kind of the pushes.
     pub kind: SuiteKind,
-    /// The pushes; the tools take turns, and so do cylinders and cuboids or two and three
-    /// objects.
+    /// The pushes; tools alternate, and so do cylinders and cuboids or two and three objects.
     pub cases: Vec<Case>,
 }
 
 impl Suite {
-    /// The first `count` cases of a kind under `seed`, with the tools of `library`, which must
-    /// hold at least one.
+    /// Draws the first `count` cases of a kind under `seed`, with the tools of `library`, which
+    /// must hold at least one.
     pub fn draw(kind: SuiteKind, library: &ToolLibrary, seed: u64, count: usize) -> Self {
         // Kinds must not share scenes.
         let seed = seed ^ ((kind as u64 + 1) << 32);
@@ -88,13 +87,13 @@ impl Suite {
     }
 }
 
-/// Scenes of `objects` objects, scattered and dense in turn, with mixed joints, and the first
-/// stroke of the hand in each: what the network is timed on. `objects` is from 2 to 12.
+/// Returns scenes of `objects` objects, scattered and dense in turn, with mixed joints, and the
+/// first stroke of the hand in each. The network is timed on them. `objects` is from 2 to 12.
 pub fn crowd_cases(objects: usize, seed: u64, count: usize) -> Vec<Case> {
     jointed_crowd_cases(objects, JointRule::Mixed, seed, count)
 }
 
-/// The same with other joints.
+/// Returns [`crowd_cases`] with other joints.
 pub(super) fn jointed_crowd_cases(
     objects: usize,
     joints: JointRule,

@@ -1,5 +1,5 @@
-//! What a push costs: predicted, simulated in the plane and in 3-D, and a whole search of
-//! one-push candidates, all in one run so that the ratios mean something.
+//! Cost of a push: predicted, simulated in 2-D and in 3-D, and in a search of one-push candidates.
+//! A single run measures all of them, so that the ratios are comparable.
 
 use std::sync::Arc;
 
@@ -13,24 +13,23 @@ use serde::{Deserialize, Serialize};
 use super::cpu_clock::processor_time;
 use super::suite::{Case, Suite};
 
-/// A search is timed this often and the shortest counts: other work on the machine can only
-/// lengthen it.
+/// Number of times that a search is timed. The shortest counts, because other work on the machine
+/// can only lengthen it.
 const REPEATS: usize = 5;
 
-/// Pushes are repeated until they took this much processor time, seconds: the kernel may count
-/// in ticks of 4 ms.
+/// Minimum processor time of repeated pushes, seconds; the kernel may count in ticks of 4 ms.
 const ENOUGH: f64 = 0.25;
 
-/// Processor time of one push.
+/// Processor time of a push.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PushCost {
     /// Name of the model.
     pub model: String,
-    /// Jobs handed over together.
+    /// Number of jobs per rollout call.
     pub batch: usize,
     /// Processor time per push, seconds.
     pub seconds: f64,
-    /// The same for one frame of a push, seconds.
+    /// Processor time per frame of a push, seconds.
     pub seconds_per_frame: f64,
 }
 
@@ -41,22 +40,21 @@ pub struct SearchCost {
     pub model: String,
     /// Name of the task.
     pub task: String,
-    /// Threads of the pool.
+    /// Number of threads of the pool.
     pub threads: usize,
-    /// Rollouts made.
+    /// Number of rollouts.
     pub rollouts: usize,
     /// Wall-clock time, seconds.
     pub seconds: f64,
 }
 
-/// Times pushes of `suite` on one thread: `model` with `batch` jobs at a time on the same scene
-/// and one at a time, then both engines.
+/// Times pushes of `suite` on one thread: `model` with `batch` jobs per call on the same scene and
+/// one per call, then both engines.
 ///
-/// The jobs of a batch are the same push, which no model can know; it measures what a search
-/// pays for a candidate.
+/// The jobs of a batch are copies of a push, which no model can detect. Their time is the cost of a
+/// candidate in a search.
 ///
-/// # Errors
-/// If the thread cannot be started.
+/// # Errors If the thread cannot be started.
 pub fn push_costs(
     model: &dyn EffectModel,
     suite: &Suite,
@@ -83,8 +81,8 @@ fn push_cost(model: &dyn EffectModel, suite: &Suite, batch: usize) -> PushCost {
     }
 }
 
-/// Processor time of one push on this thread, seconds: the mean over `cases`, `batch` times the
-/// same push at a time, all repeated until that took `enough` seconds.
+/// Returns the processor time of a push on this thread, seconds: the mean over `cases`, with
+/// `batch` copies of a push per call, all repeated for at least `enough` seconds.
 pub(super) fn push_seconds(
     model: &dyn EffectModel,
     cases: &[Case],
@@ -93,7 +91,7 @@ pub(super) fn push_seconds(
 ) -> f64 {
     let work = batches(cases, batch);
     let (mut seconds, mut runs) = (0.0, 0u32);
-    // Bounded, should the clock stand still.
+    // Bounded in case the clock stands still.
     while seconds < enough && runs < 10_000 && !work.is_empty() {
         runs += 1;
         seconds += processor_time(|| {
@@ -106,7 +104,7 @@ pub(super) fn push_seconds(
     seconds / f64::from(runs.max(1)) / (work.len() * batch).max(1) as f64
 }
 
-/// Every push `batch` times, with its scene.
+/// Returns every push `batch` times, with its scene.
 pub(super) fn batches(cases: &[Case], batch: usize) -> Vec<(&Scene, Vec<Job>)> {
     let repeated = |case: &'_ Case| {
         let motion = case.motion.clone();
@@ -118,8 +116,7 @@ pub(super) fn batches(cases: &[Case], batch: usize) -> Vec<(&Scene, Vec<Job>)> {
 /// Times the planner's search of at most `candidates` one-push candidates for `task` with each
 /// model, one after another on the current rayon pool.
 ///
-/// # Errors
-/// What the planner refuses.
+/// # Errors Returns the error of a planner that refuses the task.
 pub fn search_costs(
     models: &[Arc<dyn EffectModel>],
     task: &Task,

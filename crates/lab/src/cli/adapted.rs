@@ -1,4 +1,4 @@
-//! `pushplan-lab adapted`: what a network gains that is fitted to a table.
+//! `pushplan-lab adapted`: benefit of fitting a network to a table.
 
 use std::path::PathBuf;
 

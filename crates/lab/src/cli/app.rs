@@ -1,4 +1,4 @@
-//! From the command line of `pushplan-lab` to an exit code.
+//! The command line of `pushplan-lab`, up to its exit code.
 
 use std::ffi::OsString;
 
@@ -51,7 +51,7 @@ enum Command {
     Report(ReportArgs),
 }
 
-/// What the commands are for, in the order of `--help`.
+/// Groups of the commands, in the order of `--help`.
 const GROUPS: Groups = &[
     ("Prediction", &["evaluate", "adapted", "cost"]),
     ("Planning", &["random", "run", "refinement", "tradeoff"]),
@@ -60,7 +60,7 @@ const GROUPS: Groups = &[
     ("Runs that are kept", &["merge", "status", "report"]),
 ];
 
-/// Runs the command with the given arguments, the program's name first, and gives its exit code.
+/// Runs the command with the given arguments, the program's name first, and returns its exit code.
 pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
     start(args, GROUPS, |cli: &Cli| &cli.global, execute)
 }

@@ -1,4 +1,4 @@
-//! `pushplan-lab convergence`: how exact simulated lever-ups are.
+//! `pushplan-lab convergence`: accuracy of simulated lever-ups.
 
 use clap::Args;
 use pushplan_command::error::CliError;

@@ -1,4 +1,4 @@
-//! `pushplan-lab cost`: what pushes, networks and searches cost.
+//! `pushplan-lab cost`: costs of pushes, networks and searches.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -67,7 +67,7 @@ pub struct CostArgs {
     seed: u64,
 }
 
-/// Candidate-steps that the network is timed on together: one, a search's batch, many.
+/// Numbers of candidate-steps that the network is timed on: one, a search's batch, many.
 const NETWORK_BATCHES: [usize; 3] = [1, 64, 512];
 
 pub fn run(args: &CostArgs, session: &Session) -> Result<(), CliError> {

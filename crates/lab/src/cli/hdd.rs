@@ -76,7 +76,7 @@ pub fn run(args: &HddArgs, session: &Session) -> Result<(), CliError> {
     args.form.show(session, &hdd_document(&report))
 }
 
-/// From the simplest on.
+/// Returns the models, from the simplest on.
 fn models(known: &LeverDataset) -> Vec<Box<dyn LeverModel>> {
     let known = known.episodes();
     vec![

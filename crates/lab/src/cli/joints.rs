@@ -1,4 +1,4 @@
-//! `pushplan-lab joints`: how well joints are inferred from what is seen.
+//! `pushplan-lab joints`: accuracy of joints inferred from observations.
 
 use clap::Args;
 use pushplan::internals::scene::{Engine, ModelSpec};

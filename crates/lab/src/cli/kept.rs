@@ -1,4 +1,4 @@
-//! The suites whose runs are kept in folders, and what runs must have in common to be compared.
+//! The suites whose runs are stored in folders, and the conditions for a comparison of runs.
 
 use pushplan_bench::store::RunManifest;
 use pushplan_command::bench::saved::Kept;
@@ -36,19 +36,18 @@ pub const SUITES: [Kept; 9] = [
             Ok(evaluation_document(&suites, &crowds))
         }),
     ),
-    // Its report needs the networks that were measured, which only the command names.
+    // Its report needs the measured networks, which only the command names.
     Kept::apart(TradeOff::SUITE, None),
 ];
 
-/// The cases of a run whose manifest lists them.
+/// Returns the cases of a run whose manifest lists them.
 pub fn cases_of<C: DeserializeOwned>(manifest: &RunManifest) -> Vec<C> {
     serde_json::from_value(manifest.settings["cases"].clone()).unwrap_or_default()
 }
 
-/// Refuses runs of different tasks: methods are compared on the same ones only.
+/// Refuses runs of different tasks, because methods are compared on equal tasks only.
 ///
-/// # Errors
-/// What differs.
+/// # Errors Returns the difference.
 pub fn same_tasks<R>(runs: &[Run<R>]) -> Result<(), CliError> {
     let tasks = |run: &RunManifest| {
         let decides =

@@ -1,4 +1,4 @@
-//! `pushplan-lab lever-points`: where plates are levered, from how they begin to move.
+//! `pushplan-lab lever-points`: lever points inferred from the first motion of plates.
 
 use clap::Args;
 use pushplan::internals::effect::LeverPrior;

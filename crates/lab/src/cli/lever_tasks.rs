@@ -1,4 +1,4 @@
-//! `pushplan-lab lever-tasks`: generated tasks of levering.
+//! `pushplan-lab lever-tasks`: generated lever tasks.
 
 use std::path::PathBuf;
 

@@ -115,7 +115,7 @@ pub fn run(args: &LeversArgs, session: &Session) -> Result<(), CliError> {
     args.form.show(session, &document)
 }
 
-/// From the simplest on.
+/// Returns the models, from the simplest on.
 fn models(known: &[LeverEpisode]) -> Vec<Box<dyn LeverModel>> {
     let like = |neighbour| LeverBaseline::like(neighbour, known, 1);
     let nearest = |features| like(Neighbour::Nearest(features));
@@ -137,19 +137,18 @@ fn corners_of(episode: &LeverEpisode) -> usize {
     episode.scene.plates[episode.lever.plate].corners().len()
 }
 
-/// A network that is called after its file.
+/// A network named after its file.
 pub(super) struct Named {
     network: Arc<dyn LeverModel>,
     path: String,
-    /// Whether it is measured among blocks too, of which shipped networks know nothing.
+    /// Whether it is also measured among blocks, which are outside the domain of shipped networks.
     among_blocks: bool,
 }
 
 impl Named {
-    /// Reads weights.
+    /// Loads weights.
     ///
-    /// # Errors
-    /// [`CliError::File`] for weights that cannot be used.
+    /// # Errors [`CliError::File`] if the weights cannot be used.
     pub fn load(path: &Path, among_blocks: bool) -> Result<Self, CliError> {
         let network = load_lever(path).map_err(|error| CliError::File(error.to_string()))?;
         Ok(Self { network, path: path.display().to_string(), among_blocks })

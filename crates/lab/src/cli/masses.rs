@@ -1,4 +1,4 @@
-//! `pushplan-lab masses`: how well masses are told from pushes.
+//! `pushplan-lab masses`: accuracy of masses estimated from pushes.
 
 use clap::Args;
 use pushplan::internals::scene::ModelSpec;

@@ -1,4 +1,4 @@
-//! `pushplan-lab probes`: how much pushes tell, by how they were chosen.
+//! `pushplan-lab probes`: information gained by probes, by the rule of their choice.
 
 use clap::Args;
 use pushplan::internals::scene::ModelSpec;

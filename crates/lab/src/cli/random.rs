@@ -77,7 +77,7 @@ impl Suite for RandomArgs {
         Ok(random_document(runs))
     }
 
-    // The seed of a random run is that of its tasks; its planner has the default one.
+    // The seed of a random run is the seed of its tasks; its planner has the default seed.
     fn solved((_, finished): &Run<RandomRecord>) -> Option<(u64, Vec<SolvedTask>)> {
         Some((0, finished.iter().map(|task| task.record.solved.clone()).collect()))
     }

@@ -1,4 +1,4 @@
-//! `pushplan-lab refinement`: what refinement brings.
+//! `pushplan-lab refinement`: benefit of refinement.
 
 use clap::Args;
 use pushplan::internals::solve::{Effort, Planner, Settings};

@@ -1,5 +1,5 @@
-//! `pushplan-lab rest-of-way`: recordings predicted from first contact on, with what is told of their
-//! joints.
+//! `pushplan-lab rest-of-way`: remaining motion of recordings, predicted from first contact on
+//! under different assumptions about their joints.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! `pushplan-lab run`: the closed loop on random tasks that do not know their scene.
+//! `pushplan-lab run`: the closed loop on random tasks with unknown scenes.
 
 use clap::Args;
 use pushplan::internals::scene::Engine;

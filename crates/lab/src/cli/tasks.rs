@@ -1,4 +1,4 @@
-//! Random tasks as commands ask for them, and tasks as files.
+//! Random tasks from arguments, and tasks as files.
 
 use std::path::Path;
 
@@ -33,7 +33,7 @@ pub struct TasksArgs {
 }
 
 impl TasksArgs {
-    /// The tasks, in which the kinds take turns in one order however they are given.
+    /// Returns the tasks, whose kinds alternate in a fixed order.
     pub fn suite(&self, library: &ToolLibrary) -> RandomSuite {
         let mut kinds = self.kinds.concat();
         kinds.sort_unstable();
@@ -41,10 +41,10 @@ impl TasksArgs {
         RandomSuite::new(library, self.seed, &kinds)
     }
 
-    /// What decides a run of the suite `name` on the first `count` of these tasks.
+    /// Returns the settings that determine a run of the suite `name` on the first `count` of these
+    /// tasks.
     ///
-    /// # Errors
-    /// Weights that cannot be read.
+    /// # Errors If weights cannot be read.
     pub fn manifest(
         &self,
         (name, count): (&str, usize),
@@ -68,8 +68,7 @@ impl TasksArgs {
 
 /// Writes the tasks of a run as files.
 ///
-/// # Errors
-/// A task that cannot be made or written; an interruption.
+/// # Errors If a task cannot be made or written, or on an interruption.
 pub fn save_tasks(
     folder: &Path,
     session: &Session,

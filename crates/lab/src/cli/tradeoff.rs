@@ -71,12 +71,12 @@ pub struct TradeOffArgs {
     form: Form,
 }
 
-/// What is measured where no number is given. Two hundred tasks tell success to
-/// 1.5 %; seven rounds find an undisturbed one even on a busy machine.
+/// Default size of a run. Two hundred tasks give the success rate to 1.5 %; seven rounds include an
+/// undisturbed one even on a busy machine.
 const USUAL: TradeOffSettings =
     TradeOffSettings { pushes: 2000, timed: 32, rounds: 7, tasks: 200, tolerance: 1.0, seed: 7 };
 
-/// The same with `--quick`.
+/// Size of a run with `--quick`.
 const QUICK: TradeOffSettings =
     TradeOffSettings { pushes: 200, timed: 8, rounds: 2, tasks: 6, tolerance: 1.0, seed: 7 };
 
@@ -157,7 +157,7 @@ fn measure(
     Ok(store)
 }
 
-/// A share from 0.05 (a millimetre, about what the engines' steps differ by) to 5.
+/// Parses a share from 0.05 (a millimetre, about the difference between the engines' steps) to 5.
 fn tolerance_share(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(share) if (0.05..=5.0).contains(&share) => Ok(share),

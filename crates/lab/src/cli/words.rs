@@ -1,4 +1,4 @@
-//! Words for what is measured, each with its line in `--help`.
+//! Names of measured values, each with its line in `--help`.
 
 use pushplan::internals::scene::LeverFeatures;
 use pushplan_learn::dataset::Controlled;
@@ -6,7 +6,7 @@ use pushplan_learn::dataset::Controlled;
 use crate::bench::{CrowdFamily, JointMethod, Sighting, TaskKind};
 use crate::image::ImageFeatures;
 
-/// What the rest of the way is told of joints.
+/// Assumptions about joints for the remaining motion.
 pub static TOLD: [(&str, JointMethod, &str); 7] = [
     ("given", JointMethod::True, "As they are stated"),
     ("none", JointMethod::None, "Nothing is joined"),
@@ -23,7 +23,7 @@ pub static FAMILIES: [(&str, CrowdFamily, &str); 2] = [
     ("dense", CrowdFamily::Dense, "Objects almost touching, one stroke into them"),
 ];
 
-/// How well things are seen.
+/// Qualities of observations.
 pub static SIGHTINGS: [(&str, Sighting, &str); 5] = [
     ("exact", Sighting::Exact, "True poses"),
     ("fine", Sighting::Fine, "1 mm and 0.5 degrees of noise"),
@@ -32,13 +32,13 @@ pub static SIGHTINGS: [(&str, Sighting, &str); 5] = [
     ("unmarked-fine", Sighting::UnmarkedFine, "Cylinders alone, 1 mm of noise, no headings"),
 ];
 
-/// Set-ups in which only masses differ.
+/// Setups that differ only in masses.
 pub static CONTROLLED: [(&str, Controlled, &str); 2] = [
     ("rows", Controlled::Rows, "Three rows of three, every second cylinder somewhat aside"),
     ("wedges", Controlled::Wedges, "Three times one before the gap between two"),
 ];
 
-/// Kinds of random tasks, and a word for those that are everyday.
+/// Kinds of random tasks, and a name for the everyday kinds.
 pub static KINDS: [(&str, &[TaskKind], &str); 21] = [
     ("reach", &[TaskKind::Reach], "Farther out than the end effector can go"),
     ("pull", &[TaskKind::Pull], "Towards the robot"),
@@ -71,16 +71,16 @@ pub static KINDS: [(&str, &[TaskKind], &str); 21] = [
     ("three-aside", &[TaskKind::ThreeAside], "Three things stand in the way"),
 ];
 
-/// What a network of lever-ups is told of the shape.
+/// Features of the shape for a network of lever-ups.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Told {
-    /// Numbers of a fixed count.
+    /// A fixed number of features.
     Numbers(LeverFeatures),
     /// An image, by convolutions.
     Image(ImageFeatures),
 }
 
-/// All of it.
+/// Names of all features.
 pub static LEVER_FEATURES: [(&str, Told, &str); 9] = [
     ("nothing", Told::Numbers(LeverFeatures::Nothing), "Nothing"),
     (

@@ -1,4 +1,4 @@
-//! What codes images without knowing of levers: an autoencoder, trained before the network itself.
+//! An autoencoder that codes images without data of lever-ups, trained before the network itself.
 
 use std::fmt;
 
@@ -13,18 +13,18 @@ use serde::{Deserialize, Serialize};
 use super::example::{Seen, images};
 use super::{Autoencoder, ImageSettings, ImageSizes, autoencoder_layout, fresh_autoencoder};
 
-/// Images are drawn under another seed than lever-ups.
+/// Seed offset, so that images are drawn differently from lever-ups.
 const IMAGES: u64 = 0x494d_4147;
 
-/// Number of images that are judged at once.
+/// Number of images evaluated at once.
 const AT_ONCE: usize = 64;
 
-/// The weights of an autoencoder of the images that `settings` says, trained on the first and judged on the
-/// second ones in the folder `code` of a run, in as many steps as the network itself; goes on from its own
-/// checkpoint there. `None` if `watch` said to stop.
+/// Trains an autoencoder of the images of `settings` in the folder `code` of a run, and returns its
+/// weights. It trains on the first and is evaluated on the second images, in as many steps as the
+/// network itself, and resumes from its own checkpoint there. Returns `None` if `watch` cancelled
+/// the training.
 ///
-/// # Errors
-/// [`TrainError`]; whatever was saved before stays.
+/// # Errors Returns a [`TrainError`]; files saved before remain.
 pub(super) fn code(
     settings: &ImageSettings,
     (examples, held_out): (&[Seen], &[Seen]),
@@ -42,7 +42,7 @@ pub(super) fn code(
     Ok(whole.then_some(last.parameters))
 }
 
-/// What the weights of an autoencoder are.
+/// Metadata of the weights of an autoencoder.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct CodeCard {
     image: ImageSizes,
@@ -84,7 +84,7 @@ struct Task<'a> {
 impl Trainable for Task<'_> {
     const KEY: &'static str = "pushplan-lever-code-checkpoint";
     type Settings = ImageSettings;
-    /// Pixels are shares.
+    /// Pixels are shares and need no scales.
     type Scales = ();
     type Score = CodeScore;
     type Card = CodeCard;
@@ -141,7 +141,7 @@ impl Trainable for Task<'_> {
     }
 }
 
-/// The cross entropy of every pixel, mean: log(1 + exp x) - x y, without overflow.
+/// Returns the mean cross entropy of a pixel: log(1 + exp x) - x y, without overflow.
 fn loss(network: &Autoencoder, seen: &Tensor) -> CandleResult<Tensor> {
     let x = network.forward(seen)?;
     let wanted = seen.reshape(x.shape())?;

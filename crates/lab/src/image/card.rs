@@ -1,4 +1,4 @@
-//! What the weights of a network that sees images are.
+//! Metadata of the weights of a network with image input.
 
 use pushplan::internals::network::{
     Card, LEVER_POSE, Layout, LeverCard, LeverSizes, Parameters, Weights, WeightsError,
@@ -16,14 +16,14 @@ pub const CODE: usize = 32;
 /// The weights of a network that sees images.
 pub type ImageWeights = Weights<ImageCard>;
 
-/// What the weights are and how they came about.
+/// Metadata of the weights.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ImageCard {
-    /// What it sees.
+    /// Images that the network sees.
     pub features: ImageFeatures,
-    /// The image that it sees.
+    /// Extents of the image.
     pub image: ImageSizes,
-    /// The rest of it, which is told nothing of the shape.
+    /// Metadata of the recurrent memory, which has no features of the shape.
     pub memory: LeverCard,
 }
 
@@ -46,7 +46,8 @@ impl Card for ImageCard {
     }
 }
 
-/// Names and shapes of all parameters: those of the memory, those that see, and from the code to the gates.
+/// Returns names and shapes of all parameters: of the memory, of the convolutions, and from the
+/// code to the gates.
 fn layout(sizes: &LeverSizes, image: &ImageSizes) -> Layout {
     let mut layout = lever_layout(&LeverSizes { feedback: false, ..*sizes });
     layout.extend(image_layout(image));
@@ -57,8 +58,8 @@ fn layout(sizes: &LeverSizes, image: &ImageSizes) -> Layout {
     layout
 }
 
-/// Random first values from `seed`, as those of [`fresh_lever`](pushplan::internals::network::fresh_lever);
-/// biases are zero.
+/// Returns random initial values from `seed`, as
+/// [`fresh_lever`](pushplan::internals::network::fresh_lever) does; biases are zero.
 pub fn fresh_image(sizes: &LeverSizes, image: &ImageSizes, seed: u64) -> Parameters {
     let mut random = Pcg64::seed_from_u64(seed);
     let mut values = |(name, shape): (&'static str, Vec<usize>)| {

@@ -1,20 +1,20 @@
-//! Images in a few numbers: convolutions, and a dense layer.
+//! Compression of images into a few numbers: convolutions and a dense layer.
 //!
 //! ```text
 //! x_{l+1} = relu(patches(x_l) W_l + b_l)      code = tanh(x_L W + b)
 //! ```
 //!
-//! Every convolution halves rows and columns until both are at most four. An image is [rows, columns,
-//! channels]; `patches` has a row for every second pixel of every second row, the 3 x 3 pixels about
-//! it with all channels, zero beyond the image.
+//! Every convolution halves rows and columns until both are at most four. An image is [rows,
+//! columns, channels]. `patches` has a row for every second pixel of every second row: all channels
+//! of the 3 x 3 pixels around it, zero beyond the image.
 
 use pushplan::internals::network::{Layout, Parameters, matrix_product};
 use serde::{Deserialize, Serialize};
 
-/// Sides up to which an image is halved.
+/// Largest side of an image that is not halved further.
 const SMALL: usize = 4;
 
-/// Pixels of a side of a patch.
+/// Side of a patch, pixels.
 const SIDE: usize = 3;
 
 /// Channels of convolutions, from the last one backwards.
@@ -28,37 +28,37 @@ const NAMES: [[&str; 2]; 4] = [
     ["image.fourth", "image.fourth_bias"],
 ];
 
-/// An image of one channel, and in how many numbers it is told.
+/// Extents of an image of one channel, and the length of its code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ImageSizes {
     /// Rows, at most 64.
     pub rows: usize,
     /// Columns, at most 64.
     pub columns: usize,
-    /// Numbers of the code.
+    /// Length of the code.
     pub code: usize,
 }
 
-/// A convolution: the extents of what it sees.
+/// A convolution and the extents of its input.
 #[derive(Clone, Copy, Debug)]
 pub struct Convolution {
-    /// Of its weights and its bias.
+    /// Names of its weights and its bias.
     pub names: [&'static str; 2],
-    /// Of what it sees.
+    /// Rows of its input.
     pub rows: usize,
-    /// Of what it sees.
+    /// Columns of its input.
     pub columns: usize,
-    /// Of what it sees.
+    /// Channels of its input.
     pub channels: usize,
-    /// Channels of what it makes.
+    /// Channels of its output.
     pub made: usize,
 }
 
 impl ImageSizes {
-    /// Most rows and columns.
+    /// Maximum number of rows and of columns.
     pub const MOST: usize = SMALL << NAMES.len();
 
-    /// Of an image, from the first one on.
+    /// Returns the convolutions of an image, from the first one on.
     pub fn convolutions(&self) -> Vec<Convolution> {
         let (mut rows, mut columns) = (self.rows, self.columns);
         let mut sides = Vec::new();
@@ -80,17 +80,17 @@ impl ImageSizes {
 }
 
 impl Convolution {
-    /// Rows and columns of what it makes.
+    /// Returns rows and columns of its output.
     pub fn halved(&self) -> [usize; 2] {
         [self.rows.div_ceil(2), self.columns.div_ceil(2)]
     }
 
-    /// Numbers of a patch.
+    /// Returns the length of a patch.
     pub fn patch(&self) -> usize {
         SIDE * SIDE * self.channels
     }
 
-    /// The patches of `x`, images side by side.
+    /// Returns the patches of `x`, images side by side.
     pub fn patches(&self, x: &[f32]) -> Vec<f32> {
         let [rows, columns] = self.halved();
         let count = x.len() / (self.rows * self.columns * self.channels);
@@ -101,7 +101,8 @@ impl Convolution {
         patches
     }
 
-    /// The gradient of images from that of their patches.
+    /// Returns the gradient with respect to the images, given the gradient with respect to their
+    /// patches.
     pub fn patches_gradient(&self, of_patches: &[f32]) -> Vec<f32> {
         let [rows, columns] = self.halved();
         let count = of_patches.len() / (rows * columns * self.patch());
@@ -113,7 +114,8 @@ impl Convolution {
         of_x
     }
 
-    /// Calls with where in the images and where in the patches the same numbers stand, and how many.
+    /// Calls `with` for every run of numbers that image and patches share: its positions in both,
+    /// and its length.
     #[inline(always)]
     fn pairs(&self, count: usize, mut with: impl FnMut(usize, usize, usize)) {
         let [rows, columns] = self.halved();
@@ -122,7 +124,7 @@ impl Convolution {
             for row in 0..rows {
                 for column in 0..columns {
                     let patch = ((image * rows + row) * columns + column) * self.patch();
-                    // The pixels of a row stand side by side; those beyond the image are left out.
+                    // The pixels of a row are adjacent; those beyond the image are left out.
                     let first = (2 * column).saturating_sub(1);
                     let beyond = (2 * column + 2).min(self.columns);
                     let skipped = first + 1 - 2 * column;
@@ -144,7 +146,7 @@ impl Convolution {
     }
 }
 
-/// Names and shapes of the parameters of these images.
+/// Returns names and shapes of the parameters of these images.
 pub fn image_layout(sizes: &ImageSizes) -> Layout {
     let convolutions = sizes.convolutions();
     let mut layout = Vec::new();
@@ -162,17 +164,16 @@ pub fn image_layout(sizes: &ImageSizes) -> Layout {
     layout
 }
 
-/// First values of a parameter are drawn from so much around zero: their variance is 1 / fan-in, and
-/// twice that before a rectifier of images.
+/// Returns the bound of the uniform distribution around zero from which a parameter is initialised.
+/// The variance is 1 / fan-in, and twice as much before a rectifier of images.
 pub fn fresh_bound(name: &str, shape: &[usize]) -> f32 {
     let rectified = NAMES.iter().any(|[weights, _]| *weights == name);
     (if rectified { 6.0 } else { 3.0 } / shape[0].max(1) as f32).sqrt()
 }
 
-/// The code before its last tanh, of one image, row by row.
+/// Computes the code of an image, row by row, before the last tanh.
 ///
-/// # Panics
-/// If a parameter is missing.
+/// # Panics If a parameter is missing.
 pub fn image_code(sizes: &ImageSizes, parameters: &Parameters, image: &[f32]) -> Vec<f32> {
     let get = |name: &str| &parameters.values[name];
     let layer = |x: &[f32], columns: usize, weights: &[f32], bias: &[f32]| {

@@ -1,4 +1,4 @@
-//! What a plate looks like from above, from where it is levered.
+//! Images of a plate from above, seen from the lever point.
 
 use pushplan::internals::effect::{LeverView, lever_features};
 use pushplan::internals::geometry::Vector;
@@ -9,25 +9,26 @@ use pushplan::internals::{
 
 use super::ImageFeatures;
 
-/// Extents of a pixel inwards and along the levered edge, metres: the same for all plates, so that
-/// large ones look large. The image holds every polygon with its corners on a circle of 10 cm.
+/// Extents of a pixel inwards and along the levered edge, metres. They are equal for all plates, so
+/// that large plates look large. The image holds every polygon with its corners on a circle of 10
+/// cm.
 const PIXEL: [f64; 2] = [0.0035, 0.005];
 
-/// How far the image reaches to the right of the lever point, metres: less than to the left, where
-/// the centre of mass is.
+/// Extent of the image to the right of the lever point, metres: less than to the left, where the
+/// centre of mass is.
 const RIGHT: f64 = 0.13;
 
-/// Lines on which the cover of a row's pixels is measured.
+/// Number of lines on which the cover of a row's pixels is measured.
 const LINES: usize = 4;
 
-/// This high above the table a depth image says 1, metres.
+/// Height above the table at which a depth image has the value 1, metres.
 const HIGH: f64 = 0.05;
 
-/// The image of a job's plate as seen in `view`, row by row inwards from the levered edge, columns
-/// from the right.
+/// Returns the image of a job's plate as seen in `view`, row by row inwards from the levered edge,
+/// columns from the right.
 ///
-/// A mask says which share of every pixel is covered, a depth image how high that is above the table,
-/// and the image of a shape context is that itself, rings by wedges.
+/// A pixel of a mask is the covered share of it, a pixel of a depth image its height above the
+/// table. The image of a shape context is the context itself, rings by wedges.
 pub fn lever_image(features: ImageFeatures, job: &LeverJob, view: &LeverView) -> Vec<f32> {
     let plate = &job.scene.plates[job.lever.plate];
     match features {
@@ -39,8 +40,8 @@ pub fn lever_image(features: ImageFeatures, job: &LeverJob, view: &LeverView) ->
     }
 }
 
-/// Of every pixel the largest of the covers by each slab times its `value`: which parts overlap
-/// does not show in a mask.
+/// Returns for every pixel the maximum over slabs of cover times `value`, so that overlaps of parts
+/// are invisible in a mask.
 fn drawn(job: &LeverJob, view: &LeverView, value: impl Fn(&Slab) -> f32) -> Vec<f32> {
     let [rows, columns] = ImageFeatures::PIXELS;
     let mut image = vec![0.0f32; rows * columns];
@@ -63,7 +64,7 @@ fn drawn(job: &LeverJob, view: &LeverView, value: impl Fn(&Slab) -> f32) -> Vec<
     image
 }
 
-/// Where the line at `x` enters and leaves a convex outline.
+/// Returns where the line at `x` enters and leaves a convex outline.
 fn span(corners: &[Vector], x: f64) -> Option<[f64; 2]> {
     let mut span: Option<[f64; 2]> = None;
     for (k, a) in corners.iter().enumerate() {

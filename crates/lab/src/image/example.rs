@@ -9,16 +9,16 @@ use rayon::prelude::*;
 
 use super::{ImageFeatures, ImageSettings, ImageSizes, lever_image};
 
-/// A lever-up with its answer, and what is seen of it.
+/// A lever-up with its target and its image.
 #[derive(Clone, Debug)]
 pub(super) struct Seen {
     pub example: LeverExample,
-    /// Row by row.
+    /// Pixels, row by row.
     pub image: Vec<f32>,
 }
 
 impl Seen {
-    /// Those of `episodes` that came to rest without a jam, and have frames that count.
+    /// Returns the examples of `episodes` that came to rest without a jam and have usable frames.
     pub fn all(settings: &ImageSettings, episodes: &[LeverEpisode]) -> Vec<Self> {
         let seen = |episode: &LeverEpisode| {
             let mut example = LeverExample::new(&settings.memory, episode)?;
@@ -31,8 +31,8 @@ impl Seen {
     }
 }
 
-/// What a network that sees images is told of a job, with what the prior says of it if that is
-/// corrected: what stands beside the image, and the image, row by row.
+/// Returns the inputs of a network with image input for a job: the features beside the image, and
+/// the image, row by row. The features include the prediction of `prior` if it is corrected.
 pub fn image_inputs(
     features: ImageFeatures,
     job: &LeverJob,
@@ -43,12 +43,12 @@ pub fn image_inputs(
     (inputs, lever_image(features, job, &LeverView::new(job)))
 }
 
-/// How thick a plate is belongs to what is seen of it, or is not.
+/// Hides the thickness of a plate, which only the image may show.
 fn hide_thickness(inputs: &mut LeverInputs) {
     inputs.still[LeverFeatures::THICKNESS] = 0.0;
 }
 
-/// Images side by side: [B, rows, columns, 1].
+/// Returns images side by side: [B, rows, columns, 1].
 pub(super) fn images(seen: &[&Seen], sizes: &ImageSizes) -> Result<Tensor> {
     let all: Vec<f32> = seen.iter().flat_map(|seen| seen.image.iter().copied()).collect();
     Tensor::from_vec(all, (seen.len(), sizes.rows, sizes.columns, 1), &Device::Cpu)

@@ -1,4 +1,4 @@
-//! What of a plate is seen as an image.
+//! Images of a plate as network inputs.
 
 use std::fmt;
 
@@ -9,13 +9,13 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ImageFeatures {
-    /// A mask of the plate from above, from which a convolutional network learns what matters.
+    /// A mask of the plate from above, whose features a convolutional network learns.
     Image,
-    /// The same mask in the code of an autoencoder, which knows nothing of levers.
+    /// The mask in the code of an autoencoder, which is trained without lever-ups.
     ImageCode,
     /// The shape context as an image of rings and wedges, by a convolutional network.
     ContextImage,
-    /// How high everything is above the table, from above, by a convolutional network.
+    /// Height of everything above the table, from above, by a convolutional network.
     Depth,
 }
 
@@ -23,7 +23,7 @@ impl ImageFeatures {
     /// Rows and columns of a mask or a depth image.
     pub const PIXELS: [usize; 2] = [64, 64];
 
-    /// Rows and columns of the image.
+    /// Returns rows and columns of the image.
     pub fn extents(self) -> [usize; 2] {
         match self {
             Self::Image | Self::ImageCode | Self::Depth => Self::PIXELS,

@@ -1,4 +1,4 @@
-//! What sees images as a candle graph, and the autoencoder around it.
+//! The convolutions of images as a candle graph, and the autoencoder around it.
 
 use std::collections::BTreeMap;
 
@@ -10,34 +10,32 @@ use rand_pcg::Pcg64;
 
 use super::{Convolution, ImageSizes, fresh_bound, image_layout};
 
-/// Width of the layer between the code and the image that it stands for.
+/// Width of the layer between the code and the reconstructed image.
 const BETWEEN: usize = 256;
 
-/// Images told in a code from which they can be drawn again.
+/// An encoder of images and a decoder that draws them from their codes.
 pub struct Autoencoder {
     sizes: ImageSizes,
     variables: BTreeMap<String, Var>,
 }
 
 impl Autoencoder {
-    /// One with the given parameters.
+    /// Creates an autoencoder with the given parameters.
     ///
-    /// # Errors
-    /// If a parameter is missing or has another shape than [`autoencoder_layout`] says.
+    /// # Errors If a parameter is missing or has another shape than in [`autoencoder_layout`].
     pub fn new(sizes: &ImageSizes, parameters: &Parameters) -> Result<Self> {
         Ok(Self { sizes: *sizes, variables: variables(autoencoder_layout(sizes), parameters)? })
     }
 
-    /// The variables by name.
+    /// Returns the variables by name.
     pub fn variables(&self) -> &BTreeMap<String, Var> {
         &self.variables
     }
 
-    /// Of images [B, rows, columns, 1] what is drawn from their codes, as logits of the share of every
-    /// pixel that is covered [B, rows x columns].
+    /// Reconstructs images [B, rows, columns, 1] from their codes, as logits of the covered share
+    /// of every pixel [B, rows x columns].
     ///
-    /// # Errors
-    /// Those of candle.
+    /// # Errors Returns errors of candle.
     pub fn forward(&self, images: &Tensor) -> Result<Tensor> {
         let get = |name: &str| self.variables[name].as_tensor();
         image_codes(&self.sizes, get, images)?
@@ -49,7 +47,7 @@ impl Autoencoder {
     }
 }
 
-/// Names and shapes of the parameters of an autoencoder: those that see images, and those that draw.
+/// Returns names and shapes of the parameters of an autoencoder: encoder, then decoder.
 pub fn autoencoder_layout(sizes: &ImageSizes) -> network::Layout {
     let pixels = sizes.rows * sizes.columns;
     let mut layout = image_layout(sizes);
@@ -62,7 +60,7 @@ pub fn autoencoder_layout(sizes: &ImageSizes) -> network::Layout {
     layout
 }
 
-/// Random first values from `seed`; biases are zero.
+/// Returns random initial values from `seed`; biases are zero.
 pub fn fresh_autoencoder(sizes: &ImageSizes, seed: u64) -> Parameters {
     let mut random = Pcg64::seed_from_u64(seed);
     let values = autoencoder_layout(sizes).into_iter().map(|(name, shape)| {
@@ -74,20 +72,20 @@ pub fn fresh_autoencoder(sizes: &ImageSizes, seed: u64) -> Parameters {
     Parameters { values: values.collect() }
 }
 
-/// A memory and what sees images for it, with their variables.
+/// A memory and its image encoder, with their variables.
 pub struct ImageGraph {
     sizes: ImageSizes,
     memory: LeverGraph,
-    /// Those that see, and from the code to the gates.
+    /// Parameters of the encoder, and from the code to the gates.
     values: BTreeMap<String, Tensor>,
     variables: BTreeMap<String, Var>,
 }
 
 impl ImageGraph {
-    /// Networks of these sizes with the given parameters; what sees learns too, or is left as it is.
+    /// Creates networks of these sizes with the given parameters. The encoder is trained too unless
+    /// `sees_as_it_is`.
     ///
-    /// # Errors
-    /// If a parameter is missing or has another shape than its layout says.
+    /// # Errors If a parameter is missing or has another shape than in its layout.
     pub fn new(
         sizes: (&LeverSizes, &ImageSizes),
         parameters: &Parameters,
@@ -110,27 +108,26 @@ impl ImageGraph {
         Ok(Self { sizes: *image, memory, values, variables })
     }
 
-    /// The variables by name.
+    /// Returns the variables by name.
     pub fn variables(&self) -> &BTreeMap<String, Var> {
         &self.variables
     }
 
-    /// The memory.
+    /// Returns the memory.
     pub fn memory(&self) -> &LeverGraph {
         &self.memory
     }
 
-    /// What the gates are told of images [B, rows, columns, 1]: [B, 4 H].
+    /// Returns the contribution of images [B, rows, columns, 1] to the gates: [B, 4 H].
     ///
-    /// # Errors
-    /// Those of candle.
+    /// # Errors Returns errors of candle.
     pub fn told(&self, images: &Tensor) -> Result<Tensor> {
         image_codes(&self.sizes, |name| &self.values[name], images)?
             .matmul(&self.values["gates.image"])
     }
 }
 
-/// The codes [B, code] of images [B, rows, columns, 1].
+/// Returns the codes [B, code] of images [B, rows, columns, 1].
 fn image_codes<'a>(
     sizes: &ImageSizes,
     get: impl Fn(&str) -> &'a Tensor,
@@ -150,7 +147,7 @@ fn image_codes<'a>(
         .tanh()
 }
 
-/// Images side by side to their patches, a row each.
+/// Operation from images side by side to their patches, one per row.
 struct Patches(Convolution);
 
 impl CustomOp1 for Patches {

@@ -1,11 +1,11 @@
 //! Networks of lever-ups that see the plate from above (Tekden 2020, chapter 6).
 //!
-//! A long short-term memory as the shipped one, `pushplan::internals::network::LeverCell`, whose gates are
-//! told the code of an image instead of features of the shape. The code comes from convolutions, which learn
-//! together with the memory, or before it as those of an autoencoder.
+//! A long short-term memory like the shipped one, `pushplan::internals::network::LeverCell`. Its
+//! gates receive the code of an image instead of features of the shape. The code comes from
+//! convolutions, which are trained together with the memory, or before it in an autoencoder.
 //!
-//! Tried and lost: support points, which cost nothing to compute, tell more (`crates/models/lever.md`, from
-//! images).
+//! Rejected: support points, which cost nothing to compute, are more informative
+//! (`crates/models/lever.md`, from images).
 
 mod autoencoder;
 mod card;

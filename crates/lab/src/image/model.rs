@@ -1,4 +1,4 @@
-//! Networks that see images as models of lever-ups.
+//! Networks with image input as models of lever-ups.
 
 use pushplan::internals::effect::{LeverInputs, LeverNetwork, LeverNetworkError, LeverPrior};
 use pushplan::internals::network::{
@@ -15,18 +15,18 @@ use super::{ImageFeatures, ImageSizes, ImageWeights, image_code, image_inputs};
 pub struct ImageNetwork {
     features: ImageFeatures,
     sizes: ImageSizes,
-    /// Those that see.
+    /// Parameters of the convolutions.
     parameters: Parameters,
-    /// It is told the code as further features of the lever-up.
+    /// Recurrent cell, which receives the code as further features of the lever-up.
     cell: LeverCell,
     prior: Option<LeverPrior>,
 }
 
 impl ImageNetwork {
-    /// Of these weights.
+    /// Creates the model of these weights.
     ///
-    /// # Errors
-    /// [`LeverNetworkError::Inputs`] if their widths do not fit what the card says is seen and told.
+    /// # Errors [`LeverNetworkError::Inputs`] if their widths do not fit the inputs that the card
+    /// states.
     pub fn new(weights: &ImageWeights) -> Result<Self, LeverNetworkError> {
         let card = &weights.card;
         let (mut memory, sizes) = (card.memory.clone(), card.image);
@@ -70,7 +70,7 @@ impl LeverModel for ImageNetwork {
     }
 
     fn takes(&self, job: &LeverJob) -> bool {
-        // It has learned of plates on a plain table.
+        // It was trained on plates on a plain table.
         job.scene.plates.len() == 1 && job.scene.blocks.is_empty()
     }
 

@@ -1,4 +1,4 @@
-//! What the trainer asks of a network that sees images.
+//! Training of a network with image input.
 
 use std::path::PathBuf;
 
@@ -18,28 +18,28 @@ use super::{
     CODE, ImageCard, ImageFeatures, ImageGraph, ImageNetwork, ImageSizes, ImageWeights, fresh_image,
 };
 
-/// Everything that decides a training run besides its episodes.
+/// Settings that determine a training run, except its episodes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ImageSettings {
-    /// What it sees.
+    /// Images that the network sees.
     pub features: ImageFeatures,
-    /// Everything else; its `features` must be [`Nothing`](pushplan::internals::scene::LeverFeatures).
+    /// Other settings; their `features` must be
+    /// [`Nothing`](pushplan::internals::scene::LeverFeatures).
     pub memory: LeverSettings,
 }
 
 impl ImageSettings {
-    /// The image that is seen.
+    /// Returns the extents of the image.
     pub fn image(&self) -> ImageSizes {
         let [rows, columns] = self.features.extents();
         ImageSizes { rows, columns, code: CODE }
     }
 }
 
-/// Trains in `folder`, see [`Trainer::run`]; an autoencoder first, in as many steps, if its code is what is
-/// told.
+/// Trains in `folder`, see [`Trainer::run`]. For [`ImageFeatures::ImageCode`], an autoencoder is
+/// trained first, in as many steps.
 ///
-/// # Errors
-/// [`TrainError`]; whatever was saved before stays.
+/// # Errors Returns a [`TrainError`]; files saved before remain.
 pub fn train_image(
     settings: &ImageSettings,
     episodes: &[LeverEpisode],
@@ -64,7 +64,7 @@ pub fn train_image(
 struct Task<'a> {
     settings: &'a ImageSettings,
     examples: Vec<Seen>,
-    /// What an autoencoder has learned to see with; empty without one.
+    /// Convolution parameters of a trained autoencoder; empty without one.
     code: Parameters,
     held_out: Vec<LeverEpisode>,
 }
@@ -72,7 +72,7 @@ struct Task<'a> {
 impl Trainable for Task<'_> {
     const KEY: &'static str = "pushplan-lever-image-checkpoint";
     type Settings = ImageSettings;
-    /// Of features of a lever-up, and of a frame.
+    /// Scales of the features of a lever-up, and of a frame.
     type Scales = [Statistics; 2];
     type Score = LeverScore;
     type Card = ImageCard;

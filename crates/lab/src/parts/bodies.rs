@@ -8,10 +8,10 @@ use pushplan::internals::{
     task::{LeverJob, LeverUp},
 };
 
-/// Half the width of the table, metres, and half its thickness.
+/// Half the width and half the thickness of the table, metres.
 const TABLE: [f64; 2] = [2.0, 0.25];
 
-/// A cuboid that stays where it is.
+/// A fixed cuboid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fixed {
     pub solid: Box3,
@@ -27,22 +27,22 @@ impl Fixed {
     }
 }
 
-/// The least and the most of a cuboid's coordinates, metres; `axes` is its turn.
+/// Returns the smallest and largest coordinates of a cuboid, metres; `axes` is its rotation.
 pub(super) fn bounds(solid: &Box3, axes: &Matrix3) -> [Vector3; 2] {
     let extents = axes.abs() * solid.half;
     [solid.pose.position - extents, solid.pose.position + extents]
 }
 
-/// A levered body of cuboids, and what is around it.
+/// A levered body of cuboids and the bodies around it.
 #[derive(Clone, Debug)]
 pub(super) struct LeverBodies {
-    /// What the blade does.
+    /// Motion of the blade.
     pub lever: LeverUp,
-    /// The body's cuboids about its centre of mass, on its own axes.
+    /// Cuboids of the body about its centre of mass, on its own axes.
     pub(super) parts: Vec<Box3>,
-    /// Largest distance of their points from it, metres.
+    /// Largest distance of their points from the centre of mass, metres.
     pub(super) reach: f64,
-    /// What is fixed, the table first.
+    /// Fixed bodies, the table first.
     pub(super) fixed: Vec<Fixed>,
     /// Friction coefficient with the blade.
     pub(super) rub: f64,
@@ -53,7 +53,8 @@ pub(super) struct LeverBodies {
 }
 
 impl LeverBodies {
-    /// Those of a job; none if the levered body is not alone, or not made of cuboids.
+    /// Returns the bodies of a job; `None` if there are other plates, or a part of the plate is no
+    /// cuboid.
     pub fn new(job: &LeverJob) -> Option<Self> {
         let LeverJob { scene, lever } = job;
         let [plate] = &scene.plates[..] else { return None };
@@ -96,24 +97,24 @@ impl LeverBodies {
         })
     }
 
-    /// A pose of the body's frame in the world as seen here: centre of mass, and turn.
+    /// Returns a world pose of the body's frame as centre of mass and rotation in the lever frame.
     pub fn see(&self, pose: &Pose3) -> (Vector3, Turn3) {
         let centre = self.frame.local_point(pose.point(self.centre));
         (centre, self.frame.rotation.inverse() * pose.rotation)
     }
 
-    /// The pose in the world that is seen so.
+    /// Returns the world pose of a centre of mass and rotation in the lever frame.
     pub fn pose(&self, (centre, turn): (Vector3, Turn3)) -> Pose3 {
         let rotation = self.frame.rotation * turn;
         Pose3 { position: self.frame.point(centre) - rotation * self.centre, rotation }
     }
 
-    /// Where the body is at the start.
+    /// Returns the initial pose of the body.
     pub fn start(&self) -> (Vector3, Turn3) {
         self.see(&self.scene.plates[self.lever.plate].start())
     }
 
-    /// The blade at some time, seconds from the start of the turn.
+    /// Returns the blade at some time, seconds from the start of the rotation.
     pub(super) fn blade(&self, time: f64) -> Box3 {
         let blade = &self.scene.blade;
         let half = 0.5 * Vector3::new(blade.length, blade.width, blade.thickness);

@@ -1,7 +1,7 @@
-//! The network of parts that are levered: its tables and its weights file.
+//! The network of parts of levered bodies: its tables and its weights file.
 //!
-//! Propagation as of pushes, on nodes that are the cuboids of a levered body and relations that are
-//! joints between them and nearness of others. Even and odd are meant under a mirror along the levered
+//! The network propagates as for pushes. Nodes are the cuboids of a levered body, and relations are
+//! joints between them and nearness of others. Even and odd refer to a mirror along the levered
 //! edge, in the lever frame (x inward, y along the edge, z up).
 
 use pushplan::internals::network::{
@@ -13,23 +13,23 @@ use serde::{Deserialize, Serialize};
 /// The weights of a network of parts.
 pub type PartsWeights = Weights<PartsCard>;
 
-/// Columns of its tables. What is read from a node is how the body moves: of ways x and z and of the
-/// turn y are even, of ways y and of the turn x and z are odd.
+/// Columns of its tables. A node's output is the motion of the body. Displacements along x and z
+/// and the rotation about y are even; the displacement along y and rotations about x and z are odd.
 pub const PARTS: Tables =
     Tables { node: [19, 13], given: [0, 0], relation: [24, 8], output: [3, 3] };
 
-/// What the weights are and how they came about.
+/// Metadata of the weights.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PartsCard {
     /// Network size.
     pub config: Config,
-    /// Whether it corrects the prior.
+    /// Whether the network corrects the analytic model.
     pub prior: bool,
     /// Feature scales.
     pub normaliser: Normaliser,
-    /// Lever-ups that it was trained on.
+    /// Number of lever-ups in its training set.
     pub episodes: u64,
-    /// Optimiser steps taken.
+    /// Number of optimiser steps taken.
     pub steps: u64,
 }
 

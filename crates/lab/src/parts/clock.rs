@@ -1,24 +1,25 @@
-//! The steps in which a lever-up is predicted.
+//! The time steps of a predicted lever-up.
 
 use pushplan::internals::{outcome::LEVER_FRAMES, task::LeverUp};
 
-/// Longest step, seconds. In it a blade moves 5 mm, and what falls from rest 12 mm.
+/// Longest step, seconds. A blade moves 5 mm in it, and a body falls 12 mm from rest.
 const LONGEST: f64 = 0.05;
 
-/// So long after blade and body part a body that does not come to rest is left where it is, seconds.
+/// Time after blade and body part at which the prediction of a body that does not come to rest
+/// ends, seconds.
 const PATIENCE: f64 = 1.0;
 
 /// Times of the steps of a lever-up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct LeverClock {
-    /// Steps of a frame of the turn.
+    /// Number of steps of a frame of the rotation.
     pub a_frame: usize,
     turn: f64,
     end: f64,
 }
 
 impl LeverClock {
-    /// That of a lever-up.
+    /// Returns the clock of a lever-up.
     pub fn new(lever: &LeverUp) -> Self {
         let turn = lever.turn_time();
         let frame = turn / LEVER_FRAMES as f64;
@@ -26,12 +27,12 @@ impl LeverClock {
         Self { a_frame, turn, end: lever.duration() + PATIENCE }
     }
 
-    /// Steps of the turn.
+    /// Returns the number of steps of the rotation.
     pub fn turning(&self) -> usize {
         LEVER_FRAMES * self.a_frame
     }
 
-    /// When step `k` begins, seconds; step `k - 1` ends then.
+    /// Returns the time at which step `k` begins and step `k - 1` ends, seconds.
     pub fn time(&self, k: usize) -> f64 {
         let turning = self.turning();
         match k.checked_sub(turning) {
@@ -40,12 +41,12 @@ impl LeverClock {
         }
     }
 
-    /// When the last steps begin, seconds.
+    /// Returns the time at which the last steps begin, seconds.
     pub fn end(&self) -> f64 {
         self.end
     }
 
-    /// Whether step `k` comes too late.
+    /// Returns `true` if step `k` begins after the end.
     pub fn is_over(&self, k: usize) -> bool {
         self.time(k) > self.end
     }

@@ -1,4 +1,4 @@
-//! A lever-up, ready to be predicted step by step.
+//! A lever-up, prepared for step-by-step prediction.
 
 use pushplan::internals::effect::LeverPrior;
 use pushplan::internals::geometry::{Pose3, Turn3, Vector3};
@@ -10,18 +10,18 @@ use super::describe::{Step, describe};
 use super::graphs::PartGraphs;
 use super::state::{Motion, PartState};
 
-/// The bodies of a lever-up, its steps, and how the prior would have it move.
+/// The bodies of a lever-up, its steps, and the analytic model's prediction.
 #[derive(Clone, Debug)]
 pub struct LeverCourse {
     pub(super) bodies: LeverBodies,
     pub(super) clock: LeverClock,
-    /// Where the prior has the body when a step begins, until it rests there; empty without a prior.
+    /// Pose predicted by the analytic model when a step begins, until rest; empty without it.
     prior: Vec<(Vector3, Turn3)>,
 }
 
 impl LeverCourse {
-    /// That of a job, with a `prior` that is corrected or without; none if its body is not alone or not
-    /// made of cuboids.
+    /// Returns the course of a job, with a `prior` to correct or without. Returns `None` if there
+    /// are other plates, or a part of the plate is no cuboid.
     pub fn new(job: &LeverJob, prior: Option<&LeverPrior>) -> Option<Self> {
         let bodies = LeverBodies::new(job)?;
         let clock = LeverClock::new(&job.lever);
@@ -34,23 +34,23 @@ impl LeverCourse {
         Some(Self { bodies, clock, prior })
     }
 
-    /// When step `k` begins, seconds from the start of the turn.
+    /// Returns the time at which step `k` begins, seconds from the start of the rotation.
     pub fn time(&self, k: usize) -> f64 {
         self.clock.time(k)
     }
 
-    /// At the start.
+    /// Returns the initial state.
     pub fn start(&self) -> PartState {
         PartState::at(self.bodies.start())
     }
 
-    /// A pose of the body's frame in the world as it is seen here: centre of mass and turn.
+    /// Returns a world pose of the body's frame as centre of mass and rotation in the lever frame.
     pub fn see(&self, pose: &Pose3) -> (Vector3, Turn3) {
         self.bodies.see(pose)
     }
 
-    /// Appends the graph of step `k` from `state`; gives the blade's distance, metres, infinite where it
-    /// is not near.
+    /// Appends the graph of step `k` from `state`. Returns the distance to the blade, metres, or
+    /// infinity if the blade is not near.
     pub fn describe(&self, state: &PartState, k: usize, graphs: &mut PartGraphs) -> f64 {
         let (from, to) = (self.clock.time(k), self.clock.time(k + 1));
         let last = k.checked_sub(1).map_or(to - from, |last| from - self.clock.time(last));
@@ -61,12 +61,13 @@ impl LeverCourse {
         describe(&self.bodies, state, &step, graphs)
     }
 
-    /// The state after step `k`, of which the network said this: see `PARTS`.
+    /// Returns the state after step `k` with this network output: see `PARTS`.
     pub fn moved(&self, state: &PartState, k: usize, (even, odd): (&[f32], &[f32])) -> PartState {
         state.moved(&self.base(k), even, odd)
     }
 
-    /// What the network would have to say of step `k` so that it ends there: even numbers, then odd ones.
+    /// Returns the network output for which step `k` ends at the given pose: even numbers, then odd
+    /// ones.
     pub fn wanted(&self, state: &PartState, k: usize, there: (Vector3, Turn3)) -> [f32; 6] {
         state.wanted(&self.base(k), there)
     }

@@ -1,4 +1,4 @@
-//! A levered body in the midst of a lever-up as a graph.
+//! The graph of a levered body during a lever-up.
 
 use pushplan::internals::geometry::{Box3, BoxContact, Matrix3, Pose3, Vector3};
 
@@ -6,38 +6,40 @@ use super::bodies::{LeverBodies, bounds};
 use super::graphs::{NODE, PartGraphs, RELATION};
 use super::state::{Motion, PartState};
 
-/// Unit of distances between bodies and of ways, metres.
+/// Unit of distances between bodies and of displacements, metres.
 const NEAR: f64 = 0.005;
 
 /// Unit of lengths of bodies, metres.
 const SIZE: f64 = 0.05;
 
-/// A body that may close a smaller gap in a step is near, metres: more than a body falls from rest.
+/// Gap below which a body is near, metres, plus its motion in a step: more than a body falls from
+/// rest.
 const REACH: f64 = 0.015;
 
-/// Nor is anything near that is farther than this, metres.
+/// Largest gap at which a body is near, metres.
 const FARTHEST: f64 = 0.05;
 
-/// Points of a pair count less the farther they are beyond the nearest one, metres.
+/// Length scale by which points of a pair lose weight beyond the nearest one, metres.
 const BLUR: f64 = 1e-3;
 
-/// Durations are told in this unit, seconds.
+/// Unit of durations, seconds.
 const DURATION: f64 = 0.05;
 
-/// Two bodies that are near each other: their points of contact in one.
+/// The nearness of two bodies, with their points of contact reduced to one.
 struct Near {
-    /// On the receiver, metres.
+    /// Point on the receiver, metres.
     at: Vector3,
-    /// Towards it.
+    /// Normal towards the receiver.
     normal: Vector3,
-    /// The smallest gap and the mean one, metres.
+    /// Smallest gap and mean gap, metres.
     gaps: [f64; 2],
-    /// Mean products of the points' places about `at`, square metres.
+    /// Mean products of the points' coordinates about `at`, square metres.
     spread: Matrix3,
 }
 
-/// A step that is described: when it begins and ends and how long the one before took, seconds; how the
-/// body would move without the network, and how far it is from where that begins (metres; turn, radians).
+/// A described step: its begin and end and the duration of the step before, seconds. Also the
+/// motion of the body without the network, and the deviation from its start (metres; rotation,
+/// radians).
 pub(super) struct Step {
     pub from: f64,
     pub to: f64,
@@ -46,8 +48,8 @@ pub(super) struct Step {
     pub aside: [Vector3; 2],
 }
 
-/// Appends the graph of a body that is in `state`; gives its distance from the blade, metres, infinite
-/// where that is not near.
+/// Appends the graph of a body in `state`. Returns its distance from the blade, metres, or infinity
+/// if the blade is not near.
 pub(super) fn describe(
     bodies: &LeverBodies,
     state: &PartState,
@@ -100,7 +102,7 @@ pub(super) fn describe(
             && let Some(near) = near(&part.solid, &blades[0], reach, &mut found)
         {
             blade = blade.min(near.gaps[0]);
-            // Where the blade's point goes that is there now.
+            // Motion of the blade's point that is at the contact.
             let surface = blades[1].pose.point(blades[0].pose.local_point(near.at)) - near.at;
             tell(near, Other { blade: true, table: false, surface, rub: bodies.rub });
         }
@@ -108,7 +110,7 @@ pub(super) fn describe(
     blade
 }
 
-/// A cuboid of the body where it is now.
+/// A cuboid of the body at its present pose.
 struct Part {
     solid: Box3,
     axes: Matrix3,
@@ -116,7 +118,7 @@ struct Part {
 }
 
 impl Part {
-    /// Whether what lies within these bounds may be as near as `reach`.
+    /// Returns `true` if a body within these bounds may be as near as `reach`.
     fn may_meet(&self, [least, most]: &[Vector3; 2], reach: f64) -> bool {
         let [from, to] = &self.bounds;
         (0..3).all(|k| from[k] - reach <= most[k] && to[k] + reach >= least[k])
@@ -127,13 +129,13 @@ impl Part {
 struct Other {
     blade: bool,
     table: bool,
-    /// How far its point moves in the step, metres.
+    /// Displacement of its point in the step, metres.
     surface: Vector3,
     /// Friction coefficient.
     rub: f64,
 }
 
-/// Features of a cuboid of the body, whose motion continues.
+/// Returns the features of a cuboid of the body, whose motion continues.
 fn node(
     part: &Part,
     first: bool,
@@ -186,7 +188,7 @@ fn node(
     (even, odd)
 }
 
-/// Features of nearness to another body.
+/// Returns the features of nearness to another body.
 fn relation(
     near: &Near,
     first: bool,
@@ -229,7 +231,7 @@ fn relation(
     (even, odd)
 }
 
-/// How `part` is near to `other`, if it is; `found` is memory that is used again.
+/// Returns the nearness of `part` to `other`, if any; `found` is a reused buffer.
 fn near(part: &Box3, other: &Box3, reach: f64, found: &mut Vec<BoxContact>) -> Option<Near> {
     found.clear();
     part.contacts(other, reach, |contact| {

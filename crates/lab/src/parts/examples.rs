@@ -1,4 +1,4 @@
-//! Recorded lever-ups, and the steps of them that are learned from.
+//! Recorded lever-ups, and their steps as training examples.
 
 use pushplan::internals::geometry::{Pose3, Turn3, Vector3};
 use pushplan::internals::network::Forward;
@@ -11,47 +11,47 @@ use rayon::prelude::*;
 
 use super::{LeverCourse, LeverParts, PartGraphs, PartState, Walk, Walker};
 
-/// Steps after everything rests that are learned from, too.
+/// Number of steps at rest that are also learned from.
 const AT_REST: usize = 3;
 
-/// Smallest and largest disturbance of a true state: metres of the centre of mass.
+/// Smallest and largest perturbation of a true state: metres of the centre of mass.
 const NOISE: [f64; 2] = [2e-5, 1e-3];
 
-/// A disturbance turns by so many radians a metre.
+/// Rotation of a perturbation, radians per metre.
 const TURNS: f64 = 25.0;
 
-/// A rollout that is farther from the truth continues from the truth, metres: from there no step leads back.
+/// Error above which a rollout is reset to the ground truth, metres, because no step leads back.
 const LOST: f64 = 8e-3;
 
-/// So many rollouts share the products of a step.
+/// Number of rollouts that share the products of a step.
 const AT_ONCE: usize = 32;
 
-/// A lever-up as the engine plays it.
+/// A lever-up as simulated by the engine.
 struct Track {
     course: LeverCourse,
-    /// Centre of mass and turn when each step begins.
+    /// Centre of mass and rotation when each step begins.
     truth: Vec<(Vector3, Turn3)>,
 }
 
-/// Steps to draw from.
+/// The steps that examples are drawn from.
 pub(super) struct Examples {
     tracks: Vec<Track>,
     /// Track and step.
     places: Vec<(usize, usize)>,
-    /// Where rollouts were when each step began; empty until there are any.
+    /// States of rollouts when each step began; empty before the first rollout.
     visited: Vec<Vec<PartState>>,
 }
 
-/// Graphs with answers.
+/// Graphs with targets.
 pub(super) struct Drawn {
     pub graphs: PartGraphs,
-    /// What is to be said of every graph, [B, 6].
+    /// Target of every graph, [B, 6].
     pub wanted: Vec<f32>,
 }
 
 impl Examples {
-    /// The steps of all `episodes` that came to rest without a jam and are made of cuboids; they are
-    /// simulated again.
+    /// Returns the steps of all `episodes` with cuboid bodies that came to rest without a jam. The
+    /// episodes are simulated again.
     pub fn new(episodes: &[LeverEpisode], prior: bool) -> Self {
         let sound: Vec<&LeverEpisode> = episodes.iter().filter(|e| e.is_sound()).collect();
         let tracks: Vec<Track> =
@@ -66,13 +66,13 @@ impl Examples {
         self.tracks.len()
     }
 
-    /// Rolls the network out on every lever-up, for examples from where it comes to.
+    /// Rolls the network out on every lever-up to collect start states of examples.
     pub fn visit(&mut self, forward: &Forward) {
         let visited = self.tracks.par_chunks(AT_ONCE).flat_map_iter(|some| roll(some, forward));
         self.visited = visited.collect();
     }
 
-    /// `count` examples drawn by seed, step and part alone.
+    /// Returns `count` examples, which depend on seed, step and part alone.
     pub fn draw(&self, (seed, step, part): (u64, u64, u64), count: usize) -> Drawn {
         let mut rng = generator(seed, 2 * step + part);
         let mut drawn = Drawn { graphs: PartGraphs::default(), wanted: Vec::new() };
@@ -108,7 +108,7 @@ impl Track {
     }
 }
 
-/// Between the frames about a time.
+/// Interpolates the pose at a time between frames.
 fn pose_at(frames: &[(Frame, f64)], plate: usize, time: f64) -> Pose3 {
     let after = frames.partition_point(|(frame, _)| frame.time < time).min(frames.len() - 1);
     let (a, b) = (&frames[after.saturating_sub(1)].0, &frames[after].0);
@@ -123,7 +123,7 @@ fn pose_at(frames: &[(Frame, f64)], plate: usize, time: f64) -> Pose3 {
     }
 }
 
-/// The states of rollouts when each step begins.
+/// Returns the states of rollouts when each step begins.
 fn roll(tracks: &[Track], forward: &Forward) -> Vec<Vec<PartState>> {
     let mut walks: Vec<Walk<'_>> = tracks.iter().map(|track| Walk::new(&track.course)).collect();
     let mut states: Vec<Vec<PartState>> = walks.iter().map(|walk| vec![walk.state]).collect();
@@ -139,7 +139,7 @@ fn roll(tracks: &[Track], forward: &Forward) -> Vec<Vec<PartState>> {
             }
         }
     }
-    // After a rollout that rests too early comes the truth.
+    // A rollout that rests too early continues with the ground truth.
     for (states, track) in states.iter_mut().zip(tracks) {
         while states.len() < track.truth.len() {
             states.push(exactly(&track.truth, states.len()));
@@ -148,13 +148,13 @@ fn roll(tracks: &[Track], forward: &Forward) -> Vec<Vec<PartState>> {
     states
 }
 
-/// The true state when a step begins.
+/// Returns the true state when a step begins.
 fn exactly(truth: &[(Vector3, Turn3)], step: usize) -> PartState {
     let before = PartState::at(truth[step.saturating_sub(1)]);
     if step == 0 { before } else { before.then(truth[step]) }
 }
 
-/// The same, a little aside, and as if from a little aside of where it was before.
+/// Returns the true state with its present and previous poses perturbed.
 fn disturbed(truth: &[(Vector3, Turn3)], step: usize, rng: &mut Pcg64) -> PartState {
     let [least, most] = NOISE;
     let size = least * (most / least).powf(rng.random::<f64>());

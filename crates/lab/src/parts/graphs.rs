@@ -1,4 +1,4 @@
-//! Graphs of levered bodies side by side, as the network reads them.
+//! Graphs of levered bodies side by side, in the form that the network reads.
 
 use pushplan::internals::graph::NOBODY;
 use pushplan::internals::network::Rows;
@@ -9,7 +9,7 @@ use super::card::PARTS;
 pub(super) const NODE: [usize; 2] = PARTS.node;
 pub(super) const RELATION: [usize; 2] = PARTS.relation;
 
-/// Feature tables of N nodes and R relations; what is even and odd under a mirror stands apart.
+/// Feature tables of N nodes and R relations; even and odd features under a mirror are separate.
 #[derive(Clone, Debug, Default)]
 pub struct PartGraphs {
     node_even: Vec<f32>,
@@ -33,7 +33,7 @@ impl PartGraphs {
         }
     }
 
-    /// What the network reads.
+    /// Returns the tables in the form that the network reads.
     pub fn rows(&self) -> Rows<'_> {
         Rows {
             node_even: &self.node_even,
@@ -47,12 +47,12 @@ impl PartGraphs {
         }
     }
 
-    /// Of every graph the node that says how the body moves.
+    /// Returns the node of every graph from which the motion of the body is read.
     pub fn firsts(&self) -> &[u32] {
         &self.firsts
     }
 
-    /// Begins a graph, whose nodes are counted from its first one.
+    /// Begins a graph; its nodes are counted from its first one.
     pub(super) fn begin(&mut self) {
         self.firsts.push(self.nodes());
     }
@@ -62,7 +62,8 @@ impl PartGraphs {
         self.node_odd.extend(odd.map(bounded));
     }
 
-    /// A relation within the graph; without a sender it comes from what is no node.
+    /// Adds a relation within the graph. A relation without a sender comes from a body that is not
+    /// a node.
     pub(super) fn relation(
         &mut self,
         (receiver, sender): (usize, Option<usize>),
@@ -81,7 +82,7 @@ impl PartGraphs {
     }
 }
 
-/// Within what the network can have seen, so that no scene drives it to infinity.
+/// Clamps a feature to the range of training, so that no scene drives the network to infinity.
 fn bounded(value: f64) -> f32 {
     const BOUND: f64 = 20.0;
     value.clamp(-BOUND, BOUND) as f32

@@ -1,17 +1,18 @@
 //! Levered bodies as graphs of cuboids, by a propagation network (Tekden 2020, section 8.5).
 //!
-//! Every cuboid of the levered body is a node, joined to its first one; table, blocks and blade send to those
-//! that they are near. The network says how the body moves in a step, or by how much otherwise than the
-//! prior, and is asked again where that leads, over the turn and on to rest. Everything is seen in the lever
-//! frame, and the network treats both sides of it alike, so moved, turned and mirrored lever-ups have
-//! moved, turned and mirrored answers.
+//! Every cuboid of the levered body is a node, joined to the first cuboid. Table, blocks and blade
+//! send to the cuboids near them. The network predicts the motion of the body in a step, or the
+//! correction of the analytic model, and is applied step by step through the rotation until rest.
+//! Features are in the lever frame, and the network treats both of its sides alike. Lever-ups that
+//! are moved, rotated or mirrored therefore have moved, rotated or mirrored answers.
 //!
-//! It learns step by step from recorded lever-ups. Half of the examples begin where the truth is, disturbed,
-//! half where a rollout of the network itself has come to: both ask for the step back to the truth, which
-//! keeps rollouts near it (Sanchez-Gonzalez et al., ICML 2020; Ross, Gordon and Bagnell, AISTATS 2011).
+//! The network is trained step by step on recorded lever-ups. Half of the examples begin at the
+//! perturbed ground truth, half at a state of the network's own rollout. The target of both is the
+//! step back to the ground truth, which keeps rollouts near it (Sanchez-Gonzalez et al., ICML 2020;
+//! Ross, Gordon and Bagnell, AISTATS 2011).
 //!
-//! Tried and lost: it finds the same points as the prior, for most of its cost, and is no more exact
-//! (`crates/models/lever.md`, boards in drives).
+//! Rejected: it finds the same points as the analytic model, for most of its cost, and is no more
+//! accurate (`crates/models/lever.md`, boards in drives).
 
 mod bodies;
 mod card;

@@ -11,10 +11,11 @@ use super::card::PartsWeights;
 use super::course::LeverCourse;
 use super::walk::{Walk, Walker};
 
-/// So many lever-ups share the products of a step. Fixed, so that two cores share a search evenly.
+/// Number of lever-ups that share the products of a step. Fixed, so that two cores share a search
+/// evenly.
 const AT_ONCE: usize = 32;
 
-/// Predicts bodies made of cuboids with trained weights.
+/// Model of cuboid bodies with trained weights.
 #[derive(Clone, Debug)]
 pub struct LeverParts {
     forward: Forward,
@@ -22,10 +23,10 @@ pub struct LeverParts {
 }
 
 impl LeverParts {
-    /// What is corrected.
+    /// Analytic model that the network corrects.
     pub const PRIOR: LeverPrior = LeverPrior { settings: PriorSettings::CORRECTED };
 
-    /// Of these weights.
+    /// Creates the model of these weights.
     pub fn new(weights: &PartsWeights) -> Self {
         let card = &weights.card;
         Self {
@@ -41,7 +42,7 @@ impl LeverParts {
         let mut walker = Walker::new(&self.forward);
         while walker.step(&mut walks) {}
         let mut walks = walks.into_iter();
-        // What is not for this model is answered by what it is nearest to.
+        // Jobs outside the network's domain are answered by the analytic model.
         let other = |job: &LeverJob| Self::PRIOR.rollout(std::slice::from_ref(job)).pop();
         let answer = |(job, course): (&LeverJob, &Option<LeverCourse>)| match course {
             Some(_) => walks.next().map(Walk::trajectory),

@@ -1,4 +1,4 @@
-//! Everything that decides a training run besides its episodes.
+//! Settings that determine a training run, except its episodes.
 
 use pushplan::internals::network::Config;
 use pushplan_learn::dataset::LeverConfig;
@@ -10,13 +10,13 @@ use serde::{Deserialize, Serialize};
 pub struct PartsSettings {
     /// Size of the network.
     pub config: Config,
-    /// Whether it corrects the prior.
+    /// Whether the network corrects the analytic model.
     pub prior: bool,
-    /// Seed of first weights and batches.
+    /// Seed of initial weights and batches.
     pub seed: u64,
-    /// How weights follow gradients.
+    /// Settings of the optimiser.
     pub descent: Descent,
-    /// The families that it is trained on.
+    /// Families of the training set.
     pub data: Vec<LeverConfig>,
 }
 

@@ -1,39 +1,39 @@
-//! Where a levered body is, and how it moves.
+//! The pose and motion of a levered body.
 
 use pushplan::internals::geometry::{Turn3, Vector3};
 
-/// Units of what the network says of a step: of ways, metres, and of turns, radians. A point 5 cm from the
-/// centre of mass then counts alike however it moves.
+/// Units of the network's output for a step: metres for displacements, radians for rotations. A
+/// point 5 cm from the centre of mass then has equal weight in both.
 const UNITS: [f64; 2] = [0.005, 0.1];
 
-/// The levered body in the lever frame.
+/// State of the levered body in the lever frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PartState {
     /// Centre of mass, metres.
     pub centre: Vector3,
-    /// Turn of its own axes.
+    /// Rotation of its own axes.
     pub turn: Turn3,
-    /// Way of the centre of mass in the last step, metres.
+    /// Displacement of the centre of mass in the last step, metres.
     pub way: Vector3,
-    /// Turn in the last step, about its axis, radians.
+    /// Rotation in the last step, about its axis, radians.
     pub spin: Vector3,
 }
 
 impl PartState {
-    /// At rest there.
+    /// Returns the state at rest at this pose.
     pub fn at((centre, turn): (Vector3, Turn3)) -> Self {
         Self { centre, turn, way: Vector3::zeros(), spin: Vector3::zeros() }
     }
 
-    /// The state there, a step after this one.
+    /// Returns the state at this pose, a step after the present one.
     #[must_use]
     pub fn then(&self, (centre, turn): (Vector3, Turn3)) -> Self {
         let spin = (turn * self.turn.inverse()).scaled_axis();
         Self { centre, turn, way: centre - self.centre, spin }
     }
 
-    /// The state after a step in which the body moves as `base` and beyond that by what the network
-    /// says: even numbers `x, z, turn about y`, odd ones `y, turns about x and z`.
+    /// Returns the state after a step: the motion `base` plus the network's correction. Even
+    /// numbers are `x, z, rotation about y`, odd ones `y, rotations about x and z`.
     #[must_use]
     pub(super) fn moved(&self, base: &Motion, even: &[f32], odd: &[f32]) -> Self {
         let [ways, turns] = UNITS;
@@ -44,7 +44,7 @@ impl PartState {
         self.then((self.centre + base.way + way, turn))
     }
 
-    /// What the network would have to say so that [`PartState::moved`] ends there.
+    /// Returns the network output for which [`PartState::moved`] ends at the given pose.
     pub(super) fn wanted(&self, base: &Motion, (centre, turn): (Vector3, Turn3)) -> [f32; 6] {
         let [ways, turns] = UNITS;
         let way = (centre - self.centre - base.way) / ways;
@@ -52,12 +52,14 @@ impl PartState {
         [way.x, way.z, spin.y, way.y, spin.x, spin.z].map(|value| value as f32)
     }
 
-    /// How far from there its centre of mass is, or a point 4 cm from that, metres.
+    /// Returns the distance to the given pose, metres: of the centre of mass or of a point 4 cm
+    /// from it, whichever is larger.
     pub fn apart(&self, (centre, turn): (Vector3, Turn3)) -> f64 {
         (self.centre - centre).norm().max(0.04 * self.turn.angle_to(&turn))
     }
 
-    /// How far at most a point within `reach` metres of the centre of mass moved in the last step, metres.
+    /// Returns an upper bound on the displacement in the last step of a point within `reach` metres
+    /// of the centre of mass, metres.
     pub(super) fn fastest(&self, reach: f64) -> f64 {
         self.way.norm() + self.spin.norm() * reach
     }
@@ -67,22 +69,22 @@ impl PartState {
     }
 }
 
-/// How a body moves in a step by what is known without the network: not at all, or as the prior has it.
+/// Motion of a body in a step without the network: none, or the analytic model's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Motion {
-    /// Of the centre of mass, metres.
+    /// Displacement of the centre of mass, metres.
     pub way: Vector3,
-    /// Turn.
+    /// Rotation.
     pub turn: Turn3,
 }
 
 impl Motion {
-    /// None.
+    /// Returns no motion.
     pub fn none() -> Self {
         Self { way: Vector3::zeros(), turn: Turn3::identity() }
     }
 
-    /// From one place to the next.
+    /// Returns the motion from one pose to the next.
     pub fn between(from: (Vector3, Turn3), to: (Vector3, Turn3)) -> Self {
         Self { way: to.0 - from.0, turn: to.1 * from.1.inverse() }
     }

@@ -1,4 +1,4 @@
-//! What the trainer asks of the network of parts.
+//! Training of the network of parts.
 
 use std::path::PathBuf;
 
@@ -15,16 +15,15 @@ use pushplan_learn::train::{
 use super::examples::{Drawn, Examples};
 use super::{LeverParts, PARTS, PartsCard, PartsSettings, PartsWeights};
 
-/// Graphs on which the feature scales are measured.
+/// Number of graphs on which the feature scales are measured.
 const MEASURED: usize = 4096;
 
-/// Distances below this, in units of what the network says, count less: 0.1 mm.
+/// Distance below which errors have less weight, in units of the network's output: 0.1 mm.
 const NEAR: f64 = 0.02;
 
 /// Trains in `folder`, see [`Trainer::run`].
 ///
-/// # Errors
-/// [`TrainError`]; whatever was saved before stays.
+/// # Errors Returns a [`TrainError`]; files saved before remain.
 pub fn train_parts(
     settings: &PartsSettings,
     episodes: &[LeverEpisode],
@@ -101,7 +100,7 @@ impl Trainable for Task<'_> {
         }
     }
 
-    /// Before the first evaluation all examples begin at the truth.
+    /// Before the first evaluation all examples begin at the ground truth.
     fn refreshes(&self, step: u64) -> bool {
         step > 0 && step.is_multiple_of(self.settings.descent.evaluate_every)
     }
@@ -111,7 +110,7 @@ impl Trainable for Task<'_> {
     }
 }
 
-/// Mean distance of what is said from what is wanted.
+/// Returns the mean distance between outputs and targets.
 fn loss(scales: &Normaliser, network: &Predictor, drawn: &Drawn) -> Result<Tensor> {
     let said = network.forward(&Inputs::new(drawn.graphs.rows(), scales)?)?;
     let firsts = drawn.graphs.firsts();

@@ -10,22 +10,22 @@ use super::course::LeverCourse;
 use super::graphs::PartGraphs;
 use super::state::PartState;
 
-/// A body this near to the blade lies on it, metres: predictions are not more exact.
+/// Gap below which a body lies on the blade, metres: predictions are not more accurate.
 const HELD: f64 = 1e-3;
 
-/// What moves less than this in a step, away from the blade, rests, metres.
+/// Displacement in a step below which a body away from the blade is at rest, metres.
 const CALM: f64 = 3e-4;
 
-/// In so many steps in a row: what stands on edge is slow for a moment.
+/// Number of successive steps at rest, because a body on edge is slow for a moment.
 const CALM_STEPS: usize = 2;
 
-/// A lever-up on its way.
+/// A rollout of a lever-up in progress.
 #[derive(Clone, Debug)]
 pub struct Walk<'a> {
     course: &'a LeverCourse,
-    /// Where the body is.
+    /// State of the body.
     pub state: PartState,
-    /// The step that comes next.
+    /// Next step.
     pub step: usize,
     lift: Vec<Pose3>,
     held: Vec<bool>,
@@ -34,13 +34,13 @@ pub struct Walk<'a> {
 }
 
 impl<'a> Walk<'a> {
-    /// At its start.
+    /// Starts a rollout.
     pub fn new(course: &'a LeverCourse) -> Self {
         let (lift, held) = (Vec::new(), Vec::new());
         Self { course, state: course.start(), step: 0, lift, held, calm: 0, over: false }
     }
 
-    /// Whether everything rests, or should.
+    /// Returns `true` if everything rests or the time is over.
     pub fn is_over(&self) -> bool {
         self.over
     }
@@ -71,7 +71,7 @@ impl<'a> Walk<'a> {
         self.over = self.calm >= CALM_STEPS || course.clock.is_over(*step);
     }
 
-    /// What was predicted.
+    /// Returns the predicted trajectory.
     pub(super) fn trajectory(self) -> LeverTrajectory {
         let Self { course, state, lift, held, .. } = self;
         let pose = |at| course.bodies.pose(at);
@@ -83,7 +83,7 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// Asks a network how bodies move, with memory that is used again.
+/// Predictor of the motion of bodies by a network, with reused buffers.
 #[derive(Clone, Debug)]
 pub struct Walker<'a> {
     forward: &'a Forward,
@@ -92,12 +92,12 @@ pub struct Walker<'a> {
 }
 
 impl<'a> Walker<'a> {
-    /// With a network of parts.
+    /// Creates a walker with a network of parts.
     pub fn new(forward: &'a Forward) -> Self {
         Self { forward, buffers: Buffers::default(), graphs: PartGraphs::default() }
     }
 
-    /// One step of all that are not over; whether there was any.
+    /// Advances all unfinished rollouts by a step. Returns `false` if there was none.
     pub fn step(&mut self, walks: &mut [Walk<'_>]) -> bool {
         self.graphs.clear();
         walks.iter_mut().filter(|walk| !walk.over).for_each(|walk| walk.describe(&mut self.graphs));

@@ -1,4 +1,4 @@
-//! What a network gains that is fitted to a table.
+//! Benefit of fitting a network to a table.
 
 use pushplan_report::Align::{Left, Right};
 use pushplan_report::{Document, Section, Table};
@@ -6,7 +6,7 @@ use serde_json::json;
 
 use crate::bench::{AdaptedRow, Ratio};
 
-/// Ratios of mean final errors, over `draws` random draws of `seed`.
+/// Returns ratios of mean final errors, over `draws` random draws of `seed`.
 pub fn adapted_document(rows: &[AdaptedRow], draws: u32, seed: u64) -> Document {
     let ratio =
         |of: &Ratio| format!("{:.3} ({:.3} to {:.3})", of.value, of.interval.low, of.interval.high);

@@ -1,4 +1,4 @@
-//! Runs of tasks that do not know their scene: what the closed loop brings.
+//! Runs of tasks with unknown scenes: benefit of the closed loop.
 
 use pushplan_act::act::End;
 use pushplan_act::judge::{mean, percentile};
@@ -8,11 +8,11 @@ use serde_json::json;
 
 use crate::bench::{ClosedRecord, Left, TaskKind};
 
-/// A run of the suite: what was measured, and the results.
+/// A run of the suite: its manifest and its results.
 pub type ClosedRun = (RunManifest, Vec<Finished<ClosedRecord>>);
 
-/// Runs of the suite in every form; of several on the same tasks, how their loops compare where one of
-/// them probes.
+/// Returns the runs of the suite in every form. Several runs on the same tasks are also compared on
+/// the tasks with probes.
 pub fn closed_document(runs: &[ClosedRun]) -> Document {
     let (count, seed) = runs.first().map_or((0, 0), |(run, tasks)| (tasks.len(), run.seed));
     let mut notes = vec![
@@ -48,7 +48,7 @@ pub fn closed_document(runs: &[ClosedRun]) -> Document {
     }
 }
 
-/// What tells a run from others on the same tasks.
+/// Returns the name of a run among others on the same tasks.
 fn name(run: &RunManifest) -> String {
     let settings = &run.settings["run"];
     let word = |key: &str| settings[key].as_str().unwrap_or_default().to_owned();
@@ -58,7 +58,7 @@ fn name(run: &RunManifest) -> String {
     }
 }
 
-/// The loops side by side on those tasks in which any of them makes a probe.
+/// Compares the loops on the tasks in which any of them makes a probe.
 fn compared(runs: &[ClosedRun]) -> Section {
     let probes = |index: usize| {
         let mut tasks = runs.iter().flat_map(|(_, tasks)| tasks);

@@ -1,4 +1,4 @@
-//! How far simulated lever-ups are from finer ones.
+//! Convergence of simulated lever-ups.
 
 use pushplan_report::Align::{Left, Right};
 use pushplan_report::{Document, NONE, Section, Table, millimetres, seconds};
@@ -7,7 +7,7 @@ use serde_json::json;
 use crate::bench::{ConvergenceReport, ConvergenceRow, Setting};
 use crate::report::length;
 
-/// A table for each family.
+/// Returns a table for each family.
 pub fn convergence_document(reports: &[ConvergenceReport]) -> Document {
     Document {
         title: "simulated lever-ups against themselves at 1/1920 s".to_owned(),

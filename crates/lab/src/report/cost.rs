@@ -1,4 +1,4 @@
-//! What pushes, networks and searches cost.
+//! Costs of pushes, networks and searches.
 
 use pushplan_report::Align::{Left, Right};
 use pushplan_report::{Axis, Chart, Document, Figure, Mark, NONE, Section, Series, Table, seconds};
@@ -6,7 +6,7 @@ use serde_json::json;
 
 use crate::bench::{EquationCost, FarCost, InferenceCost, PushCost, SearchCost};
 
-/// Costs of a network (of none where there is none), of one push by every model, and of a search.
+/// Returns the costs of a network, if any, of a push by every model, and of a search.
 pub fn cost_document(
     networks: &[InferenceCost],
     pushes: &[PushCost],
@@ -26,7 +26,7 @@ pub fn cost_document(
     }
 }
 
-/// Costs of a network on scenes of many objects.
+/// Returns the costs of a network on scenes of many objects.
 pub fn crowd_cost_document(objects: usize, networks: &[InferenceCost]) -> Document {
     Document {
         title: format!("{objects} objects, sparse and dense, mixed joints; times a graph-step"),
@@ -36,7 +36,7 @@ pub fn crowd_cost_document(objects: usize, networks: &[InferenceCost]) -> Docume
     }
 }
 
-/// What the prior's equations took, by objects on the table.
+/// Returns the cost of the analytic model's equations by number of objects.
 pub fn equation_document(costs: &[EquationCost]) -> Document {
     Document {
         title: "Where the prior's time goes, a push".to_owned(),
@@ -47,13 +47,13 @@ pub fn equation_document(costs: &[EquationCost]) -> Document {
     }
 }
 
-/// What the columns of the equations mean.
+/// Explanation of the columns of the equations.
 const EQUATIONS: &str = "Two *systems* are solved in each piece of a frame, for displacements and \
     for velocities. An *update* recomputes the resistance of objects that moved and tries *sets* of \
     contacts that stick, slide or stay open until one is right, else it *iterates*. *Operations* are \
     those of points that drag and of linear equations alone, and are compared with matrix products.";
 
-/// Costs of a push by the number of objects that it cannot touch.
+/// Returns the costs of a push by the number of objects that it cannot touch.
 pub fn far_document(costs: &[FarCost]) -> Document {
     let figures = vec![Figure::chart("far", far_chart(costs))];
     Document {
@@ -64,14 +64,14 @@ pub fn far_document(costs: &[FarCost]) -> Document {
     }
 }
 
-/// What the costs of far objects show.
+/// Title of the costs of far objects.
 const FAR: &str = "Objects that a push cannot touch cost nothing";
 
 fn section(title: &str, table: Table) -> Section {
     Section { title: title.to_owned(), table, ..Section::default() }
 }
 
-/// Processor time of one push by every model.
+/// Returns the processor time of a push by every model.
 fn push_table(costs: &[PushCost]) -> Table {
     Table::of(
         costs,
@@ -84,7 +84,8 @@ fn push_table(costs: &[PushCost]) -> Table {
     )
 }
 
-/// Processor time of the network alone, fused and on candle, and of building its graphs.
+/// Returns the processor time of the network alone, fused and on candle, and of building its
+/// graphs.
 fn inference_table(costs: &[InferenceCost]) -> Table {
     let with_graph = |cost: &InferenceCost| cost.of_peak * cost.fused / (cost.fused + cost.graph);
     Table::of(
@@ -102,7 +103,7 @@ fn inference_table(costs: &[InferenceCost]) -> Table {
     )
 }
 
-/// Counts and times of the prior's equations.
+/// Returns counts and times of the analytic model's equations.
 fn equation_table(costs: &[EquationCost]) -> Table {
     let ratio = |of: u64, by: u64| format!("{:.1}", of as f64 / by.max(1) as f64);
     let operations = |cost: &EquationCost| cost.tally.operations as f64 / cost.pushes.max(1) as f64;
@@ -131,7 +132,7 @@ fn equation_table(costs: &[EquationCost]) -> Table {
     )
 }
 
-/// Wall time of a search of one-push candidates by every model.
+/// Returns the wall time of a search of one-push candidates by every model.
 fn search_table(costs: &[SearchCost]) -> Table {
     Table::of(
         costs,
@@ -145,7 +146,7 @@ fn search_table(costs: &[SearchCost]) -> Table {
     )
 }
 
-/// Cost of a push by the number of far objects, one row a number, one column a model.
+/// Returns the cost of a push by the number of far objects, a row per number, a column per model.
 fn far_table(costs: &[FarCost]) -> Table {
     let models = models(costs);
     let mut head = vec![("objects out of reach".to_owned(), Right)];
@@ -177,7 +178,7 @@ fn far_table(costs: &[FarCost]) -> Table {
     table
 }
 
-/// The same as curves.
+/// Returns the table as curves.
 fn far_chart(costs: &[FarCost]) -> Chart {
     let series = models(costs).into_iter().map(|model| Series {
         name: format!("{}, {} at a time", model.0, model.1),
@@ -197,7 +198,7 @@ fn far_chart(costs: &[FarCost]) -> Chart {
     }
 }
 
-/// The models and batches, in the order in which they come.
+/// Returns the models and batches, in order of first occurrence.
 fn models(costs: &[FarCost]) -> Vec<(&String, usize)> {
     let mut models = Vec::new();
     for cost in costs {

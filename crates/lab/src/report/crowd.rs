@@ -10,8 +10,8 @@ use serde_json::json;
 
 use crate::bench::{CrowdFamily, CrowdReport, HeldOutReport};
 
-/// The newest of the reports on crowds, as soon as it is there; with the first one comes what its
-/// columns mean.
+/// Returns the newest of the reports on crowds, as soon as it is available. The first one includes
+/// the explanation of its columns.
 pub fn crowd_document(reports: &[CrowdReport]) -> Document {
     let Some((newest, before)) = reports.split_last() else { return Document::default() };
     let notes = if before.is_empty() { vec![LEGEND.to_owned()] } else { Vec::new() };
@@ -20,7 +20,7 @@ pub fn crowd_document(reports: &[CrowdReport]) -> Document {
     Document { title, notes, sections, ..Document::default() }
 }
 
-/// Everything that was evaluated: the sets of crowds side by side, errors by horizon, and all
+/// Returns the whole evaluation: the sets of crowds side by side, errors by horizon, and all
 /// reports in full for programs.
 pub fn evaluation_document(suites: &[HeldOutReport], crowds: &[CrowdReport]) -> Document {
     let mut json = json!({});
@@ -58,14 +58,15 @@ pub fn evaluation_document(suites: &[HeldOutReport], crowds: &[CrowdReport]) -> 
     }
 }
 
-/// What the columns of [`crowd_table`] mean.
+/// Explanation of the columns of [`crowd_table`].
 const LEGEND: &str = "\
 error: mean final distance from the truth over all objects; of motion, median, p90: the same, its
 median and 90th percentile, as shares of the mean true motion; moved: over objects that move more
 than 1 cm; over frames: averaged over all frames instead of the last; overlap: deepest of any two
 predicted objects; fixed, revolute, prismatic: mean / largest drift of predicted joints";
 
-/// Errors of all models on one set, one row each; percentages are of the mean true motion.
+/// Returns the errors of all models on a set, one row each; percentages are of the mean true
+/// motion.
 fn crowd_table(report: &CrowdReport) -> Table {
     let all = |model: &ModelErrors, value: fn(&RelativeErrors) -> f64| {
         share(model.all.end.as_ref(), value)
@@ -98,7 +99,7 @@ fn crowd_table(report: &CrowdReport) -> Table {
     )
 }
 
-/// One row a set of drawn scenes: the first model, and the mean errors of the others.
+/// Returns a row for each set of drawn scenes: the first model, and the mean errors of the others.
 fn drawn_table(reports: &[CrowdReport]) -> Table {
     let ends = |report: &CrowdReport, end: &str| beside(&report.errors, |name| name.ends_with(end));
     Table::of(
@@ -121,7 +122,7 @@ fn drawn_table(reports: &[CrowdReport]) -> Table {
             }),
             ("friction 70 %", Right, &|(report, _)| ends(report, ",friction=70%")),
             ("friction 130 %", Right, &|(report, _)| ends(report, ",friction=130%")),
-            // Drawn sets are the planar engine's own.
+            // Drawn sets are simulated with the 2-D engine.
             ("own spread", Right, &|(report, _)| {
                 beside(&report.errors, |name| name.starts_with("planar,start="))
             }),

@@ -8,7 +8,7 @@ use serde_json::json;
 use crate::bench::{DriveReport, DriveRow};
 use crate::report::length;
 
-/// A row for each model.
+/// Returns a table with a row for each model.
 pub fn hdd_document(report: &DriveReport) -> Document {
     let DriveReport { seed, cases, drives, outside, rows } = report;
     let angle = |of: &Option<Summary>, which: fn(&Summary) -> f64| {

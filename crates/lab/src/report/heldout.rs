@@ -7,8 +7,8 @@ use serde_json::json;
 
 use crate::bench::{ErrorRow, HeldOutReport};
 
-/// Errors of all models on one kind of pushes, and of the first model by shape and by number of
-/// objects.
+/// Returns the errors of all models on a kind of pushes, and of the first model by shape and by
+/// number of objects.
 pub fn heldout_document(report: &HeldOutReport) -> Document {
     let motion = report.motion.as_ref();
     let title = format!(
@@ -25,7 +25,7 @@ pub fn heldout_document(report: &HeldOutReport) -> Document {
     });
     let table = error_table("model", all);
     let mut sections = vec![Section { table, ..Section::default() }];
-    // The planar spread comes first, then the models in their order.
+    // The 2-D spread comes first, then the models in their order.
     sections.extend(report.models.get(1).map(|errors| Section {
         title: format!("{} by shape and number of objects", errors.model),
         table: error_table("objects", errors.rows.iter().map(|row| (row.group.clone(), row))),
@@ -58,7 +58,7 @@ fn count(summary: &Option<Summary>) -> String {
     summary.as_ref().map_or(0, |summary| summary.count).to_string()
 }
 
-/// A length of a summary, if there is one.
+/// Returns a length of a summary, if any.
 pub(super) fn length(summary: &Option<Summary>, value: impl Fn(&Summary) -> f64) -> String {
     summary.as_ref().map_or(NONE.to_owned(), |summary| fine_millimetres(value(summary)))
 }

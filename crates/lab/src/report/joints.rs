@@ -1,4 +1,4 @@
-//! How well joints are inferred, as tables and curves.
+//! Accuracy of inferred joints, as tables and curves.
 
 use pushplan_report::Align::{Left, Right};
 use pushplan_report::{
@@ -10,7 +10,7 @@ use crate::bench::{
     BeliefStep, BeliefSummary, CrowdFamily, JointMethod, Sighting, UpdateTimes, When,
 };
 
-/// What the columns mean.
+/// Explanation of the columns.
 const LEGEND: &str = "Counted are pairs of objects with a gap below 3 cm at the start, as only these \
     are ever joined, of which either has moved by more than 1 cm; in *not moved* are the others. Types are \
     those of the likeliest joints that close no loop. *nll* is the mean negative logarithm of the \
@@ -18,7 +18,7 @@ const LEGEND: &str = "Counted are pairs of objects with a gap below 3 cm at the 
     probabilities. *All ordered pairs* counts as the thesis does: every pair of bodies, far ones and the \
     hand's included. Anchors and axes are those of pairs that turned by 15 degrees or slid by 2 cm.";
 
-/// What the table of recordings says.
+/// Explanation of the table of recordings.
 const RECORDED: &str = "Mean distance of predicted from recorded final positions, over all objects, when \
     what the tool still did is predicted from where everything was believed to be, so many observations \
     after the first that shows motion.";
@@ -28,7 +28,7 @@ const RECORDED: &str = "Mean distance of predicted from recorded final positions
 const PUBLISHED: [[f64; 2]; 3] = [[50.0, 0.942], [100.0, 0.959], [240.0, 0.976]];
 const FRAMES_A_STROKE: f64 = 30.0;
 
-/// The belief benchmark, with what updates took, if that is known.
+/// Returns the belief benchmark, with the times of updates, if known.
 pub fn joints_document(summaries: &[BeliefSummary], times: &UpdateTimes) -> Document {
     let mut sections = vec![
         Section { title: "Types at the end".into(), table: types(summaries), ..Section::default() },
@@ -95,14 +95,14 @@ fn end(summary: &BeliefSummary) -> Option<&BeliefStep> {
     summary.steps.iter().find(|step| step.when == When::End)
 }
 
-/// Methods that tell types, in order.
+/// Returns the methods with types, in order.
 fn methods(summaries: &[BeliefSummary]) -> Vec<JointMethod> {
     let steps = summaries.iter().filter_map(end);
     let known: Vec<JointMethod> = steps.flat_map(|end| end.right.iter().map(|r| r.by)).collect();
     JointMethod::ALL.into_iter().filter(|by| known.contains(by)).collect()
 }
 
-/// Methods with beliefs: the filter, and the regulator where there is one.
+/// Returns the methods with beliefs: the filter, and the regulator, if any.
 fn believers(summaries: &[BeliefSummary]) -> Vec<JointMethod> {
     let believes = |by: &JointMethod| matches!(by, JointMethod::Filter | JointMethod::Regulator);
     methods(summaries).into_iter().filter(believes).collect()
@@ -151,7 +151,7 @@ fn sure(summaries: &[BeliefSummary]) -> Table {
             ) else {
                 continue;
             };
-            // Places are those of the last believer alone.
+            // Anchors and axes are known for the last method alone.
             let placed = believers.last() == Some(by);
             let anchor = summary.anchors.as_ref().filter(|_| placed);
             let axis = summary.axes.as_ref().filter(|_| placed);
@@ -235,7 +235,8 @@ fn rest(summaries: &[BeliefSummary]) -> Table {
     table
 }
 
-/// A table of errors on the rest of the way by method, with medians and gaps of the `believers`.
+/// Returns a table of errors of the remaining motion by method, with medians and gaps of the
+/// `believers`.
 fn rest_table(lead: &[(&str, Align)], by: &[JointMethod], believers: &[JointMethod]) -> Table {
     let mut columns: Vec<(String, Align)> =
         lead.iter().map(|(name, align)| ((*name).to_owned(), *align)).collect();
@@ -260,8 +261,8 @@ fn rest_cells(
     cells
 }
 
-/// How far the rest of recorded ways is predicted off with the joints by some methods, from first
-/// contact on.
+/// Returns the errors of the predicted remaining motion of recordings with the joints by some
+/// methods, from first contact on.
 pub fn recorded_joints_document(
     title: &str,
     count: usize,
@@ -283,7 +284,7 @@ pub fn recorded_joints_document(
     }
 }
 
-/// Strokes or observations.
+/// Returns the number of strokes or observations.
 fn time(step: &BeliefStep) -> Option<f64> {
     match step.when {
         When::Observations(count) | When::Strokes(count) | When::AfterContact(count) => {
@@ -293,7 +294,7 @@ fn time(step: &BeliefStep) -> Option<f64> {
     }
 }
 
-/// Accuracy over all ordered pairs in sparse scenes, and the published one.
+/// Returns the accuracy over all ordered pairs in sparse scenes, with the published values.
 fn chart(summaries: &[BeliefSummary]) -> Chart {
     let believers = believers(summaries);
     let mut series = Vec::new();
@@ -328,7 +329,7 @@ fn chart(summaries: &[BeliefSummary]) -> Chart {
     }
 }
 
-/// Errors on the rest of the way, a chart a family, of true poses.
+/// Returns the errors of the remaining motion with true poses, a chart per family.
 fn rest_charts(summaries: &[BeliefSummary]) -> Vec<Figure> {
     let mut figures = Vec::new();
     for summary in summaries.iter().filter(|one| one.case.sight == Sighting::Exact) {

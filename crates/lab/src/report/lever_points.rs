@@ -1,4 +1,4 @@
-//! How well lever points are inferred.
+//! Accuracy of inferred lever points.
 
 use pushplan_act::judge::Summary;
 use pushplan_report::Align::Right;
@@ -8,7 +8,7 @@ use serde_json::json;
 use crate::bench::{PointReport, PointRow};
 use crate::report::length;
 
-/// A table for each family.
+/// Returns a table for each family.
 pub fn lever_points_document(reports: &[PointReport]) -> Document {
     Document {
         title: "lever points inferred from the first frames".to_owned(),

@@ -1,4 +1,4 @@
-//! Generated tasks of levering: how many are solved, how robustly, and what that cost.
+//! Generated lever tasks: success, robustness and cost.
 
 use pushplan::internals::solve::PlanStatus;
 use pushplan_act::judge::{mean, percentile};
@@ -8,7 +8,7 @@ use serde_json::json;
 
 use crate::bench::LeverRecord;
 
-/// The results of a run.
+/// Returns the results of a run.
 pub fn lever_tasks_document(run: &RunManifest, tasks: &[Finished<LeverRecord>]) -> Document {
     let count = tasks.len().max(1) as f64;
     let share = |has: &dyn Fn(&LeverRecord) -> bool| {

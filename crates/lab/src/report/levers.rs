@@ -8,7 +8,7 @@ use serde_json::json;
 use crate::bench::{LeverReport, LeverRow, SupportRow};
 use crate::report::length;
 
-/// Two tables for each family: models, and the support edge.
+/// Returns two tables for each family: models, and the support edge.
 pub fn levers_document(reports: &[LeverReport]) -> Document {
     Document {
         title: "models of lever-ups against the 3-D engine at 1/240 s".to_owned(),

@@ -1,4 +1,4 @@
-//! How well masses are told, as a table.
+//! Accuracy of estimated masses, as a table.
 
 use pushplan_report::Align::{Left, Right};
 use pushplan_report::{Document, NONE, Section, Table};
@@ -6,7 +6,7 @@ use serde_json::json;
 
 use crate::bench::MassSummary;
 
-/// What the columns mean.
+/// Explanation of the columns.
 const LEGEND: &str = "Masses are 0.2 to 0.5, 1 to 2 or 8 to 10 kg, so that chance is right in a third. \
     Counted are objects that another object touched; *unknown* is the share of the others, of which \
     nothing can be known, of which nothing is believed. *nll* is the mean negative logarithm of the \
@@ -15,7 +15,7 @@ const LEGEND: &str = "Masses are 0.2 to 0.5, 1 to 2 or 8 to 10 kg, so that chanc
     all for equal; *within* is the share of ratios within 1.645 of their standard deviations. *Heavier* \
     is how often of two of which one is more than twice as heavy that one is believed to be it.";
 
-/// What was measured of masses.
+/// Returns the results of masses.
 pub fn masses_document(summaries: &[MassSummary]) -> Document {
     let mut table = Table::new([
         ("scenes", Left),

@@ -1,4 +1,4 @@
-//! How much probes tell, as a table.
+//! Information gained by probes, as a table.
 
 use pushplan_act::act::ProbeRule;
 use pushplan_report::Align::{Left, Right};
@@ -7,7 +7,7 @@ use serde_json::json;
 
 use crate::bench::ProbeSummary;
 
-/// What the columns mean.
+/// Explanation of the columns.
 const LEGEND: &str = "Each probe is the best of sixteen pushes of 10 cm at random by the rule: what tells \
     most (*information*), the first (*random*), the first at an object of the pair that is least certain \
     (*uncertain*), what moves things farthest (*motion*). *Right* are pairs that stood near each other \
@@ -15,7 +15,7 @@ const LEGEND: &str = "Each probe is the best of sixteen pushes of 10 cm at rando
     the error of the mean object after a push of 20 cm from there that nothing was learnt from, predicted \
     under the belief, *all known* under the true joints.";
 
-/// What was measured of probes.
+/// Returns the results of probes.
 pub fn probes_document(summaries: &[ProbeSummary]) -> Document {
     let mut table = Table::new([
         ("rule", Left),

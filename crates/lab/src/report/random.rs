@@ -12,16 +12,16 @@ use serde_json::json;
 
 use crate::bench::{RandomRecord, TaskKind};
 
-/// A run of the suite: what was measured, and the results.
+/// A run of the suite: its manifest and its results.
 pub type RandomRun = (RunManifest, Vec<Finished<RandomRecord>>);
 
-/// Where the tasks of a method end.
+/// Outcomes of the tasks by a method.
 struct Method<'a> {
     name: String,
     tasks: Vec<Row<'a>>,
 }
 
-/// One task by one method.
+/// A task by a method.
 struct Row<'a> {
     kind: TaskKind,
     predicted: Option<f64>,
@@ -30,8 +30,8 @@ struct Row<'a> {
     solved: Option<(&'a SolvedTask, &'a Seconds)>,
 }
 
-/// Runs of the suite with the same tasks side by side, each a method, compared with doing nothing
-/// and a random plan of one push.
+/// Compares runs of the suite on the same tasks, each a method, with doing nothing and a random
+/// plan of one push.
 pub fn random_document(runs: &[RandomRun]) -> Document {
     let mut methods: Vec<Method> = runs.iter().map(planner).collect();
     if let Some((_, tasks)) = runs.iter().max_by_key(|(_, tasks)| tasks.len()) {
@@ -128,7 +128,7 @@ fn nothing(task: &Finished<RandomRecord>) -> Row<'_> {
     Row { kind, predicted: None, planar: Some(nothing), spatial: Some(nothing), solved: None }
 }
 
-/// The kinds, then all of them where there are several.
+/// Returns the kinds, then their union if there are several.
 fn groups(kinds: &[TaskKind]) -> Vec<Option<TaskKind>> {
     let all = (kinds.len() > 1).then_some(None);
     kinds.iter().copied().map(Some).chain(all).collect()

@@ -1,4 +1,4 @@
-//! What refinement brings.
+//! Benefit of refinement.
 
 use pushplan_report::Align::{Left, Right};
 use pushplan_report::{Document, Section, Table};
@@ -7,7 +7,7 @@ use serde_json::json;
 use crate::bench::RefinementReport;
 use crate::report::length;
 
-/// Final errors of plans without and with refinement, by planners of the named effort.
+/// Returns the final errors of plans without and with refinement, by planners of the named effort.
 pub fn refinement_document(report: &RefinementReport, effort: &str) -> Document {
     let table = Table::of(
         [("as searched", &report.before), ("refined", &report.after)],

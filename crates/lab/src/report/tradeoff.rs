@@ -1,4 +1,4 @@
-//! The trade of speed for accuracy as tables and charts.
+//! The trade-off between speed and accuracy as tables and charts.
 
 use pushplan_act::judge::Summary;
 use pushplan_report::Align::{Left, Right};
@@ -10,7 +10,7 @@ use serde_json::json;
 use crate::bench::{PlanRow, PredictorRow, SuiteErrors, SuiteKind, TradeOffReport, prior_instead};
 use crate::report::length;
 
-/// Families of levels: name, and how the names of their models begin. The first that fits counts.
+/// Families of levels: name, and prefixes of the names of their models. The first match counts.
 const FAMILIES: [(&str, &[&str]); 6] = [
     ("prior screens, network decides", &["prior>"]),
     ("network", &["network"]),
@@ -20,7 +20,8 @@ const FAMILIES: [(&str, &[&str]); 6] = [
     ("without physics", &["projection", "follow", "still"]),
 ];
 
-/// Every level of the ladder: errors and cost of predictors, robustness and cost of planning.
+/// Returns every level of the ladder: errors and cost of predictors, robustness and cost of
+/// planning.
 pub fn tradeoff_document(report: &TradeOffReport) -> Document {
     let section =
         |title: &str, table| Section { title: title.to_owned(), table, ..Section::default() };
@@ -40,13 +41,13 @@ pub fn tradeoff_document(report: &TradeOffReport) -> Document {
     }
 }
 
-/// What the columns mean.
+/// Explanation of the columns.
 const LEGEND: &str = "*A push* is processor time with what can be shared among 64 shared, *alone* \
     with nothing shared. *Works* is the share of replays with small disturbances, on other supports \
     and with other starts and frictions, that reach the goal, in the engine in which fewer do; \
     *solved* is what the level itself has found out by its own replays.";
 
-/// What was measured, in a line or two.
+/// Returns the measurement conditions, in a line or two.
 fn measured(report: &TradeOffReport) -> String {
     let counts = &report.counts;
     format!(
@@ -62,7 +63,7 @@ fn measured(report: &TradeOffReport) -> String {
     )
 }
 
-/// Errors and cost of every predictor; the first row is the truth against itself.
+/// Returns errors and cost of every predictor; the first row compares the ground truth with itself.
 fn predictor_table(report: &TradeOffReport) -> Table {
     let truth = ("planar, start off by 0.1 mm".to_owned(), &report.spread, None);
     let levels = report.predictors.iter();
@@ -91,7 +92,7 @@ fn predictor_table(report: &TradeOffReport) -> Table {
     )
 }
 
-/// Cost of a push by number of objects, compared with the planar engine's.
+/// Returns the cost of a push by number of objects, relative to the 2-D engine.
 fn object_table(report: &TradeOffReport) -> Table {
     Table::of(
         &report.objects,
@@ -104,7 +105,7 @@ fn object_table(report: &TradeOffReport) -> Table {
     )
 }
 
-/// Robustness and cost of every level of planning, cheapest first.
+/// Returns robustness and cost of every level of planning, cheapest first.
 fn plan_table(report: &TradeOffReport) -> Table {
     let mut rows: Vec<&PlanRow> = report.plans.iter().collect();
     rows.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
@@ -128,7 +129,7 @@ fn plan_table(report: &TradeOffReport) -> Table {
     )
 }
 
-/// What each effort stands for, costs and gives.
+/// Returns the level, cost and result of each effort.
 fn effort_table(report: &TradeOffReport) -> Table {
     let rows = report.efforts.iter().filter_map(|(effort, choice)| {
         let row = report.plans.iter().find(|row| row.level.name == choice.name)?;
@@ -148,7 +149,7 @@ fn effort_table(report: &TradeOffReport) -> Table {
     )
 }
 
-/// Where a level with the prior alone would do as well as an effort, and for how much less.
+/// Returns the efforts that a level with the analytic model alone matches, and its relative cost.
 fn prior_alone(report: &TradeOffReport) -> Vec<String> {
     let chosen = report.efforts.iter().filter_map(|(effort, choice)| {
         let row = report.plans.iter().find(|row| row.level.name == choice.name)?;
@@ -173,9 +174,9 @@ fn prior_alone(report: &TradeOffReport) -> Vec<String> {
     chosen.map(line).collect()
 }
 
-/// Error against cost of a push, with the front.
+/// Returns a chart of error against cost of a push, with the front.
 fn push_chart(report: &TradeOffReport) -> Chart {
-    // The truth has no error against itself; what it is good for is its own spread.
+    // The ground truth has no error against itself; its accuracy is its own spread.
     let floor = errors_of(&report.spread, SuiteKind::Single).map_or(0.0, |errors| errors.mean);
     let place = |row: &PredictorRow| {
         let mean = errors_of(&row.suites, SuiteKind::Single).map_or(f64::NAN, |errors| errors.mean);
@@ -196,7 +197,7 @@ fn push_chart(report: &TradeOffReport) -> Chart {
     )
 }
 
-/// Robustness against cost of a task, with the front; the efforts carry their names.
+/// Returns a chart of robustness against cost of a task, with the front; efforts are labelled.
 fn task_chart(report: &TradeOffReport) -> Chart {
     let points = report.plans.iter().map(|row| {
         let chosen = report.efforts.iter().filter(|(_, choice)| choice.name == row.level.name);
@@ -269,7 +270,7 @@ fn against_spatial(suites: &[SuiteErrors]) -> String {
     errors.map_or(NONE.to_owned(), |errors| fine_millimetres(errors.mean))
 }
 
-/// What stands in the last column for a level on the front.
+/// Returns the entry of the last column for a level.
 fn front(on_front: bool) -> String {
     if on_front { "yes".to_owned() } else { String::new() }
 }

@@ -1,10 +1,11 @@
-//! What a projection moves: objects, and groups of objects that fixed joints make one body, each
-//! shifted and turned as little as possible.
+//! Bodies of a projection: objects, and groups of objects with fixed joints, each displaced and
+//! rotated as little as possible.
 //!
-//! "As little" is measured by the area that moves: a correction of the distance of two points
-//! along a direction is shared by the two bodies, and in each by shift and turn, so that the sum
-//! of squared travels of all their points is smallest (position based dynamics of rigid bodies,
-//! Macklin et al. 2016, doi:10.1145/2994258.2994272, with areas for masses).
+//! The cost of a correction is the sum of squared travels of all points of both bodies. A
+//! correction of the distance of two points along a direction is divided between the two bodies,
+//! and in each between displacement and rotation, so that this cost is smallest. The method is
+//! position based dynamics of rigid bodies (Macklin et al. 2016, doi:10.1145/2994258.2994272), with
+//! areas for masses.
 
 use pushplan::internals::{
     geometry::{Pose, Vector, cross},
@@ -14,7 +15,7 @@ use pushplan::internals::{
 /// The bodies of a scene and the joints between them.
 pub(super) struct Bodies {
     bodies: Vec<Body>,
-    /// Index into `bodies` of every object.
+    /// Body of every object, an index into `bodies`.
     body_of: Vec<usize>,
     joints: Vec<BodyJoint>,
 }
@@ -25,7 +26,7 @@ struct Body {
     /// Poses of the members when the body's pose is the identity.
     rest: Vec<Pose>,
     pose: Pose,
-    /// Square metres, and their second moment about the centre.
+    /// Area, square metres, and its second moment about the centre.
     area: f64,
     moment: f64,
 }
@@ -33,23 +34,24 @@ struct Body {
 /// A joint between objects of two bodies.
 struct BodyJoint {
     between: [usize; 2],
-    /// The joint's frame as each object sees it.
+    /// Frame of the joint relative to each object.
     frames: [Pose; 2],
     kind: JointKind,
     limits: Option<Span>,
 }
 
-/// A body's share in a correction: zero for one that does not give way.
+/// A point at which a body is corrected.
 #[derive(Clone, Copy)]
 pub(super) struct Side {
     /// An object of the body.
     pub object: usize,
-    /// Where the correction acts, world frame, metres.
+    /// Position of the correction, world frame, metres.
     pub at: Vector,
 }
 
 impl Bodies {
-    /// The bodies of `scene` with the joints of `physics`, at the poses that the scene states.
+    /// Returns the bodies of `scene` with the joints of `physics`, at the poses that the scene
+    /// states.
     pub fn new(scene: &Scene, physics: &Physics) -> Self {
         let objects = &scene.objects;
         let RigidGroups { of: body_of, members } = physics.rigid_groups();
@@ -84,20 +86,20 @@ impl Bodies {
         Self { joints: joints.collect(), bodies, body_of }
     }
 
-    /// Takes over where the objects are.
+    /// Updates the poses of the bodies from the poses of objects.
     pub fn follow(&mut self, poses: &[Pose]) {
         for body in &mut self.bodies {
             body.pose = poses[body.members[0]] * body.rest[0].inverse();
         }
     }
 
-    /// Whether two objects are parts of one body and cannot meet.
+    /// Returns `true` if two objects are parts of one body and cannot collide.
     pub fn same_body(&self, a: usize, b: usize) -> bool {
         self.body_of[a] == self.body_of[b]
     }
 
-    /// Moves `first` by `distance` metres along the unit vector `direction` against `second`,
-    /// or by itself if there is no second body that gives way.
+    /// Moves `first` by `distance` metres along the unit vector `direction` against `second`, or
+    /// alone if there is no movable second body.
     pub fn part(
         &mut self,
         first: Side,
@@ -126,7 +128,7 @@ impl Bodies {
         body.put(poses);
     }
 
-    /// Turns the second object of a pair by `angle` radians against the first.
+    /// Rotates the second object of a pair by `angle` radians against the first.
     fn turn(&mut self, between: [usize; 2], angle: f64, poses: &mut [Pose]) {
         let [a, b] = between.map(|object| self.body_of[object]);
         let share = self.bodies[a].moment / (self.bodies[a].moment + self.bodies[b].moment);
@@ -136,7 +138,7 @@ impl Bodies {
         }
     }
 
-    /// Moves objects so that the joints hold, and gives the largest correction, metres.
+    /// Moves objects so that the joints hold, and returns the largest correction, metres.
     pub fn hold(&mut self, poses: &mut [Pose]) -> f64 {
         let mut largest: f64 = 0.0;
         for k in 0..self.joints.len() {

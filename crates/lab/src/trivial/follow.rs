@@ -1,4 +1,4 @@
-//! What the tool touches sticks to it.
+//! A model in which touched objects stick to the tool.
 
 use pushplan::internals::{
     effect::{EffectModel, Trust},
@@ -10,8 +10,8 @@ use pushplan::internals::{
 
 use super::play::{Rule, Table, play_all};
 
-/// From the moment the tool runs into an object, the object moves with the tool, until the tool
-/// is lifted; and so does whatever a moving object runs into.
+/// Baseline model in which an object that the tool runs into moves with the tool until the tool is
+/// lifted. Objects that a moving object runs into also move with the tool.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Follow;
 
@@ -31,7 +31,7 @@ impl Rule for Sticking {
         for (pose, _) in poses.iter_mut().zip(&self.held).filter(|(_, held)| **held) {
             *pose = motion * *pose;
         }
-        // Each round takes hold of at least one more object or is the last.
+        // Each round attaches at least one more object or is the last.
         for _ in 0..poses.len() {
             let run_into = (0..poses.len()).find(|&object| {
                 let others = (0..poses.len())

@@ -1,7 +1,7 @@
-//! Effect models that know no physics: what any model must beat to be worth its name.
+//! Baseline effect models without physics, which any useful model must beat.
 //!
-//! They use frames like every other model, but nothing of theirs moves unless the tool does, so
-//! everything rests as soon as a stroke ends. Masses and frictions do not enter.
+//! They use frames like every other model, but objects move only when the tool does, so everything
+//! rests as soon as a stroke ends. Masses and frictions have no effect.
 
 mod bodies;
 mod follow;

@@ -1,4 +1,4 @@
-//! Trivial models by their names.
+//! Trivial models by name.
 
 use std::sync::Arc;
 
@@ -17,10 +17,9 @@ impl Projection {
     pub const KIND: ModelKind = ModelKind::Custom("projection");
 }
 
-/// Reads the name of a model: one of the library's with its settings, or a trivial one.
+/// Parses the name of a model: a library model with its settings, or a trivial one.
 ///
-/// # Errors
-/// A text that names no model.
+/// # Errors If the text names no model.
 pub fn spec(text: &str) -> Result<ModelSpec, SpecError> {
     let trivial = [Projection::KIND, Follow::KIND].map(ModelSpec::of);
     match trivial.into_iter().find(|spec| spec.to_string() == text.trim()) {
@@ -29,10 +28,9 @@ pub fn spec(text: &str) -> Result<ModelSpec, SpecError> {
     }
 }
 
-/// Builds the model that `spec` names.
+/// Builds the model of `spec`.
 ///
-/// # Errors
-/// [`ModelError`] if it needs weights that cannot be used.
+/// # Errors [`ModelError`] if it needs weights that cannot be used.
 pub fn load(spec: &ModelSpec) -> Result<Routed, ModelError> {
     let part = spec.first();
     let model: Arc<dyn EffectModel> = match &part.kind {

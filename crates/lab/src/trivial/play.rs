@@ -9,22 +9,22 @@ use pushplan::internals::{
     task::{Job, ToolMotion},
 };
 
-/// Tool travel per small step, metres: overlaps stay much smaller than any body.
+/// Tool travel per small step, metres, small enough that overlaps stay much smaller than any body.
 const STEP: f64 = 1e-3;
 
-/// How a model moves objects when the tool moves.
+/// A rule by which objects move when the tool moves.
 pub(super) trait Rule {
-    /// A new rule for a scene under `physics`, nothing touched yet.
+    /// Creates the rule for a scene under `physics`, nothing touched yet.
     fn begin(scene: &Scene, physics: &Physics) -> Self;
 
     /// Moves `poses` for a small step of the tool.
     fn step(&mut self, table: &Table, from: &Pose, to: &Pose, poses: &mut [Pose]);
 
-    /// The tool is lifted away.
+    /// Handles the lift of the tool.
     fn lift(&mut self) {}
 }
 
-/// Scene and motion, with the questions that rules ask.
+/// Scene and motion, with the queries of rules.
 pub(super) struct Table<'a> {
     pub(super) scene: &'a Scene,
     pub(super) motion: &'a ToolMotion,
@@ -35,8 +35,8 @@ impl Table<'_> {
         &self.motion.tool
     }
 
-    /// The closest point of object `index` at `pose` and another body, within `reach` metres;
-    /// the normal points into the object. `None` if they pass above each other.
+    /// Returns the closest point of object `index` at `pose` and another body, within `reach`
+    /// metres; the normal points into the object. Returns `None` if they pass above each other.
     pub(super) fn contact(
         &self,
         index: usize,
@@ -47,7 +47,7 @@ impl Table<'_> {
         self.contacts(index, pose, other, reach)[0]
     }
 
-    /// The same with the second point of two rectangles.
+    /// Returns [`Self::contact`] and the second point of two rectangles.
     pub(super) fn contacts(
         &self,
         index: usize,
@@ -84,21 +84,21 @@ impl Table<'_> {
         contact_points(first, (&footprint, other.1), reach).0
     }
 
-    /// The tool's parts with their poses when the tool frame is at `tool`.
+    /// Iterates over the tool's parts with their poses when the tool frame is at `tool`.
     pub(super) fn parts(&self, tool: &Pose) -> impl Iterator<Item = (Body, Pose)> + use<'_> {
         let tool = *tool;
         (0..self.tool().parts().len())
             .map(move |part| (Body::Part(part), self.tool().part_pose(part, &tool)))
     }
 
-    /// The obstacles with their poses.
+    /// Iterates over the obstacles with their poses.
     pub(super) fn obstacles(&self) -> impl Iterator<Item = (Body, Pose)> + use<'_> {
         let obstacles = self.scene.obstacles.iter().enumerate();
         obstacles.map(|(index, obstacle)| (Body::Obstacle(index), obstacle.pose))
     }
 }
 
-/// Plays every job with a fresh rule.
+/// Plays every job with a new rule.
 pub(super) fn play_all<R: Rule>(
     by: &ModelSpec,
     scene: &Scene,
@@ -148,7 +148,7 @@ fn play<R: Rule>(by: &ModelSpec, scene: &Scene, job: &Job, record: Record) -> Tr
     trajectory
 }
 
-/// Adds the pairs that touch now and have not touched before.
+/// Adds the pairs that touch now for the first time.
 fn note_contacts(table: &Table, frame: &Frame, index: usize, contacts: &mut Vec<Contact>) {
     let poses = &frame.state.poses;
     for (object, pose) in poses.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Overlaps are removed and joints held, and nothing else happens.
+//! A model that only removes overlaps and holds joints.
 
 use pushplan::internals::{
     effect::{EffectModel, Trust},
@@ -13,15 +13,18 @@ use super::{
     play::{Rule, Table, play_all},
 };
 
-/// Overlaps and gaps in joints below this are left, metres.
+/// Overlaps and joint errors below this are ignored, metres.
 const LEFT: f64 = 1e-6;
 
-/// Rounds over all pairs in one small step; a row of three touching objects needs about twenty.
+/// Maximum number of rounds over all pairs in a small step; a row of three touching objects needs
+/// about twenty.
 const ROUNDS: usize = 200;
 
-/// After every small step of the tool, objects are shifted and turned until nothing overlaps
-/// and all joints hold, each as little as possible: the tool and the obstacles stay, two bodies
-/// share a correction by the areas that it moves, objects joined by fixed joints are one body.
+/// Baseline model that resolves overlaps by minimal displacements.
+///
+/// After every small step of the tool, objects are displaced and rotated as little as possible
+/// until nothing overlaps and all joints hold. Tool and obstacles are fixed. Two bodies share a
+/// correction by the areas that it moves, and objects joined by fixed joints are one body.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Projection;
 
@@ -48,7 +51,7 @@ impl Rule for Shifting {
 }
 
 impl Shifting {
-    /// Moves everything out of everything else once, and gives the largest overlap, metres.
+    /// Moves every pair apart once, and returns the largest overlap, metres.
     fn part(&mut self, table: &Table, tool: &Pose, poses: &mut [Pose]) -> f64 {
         let mut largest: f64 = 0.0;
         for object in 0..poses.len() {
@@ -66,7 +69,7 @@ impl Shifting {
         largest
     }
 
-    /// Moves an object out of another body, and gives how deep it was, metres.
+    /// Moves an object out of another body, and returns the depth of the overlap, metres.
     fn leave(
         &mut self,
         table: &Table,
@@ -75,7 +78,7 @@ impl Shifting {
         poses: &mut [Pose],
     ) -> f64 {
         let points = table.contacts(object, &poses[object], (other.0, &other.1), 0.0);
-        // Two corners of one face share its way out.
+        // Two corners of a face share the correction.
         let share = if points[1].is_some() { 0.5 } else { 1.0 };
         for point in points.iter().flatten() {
             let first = Side { object, at: point.on_first };
@@ -120,7 +123,8 @@ mod tests {
 
     use crate::trivial::{Follow, Projection};
 
-    /// A wide bar pushes 0.20 m along x; a can 5 mm before it, and a second one 20 mm further.
+    /// Rolls out a push of 0.20 m along x by a wide bar, with a can 5 mm ahead and a second one 20
+    /// mm further.
     fn roll(model: &dyn EffectModel) -> Trajectory {
         let can = |name: &str, x| Object::cylinder(name, 0.05, 0.1).at(x, 0.0, 0.0);
         let objects = vec![can("near", 0.065), can("far", 0.185)];
@@ -137,7 +141,7 @@ mod tests {
     fn the_three_models_end_where_their_rules_say() {
         for (model, expected, slack) in [
             (&Still as &dyn EffectModel, [0.065, 0.185], 0.0),
-            // Stuck at the first small step with an overlap, so up to a step deep.
+            // The object sticks at the first small step with an overlap, so up to a step deep.
             (&Follow, [0.26, 0.36], 2.1e-3),
             (&Projection, [0.26, 0.36], 1e-4),
         ] {

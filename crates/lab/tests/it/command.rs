@@ -1,4 +1,4 @@
-//! `pushplan-lab` as a user sees it.
+//! The command `pushplan-lab` from a user's perspective.
 
 use pushplan::asset::{ToolLibrary, load_task};
 use serde_json::Value as Json;
@@ -7,7 +7,7 @@ use tempfile::TempDir;
 use crate::pages;
 use crate::program::{run, stderr};
 
-/// The transcripts in `tests/cmd`, with what was printed and the exit codes.
+/// Replays the transcripts in `tests/cmd`, with outputs and exit codes.
 #[test]
 fn transcripts() {
     trycmd::TestCases::new().case("tests/cmd/*.md").default_bin_name("pushplan-lab");

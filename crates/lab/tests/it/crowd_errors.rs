@@ -1,5 +1,5 @@
-//! Errors on crowds: the truth has none, staying is off by the motion, and the
-//! command writes what it measures.
+//! Errors on crowds: the ground truth has none, no motion has the motion as error, and the command
+//! writes its measurements.
 
 use pushplan::recording::Recording;
 use pushplan::watch::Unwatched;
@@ -99,7 +99,7 @@ fn a_recorded_simulation_is_judged_like_the_simulation() {
     let still = both.clone().map(|trial| measured(Still, &[trial]).all.end.expect("objects"));
     assert!((still[0].motion - still[1].motion).abs() < 1e-9);
     let again = measured(planar, &both[..1]).all.end.expect("objects");
-    // Frames end in other steps of the engine, so not to the bit.
+    // Frames end in other steps of the engine, so the results differ slightly.
     assert!(again.relative < 0.02, "{again:?}");
 }
 

@@ -1,4 +1,5 @@
-//! Held-out evaluation: drawn from the seed alone, judged rightly, the same on any thread count.
+//! Held-out evaluation: drawn from the seed alone, judged correctly, independent of the number of
+//! threads.
 
 use std::sync::Arc;
 
@@ -79,7 +80,7 @@ fn one_and_two_threads_give_the_same_report_and_it_survives_json() {
 #[test]
 fn random_tasks_are_solvable_and_refinement_never_makes_a_prediction_worse() {
     let settings = Settings { disturbed: 0, ..Effort::Draft.settings() };
-    // As plans are verified: the tool goes back before it is lifted.
+    // The tool retreats before it is lifted, as in verification.
     let truth = || Simulated::new(Simulator::planar().retreating());
     let planner = |settings| Planner::builder(truth()).settings(settings).build();
     let without = planner(Settings { refine_rounds: 0, ..settings });
@@ -93,7 +94,7 @@ fn random_tasks_are_solvable_and_refinement_never_makes_a_prediction_worse() {
     let report = measured(2);
     assert_eq!((report.tasks, report.worse, report.programmes_failed), (6, 0, 0));
     assert!(report.programmes > 0 && report.after.solved >= report.before.solved, "{report:?}");
-    // The model is the truth, so what it predicts is what happens.
+    // The model is the ground truth, so its predictions are exact.
     for errors in [&report.before, &report.after] {
         assert_eq!(errors.predicted, errors.planar);
     }

@@ -1,9 +1,9 @@
-//! Robustness far outside what was trained on: one factor at a time, each cell judged against
-//! the planar engine and by whether the model warns of it.
+//! Robustness far outside the training ranges: one factor at a time. Each cell is judged against
+//! the 2-D engine and by the warnings of the model.
 //!
-//! A model may be wrong out there, but not silently: a cell whose answers are wrong and
-//! unflagged, not finite or not bounded is a defect. Besides rollouts there are whole tasks with
-//! numbers that no sensible file holds.
+//! A model may be wrong there, but not silently: a cell whose answers are wrong and unflagged, not
+//! finite or not bounded is a defect. In addition to rollouts, whole tasks are solved with numbers
+//! that no sensible file holds.
 
 mod base;
 mod cell;
@@ -24,27 +24,27 @@ use cell::{Cell, Kind};
 use judged::{Judged, Verdict, Yardstick};
 use tasks::TaskCell;
 
-/// Writes the page among the results, in ten minutes or so on two cores.
+/// Command that writes the page of results, in about ten minutes on two cores.
 const COMMAND: &str =
     "cargo test --release -p pushplan-lab -- --ignored the_extremes_hide_no_defect";
 
-/// The page.
+/// Path of the page.
 const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/results/extremes.md");
 
-/// Everything that was measured.
+/// Results of all measurements.
 struct Extremes {
     model: String,
     seed: u64,
-    /// Pushes of a cell, where they are not few because they are long.
+    /// Number of pushes of a cell, except for cells of few long pushes.
     pushes: usize,
-    /// What the cells are measured by.
+    /// Yardsticks of the cells.
     yardsticks: Vec<Yardstick>,
     cells: Vec<(Cell, Judged)>,
     tasks: Vec<TaskCell>,
 }
 
 impl Extremes {
-    /// Measures a model, `pushes` a cell and `ordinary` ones of each kind.
+    /// Measures a model with `pushes` per cell and `ordinary` pushes of each kind.
     fn measure(
         model: ModelKind,
         threads: usize,
@@ -57,7 +57,7 @@ impl Extremes {
         let library = ToolLibrary::embedded().expect("sound tools");
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         pool.install(|| {
-            // Other pushes than those of the cells.
+            // Ordinary pushes differ from the pushes of the cells.
             let draw = Draw { library: &library, pushes: ordinary, seed: seed ^ 0x0D1D };
             let yardsticks = Kind::ALL.map(|kind| {
                 let cases = match kind {

@@ -1,5 +1,5 @@
-//! Networks that see images: candle differentiates what is predicted with, mirrored lever-ups look alike, files
-//! are read back, and training resumes exactly.
+//! Networks with image input: the candle graph agrees with the deployed network, mirrored lever-ups
+//! have mirrored predictions, files are read back, and training resumes exactly.
 
 use std::fs;
 use std::path::Path;
@@ -38,7 +38,7 @@ fn episodes(preset: LeverPreset, seed: u64, count: u64) -> Vec<LeverEpisode> {
     LeverDataset::in_memory(&config, &Unwatched).expect("lever-ups").episodes().to_vec()
 }
 
-/// Weights at random, large enough to matter.
+/// Returns random weights, large enough to matter.
 fn random(features: ImageFeatures, prior: bool) -> ImageWeights {
     let sizes = LeverInputs::sizes(LeverFeatures::Nothing, prior, 12);
     let scales =
@@ -101,7 +101,7 @@ fn what_predicts_computes_what_training_differentiates() {
     }
 }
 
-/// Images are drawn from where plates are levered, so their pixels do not show in this.
+/// Images are drawn from the lever point, so their pixels have no effect here.
 #[test]
 fn mirrored_and_moved_lever_ups_have_mirrored_and_moved_predictions() {
     let network = |features, prior| {
@@ -118,7 +118,7 @@ fn only_a_depth_image_tells_boxes_from_lying_cylinders() {
     let drawn = episodes(LeverPreset::Lying, 4, 32);
     let jobs: Vec<LeverJob> = drawn.iter().map(LeverEpisode::job).collect();
     let round = |job: &LeverJob| job.scene.plates[0].slabs.len() > 1;
-    // Each with a box of the extents that this cylinder has.
+    // Each cylinder is compared with a box of its extents.
     for cylinder in jobs.iter().filter(|job| round(job)) {
         let mut scene = LeverScene::clone(&cylinder.scene);
         let plate = &mut scene.plates[0];
@@ -145,13 +145,13 @@ fn a_networks_file_is_read_back_and_another_one_refused() {
     let weights = random(ImageFeatures::Image, false);
     let bytes = weights.to_bytes().expect("bytes");
     assert_eq!(ImageWeights::from_bytes(&bytes).expect("weights"), weights);
-    // Sound, but not of what it says that it sees.
+    // Valid weights whose card names other features.
     let card = ImageCard { features: ImageFeatures::ContextImage, ..weights.card.clone() };
     assert!(ImageNetwork::new(&ImageWeights { card, ..weights.clone() }).is_err());
     let mut other = weights.clone();
     other.card.memory.sizes = LeverSizes { still: 7, ..other.card.memory.sizes };
     assert!(ImageNetwork::new(&other).is_err());
-    // Images that no convolutions are there for.
+    // Images without matching convolutions.
     let (from, to) = (br#"rows\":64"#, br#"rows\":99"#);
     let at = bytes.windows(from.len()).position(|window| window == from).expect("a card");
     let mut larger = bytes;
@@ -159,7 +159,7 @@ fn a_networks_file_is_read_back_and_another_one_refused() {
     assert!(matches!(ImageWeights::from_bytes(&larger), Err(WeightsError::Size { .. })));
 }
 
-/// Stopped before and after an autoencoder is done; and what is fed with its own predictions.
+/// Stops before and after an autoencoder is done, and covers feedback of predictions.
 #[test]
 fn training_resumes_to_the_same_bits() {
     let episodes = |seed, count| episodes(LeverPreset::Varied, seed, count);

@@ -1,4 +1,4 @@
-//! The benchmark of inferred joints, and recordings with what is told of their joints.
+//! The benchmark of inferred joints, and recordings under different assumptions about their joints.
 
 use pushplan::asset::{ToolLibrary, load_task};
 use pushplan::geometry::Vector;
@@ -32,7 +32,7 @@ fn shards_on_any_number_of_threads_merge_to_the_bytes_of_one_run() {
             let of = rest.iter().find(|rest| rest["by"] == by).expect("a method");
             of["mean"].as_f64().expect("an error")
         };
-        // Whoever knows the joints predicts better than who takes them all for none.
+        // Predictions with true joints are better than predictions without joints.
         assert!(error("true") < error("none"), "{rest:?}");
     }
 }

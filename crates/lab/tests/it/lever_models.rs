@@ -1,4 +1,4 @@
-//! Models of lever-ups: symmetry, what a network's file must be, and lever points that are inferred.
+//! Models of lever-ups: symmetry, validation of a network's file, and inferred lever points.
 
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ fn episodes(preset: LeverPreset, seed: u64, count: u64) -> LeverDataset {
     LeverDataset::in_memory(&config, &Unwatched).expect("lever-ups")
 }
 
-/// Weights at random, large enough to matter.
+/// Returns random weights, large enough to matter.
 fn random(features: LeverFeatures, prior: bool) -> LeverWeights {
     let sizes = LeverInputs::sizes(features, prior, 12);
     let mut rng = Pcg64::seed_from_u64(9);
@@ -40,7 +40,7 @@ fn random(features: LeverFeatures, prior: bool) -> LeverWeights {
     LeverWeights { card, parameters }
 }
 
-/// The same job behind a mirror at y = 0.
+/// Returns the job mirrored at y = 0.
 fn mirrored(job: &LeverJob) -> LeverJob {
     let mut scene = LeverScene::clone(&job.scene);
     let plate = &mut scene.plates[job.lever.plate];
@@ -68,7 +68,7 @@ fn mirrored_pose(pose: &Pose3) -> Pose3 {
     Pose3::from_quaternion(position, [-x, y, -z, w])
 }
 
-/// The same job elsewhere on the table.
+/// Returns the job moved on the table.
 fn moved(job: &LeverJob, by: Pose) -> LeverJob {
     let mut scene = LeverScene::clone(&job.scene);
     let pose = &mut scene.plates[job.lever.plate].pose;
@@ -92,12 +92,13 @@ fn mirrored_and_moved_lever_ups_have_mirrored_and_moved_predictions() {
     for (model, most) in &models {
         is_symmetric(&**model, LeverPreset::Varied, *most);
     }
-    // Boards in drives rattle, which multiplies roundings: of contacts that are equally near
-    // another one comes first.
+    // Boards in drives rattle, which multiplies roundings: the order of contacts with equal gaps
+    // changes.
     is_symmetric(&LeverPrior::default(), LeverPreset::Drive, 1e-4);
 }
 
-/// Mirrored and moved lever-ups of a family have mirrored and moved predictions up to `most` metres.
+/// Asserts that mirrored and moved lever-ups of a family have mirrored and moved predictions up to
+/// `most` metres.
 pub fn is_symmetric(model: &dyn LeverModel, preset: LeverPreset, most: f64) {
     let drawn = episodes(preset, 4, 12);
     let jobs: Vec<LeverJob> = drawn.episodes().iter().map(LeverEpisode::job).collect();
@@ -139,7 +140,7 @@ fn the_prior_knows_the_pocket_of_a_drive_and_its_limits() {
     let jobs: Vec<LeverJob> = drawn.episodes().iter().map(LeverEpisode::job).collect();
     assert_eq!(prior.rollout(&jobs), pool.install(|| prior.rollout(&jobs)));
 
-    // Not among blocks with other plates than cuboids, and networks not among blocks at all.
+    // The analytic model takes blocks only with plates of cuboids, networks take no blocks at all.
     let trust = |job: &LeverJob, model: &dyn LeverModel| model.takes(job);
     assert!(trust(&jobs[0], &prior));
     assert!(!trust(&jobs[0], &LeverNetwork::shipped().expect("sound weights")));
@@ -153,7 +154,7 @@ fn a_networks_file_is_read_back_and_a_damaged_one_refused() {
     let weights = random(LeverFeatures::Shape, true);
     let bytes = weights.to_bytes().expect("bytes");
     assert_eq!(LeverWeights::from_bytes(&bytes).expect("weights"), weights);
-    // Anywhere: in the header's length, the card, a weight.
+    // Damage at several places: the header's length, the card, a weight.
     for at in [0, 40, bytes.len() / 2, bytes.len() - 2] {
         let mut damaged = bytes.clone();
         damaged[at] ^= 0x10;
@@ -161,12 +162,12 @@ fn a_networks_file_is_read_back_and_a_damaged_one_refused() {
     }
     assert!(LeverWeights::from_bytes(&bytes[..bytes.len() - 4]).is_err());
 
-    // Sound, but not of what it says that it is told.
+    // Valid weights whose card names other features.
     let card = LeverCard { features: LeverFeatures::Corners, ..weights.card.clone() };
     assert!(LeverNetwork::new(&LeverWeights { card, ..weights }).is_err());
 }
 
-/// On other lever-ups than those that the page of results shows.
+/// Uses other lever-ups than the published results.
 #[test]
 fn the_shipped_network_is_small_and_better_than_what_it_corrects_and_than_the_prior() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/lever.safetensors");
@@ -195,7 +196,7 @@ fn the_prior_is_better_than_nothing_and_the_lever_point_is_found() {
     let again = pool.install(|| point_report((LeverPreset::Board, 6), drawn.episodes(), &prior));
     assert_eq!(points, again);
 
-    // A disc is a hundred corners, each of which may touch: few are enough.
+    // A disc has a hundred corners, each of which may touch, so a few cases are enough.
     let drawn = episodes(LeverPreset::Disc, 6, 2);
     let points = point_report((LeverPreset::Disc, 6), drawn.episodes(), &prior);
     for (seen, most) in [(1, 10.0_f64), (3, 4.0), (7, 2.0)] {

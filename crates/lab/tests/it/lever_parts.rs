@@ -1,4 +1,4 @@
-//! The network of parts: symmetry, threads, and what its file must be.
+//! The network of parts: symmetry, threads, and validation of its file.
 
 use pushplan::network::{
     Config, LeverWeights, Normaliser, Parameters, PredictorWeights, WeightsError,
@@ -18,7 +18,7 @@ fn jobs(preset: LeverPreset, count: u64) -> Vec<LeverJob> {
     set.episodes().iter().map(LeverEpisode::job).collect()
 }
 
-/// Weights at random that move boards by millimetres in a step.
+/// Returns random weights that move boards by millimetres in a step.
 fn random(prior: bool) -> PartsWeights {
     let config = Config { width: 16, steps: 2 };
     let mut parameters = Parameters::fresh_of(&PARTS, &config, 3);
@@ -64,7 +64,7 @@ fn plates_that_are_no_cuboids_are_left_to_others() {
     let plates = jobs(LeverPreset::Varied, 9);
     assert!(plates.iter().all(|job| !model.takes(job)));
     assert!(jobs(LeverPreset::Drive, 4).iter().all(|job| model.takes(job)));
-    // Still answered, by the prior.
+    // Still answered, by the analytic model.
     assert_eq!(model.rollout(&plates), LeverParts::PRIOR.rollout(&plates));
 }
 

@@ -1,4 +1,4 @@
-//! Tests of what is measured, and of the library where they need its suites, in one binary.
+//! Tests of the measurements, and of the library where they need its suites, in one binary.
 
 mod command;
 mod crowd_errors;
@@ -17,7 +17,7 @@ mod symmetry;
 mod tradeoff;
 mod trivial;
 
-// What these tests share with others.
+// Fixtures shared with other tests.
 #[path = "../../../../tests/it/fixtures.rs"]
 #[allow(dead_code)]
 mod fixtures;
@@ -33,6 +33,6 @@ mod sharding;
 #[path = "../../../learn/tests/it/until.rs"]
 mod until;
 
-/// The repository, and the program.
+/// Paths of the repository and of the program.
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 const PROGRAM: &str = env!("CARGO_BIN_EXE_pushplan-lab");

@@ -1,4 +1,5 @@
-//! The network of parts: candle differentiates what is predicted with, and training resumes exactly.
+//! The network of parts: the candle graph agrees with the deployed network, and training resumes
+//! exactly.
 
 use std::fs;
 use std::path::Path;
@@ -27,7 +28,7 @@ fn episodes(seed: u64, count: u64) -> Vec<LeverEpisode> {
     LeverDataset::in_memory(&config, &Unwatched).expect("lever-ups").episodes().to_vec()
 }
 
-/// The graphs of first steps.
+/// Returns the graphs of first steps.
 fn graphs(episodes: &[LeverEpisode]) -> PartGraphs {
     let mut graphs = PartGraphs::default();
     for episode in episodes {
@@ -83,7 +84,7 @@ fn settings(prior: bool) -> PartsSettings {
     settings
 }
 
-/// Mean error over the turn, metres.
+/// Returns the mean error over the rotation, metres.
 fn error(model: &dyn LeverModel, episodes: &[LeverEpisode]) -> f64 {
     let jobs: Vec<LeverJob> = episodes.iter().map(LeverEpisode::job).collect();
     let told = model.rollout(&jobs);
@@ -111,7 +112,7 @@ fn training_learns_resumes_to_the_same_bits_and_predicts() {
     let [whole, parts] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
     let single = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool");
     let wanted = single.install(|| train(whole.path(), &settings, &Unwatched));
-    // Stopped before examples come from rollouts, and after that between two evaluations.
+    // Stopped before examples come from rollouts, then between two evaluations.
     for steps in [40, 240] {
         assert!(train(parts.path(), &settings, &Until::new(steps)) != wanted);
     }
@@ -119,7 +120,7 @@ fn training_learns_resumes_to_the_same_bits_and_predicts() {
 
     let network = load_lever(&whole.path().join("best.safetensors")).expect("weights");
     assert_eq!(network.name(), "propagation network, parts");
-    // An untrained one moves nothing.
+    // An untrained network moves nothing.
     let (learned, still) = (error(&network, &held_out), error(&fresh(false, &data), &held_out));
     assert!(learned < 0.3 * still, "{learned} {still}");
 
@@ -133,7 +134,7 @@ fn a_correction_begins_as_its_prior_and_is_saved_with_it() {
     let (data, held_out) = (episodes(1, 16), episodes(2, 12));
     let untrained = error(&fresh(true, &data), &held_out);
     let prior = error(&LeverParts::PRIOR, &held_out);
-    // Its steps are others, as it is asked at other times.
+    // Its steps differ, because it is evaluated at other times.
     assert!(untrained < 2.0 * prior + 1e-4, "{untrained} {prior}");
     let folder = tempfile::tempdir().expect("a folder");
     let lock = FolderLock::take(folder.path(), &Unwatched).expect("a lock");

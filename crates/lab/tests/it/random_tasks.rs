@@ -1,4 +1,5 @@
-//! The suite of random tasks: solvable as made, of the kinds they claim to be, the same in a file.
+//! The suite of random tasks: solvable by construction, of the stated kinds, and unchanged by a
+//! file.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -23,7 +24,7 @@ fn the_plan_that_made_an_everyday_task_solves_it_and_the_task_is_of_its_kind() {
     are_solved_by_their_plans(&TaskKind::EVERYDAY, 2, is_everyday);
 }
 
-/// Draws `each` tasks of every kind and carries out the plans that made them.
+/// Draws `each` tasks of every kind and executes the plans behind them.
 fn are_solved_by_their_plans(kinds: &[TaskKind], each: usize, is_of_its_kind: fn(&SuiteTask)) {
     let library = ToolLibrary::embedded().expect("the shipped tools");
     let suite = RandomSuite::new(&library, 7, kinds);
@@ -37,7 +38,7 @@ fn are_solved_by_their_plans(kinds: &[TaskKind], each: usize, is_of_its_kind: fn
         assert!(verdict.passed, "{}: its own plan does not solve it", task.name);
         let planar = &verdict.evidence[0];
         assert_eq!(planar.engine, Engine::Planar);
-        // The goal is where the planar engine ends, rounded to tenths of a millimetre.
+        // The goal is the final pose in the 2-D engine, rounded to tenths of a millimetre.
         assert!(planar.outcome.error() < 1e-4, "{}: {}", task.name, planar.outcome.error());
         assert!(plan.pushes().len() <= task.pushes.max_count);
         assert!(plan.pushes().iter().all(|push| task.robot.reaches(push.end())));
@@ -142,7 +143,7 @@ fn a_kind_alone_gives_the_tasks_that_it_gives_among_all() {
     let both = RandomSuite::new(&library, 11, &kinds);
     let alone = RandomSuite::new(&library, 11, &kinds[..1]);
     let task = |suite: &RandomSuite, index| suite.task(index).expect("a task").task;
-    // The order turns from round to round: pull, sweep; sweep, pull.
+    // The order rotates from round to round: pull, sweep; sweep, pull.
     for (index, among) in [(0, 0), (1, 3)] {
         assert_eq!(task(&alone, index), task(&both, among));
     }

@@ -1,4 +1,4 @@
-//! Every benchmark in shards, as array jobs run them: merged they are the same bytes as one run.
+//! Every benchmark in shards, as array jobs run them: merged, the bytes equal a single run.
 
 use std::fs;
 
@@ -63,8 +63,8 @@ fn what_is_measured_in_one_go_has_none() {
     assert!(stderr(&output).contains("unexpected argument '--shard'"), "{}", stderr(&output));
 }
 
-/// The containers of the Kubernetes manifest run what it says with the indices that an Indexed Job
-/// gives them: a loop stands for the cluster.
+/// Runs the containers of the Kubernetes manifest with the indices of an Indexed Job. A loop
+/// replaces the cluster.
 #[cfg(unix)]
 #[test]
 fn the_kubernetes_jobs_end_like_one_run() {
@@ -97,7 +97,7 @@ fn the_kubernetes_jobs_end_like_one_run() {
             .output();
         sharding::done(&output.expect("a shell"));
     };
-    /// What is measured here.
+    /// Size of this test.
     const SMALL: &str = "--count 4 --effort draft";
 
     (0..count).for_each(|index| run(shards, index));

@@ -1,5 +1,4 @@
-//! What a network must be good at to be shipped, besides having small errors on the suites of
-//! pushes.
+//! Requirements of a shipped network, in addition to small errors on the suites of pushes.
 
 use pushplan::asset::ToolLibrary;
 use pushplan::effect::{EffectModel, EffectModels, Job, Prior, Routed};
@@ -17,8 +16,8 @@ fn network() -> Routed {
     EffectModels::build(&ModelKind::NETWORK.into()).unwrap()
 }
 
-/// Mean distance of cuboids' ends from the 3-D engine's where the tool turns by `turn` (radians) on
-/// its way, metres, for network and prior.
+/// Returns the mean distance of cuboids' final positions from the 3-D engine, metres, for network
+/// and analytic model. The tool rotates by `turn` (radians) during its push.
 fn errors_in_a_turn(turn: f64) -> [f64; 2] {
     let models: [&dyn EffectModel; 2] = [&network(), &Prior::default()];
     let truth = Simulator::new(Engine::Spatial, Rate::DEFAULT);
@@ -49,7 +48,7 @@ fn cuboids_under_a_turning_tool_are_predicted_no_worse_than_by_the_prior() {
     }
 }
 
-/// What it has learned from engines must not cost anything on a table.
+/// Accuracy on engines must not cost accuracy on a table.
 #[test]
 fn real_pushes_are_predicted_no_worse_than_by_the_prior_on_any_support() {
     for name in SUPPORTS {

@@ -1,4 +1,4 @@
-//! A smaller time step changes little.
+//! A smaller time step has little effect.
 
 use std::num::NonZeroU16;
 use std::sync::Arc;
@@ -38,7 +38,7 @@ fn a_quarter_of_the_step_moves_a_planar_outcome_by_less_than_half_a_millimetre()
     }
 }
 
-/// Where friction acts in four points, it changes most from step to step.
+/// Friction in four points varies most from step to step.
 #[test]
 fn on_their_corners_objects_end_where_a_sixteenth_of_the_step_lets_them_end() {
     let library = ToolLibrary::embedded().unwrap();

@@ -1,5 +1,5 @@
-//! The prior does not see how a scene is written down: where the world's axes lie, or what comes
-//! first in a list.
+//! Independence of the analytic model from the description of a scene: the world's axes and the
+//! order of lists.
 
 use std::sync::Arc;
 
@@ -13,10 +13,10 @@ use pushplan::{
 };
 use pushplan_lab::bench::{Case, Suite, SuiteKind, crowd_cases};
 
-/// Metres. Rounding makes a hundredth of this in pushes among cuboids that touch.
+/// Tolerance, metres. Rounding reaches a hundredth of it in pushes among cuboids that touch.
 const SAME: f64 = 1e-8;
 
-/// Held-out pushes of single and touching objects, and crowds with joints.
+/// Returns held-out pushes of single and touching objects, and crowds with joints.
 fn cases() -> Vec<Case> {
     let library = ToolLibrary::embedded().expect("the shipped tools are sound");
     let mut cases = Suite::draw(SuiteKind::Single, &library, 11, 60).cases;
@@ -80,7 +80,7 @@ fn the_order_of_objects_and_parts_does_not_matter_to_the_prior() {
 fn another_description_of_the_same_solid_changes_nothing_for_the_prior() {
     for case in cases() {
         let mut other = case.clone();
-        // Joints are given by where the objects stand, so only free ones are rewritten.
+        // Joints are relative to the objects' poses, so only free objects are rewritten.
         let jointed: Vec<usize> = case.scene.joints.iter().flat_map(|j| j.between).collect();
         for (k, object) in other.scene.objects.iter_mut().enumerate() {
             if jointed.contains(&k) {

@@ -34,7 +34,7 @@ fn longer_frames_give_the_same_instants_and_tool_poses_and_nearly_the_same_end()
             let [fine, coarse] = [&fine, model]
                 .map(|model| model.rollout(&case.scene, &jobs, Record::Frames).remove(0));
             let moving = case.motion.strokes[0].frames();
-            // What jams is recorded up to there; its last frame is the end.
+            // A run with a jam is recorded up to the jam; its last frame is the end.
             let shown = fine.frames.len().min(coarse.frames.len()) - 1;
             for (a, b) in fine.frames.iter().zip(&coarse.frames).take(shown.min(moving + 1)) {
                 assert!((a.time - b.time).abs() < 1e-9, "{}", model.spec());
@@ -49,7 +49,7 @@ fn longer_frames_give_the_same_instants_and_tool_poses_and_nearly_the_same_end()
     }
 }
 
-/// A tiny run: two networks' levels, the prior and an engine.
+/// Returns a tiny run: levels of two networks, the analytic model and an engine.
 fn tiny<'a>(library: &'a ToolLibrary, again: &str) -> TradeOff<'a> {
     let mut levels = levels(&[again.to_owned()]).unwrap();
     let again = format!("network,weights={again}");
@@ -92,7 +92,7 @@ fn every_level_is_measured_and_an_interrupted_run_goes_on() {
     store.run::<StoreError>(&Quiet, |index| Ok(run.measure(index).unwrap())).unwrap();
     let units: Vec<(Unit, Seconds)> =
         store.finished().iter().map(|one| (one.record.clone(), one.seconds.clone())).collect();
-    // All but times is the same when measured again.
+    // Everything except times is equal when measured again.
     for index in [0, 1, 3, total - 1] {
         assert_eq!(run.measure(index).unwrap().record, units[index].0, "{}", run.title(index));
     }
@@ -122,13 +122,13 @@ fn every_level_is_measured_and_an_interrupted_run_goes_on() {
     assert!(document.to_page().contains("](tradeoff-push.svg)"));
 }
 
-/// What `pushplan-lab tradeoff` measured, as shipped.
+/// Shipped results of `pushplan-lab tradeoff`.
 const MEASURED: &str = include_str!("../../results/tradeoff.json");
 
 #[test]
 fn every_effort_is_a_measured_level_that_no_other_makes_needless() {
     let report: TradeOffReport = serde_json::from_str(MEASURED).unwrap();
-    // A file from before one model could screen for another says nothing of the efforts.
+    // A file from before screening models has no information on the efforts.
     if report.plans.iter().all(|row| row.level.screen.is_none()) {
         return;
     }
@@ -180,12 +180,13 @@ fn the_page_says_what_each_effort_costs_and_gives() {
     );
 }
 
-/// Share of the engine's cost below which a model is preferred: nearer to it the engine's smaller
-/// error among touching objects decides, not the noise of the measurement.
+/// Share of the engine's cost below which a model is preferred. Closer to the engine's cost, the
+/// engine's smaller error among touching objects decides, not the noise of the measurement.
 const WORTH: f64 = 0.9;
 
-/// The most objects for which `model` costs less than [`WORTH`] of what `rival` does, between
-/// measured numbers of them by straight lines in logarithms; of more than these nothing is known.
+/// Returns the maximum number of objects for which `model` costs less than [`WORTH`] of `rival`'s
+/// cost. Between measured numbers, costs are interpolated linearly in logarithms; beyond them
+/// nothing is known.
 fn cheaper_up_to(rows: &[ObjectCost], model: &str, rival: &str) -> u16 {
     let mut last: Option<(f64, f64)> = None;
     let mut most = 0;
@@ -224,7 +225,7 @@ fn pushes_are_left_to_the_planar_engine_where_the_measured_costs_cross() {
     assert_eq!(cheaper_up_to(&rows([2.0, 3.0, 4.0]), "own", "rival"), 0);
 
     let report: TradeOffReport = serde_json::from_str(MEASURED).unwrap();
-    // The prior's costs say where, for the network as well, which is made of it.
+    // The costs of the analytic model determine the limit, also for the network, which contains it.
     for effort in Effort::ALL {
         let models = effort.models();
         for spec in models.specs() {
@@ -253,7 +254,8 @@ fn what_models_say_of_their_errors_is_what_was_measured() {
             assert!((said.p95 - measured.p95).abs() < 0.5e-5, "{name}: {said:?}");
         }
     }
-    // The prior's and the network's are those of the results, on four times as many pushes.
+    // The shipped errors of analytic model and network agree with the results on four times as many
+    // pushes.
     let results = include_str!("../../results/results.md");
     for name in ["prior", "network"] {
         let rows: Vec<Vec<&str>> = results

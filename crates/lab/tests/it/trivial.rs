@@ -1,4 +1,5 @@
-//! Trivial models in scenes with joints: the projection holds them, and models can be told otherwise.
+//! Trivial models in scenes with joints: the projection holds them, and models accept other
+//! assumptions.
 
 use pushplan::{
     effect::{Assuming, EffectModel, Job, Simulated},
@@ -12,18 +13,18 @@ use pushplan_lab::trivial::Projection;
 
 use crate::fixtures::hand_push;
 
-/// A cylinder of 5 cm radius.
+/// Returns a cylinder of 5 cm radius.
 fn can(name: &str, x: f64, y: f64) -> Object {
     Object::cylinder(name, 0.05, 0.1).at(x, y, 0.0)
 }
 
-/// Two cans beside each other across the push, the first one straight in front of the hand.
+/// Returns two cans beside each other across the push, the first one straight in front of the hand.
 fn pair(kind: JointKind) -> Scene {
     let objects = vec![can("a", 0.12, 0.0), can("b", 0.12, 0.101)];
     Scene::new(objects).with_joint([0, 1], kind)
 }
 
-/// A round hand pushes 0.3 m along x.
+/// Returns a push of 0.3 m along x by a round hand.
 fn job(scene: &Scene) -> Job {
     Job::stated(scene, hand_push(Vector::zeros(), 0.0, 0.3, 0.1))
 }
@@ -32,7 +33,7 @@ fn roll(model: &dyn EffectModel, scene: &Scene) -> Trajectory {
     model.rollout(scene, &[job(scene)], Record::Frames).remove(0)
 }
 
-/// The second object as the first one sees it.
+/// Returns the pose of the second object relative to the first.
 fn relative(state: &State) -> Pose {
     state.poses[0].inverse() * state.poses[1]
 }
@@ -64,7 +65,7 @@ fn the_other_joints_hold_in_the_projection() {
     let prismatic = pair(JointKind::Prismatic { axis: Vector::x(), limits });
     let end = roll(&Projection, &prismatic);
     let shift = relative(end.outcome()).position;
-    // The first slides on until the limit, then takes the second along.
+    // The first slides up to the limit, then takes the second along.
     assert!((shift.x + 0.05).abs() < 1e-5 && (shift.y - 0.101).abs() < 1e-5, "{shift:?}");
 }
 

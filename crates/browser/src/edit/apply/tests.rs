@@ -27,7 +27,7 @@ fn changed(words: &str, value: Option<Json>) -> String {
     edit(TEXT, "t", &[Edit { path: path(words), value }]).unwrap()
 }
 
-/// What the only changes of lines are, as `-` and `+`.
+/// Returns the changed lines, marked `-` and `+`.
 fn lines(words: &str, value: Option<Json>) -> String {
     let new = changed(words, value);
     let (old, new): (Vec<&str>, Vec<&str>) = (TEXT.lines().collect(), new.lines().collect());
@@ -105,7 +105,7 @@ fn what_cannot_be_changed_in_place_is_written_anew() {
     let change = |words: &str, value: Json| {
         edit(text, "t", &[Edit { path: path(words), value: Some(value) }]).unwrap()
     };
-    // One place, two values: only one of them is to change.
+    // An anchor and its alias: only the alias must change.
     assert_eq!(change("b.0", 5.into()), "a:\n- 1\n- 2\nb:\n- 5\n- 2\nc: one two\n");
     assert_eq!(change("c", "x".into()), "a:\n- 1\n- 2\nb:\n- 1\n- 2\nc: x\n");
     let nowhere = [Edit { path: path("a.7.b"), value: Some(1.into()) }];

@@ -1,4 +1,4 @@
-//! One split of recordings: learn on some, predict the others.
+//! Fit and prediction for a split of recordings.
 
 use std::ops::Range;
 
@@ -13,42 +13,42 @@ use pushplan_act::judge::{Comparison, Trial};
 use rand::seq::SliceRandom;
 use serde::{Deserialize, Serialize};
 
-/// Values on an axis of the grid of friction and support: half of what `pushplan fit` takes, so that
-/// dozens of splits take minutes.
+/// Number of values on an axis of the grid of friction and support: half as many as in `pushplan
+/// fit`, so that dozens of splits take minutes.
 const VALUES: usize = 9;
 
-/// Which recordings are learnt from and which are predicted.
+/// A split of recordings into a training set and a test set.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Split {
-    /// What the predicted ones are: `new pushes`, or the set that is left out.
+    /// Name of the test set: `new pushes`, or the set that is left out.
     pub title: String,
-    /// Number of pushes asked for.
+    /// Requested number of training pushes.
     pub asked: usize,
-    /// Indices of those learnt from.
+    /// Indices of the training recordings.
     pub learnt: Vec<usize>,
-    /// Indices of those predicted.
+    /// Indices of the predicted recordings.
     pub predicted: Vec<usize>,
 }
 
-/// One predicted push: final errors of position, metres, and of the turn, radians, by each model.
+/// A predicted push: final errors of position, metres, and rotation, radians, by each model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AdaptedPush {
-    /// Of which recording, so that repeated predictions of one can be told.
+    /// Index of the recording, which groups repeated predictions.
     pub recording: usize,
-    /// The prior as shipped.
+    /// Errors of the analytic model as shipped.
     pub shipped: [f64; 2],
-    /// The prior after fit.
+    /// Errors of the analytic model after the fit.
     pub prior: [f64; 2],
-    /// The network after the same fit, without a head.
+    /// Errors of the network after the same fit, without a head.
     pub network: [f64; 2],
-    /// The network with its head.
+    /// Errors of the network with its head.
     pub adapted: [f64; 2],
-    /// How many of x, y and the turn lie within the stated 90 %, and of how many.
+    /// Number of values of x, y and rotation within the stated 90 %, and their total number.
     pub inside: [usize; 2],
 }
 
-/// `draws` random splits for each number of pushes to learn from, and each set left out in turn,
-/// learning from at most the largest number of the others.
+/// Returns `draws` random splits for each number of training pushes, and a split for each set left
+/// out, trained on at most the largest number of the other recordings.
 pub fn splits(
     sets: &[(String, Range<usize>)],
     counts: &[usize],
@@ -79,10 +79,10 @@ pub fn splits(
     splits
 }
 
-/// What the models make of a split; `None` where nothing moves in what is learnt from.
+/// Fits the models to a split and predicts its test set. Returns `None` if nothing moves in the
+/// training recordings.
 ///
-/// # Errors
-/// If the checksum of the weights cannot be made.
+/// # Errors If the checksum of the weights cannot be computed.
 pub fn measure_split(
     network: &Network,
     trials: &[Trial],
@@ -111,7 +111,7 @@ pub fn measure_split(
     Ok(Some((table, pushes)))
 }
 
-/// Mean errors over the objects at the end.
+/// Returns the mean errors over the objects at the end.
 fn error(model: &dyn EffectModel, trial: &Trial) -> [f64; 2] {
     let ends = Comparison::of(model, trial).end();
     let count = ends.len() as f64;

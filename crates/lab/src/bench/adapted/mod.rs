@@ -1,7 +1,7 @@
-//! What a network gains that is fitted to recordings of a table, on pushes that it has not seen.
+//! Benefit of fitting a network to recordings of a table, on unseen pushes.
 //!
-//! Compared with the prior as shipped, the prior after `fit` of friction and support, and the
-//! network after the same, without a head.
+//! The baselines are the analytic model as shipped, the analytic model after `fit` of friction and
+//! support, and the network after the same fit, without a head.
 
 mod measure;
 mod summary;

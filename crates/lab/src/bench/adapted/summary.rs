@@ -1,4 +1,4 @@
-//! Splits of one kind together: ratios of mean errors, and how sure they are.
+//! Summary of the splits of a kind: ratios of mean errors, and their confidence.
 
 use std::collections::BTreeMap;
 
@@ -10,11 +10,11 @@ use serde::{Deserialize, Serialize};
 
 use super::AdaptedPush;
 
-/// Resamples of a bootstrap: the ends of a 95 % interval are then the 25th of a thousand.
+/// Number of bootstrap resamples: the ends of a 95 % interval are then the 25th of a thousand.
 const RESAMPLES: u32 = 1000;
 
-/// A ratio of mean errors with its 95 % interval, by bootstrap over recordings: predictions of one
-/// recording in several draws stay together.
+/// A ratio of mean errors with its 95 % interval, by bootstrap over recordings. Repeated
+/// predictions of a recording stay together.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ratio {
     /// The ratio.
@@ -23,32 +23,32 @@ pub struct Ratio {
     pub interval: Span,
 }
 
-/// What splits of one kind say.
+/// Summary of the splits of a kind.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AdaptedRow {
-    /// What is predicted.
+    /// Name of the test set.
     pub title: String,
-    /// Number of pushes learnt from.
+    /// Number of training pushes.
     pub learnt: usize,
     /// Number of predictions.
     pub predicted: usize,
     /// Share of the splits that learnt a head.
     pub heads: f64,
-    /// Mean error of position of the prior as shipped, metres.
+    /// Mean position error of the analytic model as shipped, metres.
     pub shipped: f64,
-    /// Position: network with its head against the prior as shipped.
+    /// Ratio of position errors: network with its head to the analytic model as shipped.
     pub against_shipped: Ratio,
-    /// Against the prior after fit.
+    /// Ratio of position errors: network with its head to the analytic model after the fit.
     pub against_prior: Ratio,
-    /// The network without its head against the prior after fit.
+    /// Ratio of position errors: network without its head to the analytic model after the fit.
     pub network: Ratio,
-    /// Turn: against the prior after fit.
+    /// Ratio of rotation errors: network with its head to the analytic model after the fit.
     pub turn: Ratio,
-    /// Share of numbers inside the stated 90 %.
+    /// Share of values inside the stated 90 %.
     pub inside: f64,
 }
 
-/// A row for each title and number, in the order in which they come first.
+/// Returns a row for each title and number, in order of first occurrence.
 pub fn adapted_rows(splits: &[(String, usize, bool, Vec<AdaptedPush>)]) -> Vec<AdaptedRow> {
     let mut kinds: Vec<(&str, usize)> = Vec::new();
     for (title, asked, ..) in splits {

@@ -1,4 +1,4 @@
-//! What trajectories are made of, and what an observer is told about that.
+//! Simulation of trajectories, and prior knowledge of an observer about them.
 
 use std::sync::Arc;
 
@@ -11,29 +11,30 @@ use pushplan::internals::{
 use pushplan_learn::dataset::Episode;
 use serde::{Deserialize, Serialize};
 
-/// Factors by which an observer is misled about friction values: of objects, of pairs and of the table.
+/// Factors by which friction values are misstated to an observer: of objects and pairs, and of the
+/// table.
 const FRICTIONS: [f64; 2] = [0.6, 1.3];
 
-/// The mass that it assumes for every object, kg.
+/// Mass misstated for every object, kg.
 const MASS: f64 = 0.6;
 
-/// What trajectories are made of, and what an observer is told about that.
+/// Engine of trajectories, and whether the observer's numbers are wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Circumstances {
-    /// The engine that they are simulated in.
+    /// Engine of the simulation.
     pub engine: Engine,
-    /// Whether the observer is told wrong numbers: friction values of objects 0.6 times and of the
-    /// table 1.3 times what they are, 0.6 kg for every mass.
+    /// Whether the observer has wrong numbers: 0.6 times the friction values of objects, 1.3 times
+    /// the friction of the table, and 0.6 kg for every mass.
     pub misled: bool,
 }
 
 impl Circumstances {
-    /// The planar engine, and true numbers.
+    /// The 2-D engine and true numbers.
     pub const USUAL: Self = Self { engine: Engine::Planar, misled: false };
 
-    /// An episode's frames in this engine. Episodes are drawn with the planar one, which has them;
-    /// in another one objects end elsewhere, and the first stroke that begins inside one of them,
-    /// which would fling it away, ends the trajectory.
+    /// Returns an episode's frames in this engine. Episodes are drawn with the 2-D engine, which
+    /// has them. In another engine objects end elsewhere. The first stroke that begins inside an
+    /// object would fling it away, and therefore ends the trajectory.
     pub(super) fn frames(&self, episode: &Episode) -> Vec<Frame> {
         if self.engine == Engine::Planar {
             return episode.frames.clone();
@@ -50,7 +51,7 @@ impl Circumstances {
         played.frames.into_iter().take_while(|frame| frame.stroke < strokes).collect()
     }
 
-    /// A scene as it is told to the observer.
+    /// Returns a scene as stated to the observer.
     pub(super) fn told(&self, mut scene: Scene) -> Scene {
         if self.misled {
             let [objects, table] = FRICTIONS;

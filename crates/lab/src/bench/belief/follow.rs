@@ -1,4 +1,4 @@
-//! One trajectory followed by all methods.
+//! A trajectory followed by all methods.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -19,34 +19,35 @@ use super::super::cpu_clock::processor_time;
 use super::record::{BeliefRecord, Checkpoint, JointMethod, Rest, When};
 use super::residual::residual_types;
 
-/// When beliefs are asked, apart from the end, where they always are.
+/// Times at which beliefs are evaluated in addition to the end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Asked {
-    /// After some observations of a single stroke, and after every one of several strokes.
+    /// After some observations of a single stroke, and after each of several strokes.
     OnTheWay,
-    /// A number of observations after anything first moved.
+    /// A number of observations after the first motion.
     AfterContact,
 }
 
-/// Observations of a single stroke after which beliefs are asked.
+/// Numbers of observations of a single stroke after which beliefs are evaluated.
 const OBSERVATIONS: [usize; 5] = [5, 10, 15, 20, 30];
 
-/// Observations after the first that shows motion, as the thesis asks in the real world (7.4.3).
+/// Numbers of observations after the first one with motion, as in the real world in the thesis
+/// (7.4.3).
 const CONTACT: [usize; 5] = [0, 1, 3, 5, 10];
 
-/// What moved by more has been touched, metres, if it is more than noise.
+/// Displacement above which an object counts as touched, metres, if it exceeds the noise.
 const CONTACT_MOTION: f64 = 1e-3;
 
-/// Objects that moved by less count as unmoved, metres.
+/// Displacement below which objects count as unmoved, metres.
 const MOVED: f64 = 0.01;
 
-/// Least play for an anchor and an axis to be judged: radians and metres.
+/// Minimum joint motion for errors of an anchor and an axis: radians and metres.
 const PLAY: [f64; 2] = [15.0 / 180.0 * std::f64::consts::PI, 0.02];
 
-/// What is asked of a trajectory.
+/// A trajectory and the observations that beliefs are computed from.
 struct Followed<'a> {
     recording: &'a Recording,
-    /// As it was seen at the start.
+    /// Scene as observed at the start.
     seen: &'a Scene,
     observations: &'a [Observation],
     pairs: Vec<[usize; 2]>,
@@ -54,9 +55,9 @@ struct Followed<'a> {
     model: &'a dyn EffectModel,
 }
 
-/// Follows a recording that was `seen` with some noise with the filter, and with the `regulator` if
-/// there is one; predicts the rest of the way if wanted. With it comes what this thread spent on the
-/// updates of each belief.
+/// Follows a recording, observed with some noise, with the filter and with the `regulator`, if any.
+/// Predicts the remaining motion if `rest` is set. Also returns the time that this thread
+/// spent on the updates of each belief.
 pub fn follow(
     recording: &Recording,
     (seen, observations, noise): (&Scene, &[Observation], Noise),
@@ -66,7 +67,7 @@ pub fn follow(
 ) -> (BeliefRecord, Vec<(JointMethod, Duration)>) {
     let settings = BeliefSettings::new(noise);
     let filter = Belief::new(seen, recording.tool.clone(), recording.lift, settings);
-    // Those that are near, whatever the noise says: a pair that is not considered counts as not
+    // True near pairs, whatever the noise: a pair that a belief does not consider counts as not
     // joined.
     let near = near_pairs(&recording.scene).into_iter();
     let pairs = near.map(|(between, _)| between).collect();
@@ -143,7 +144,7 @@ impl Followed<'_> {
                 filter.physics_of(&types)
             }
             JointMethod::LastWindow => filter.physics_of(&filter.last_types()),
-            // The likeliest; what is predicted with may be something else.
+            // The most likely type; predictions may use another one.
             JointMethod::Filter | JointMethod::Regulator => belief.map(),
         };
         let mut types = Vec::new();
@@ -199,13 +200,13 @@ impl Followed<'_> {
         self.pairs.iter().map(of).collect()
     }
 
-    /// True poses after `count` observations.
+    /// Returns the true poses after `count` observations.
     fn poses(&self, count: usize) -> &[Pose] {
         let replay = self.recording.observed_frames();
         &self.recording.frames[replay[count - 1]].poses
     }
 
-    /// Whether anything was seen to move from where it stood by observation `count`, for sure.
+    /// Returns `true` if any object was certainly observed to have moved by observation `count`.
     fn contact(&self, count: usize) -> bool {
         let least = CONTACT_MOTION.max(4.0 * self.noise.position);
         let now = self.observations[count - 1].seen.iter().zip(&self.seen.objects);
@@ -222,7 +223,7 @@ impl Followed<'_> {
         pair.iter().any(|k| frames.iter().any(|frame| far(*k, &frame.poses)))
     }
 
-    /// What is true, while the objects are where they are believed to be.
+    /// Returns the true physics at the believed poses.
     fn true_physics(&self, situation: &Situation) -> Physics {
         let scene = &self.recording.scene;
         let carried = |joint: &Joint| {
@@ -248,7 +249,7 @@ impl Followed<'_> {
         Physics { joints, ..(*situation.physics).clone() }
     }
 
-    /// What the tool does after `count` observations.
+    /// Returns the motion of the tool after `count` observations.
     fn motion_after(&self, count: usize) -> ToolMotion {
         let strokes = self.observations[count..].iter().flat_map(|one| one.strokes.clone());
         ToolMotion {
@@ -258,7 +259,7 @@ impl Followed<'_> {
         }
     }
 
-    /// Where the rest of the way takes all objects under some physics.
+    /// Predicts the final poses of all objects under some physics.
     fn rest(&self, count: usize, situation: &Situation, physics: Physics) -> Vec<Pose> {
         let motion = self.motion_after(count);
         let job = Job {
@@ -271,13 +272,13 @@ impl Followed<'_> {
         end.map_or_else(|| situation.start.poses.clone(), |frame| frame.state.poses.clone())
     }
 
-    /// How far off objects are predicted to end, mean over all of them, metres.
+    /// Returns the error of predicted final positions, mean over all objects, metres.
     fn error(&self, predicted: &[Pose]) -> f64 {
         let errors = predicted.iter().zip(self.poses(self.observations.len()));
         mean(&errors.map(|(a, b)| (a.position - b.position).norm()).collect::<Vec<_>>())
     }
 
-    /// Errors of anchors and axes that were found and have been worked.
+    /// Returns the errors of identified anchors and axes whose joints have moved.
     fn places(&self, belief: &Belief) -> (Vec<f64>, Vec<f64>) {
         let situation = belief.situation();
         let truth = self.true_physics(&situation);
@@ -309,15 +310,15 @@ fn sorted(joint: &Joint) -> [usize; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// How far the second of two objects has moved in the frame of the first: shift, metres, and turn,
-/// radians.
+/// Returns the motion of the second of two objects in the frame of the first: shift, metres, and
+/// rotation, radians.
 fn worked(then: &[Pose; 2], now: &[Pose; 2]) -> (Vector, f64) {
     let place = |[first, second]: &[Pose; 2]| first.local_point(second.position);
     let turn = |[first, second]: &[Pose; 2]| second.heading - first.heading;
     (place(now) - place(then), turn(now) - turn(then))
 }
 
-/// What is left of limits to either side.
+/// Returns the remaining play to either side.
 fn left(limits: Span, worked: f64) -> Span {
     Span::new((limits.low - worked).min(0.0), (limits.high - worked).max(0.0))
 }

@@ -1,9 +1,9 @@
-//! How well joints are inferred from what is seen, and what that is worth: right types over time, how
-//! sure beliefs are, and the error on the rest of the way under the belief at that moment.
+//! Accuracy of joints inferred from observations, and their value for prediction: right types over
+//! time, calibration, and the error of the remaining motion under the belief at that moment.
 //!
-//! The sets are those of [`super::CrowdSet`], seen with several noises. The belief is compared with
-//! what is known without looking (no joints, all contacts fixed), with the last window alone, and
-//! with geometric residual tests.
+//! The scenes are [`super::CrowdSet`] sets, observed with several noises. Baselines of the belief
+//! are assumptions without observations (no joints, all contacts fixed), the last window alone, and
+//! geometric residual tests.
 
 mod circumstances;
 mod follow;

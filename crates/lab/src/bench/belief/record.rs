@@ -1,30 +1,30 @@
-//! What is measured on one trajectory.
+//! Results of a trajectory.
 
 use pushplan_act::belief::JointType;
 use serde::{Deserialize, Serialize};
 
-/// Ways to tell how objects are joined.
+/// Methods of joint estimation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum JointMethod {
-    /// As it is.
+    /// True joints.
     True,
-    /// Nothing is joined.
+    /// No joints.
     None,
-    /// What touches is fixed.
+    /// Fixed joints at all contacts.
     ContactsFixed,
-    /// Geometric residual tests on everything seen so far.
+    /// Geometric residual tests on all observations so far.
     Residuals,
-    /// What the last window says alone.
+    /// Likelihood of the last window alone.
     LastWindow,
-    /// The hypothesis filter.
+    /// Hypothesis filter.
     Filter,
-    /// The filter with the regulator network.
+    /// Filter with the regulator network.
     Regulator,
 }
 
 impl JointMethod {
-    /// All of them.
+    /// Every method.
     pub const ALL: [Self; 7] = [
         Self::True,
         Self::None,
@@ -35,7 +35,7 @@ impl JointMethod {
         Self::Regulator,
     ];
 
-    /// A name for tables.
+    /// Returns a name for tables.
     pub fn title(self) -> &'static str {
         match self {
             Self::True => "true joints",
@@ -49,7 +49,7 @@ impl JointMethod {
     }
 }
 
-/// What became of one trajectory.
+/// Result of a trajectory.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BeliefRecord {
     /// The case, an index into [`super::BeliefSuite::cases`].
@@ -58,50 +58,51 @@ pub struct BeliefRecord {
     pub observations: usize,
     /// Number of objects.
     pub objects: usize,
-    /// True types of the pairs that stood near each other.
+    /// True types of the near pairs.
     pub types: Vec<JointType>,
-    /// In order of time, the end last.
+    /// Checkpoints in order of time, the end last.
     pub checkpoints: Vec<Checkpoint>,
-    /// Errors of anchors at the end, of revolute pairs found that turned by 15 degrees and more,
-    /// metres: of the filter, or of the regulated belief where there is one.
+    /// Errors of anchors at the end, metres, of identified revolute pairs that rotated by 15
+    /// degrees or more. They are the errors of the regulated belief, if any, otherwise of the
+    /// filter.
     pub anchors: Vec<f64>,
-    /// Errors of axes at the end, of prismatic pairs found that slid by 2 cm and more, radians.
+    /// Errors of axes at the end, radians, of identified prismatic pairs that slid by 2 cm or more.
     pub axes: Vec<f64>,
 }
 
-/// When beliefs are looked at.
+/// Time at which beliefs are evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum When {
     /// After a number of observations of a single stroke.
     Observations(usize),
-    /// After a number of strokes of several.
+    /// After a number of several strokes.
     Strokes(usize),
-    /// A number of observations after the first that shows motion.
+    /// A number of observations after the first one with motion.
     AfterContact(usize),
     /// After everything.
     End,
 }
 
-/// What is believed at some point.
+/// Beliefs at some point.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
-    /// When.
+    /// Time of the checkpoint.
     pub when: When,
-    /// Whether either object of a pair has moved by more than 1 cm by now.
+    /// Whether either object of a pair has moved by more than 1 cm so far.
     pub moved: Vec<bool>,
     /// Types by method.
     pub types: Vec<(JointMethod, Vec<JointType>)>,
-    /// Probabilities by method, of those that have them.
+    /// Probabilities by method, if it has them.
     pub probabilities: Vec<(JointMethod, Vec<[f64; 4]>)>,
-    /// The rest of the way by method; none at the end.
+    /// Predictions of the remaining motion by method; empty at the end.
     pub rest: Vec<Rest>,
 }
 
-/// A prediction of the rest of the way.
+/// A prediction of the remaining motion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rest {
-    /// With the joints by this method.
+    /// Method that estimates the joints.
     pub by: JointMethod,
     /// Distance of predicted from true final positions, mean over all objects, metres.
     pub error: f64,

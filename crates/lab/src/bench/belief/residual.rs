@@ -1,9 +1,10 @@
-//! Geometric residual tests, the baseline: which joint explains all relative poses of a pair that were
-//! seen, without any physics.
+//! Geometric residual tests, the baseline: the joint that best explains all observed relative poses
+//! of a pair, without physics.
 //!
-//! After Sturm, Stachniss and Burgard (JAIR 41, 2011): every type of joint is fitted by least squares,
-//! and the one with the smallest Bayesian information criterion k ln n - 2 ln L is taken. What a joint
-//! leaves free, and everything without a joint, is taken to lie anywhere around its mean.
+//! After Sturm, Stachniss and Burgard (JAIR 41, 2011). Every type of joint is fitted by least
+//! squares, and the one with the smallest Bayesian information criterion k ln n - 2 ln L is
+//! selected. Free coordinates of a joint, and all coordinates without a joint, have a wide
+//! distribution around their mean.
 
 use nalgebra::{DMatrix, DVector, Matrix2, Rotation2, Vector3};
 
@@ -14,17 +15,18 @@ use pushplan::internals::{
 };
 use pushplan_act::belief::JointType;
 
-/// Play of joints beside the noise, as standard deviations: metres and radians.
+/// Play of joints in addition to the noise, as standard deviations: metres and radians.
 const PLAY: [f64; 2] = [3e-4, 5e-3];
 
-/// How far what is free lies from its mean, as standard deviations: metres and radians.
+/// Spread of free coordinates around their mean, as standard deviations: metres and radians.
 const FREE: [f64; 2] = [0.05, 0.5];
 
-/// Ridge of the anchors' fit: without turning the anchor could be anywhere.
+/// Ridge of the anchors' fit: without rotation the anchor is undetermined.
 const RIDGE: f64 = 1e-6;
 
-/// The type of every one of `pairs` of objects of `scene` by geometric residual tests on all that was
-/// `seen` with this noise; *none* of pairs that were never seen with both headings.
+/// Returns the types of `pairs` of objects of `scene` by geometric residual tests on all
+/// observations `seen` with this noise. The type is *none* for pairs never observed with both
+/// headings.
 pub fn residual_types(
     scene: &Scene,
     pairs: &[[usize; 2]],
@@ -51,7 +53,8 @@ pub fn residual_types(
     pairs.iter().map(of).collect()
 }
 
-/// Returns the pose of a second object in the frame of a first: position (metres) and heading (radians).
+/// Returns the pose of a second object in the frame of a first: position (metres) and heading
+/// (radians).
 fn relative(first: &Pose, second: &Pose) -> Vector3<f64> {
     let position = first.local_point(second.position);
     Vector3::new(position.x, position.y, second.heading - first.heading)
@@ -65,7 +68,7 @@ fn likeliest(poses: &[Vector3<f64>], held: [f64; 2]) -> JointType {
     let n = poses.len() as f64;
     let mean = poses.iter().sum::<Vector3<f64>>() / n;
     let off = |pose: &Vector3<f64>| pose - mean;
-    // -2 ln of a normal density, but for its constant.
+    // -2 ln of a normal density, without its constant.
     let cost = |error: f64, sd: f64| (error / sd).powi(2) + 2.0 * sd.ln();
     let [free, free_turn] = FREE;
     let sum = |of: &dyn Fn(&Vector3<f64>) -> f64| poses.iter().map(of).sum::<f64>();
@@ -100,7 +103,7 @@ fn likeliest(poses: &[Vector3<f64>], held: [f64; 2]) -> JointType {
     .map_or(JointType::None, |(.., kind)| kind)
 }
 
-/// The direction in which positions vary most.
+/// Returns the direction in which positions vary most.
 fn main_axis(poses: &[Vector3<f64>], mean: &Vector3<f64>) -> Vector {
     let mut spread = Matrix2::zeros();
     for pose in poses {
@@ -112,7 +115,7 @@ fn main_axis(poses: &[Vector3<f64>], mean: &Vector3<f64>) -> Vector {
     eigen.eigenvectors.column(most).into_owned()
 }
 
-/// The anchor in the frame of either object that r + R d = c fits best, c first.
+/// Returns the anchors c and d in the frames of both objects that fit r + R d = c best.
 fn anchors(poses: &[Vector3<f64>]) -> [Vector; 2] {
     let mut rows = DMatrix::zeros(2 * poses.len(), 4);
     let mut wanted = DVector::zeros(2 * poses.len());

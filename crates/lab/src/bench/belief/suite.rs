@@ -15,31 +15,31 @@ use super::circumstances::Circumstances;
 use super::follow::{Asked, follow};
 use super::record::BeliefRecord;
 
-/// Keeps the random numbers of noise apart from those of scenes.
+/// Salt that separates the random numbers of noise from the numbers of scenes.
 const SALT: u64 = 0x5345_4549_4E47_0000;
 
-/// How well things are seen, by name.
+/// Quality of observations, by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Sighting {
     /// True poses.
     Exact,
-    /// 1 mm and 0.5 degrees of noise.
+    /// Noise of 1 mm and 0.5 degrees.
     Fine,
-    /// 3 mm and 2 degrees.
+    /// Noise of 3 mm and 2 degrees.
     Coarse,
-    /// True positions, but no headings of cylinders.
+    /// True positions, without headings of cylinders.
     Unmarked,
-    /// 1 mm, and no headings of cylinders.
+    /// Noise of 1 mm, without headings of cylinders.
     UnmarkedFine,
 }
 
 impl Sighting {
-    /// All of them.
+    /// Every quality.
     pub const ALL: [Self; 5] =
         [Self::Exact, Self::Fine, Self::Coarse, Self::Unmarked, Self::UnmarkedFine];
 
-    /// A name for tables.
+    /// Returns a name for tables.
     pub fn title(self) -> &'static str {
         match self {
             Self::Exact => "exact",
@@ -50,7 +50,7 @@ impl Sighting {
         }
     }
 
-    /// The noise, and whether headings of what is round are seen.
+    /// Returns the noise, and whether headings of round objects are observed.
     pub fn seeing(self) -> Seeing {
         let (position, degrees) = match self {
             Self::Exact | Self::Unmarked => (0.0, 0.0),
@@ -61,7 +61,7 @@ impl Sighting {
         Seeing { noise, round_headings: !matches!(self, Self::Unmarked | Self::UnmarkedFine) }
     }
 
-    /// Headings can only be missing of what is round.
+    /// Returns the solids of its scenes. Headings can only be missing for round objects.
     fn solids(self) -> Solids {
         match self {
             Self::Unmarked | Self::UnmarkedFine => Solids::Cylinders,
@@ -70,12 +70,12 @@ impl Sighting {
     }
 }
 
-/// A set of crowds and how it is seen.
+/// A set of crowds and its observations.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BeliefCase {
-    /// The scenes.
+    /// Set of the scenes.
     pub set: CrowdSet,
-    /// How they are seen.
+    /// Quality of the observations.
     pub sight: Sighting,
 }
 
@@ -89,11 +89,12 @@ pub struct BeliefSuite {
 }
 
 impl BeliefSuite {
-    /// Version of the measurement; another one gives other records for the same settings.
+    /// Version of the measurement; another version has other records for the same settings.
     pub const VERSION: u32 = 3;
 
-    /// Every set of these families, numbers of objects and joints, seen in each of these ways. With
-    /// `rest` the rest of the way is predicted as well, which costs more than the beliefs.
+    /// Creates a suite of every set of these families, numbers of objects and joints, observed with
+    /// each of these qualities. With `rest`, the remaining motion is also predicted, which costs
+    /// more than the beliefs.
     pub fn new(
         (families, objects, joints): (&[CrowdFamily], &[usize], JointRule),
         sights: &[Sighting],
@@ -113,18 +114,19 @@ impl BeliefSuite {
         Self { cases, seed, regulator, rest, circumstances: Circumstances::USUAL }
     }
 
-    /// The same under other circumstances.
+    /// Returns the suite under other circumstances.
     pub fn under(self, circumstances: Circumstances) -> Self {
         Self { circumstances, ..self }
     }
 
-    /// What is measured.
+    /// Returns the cases.
     pub fn cases(&self) -> &[BeliefCase] {
         &self.cases
     }
 
-    /// Follows the trajectory with this index; `model` rolls out hypotheses and the rest of the way. The
-    /// seconds are processor time of the beliefs' updates, which is known if one thread works alone.
+    /// Follows the trajectory with this index; `model` rolls out hypotheses and the remaining
+    /// motion. The seconds are processor time of the beliefs' updates, which is known only with a
+    /// single thread.
     pub fn measure(&self, model: &dyn EffectModel, index: usize) -> Measured<BeliefRecord> {
         let case = index % self.cases.len();
         let BeliefCase { set, sight } = self.cases[case];
@@ -135,7 +137,7 @@ impl BeliefSuite {
         let recording = Recording::of_frames("drawn", scene, motion, &frames);
         let by = (model, self.regulator.as_ref(), self.rest);
         let seeing = sight.seeing();
-        // Noise of its own for every case and trajectory.
+        // Every case and trajectory has its own noise.
         let mut rng = generator(self.seed ^ SALT, index as u64);
         let (seen, observations) = seeing.observe(&recording, &mut rng);
         let seen = self.circumstances.told(seen);

@@ -1,4 +1,4 @@
-//! Trajectories of a case, taken together.
+//! Summary of the trajectories of a case.
 
 use pushplan_act::belief::JointType;
 use pushplan_act::judge::{Summary, mean, percentile};
@@ -10,14 +10,14 @@ use crate::bench::Calibration;
 use super::record::{BeliefRecord, Checkpoint, JointMethod, When};
 use super::suite::BeliefCase;
 
-/// What was measured on one case.
+/// Results of a case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BeliefSummary {
-    /// Which.
+    /// The case.
     pub case: BeliefCase,
     /// Number of trajectories.
     pub trajectories: usize,
-    /// In order of time, the end last.
+    /// Steps in order of time, the end last.
     pub steps: Vec<BeliefStep>,
     /// Errors of anchors at the end, metres.
     pub anchors: Option<Summary>,
@@ -25,40 +25,40 @@ pub struct BeliefSummary {
     pub axes: Option<Summary>,
 }
 
-/// Beliefs at one point of all trajectories of a case.
+/// Beliefs at a point of all trajectories of a case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BeliefStep {
-    /// When.
+    /// Time of the beliefs.
     pub when: When,
-    /// Near pairs of which either object had moved.
+    /// Number of near pairs of which either object had moved.
     pub pairs: usize,
-    /// How right types are, by method.
+    /// Accuracy of types, by method.
     pub right: Vec<Right>,
-    /// How sure beliefs are, by method.
+    /// Quality of probabilities, by method.
     pub sure: Vec<Sure>,
-    /// Predictions of the rest of the way, by method.
+    /// Predictions of the remaining motion, by method.
     pub rest: Vec<RestOfWay>,
 }
 
-/// Shares of pairs whose type is right.
+/// Shares of pairs with the right type.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Right {
-    /// By which method.
+    /// Method of estimation.
     pub by: JointMethod,
-    /// Of near pairs of which either object had moved.
+    /// Share of near pairs of which either object had moved.
     pub moved: f64,
-    /// Of those of them that are joined.
+    /// Share of joined pairs among the moved ones.
     pub joined: f64,
-    /// Of near pairs that had not moved.
+    /// Share of near pairs that had not moved.
     pub unmoved: f64,
-    /// Of all ordered pairs, the hand's among them, as the thesis counts.
+    /// Share of all ordered pairs, including those with the hand, as in the thesis.
     pub all: f64,
 }
 
-/// How well probabilities of near pairs that moved fit.
+/// Quality of the probabilities of near pairs that moved.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sure {
-    /// By which method.
+    /// Method of estimation.
     pub by: JointMethod,
     /// Mean negative logarithm of the probability of the true type.
     pub nll: f64,
@@ -66,20 +66,20 @@ pub struct Sure {
     pub calibration: f64,
 }
 
-/// Errors at the end when the rest of the way is predicted, metres.
+/// Final errors of predictions of the remaining motion, metres.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RestOfWay {
-    /// With the joints by which method.
+    /// Method that estimates the joints.
     pub by: JointMethod,
     /// Mean over trajectories.
     pub mean: f64,
     /// Median over trajectories.
     pub median: f64,
-    /// Share of the gap between no joints and the true ones that is closed.
+    /// Closed share of the gap between no joints and true joints.
     pub closed: f64,
 }
 
-/// Takes the records of every case together; cases without any are left out.
+/// Summarises the records of every case; cases without records are left out.
 pub fn summarise_beliefs(cases: &[BeliefCase], records: &[&BeliefRecord]) -> Vec<BeliefSummary> {
     let mut summaries = Vec::new();
     for (index, case) in cases.iter().enumerate() {
@@ -102,7 +102,7 @@ pub fn summarise_beliefs(cases: &[BeliefCase], records: &[&BeliefRecord]) -> Vec
     summaries
 }
 
-/// Beliefs of several trajectories together, in order of time.
+/// Summarises beliefs of several trajectories, in order of time.
 pub fn belief_steps(records: &[&BeliefRecord]) -> Vec<BeliefStep> {
     let checkpoints = records.iter().flat_map(|record| &record.checkpoints);
     let mut whens: Vec<When> = checkpoints.map(|checkpoint| checkpoint.when).collect();
@@ -124,7 +124,7 @@ fn step(when: When, records: &[&BeliefRecord]) -> BeliefStep {
     let by_types = methods(&|one| one.types.iter().map(|(by, _)| *by).collect());
     let by_shares = methods(&|one| one.probabilities.iter().map(|(by, _)| *by).collect());
     let by_rest = methods(&|one| one.rest.iter().map(|rest| rest.by).collect());
-    // Ascending, as percentiles need them.
+    // Ascending, as required by percentiles.
     let errors = |by: JointMethod| -> Vec<f64> {
         let of = |one: &Checkpoint| one.rest.iter().find(|rest| rest.by == by).map(|r| r.error);
         let mut errors: Vec<f64> = at.iter().filter_map(|(_, one)| of(one)).collect();
@@ -147,10 +147,10 @@ fn step(when: When, records: &[&BeliefRecord]) -> BeliefStep {
     }
 }
 
-/// Mean time of an update by case and method, seconds an observation.
+/// Mean time of an update by case and method, seconds per observation.
 pub type UpdateTimes = Vec<(BeliefCase, Vec<(JointMethod, f64)>)>;
 
-/// What updates took, of cases that were timed.
+/// Returns the mean times of updates, for cases that were timed.
 pub fn update_times(cases: &[BeliefCase], finished: &[Finished<BeliefRecord>]) -> UpdateTimes {
     let of = |(index, case): (usize, &BeliefCase)| {
         let of: Vec<_> = finished.iter().filter(|one| one.record.case == index).collect();
@@ -168,7 +168,7 @@ pub fn update_times(cases: &[BeliefCase], finished: &[Finished<BeliefRecord>]) -
     cases.iter().enumerate().filter_map(of).collect()
 }
 
-/// A share, counted.
+/// A share with its counts.
 #[derive(Default)]
 struct Share {
     right: usize,
@@ -191,7 +191,7 @@ fn right(by: JointMethod, at: &[(&BeliefRecord, &Checkpoint)]) -> Right {
     for (record, one) in at {
         let Some((_, types)) = one.types.iter().find(|(method, _)| *method == by) else { continue };
         let bodies = record.objects + 1;
-        // Far pairs and those of the hand are not joined, and nobody says so.
+        // Far pairs and pairs of the hand are not joined, and no method joins them.
         all.right += bodies * (bodies - 1) - 2 * types.len();
         all.all += bodies * (bodies - 1) - 2 * types.len();
         for ((found, truth), has_moved) in types.iter().zip(&record.types).zip(&one.moved) {

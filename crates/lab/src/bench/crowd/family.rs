@@ -6,8 +6,8 @@ use pushplan_learn::dataset::{Constraints, DatasetConfig, Episode, JointRule, Pr
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// Keeps the seeds of test sets apart from those of training and of its held-out data, which
-/// are small numbers.
+/// Salt that separates the seeds of test sets from the seeds of training and of its held-out data,
+/// which are small numbers.
 const SALT: u64 = 0x7465_7374_0000_0000;
 
 /// A family of crowds.
@@ -23,7 +23,7 @@ pub enum CrowdFamily {
 }
 
 impl CrowdFamily {
-    /// A name for tables and files.
+    /// Returns a name for tables and files.
     pub fn title(self) -> &'static str {
         match self {
             CrowdFamily::Sparse => "sparse",
@@ -32,8 +32,8 @@ impl CrowdFamily {
         }
     }
 
-    /// How its scenes are drawn, and with which numbers of objects it is tested: those of the
-    /// thesis, training's nine among them.
+    /// Returns the preset of its scenes and the tested numbers of objects: the numbers of the
+    /// thesis, including nine, the number in training.
     fn drawn(self) -> (Preset, [usize; 3]) {
         match self {
             CrowdFamily::Sparse => (Preset::Sparse, [6, 9, 12]),
@@ -43,22 +43,22 @@ impl CrowdFamily {
     }
 }
 
-/// One test set: what its scenes hold.
+/// A test set: the content of its scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CrowdSet {
-    /// Its family.
+    /// Family of its scenes.
     pub family: CrowdFamily,
     /// Number of objects.
     pub objects: usize,
     /// Joints between near neighbours.
     pub joints: JointRule,
-    /// Which solids.
+    /// Kind of solids.
     pub solids: Solids,
 }
 
 impl CrowdSet {
-    /// All sets of a family: three numbers of objects, fixed and mixed joints, cylinders alone
-    /// and any solids.
+    /// Returns all sets of a family: three numbers of objects, fixed and mixed joints, cylinders
+    /// alone and any solids.
     pub fn all(family: CrowdFamily) -> Vec<Self> {
         let (_, counts) = family.drawn();
         let mut sets = Vec::new();
@@ -72,7 +72,7 @@ impl CrowdSet {
         sets
     }
 
-    /// A line for tables: `dense, 9 objects, mixed joints, cylinders`.
+    /// Returns a title for tables: `dense, 9 objects, mixed joints, cylinders`.
     pub fn title(&self) -> String {
         let joints = match self.joints {
             JointRule::None => "no joints",
@@ -87,9 +87,8 @@ impl CrowdSet {
         format!("{}, {} objects, {joints}, {solids}", self.family.title(), self.objects)
     }
 
-    /// The first `count` trajectories of the set under `seed`, simulated in the plane on all
-    /// threads of the current rayon pool. `watch` is told the
-    /// trajectories done.
+    /// Draws the first `count` trajectories of the set under `seed`, simulated in 2-D on all
+    /// threads of the current rayon pool. `watch` receives the number of finished trajectories.
     pub fn draw(&self, seed: u64, count: usize, watch: &dyn Watch) -> Vec<Trial> {
         watch.stage("simulating");
         let done = Count::new(watch, 0, count);
@@ -104,7 +103,7 @@ impl CrowdSet {
             .collect()
     }
 
-    /// Trajectory `index` of the set under `seed`, simulated in the plane.
+    /// Draws trajectory `index` of the set under `seed`, simulated in 2-D.
     pub fn episode(&self, seed: u64, index: u64) -> Episode {
         let (preset, _) = self.family.drawn();
         let config = DatasetConfig {
@@ -118,7 +117,7 @@ impl CrowdSet {
         Episode::of_crowd(&config, index)
     }
 
-    /// Different for every set of a family.
+    /// Returns a number that differs between sets of a family.
     fn number(&self) -> u64 {
         let rule = match self.joints {
             JointRule::None => 0,

@@ -1,7 +1,8 @@
-//! Errors of effect models on tables full of objects: the thesis' test sets.
+//! Errors of effect models on tables full of objects: the test sets of the thesis.
 //!
-//! The tool's motion is given; everything else is rolled out from the first frame alone and
-//! compared with the truth at every frame of it. Nothing is drawn and no file is read here.
+//! The tool's motion is given. Everything else is rolled out from the first frame alone and
+//! compared with the ground truth at each of its frames. Nothing is rendered and no file is read
+//! here.
 
 mod family;
 mod report;

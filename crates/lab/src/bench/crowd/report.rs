@@ -1,4 +1,4 @@
-//! What was measured, as plain data.
+//! Results on a test set, as plain data.
 
 use pushplan::internals::effect::EffectModel;
 use pushplan::internals::watch::Watch;
@@ -7,23 +7,23 @@ use serde::{Deserialize, Serialize};
 
 use super::family::{CrowdFamily, CrowdSet};
 
-/// Errors of several models on one test set.
+/// Errors of several models on a test set.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CrowdReport {
-    /// The set's family.
+    /// Family of the set.
     pub family: CrowdFamily,
-    /// What the scenes hold.
+    /// Content of the scenes.
     pub set: CrowdSet,
     /// Seed of the set.
     pub seed: u64,
-    /// What was measured.
+    /// Errors by model.
     #[serde(flatten)]
     pub errors: TrialErrors,
 }
 
 impl CrowdReport {
-    /// Errors of `models` on the trajectories of a test set, drawn with `seed`; `watch` is told
-    /// the rollouts of each that are done.
+    /// Computes the errors of `models` on the trajectories of a test set, drawn with `seed`.
+    /// `watch` receives the number of finished rollouts of each.
     pub fn of(
         (set, seed): (&CrowdSet, u64),
         trials: &[Trial],

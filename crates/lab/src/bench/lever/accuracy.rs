@@ -1,4 +1,4 @@
-//! Errors of models of lever-ups on those that none was made from.
+//! Errors of models of lever-ups on held-out data.
 
 use pushplan::internals::{
     outcome::{Ending, LeverTrajectory},
@@ -14,58 +14,58 @@ use super::super::cpu_clock::timed;
 use super::baselines::LeverBaseline;
 use super::supports::{SupportRow, support_rows};
 
-/// Errors of one model.
+/// Errors of a model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeverRow {
-    /// The model's name.
+    /// Name of the model.
     pub model: String,
-    /// Lever-ups that it takes.
+    /// Number of lever-ups in the model's domain.
     pub taken: usize,
-    /// Root mean square distance of the centre of mass over the frames of the turn, metres.
+    /// Root mean square distance of the centre of mass over the frames of the rotation, metres.
     pub lift: Option<Summary>,
-    /// The same of those that slip.
+    /// Distance as in `lift`, over the lever-ups that slip.
     pub slipping: Option<Summary>,
-    /// The same of those that do not.
+    /// Distance as in `lift`, over the lever-ups that do not slip.
     pub kept: Option<Summary>,
-    /// Distance at the end of the turn, metres.
+    /// Distance at the end of the rotation, metres.
     pub last: Option<Summary>,
-    /// Angle at the end of the turn, radians.
+    /// Angle at the end of the rotation, radians.
     pub turn: Option<Summary>,
     /// Distance at rest, metres.
     pub rest: Option<Summary>,
-    /// Share of slips told right.
+    /// Share of correctly predicted slips.
     pub slips: f64,
-    /// Share of endings told right.
+    /// Share of correctly predicted endings.
     pub endings: f64,
     /// Processor time of a lever-up on one core, seconds.
     pub time: f64,
 }
 
-/// Models on one family of lever-ups.
+/// Errors of models on a family of lever-ups.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeverReport {
-    /// The family.
+    /// Family of the lever-ups.
     pub preset: LeverPreset,
-    /// Its seed.
+    /// Seed of the family.
     pub seed: u64,
-    /// Lever-ups.
+    /// Number of lever-ups.
     pub cases: usize,
-    /// Way of the centre of mass until the end of the turn, mean, metres.
+    /// Mean displacement of the centre of mass until the end of the rotation, metres.
     pub motion: f64,
-    /// Lever-ups that slip.
+    /// Number of lever-ups that slip.
     pub slipped: usize,
-    /// Plates that end upside down.
+    /// Number of plates that end upside down.
     pub flipped: usize,
-    /// Plates that end leaning.
+    /// Number of plates that end leaning.
     pub leaning: usize,
-    /// The support edge in closed form.
+    /// Accuracy of the support edge in closed form.
     pub supports: Vec<SupportRow>,
     /// A row for each model.
     pub rows: Vec<LeverRow>,
 }
 
-/// Measures `models` on `episodes` of a family and seed. Only those in which the engine came to rest
-/// and nothing was jammed count.
+/// Measures `models` on `episodes` of a family and seed. Only episodes that came to rest without a
+/// jam are counted.
 pub fn lever_report(
     (preset, seed): (LeverPreset, u64),
     episodes: &[LeverEpisode],
@@ -136,7 +136,8 @@ fn row(model: &dyn LeverModel, episodes: &[LeverEpisode]) -> LeverRow {
     }
 }
 
-/// What `model` says of `jobs`, and the processor time of a job on one core, seconds.
+/// Returns the predictions of `model` for `jobs`, and the processor time of a job on one core,
+/// seconds.
 pub(super) fn on_one_core(
     model: &dyn LeverModel,
     jobs: &[LeverJob],

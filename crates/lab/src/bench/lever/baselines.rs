@@ -1,4 +1,4 @@
-//! Models of lever-ups without physics: what any other must beat.
+//! Baseline models of lever-ups without physics, which any other model must beat.
 
 use pushplan::internals::effect::{LeverView, lever_features};
 use pushplan::internals::geometry::Pose3;
@@ -13,30 +13,30 @@ use pushplan_learn::lever_model::LeverModel;
 use rand::Rng;
 use rayon::prelude::*;
 
-/// What decides which lever-up is alike.
+/// Similarity by which a lever-up is chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Neighbour {
-    /// None: any at random.
+    /// A random lever-up.
     Random,
-    /// The nearest in these features.
+    /// The lever-up with the nearest features.
     Nearest(LeverFeatures),
 }
 
-/// A model that only remembers.
+/// A model that recalls recorded lever-ups.
 pub struct LeverBaseline {
     kind: Kind,
 }
 
 enum Kind {
-    /// Nothing moves.
+    /// No motion.
     Still,
-    /// Everything moves as it did on average; slips and ends as most did.
+    /// The mean motion, with the most frequent slip and ending.
     Mean(Box<Seen>),
-    /// What happened to another plate.
+    /// The trajectory of another plate.
     Like { neighbour: Neighbour, known: Vec<(Vec<f32>, Seen)>, seed: u64 },
 }
 
-/// A trajectory as seen from where the plate was levered.
+/// A trajectory relative to the lever point.
 #[derive(Clone)]
 struct Seen {
     lift: Vec<[f64; LeverView::NUMBERS]>,
@@ -46,12 +46,12 @@ struct Seen {
 }
 
 impl LeverBaseline {
-    /// Nothing moves.
+    /// Creates the model without motion.
     pub fn still() -> Self {
         Self { kind: Kind::Still }
     }
 
-    /// The mean of these episodes; nothing moves where there are none.
+    /// Creates the mean of these episodes; [`Self::still`] if there are none.
     pub fn mean(episodes: &[LeverEpisode]) -> Self {
         let seen: Vec<Seen> = episodes.iter().map(Seen::new).collect();
         let Some(first) = seen.first() else { return Self::still() };
@@ -78,7 +78,7 @@ impl LeverBaseline {
         Self { kind: Kind::Mean(Box::new(mean)) }
     }
 
-    /// The trajectory of the one of these episodes that `neighbour` chooses; nothing moves where
+    /// Creates the model that answers with the episode that `neighbour` chooses; [`Self::still`] if
     /// there are none.
     pub fn like(neighbour: Neighbour, episodes: &[LeverEpisode], seed: u64) -> Self {
         if episodes.is_empty() {

@@ -1,5 +1,5 @@
-//! How far simulated lever-ups are from themselves in finer steps, and when the plate starts a
-//! little aside.
+//! Convergence of simulated lever-ups with the time step, and their sensitivity to the start of the
+//! plate.
 
 use std::f64::consts::TAU;
 
@@ -17,36 +17,37 @@ use rand::Rng;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// How far aside plates start to see how exact a truth can be, metres.
+/// Displacement of plates at the start, which gives the attainable accuracy of a ground truth,
+/// metres.
 const ASIDE: f64 = 1e-4;
 
-/// Steps a second that are compared with the truth's.
+/// Rates that are compared with the ground truth, steps per second.
 const RATES: [u16; 4] = [60, 120, 240, 960];
 
-/// What is compared with what.
+/// A setting of the simulator and its reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Setting {
-    /// A number of steps a second against [`LeverSimulator::TRUTH`].
+    /// A number of steps per second against [`LeverSimulator::TRUTH`].
     Steps(u16),
-    /// The start 0.1 mm aside against the same lever-up without, both by [`LeverSimulator::FINE`].
+    /// The start displaced by 0.1 mm against the original start, both by [`LeverSimulator::FINE`].
     Aside,
 }
 
 /// Differences over all lever-ups of a family.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ConvergenceRow {
-    /// Of what.
+    /// Setting of the comparison.
     pub setting: Setting,
-    /// Root mean square distance of the plate's frame over the frames of the turn, metres.
+    /// Root mean square distance of the plate's frame over the frames of the rotation, metres.
     pub lift: Option<Summary>,
-    /// Its distance at the end of the turn, metres.
+    /// Distance of the plate's frame at the end of the rotation, metres.
     pub last: Option<Summary>,
-    /// Its distance at rest, metres.
+    /// Distance of the plate's frame at rest, metres.
     pub rest: Option<Summary>,
-    /// Lever-ups of which only one slips.
+    /// Number of lever-ups of which only one of both slips.
     pub slips: usize,
-    /// Lever-ups that end otherwise.
+    /// Number of lever-ups with different endings.
     pub endings: usize,
     /// Processor time of a lever-up, seconds.
     pub time: Option<Summary>,
@@ -55,23 +56,23 @@ pub struct ConvergenceRow {
 /// Convergence over a family of lever-ups.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ConvergenceReport {
-    /// The family.
+    /// Family of the lever-ups.
     pub preset: LeverPreset,
     /// Seed of the lever-ups.
     pub seed: u64,
-    /// How many.
+    /// Number of lever-ups.
     pub cases: usize,
-    /// How far the plate's frame is from its start at the end of the turn, mean, metres.
+    /// Mean displacement of the plate's frame at the end of the rotation, metres.
     pub motion: f64,
-    /// Lever-ups that slip, in the truth as all below.
+    /// Number of lever-ups that slip, in the ground truth like all counts below.
     pub slipped: usize,
-    /// Plates that end upside down.
+    /// Number of plates that end upside down.
     pub flipped: usize,
-    /// Plates that end leaning.
+    /// Number of plates that end leaning.
     pub leaning: usize,
-    /// Lever-ups in which something is jammed.
+    /// Number of lever-ups with a jam.
     pub jammed: usize,
-    /// In order.
+    /// Rows in the order of settings.
     pub rows: Vec<ConvergenceRow>,
 }
 
@@ -82,11 +83,11 @@ struct Case {
     runs: Vec<(LeverTrajectory, LeverTrajectory, f64)>,
 }
 
-/// Compares `cases` lever-ups of a family, each of another shape; in parallel on the current rayon
-/// pool, the same bits but for times for any number of threads.
+/// Compares `cases` lever-ups of a family, each of another shape, in parallel on the current rayon
+/// pool. Apart from times, the result has the same bits for any number of threads.
 pub fn convergence(preset: LeverPreset, seed: u64, cases: usize) -> ConvergenceReport {
     let config = LeverConfig { seed, episodes: cases as u64, preset };
-    // Disc and board are one shape: of them neighbouring places.
+    // Disc and board have a single shape, so their cases are neighbouring places.
     let one_shape = matches!(preset, LeverPreset::Disc | LeverPreset::Board);
     let apart = if one_shape { 1 } else { LEVERS_PER_SHAPE };
     let measure = |index: u64| measure(lever_job(&config, index * apart), seed, index);
@@ -127,7 +128,7 @@ fn measure(job: LeverJob, seed: u64, index: u64) -> Case {
     Case { start: job, truth, runs }
 }
 
-/// The same with the plate [`ASIDE`] in this direction, radians.
+/// Returns the job with the plate displaced by [`ASIDE`] in this direction, radians.
 fn beside(job: &LeverJob, direction: f64) -> LeverJob {
     let mut scene = LeverScene::clone(&job.scene);
     let at = &mut scene.plates[job.lever.plate].pose.position;

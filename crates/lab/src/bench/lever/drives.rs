@@ -10,42 +10,42 @@ use serde::{Deserialize, Serialize};
 use super::accuracy::on_one_core;
 use super::suite::pocket;
 
-/// Errors of one model.
+/// Errors of a model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DriveRow {
-    /// The model's name.
+    /// Name of the model.
     pub model: String,
-    /// Root mean square distance of the centre of mass over the frames of the turn, metres.
+    /// Root mean square distance of the centre of mass over the frames of the rotation, metres.
     pub lift: Option<Summary>,
-    /// Root mean square angle over the frames of the turn, radians.
+    /// Root mean square angle over the frames of the rotation, radians.
     pub turn: Option<Summary>,
-    /// Distance at the end of the turn, metres.
+    /// Distance at the end of the rotation, metres.
     pub last: Option<Summary>,
     /// Distance at rest, metres.
     pub rest: Option<Summary>,
-    /// Share of the boards of which it is told right whether they rest in or out of the pocket.
+    /// Share of boards correctly predicted to rest in or out of the pocket.
     pub outside: f64,
     /// Processor time of a lever-up on one core, seconds.
     pub time: f64,
 }
 
-/// Models on boards in drives.
+/// Errors of models on boards in drives.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DriveReport {
     /// Seed of the drives.
     pub seed: u64,
-    /// Lever-ups.
+    /// Number of lever-ups.
     pub cases: usize,
-    /// On this many drives.
+    /// Number of drives.
     pub drives: usize,
-    /// Boards that come to rest out of the pocket.
+    /// Number of boards with a final rest position out of the pocket.
     pub outside: usize,
     /// A row for each model.
     pub rows: Vec<DriveRow>,
 }
 
-/// Measures `models` on `episodes` with drives of this seed. Only those in which the engine came to
-/// rest and nothing was jammed count, and of a model only those lever-ups that it takes.
+/// Measures `models` on `episodes` with drives of this seed. Only episodes that came to rest
+/// without a jam are counted, and for each model only the lever-ups in its domain.
 pub fn drive_report(
     seed: u64,
     episodes: &[LeverEpisode],
@@ -94,13 +94,14 @@ fn row(model: &dyn LeverModel, episodes: &[&LeverEpisode]) -> DriveRow {
     }
 }
 
-/// Root mean square angle between two trajectories over the frames of the turn, radians.
+/// Returns the root mean square angle between two trajectories over the frames of the rotation,
+/// radians.
 fn turn(truth: &LeverTrajectory, said: &LeverTrajectory) -> f64 {
     let squares: f64 = truth.lift.iter().zip(&said.lift).map(|(a, b)| a.angle_to(b).powi(2)).sum();
     (squares / truth.lift.len().max(1) as f64).sqrt()
 }
 
-/// Whether the board rests with its centre of mass out of the pocket, seen from above.
+/// Returns `true` if the board rests with its centre of mass out of the pocket, seen from above.
 fn is_outside(scene: &LeverScene, trajectory: &LeverTrajectory) -> bool {
     let pocket = pocket(&scene.blocks);
     let local = pocket.pose.inverse().point(trajectory.rest.position.xy());
@@ -131,7 +132,7 @@ mod tests {
         assert!(mean(&fine.lift) == 0.0 && mean(&fine.turn) < 1e-12 && fine.outside == 1.0);
         assert!(mean(&still.lift) > 0.01 && mean(&still.turn) > 0.2);
         assert!((still.outside + report.outside as f64 / 12.0 - 1.0).abs() < 1e-12);
-        // Far below what was asked for: 4 mm and 5 degrees.
+        // Far below the required 4 mm and 5 degrees.
         assert!(mean(&prior.lift) < 1e-3 && mean(&prior.turn) < 0.01, "{prior:?}");
         assert!(prior.outside > 0.9, "{prior:?}");
     }

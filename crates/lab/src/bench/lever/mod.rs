@@ -1,4 +1,4 @@
-//! What is measured of lever-ups.
+//! Measurements of lever-ups.
 
 mod accuracy;
 mod baselines;

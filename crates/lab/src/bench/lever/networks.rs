@@ -1,4 +1,4 @@
-//! Weights of networks of lever-ups, whichever network it is.
+//! Weights of networks of lever-ups, of any kind.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -9,10 +9,10 @@ use pushplan_learn::lever_model::LeverModel;
 use crate::image::{ImageNetwork, ImageWeights};
 use crate::parts::{LeverParts, PartsWeights};
 
-/// Reads the weights of a network of lever-ups: as the shipped one, one that sees images, or one of parts.
+/// Loads the weights of a network of lever-ups: the shipped kind, a network with image input, or a
+/// network of parts.
 ///
-/// # Errors
-/// [`LeverNetworkError`] if they cannot be used.
+/// # Errors [`LeverNetworkError`] if the weights cannot be used.
 pub fn load_lever(path: &Path) -> Result<Arc<dyn LeverModel>, LeverNetworkError> {
     let named = |error| LeverNetworkError::Weights { path: path.display().to_string(), error };
     let bytes = std::fs::read(path).map_err(|error| named(error.into()))?;

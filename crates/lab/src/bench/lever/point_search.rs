@@ -1,7 +1,7 @@
-//! Where a plate is levered, from how it begins to move (Tekden 2020, chapter 5).
+//! Inference of the lever point of a plate from its first motion (Tekden 2020, chapter 5).
 //!
-//! Nothing is learned: every place on the outline is tried in a model of lever-ups, ever more finely
-//! about the best one, so that what is found lies on the outline.
+//! The search needs no training. Places on the outline are tried in a model of lever-ups, ever more
+//! finely around the best one, so that the result always lies on the outline.
 
 use std::f64::consts::TAU;
 
@@ -15,35 +15,36 @@ use pushplan_learn::lever_model::LeverModel;
 /// Spacing of the first places, metres.
 const SPACING: f64 = 0.01;
 
-/// Places that each round tries on either side of the best one, between its neighbours.
+/// Number of places that each round tries on either side of the best one, between its neighbours.
 const BESIDE: i32 = 3;
 
-/// Rounds after the first: places are then 0.16 mm apart.
+/// Number of rounds after the first: places are then 0.16 mm apart.
 const ROUNDS: usize = 3;
 
-/// Every place on an outline, to be told apart as frames come in.
+/// Candidate places on an outline, ranked by observed frames.
 pub struct LeverSearch<'a> {
     model: &'a dyn LeverModel,
     job: &'a LeverJob,
-    /// Places at these lengths along the outline, metres, and what the model says of them.
+    /// Lengths of the places along the outline, metres, with places and predictions.
     known: Vec<(f64, Place, LeverTrajectory)>,
-    /// Their distance, metres.
+    /// Distance of neighbouring places, metres.
     spacing: f64,
 }
 
-/// What the first frames say.
+/// A lever point inferred from the first frames.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeverPoint {
-    /// Where the blade is.
+    /// Position of the blade.
     pub place: Place,
-    /// Root mean square distance of the corners between what is seen and what the model says, metres.
+    /// Root mean square distance of corners between observation and prediction, metres.
     pub misfit: f64,
-    /// What the model says of it, from the first frame on.
+    /// Prediction of the model, from the first frame on.
     pub told: LeverTrajectory,
 }
 
 impl<'a> LeverSearch<'a> {
-    /// Of the plate of `job`, whose own place is not looked at; the rest of its motion is known.
+    /// Creates the search for the plate of `job`, whose own place is ignored; the rest of its
+    /// motion is known.
     pub fn new(model: &'a dyn LeverModel, job: &'a LeverJob) -> Self {
         let outline = length(job.scene.plates[job.lever.plate].corners());
         let count = (outline / SPACING).ceil().max(1.0);
@@ -52,8 +53,8 @@ impl<'a> LeverSearch<'a> {
         Self { model, job, known: roll(model, job, &lengths), spacing }
     }
 
-    /// The place from which the model moves the plate most nearly as it is `seen`, frame by frame
-    /// from the first. `None` if nothing is seen.
+    /// Returns the place whose predicted motion is closest to the frames `seen`, from the first on.
+    /// Returns `None` if there are no frames.
     pub fn infer(&self, seen: &[Pose3]) -> Option<LeverPoint> {
         if seen.is_empty() {
             return None;
@@ -84,8 +85,8 @@ impl<'a> LeverSearch<'a> {
 }
 
 impl LeverPoint {
-    /// How far it is from the job's own place: the angle between both as seen from the centre of
-    /// mass, radians, 0 to pi.
+    /// Returns the error against the job's own place: the angle between both as seen from the
+    /// centre of mass, radians, 0 to pi.
     pub fn off(&self, job: &LeverJob) -> f64 {
         let plate = &job.scene.plates[job.lever.plate];
         let centre = plate.weight().centre;
@@ -99,8 +100,8 @@ impl LeverPoint {
         apart.min(TAU - apart)
     }
 
-    /// The frames after those `seen`: what the model says from here on, moved and turned by as much
-    /// as it is off in the last seen frame.
+    /// Returns the frames after those in `seen`: the prediction, displaced and rotated by its error
+    /// in the last frame of `seen`.
     pub fn rest(&self, job: &LeverJob, seen: &[Pose3]) -> Vec<Pose3> {
         let after = self.told.lift.iter().skip(seen.len());
         let Some((seen, told)) = seen.last().zip(self.told.lift.get(seen.len().wrapping_sub(1)))
@@ -118,7 +119,7 @@ impl LeverPoint {
     }
 }
 
-/// What the model says of the places at these lengths along the outline, metres.
+/// Predicts the lever-ups at these lengths along the outline, metres.
 fn roll(
     model: &dyn LeverModel,
     job: &LeverJob,
@@ -135,7 +136,7 @@ fn roll(
     lengths.iter().zip(places).zip(told).map(|((at, place), told)| (*at, place, told)).collect()
 }
 
-/// Root mean square distance of corners between poses of the frame, metres.
+/// Returns the root mean square distance of corners between poses of the frame, metres.
 fn misfit(corners: &[Vector], seen: &[Pose3], told: &[Pose3]) -> f64 {
     let apart = |(seen, told): (&Pose3, &Pose3)| -> f64 {
         let corner = |at: &Vector| {
@@ -149,8 +150,8 @@ fn misfit(corners: &[Vector], seen: &[Pose3], told: &[Pose3]) -> f64 {
     (sum / (frames * corners.len()).max(1) as f64).sqrt()
 }
 
-/// The place at this length along the outline, from the first corner on, around as often as needed,
-/// metres.
+/// Returns the place at this length along the outline, from the first corner on, metres. The length
+/// may exceed the outline.
 fn place(corners: &[Vector], along: f64) -> Place {
     let mut left = along.rem_euclid(length(corners));
     for edge in 0..corners.len() {
@@ -163,7 +164,7 @@ fn place(corners: &[Vector], along: f64) -> Place {
     Place { edge: 0, fraction: 0.0 }
 }
 
-/// Length of the outline, metres.
+/// Returns the length of the outline, metres.
 fn length(corners: &[Vector]) -> f64 {
     let side = |k: usize| (corners[(k + 1) % corners.len()] - corners[k]).norm();
     (0..corners.len()).map(side).sum()
@@ -178,7 +179,7 @@ mod tests {
     use pushplan::internals::geometry::Pose;
     use pushplan::internals::scene::{Blade, LeverScene, Plate, Slab};
 
-    /// A plate that is no mirror image of itself, levered somewhere along its second edge.
+    /// Returns a plate without mirror symmetry, levered somewhere along its second edge.
     fn job() -> LeverJob {
         let corners = [[0.0, 0.0], [0.12, 0.0], [0.10, 0.09], [0.02, 0.12]];
         let corners = corners.map(|[x, y]| Vector::new(x, y)).to_vec();
@@ -227,14 +228,14 @@ mod tests {
         let told = model.rollout(std::slice::from_ref(&job)).remove(0);
         let place = job.lever.place;
         let point = LeverPoint { place, misfit: 0.0, told: told.clone() };
-        // Everything seen a little turned and aside.
+        // All observed poses are slightly rotated and displaced.
         let aside = Pose3::from_quaternion(Vector3::new(0.01, -0.02, 0.03), [0.1, 0.0, 0.05, 1.0]);
         let seen: Vec<Pose3> = told.lift[..4].iter().map(|pose| aside * *pose).collect();
         let rest = point.rest(&job, &seen);
         assert_eq!(rest.len(), told.lift.len() - 4);
         let turned = rest[0].angle_to(&(aside * told.lift[4]));
         assert!(turned < 1e-9, "{turned}");
-        // Where what is seen is what is told, nothing changes.
+        // An observation equal to the prediction changes nothing.
         let same = point.rest(&job, &told.lift[..4]);
         let off = (same[3].position - told.lift[7].position).norm();
         assert!(off < 1e-12, "{off} m");

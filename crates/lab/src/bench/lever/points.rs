@@ -1,4 +1,4 @@
-//! How well the lever point is inferred from the first frames, and what it says of the rest.
+//! Accuracy of the lever point inferred from the first frames, and of its prediction for the rest.
 
 use pushplan::internals::geometry::Pose3;
 use pushplan::internals::outcome::LEVER_FRAMES;
@@ -10,42 +10,42 @@ use serde::{Deserialize, Serialize};
 
 use super::point_search::LeverSearch;
 
-/// What a number of frames say.
+/// Errors after a number of observed frames.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PointRow {
-    /// Frames that are seen, from the first on.
+    /// Number of observed frames, from the first on.
     pub seen: usize,
     /// Angle between the true and the inferred place as seen from the centre of mass, radians.
     pub angle: Option<Summary>,
     /// Root mean square distance of the centre of mass over the frames that follow, metres.
     pub rest: Option<Summary>,
-    /// Its distance at the end of the turn, metres.
+    /// Distance of the centre of mass at the end of the rotation, metres.
     pub last: Option<Summary>,
-    /// Of the model alone, from the true place, over the frames that follow, metres.
+    /// Distance as in `rest`, for the model alone from the true place, metres.
     pub known: Option<Summary>,
 }
 
-/// Lever points of one family.
+/// Lever points of a family.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PointReport {
-    /// The family.
+    /// Family of the lever-ups.
     pub preset: LeverPreset,
-    /// Its seed.
+    /// Seed of the family.
     pub seed: u64,
-    /// Lever-ups.
+    /// Number of lever-ups.
     pub cases: usize,
-    /// The model that is inverted.
+    /// Name of the inverted model.
     pub model: String,
-    /// By the number of frames seen: from one to all but one.
+    /// Rows by the number of observed frames: from one to all but one.
     pub rows: Vec<PointRow>,
 }
 
-/// What is found of one lever-up: angle, error of the rest and at its end, and that of the model alone.
+/// Errors of a lever-up: angle, error over the rest and at its end, and error of the model alone.
 type Found = [f64; 4];
 
-/// Infers the place of each of `episodes` of a family and seed by `model`; in parallel on the current
-/// rayon pool, the same bits for any number of threads. Only those in which the engine came to rest
-/// and nothing was jammed count.
+/// Infers the place of each of `episodes` of a family and seed by `model`, in parallel on the
+/// current rayon pool. The result has the same bits for any number of threads. Only episodes that
+/// came to rest without a jam are counted.
 pub fn point_report(
     (preset, seed): (LeverPreset, u64),
     episodes: &[LeverEpisode],
@@ -66,7 +66,7 @@ pub fn point_report(
     PointReport { preset, seed, cases: episodes.len(), model: model.name(), rows: rows.collect() }
 }
 
-/// What is found from one frame, from two, and so on.
+/// Returns the errors after a frame, after two, and so on.
 fn measure(model: &dyn LeverModel, episode: &LeverEpisode) -> Vec<Found> {
     let (job, lift) = (episode.job(), &episode.trajectory.lift);
     let centre = job.scene.plates[job.lever.plate].weight().centre;

@@ -1,4 +1,4 @@
-//! Generated tasks of levering: take the board out of the pocket of a drive.
+//! Generated lever tasks: the board must be taken out of the pocket of a drive.
 
 use std::sync::Arc;
 
@@ -18,11 +18,11 @@ use pushplan::internals::{
 use pushplan_bench::store::{Measured, Seconds};
 use pushplan_learn::dataset::{LEVERS_PER_SHAPE, LeverConfig, LeverPreset, lever_job};
 
-/// The name of what must be left, and of the tool that does it.
+/// Names of the region to leave and of the tool.
 const POCKET: &str = "pocket";
 const TOOL: &str = "screwdriver";
 
-/// Further disturbed replays of every plan, with draws that no planner has seen.
+/// Number of further perturbed replays of every plan, with draws that no planner has used.
 const FURTHER: usize = 32;
 
 /// Boards in pockets, each of another drive with a notch somewhere.
@@ -31,41 +31,42 @@ pub struct LeverSuite {
     config: LeverConfig,
 }
 
-/// What came of a task.
+/// Result of a task.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeverRecord {
-    /// How planning ended.
+    /// Status of planning.
     pub status: PlanStatus,
-    /// Whether the replay of the first plan as written reaches the goal.
+    /// Whether the nominal replay of the first plan reaches the goal.
     pub works: bool,
-    /// Share of the disturbed replays of verification that reach it.
+    /// Share of perturbed replays of verification that reach the goal.
     pub robustness: Option<f64>,
-    /// Share of further disturbed replays that reach it; 0 without a plan that works.
+    /// Share of further perturbed replays that reach the goal; 0 without a plan that works.
     pub further: f64,
-    /// Whether a lever-up drawn at random takes the board out.
+    /// Whether a random lever-up takes the board out.
     pub random: bool,
-    /// Candidates that can be made, and how many of them reach the goal by prediction.
+    /// Number of feasible candidates.
     pub candidates: usize,
-    /// Of these.
+    /// Number of candidates with predicted success.
     pub promising: usize,
 }
 
 impl LeverSuite {
-    /// Version of the tasks: another one makes others of the same seed.
+    /// Version of the tasks: another version generates other tasks from a seed.
     pub const VERSION: u32 = 1;
 
-    /// The suite of a seed.
+    /// Creates the suite of a seed.
     pub fn new(seed: u64, count: usize) -> Self {
         let episodes = count as u64 * LEVERS_PER_SHAPE;
         Self { config: LeverConfig { seed, episodes, preset: LeverPreset::Drive } }
     }
 
-    /// A drive and the lever-up that its generator drew; of each shape only the first is taken.
+    /// Returns a drive and the lever-up of its generator; only the first lever-up of each shape is
+    /// used.
     fn drawn(&self, index: usize) -> LeverJob {
         lever_job(&self.config, index as u64 * LEVERS_PER_SHAPE)
     }
 
-    /// Task `index`, which is the same for the same seed.
+    /// Returns task `index`, which depends on the seed alone.
     pub fn task(&self, index: usize) -> Task {
         let LeverJob { scene, lever } = self.drawn(index);
         let table = table(&scene);
@@ -84,8 +85,7 @@ impl LeverSuite {
 
     /// Solves task `index` with `planner`. The times are the planner's alone.
     ///
-    /// # Errors
-    /// If the planner refuses it.
+    /// # Errors If the planner refuses the task.
     pub fn measure(
         &self,
         planner: &Planner,
@@ -97,7 +97,7 @@ impl LeverSuite {
         let best = solution.best();
         let verdict = best.and_then(|best| best.verdict.as_ref());
         let works = verdict.is_some_and(|verdict| verdict.works());
-        // The planner's own disturbances are of seed 0.
+        // The planner's own perturbations have seed 0.
         let settings = VerifySettings { disturbed: FURTHER, seed: 1 + index as u64 };
         let further = best.filter(|_| works).and_then(|best| {
             let situation = Situation::stated(&task.scene);
@@ -140,13 +140,13 @@ fn table(drive: &LeverScene) -> Scene {
     Scene { obstacles: drive.blocks.clone(), ..plates.on_table(drive.table_friction) }
 }
 
-/// The floor between the walls, as a body of its own: what must be left.
+/// Returns the floor between the walls as a body: the region that the board must leave.
 pub(super) fn pocket(blocks: &[Obstacle]) -> Obstacle {
     let floor = &blocks[0];
     let mut inner = [f64::INFINITY; 2];
     for wall in blocks.iter().filter(|block| block.name.starts_with("wall-")) {
         let local: Pose = floor.pose.inverse() * wall.pose;
-        // Front and back lie across y, left and right across x, pieces of one wall in one line.
+        // Front and back lie across y, left and right across x, pieces of a wall in a line.
         let across =
             usize::from(["front", "back"].iter().any(|side| wall.name[5..].starts_with(side)));
         let face = local.position[across].abs() - 0.5 * wall.size[1];

@@ -1,28 +1,28 @@
-//! How often the support edge in closed form is the one that a plate stands on.
+//! Accuracy of the support edge in closed form, against the edge that a plate stands on.
 
 use pushplan::internals::geometry::Vector3;
 use pushplan_learn::dataset::LeverEpisode;
 use serde::{Deserialize, Serialize};
 
-/// The frame whose lowest corners count: by then the plate is up, and rarely past an edge.
+/// Frame whose lowest corners count: by then the plate is up, and rarely past an edge.
 const FRAME: usize = 1;
 
-/// Plates of one number of corners.
+/// Plates with a number of corners.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SupportRow {
-    /// Corners; 0 for all plates.
+    /// Number of corners; 0 for all plates.
     pub corners: usize,
-    /// Lever-ups.
+    /// Number of lever-ups.
     pub all: usize,
-    /// Of them right.
+    /// Number of lever-ups with the right edge.
     pub right: usize,
-    /// Lever-ups that do not slip.
+    /// Number of lever-ups that do not slip.
     pub kept: usize,
-    /// Of them right.
+    /// Number of lever-ups that do not slip, with the right edge.
     pub kept_right: usize,
 }
 
-/// All plates first, then by number of corners.
+/// Returns a row for all plates, then a row for each number of corners.
 pub fn support_rows(episodes: &[LeverEpisode]) -> Vec<SupportRow> {
     let mut rows = vec![SupportRow::default()];
     for episode in episodes {
@@ -46,7 +46,7 @@ fn count(episode: &LeverEpisode) -> usize {
     episode.scene.plates[episode.lever.plate].corners().len()
 }
 
-/// Whether the two lowest corners are those of the support edge.
+/// Returns `true` if the two lowest corners are the corners of the support edge.
 fn is_right(episode: &LeverEpisode) -> bool {
     let plate = &episode.scene.plates[episode.lever.plate];
     let Some(edge) = episode.job().support() else { return false };

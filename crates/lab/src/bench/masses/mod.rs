@@ -1,4 +1,5 @@
-//! How well masses are told from pushes in which objects touch each other (thesis, section 8.3).
+//! Accuracy of masses estimated from pushes in which objects touch each other (thesis, section
+//! 8.3).
 
 mod suite;
 mod summary;

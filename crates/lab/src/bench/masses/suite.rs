@@ -11,20 +11,20 @@ use serde::{Deserialize, Serialize};
 
 use crate::bench::Sighting;
 
-/// Keeps the random numbers of noise apart from those of scenes.
+/// Salt that separates the random numbers of noise from the numbers of scenes.
 const SALT: u64 = 0x4845_4156_5900_0000;
 
-/// What stands on the table, and how it is seen.
+/// A scene setup and its observation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MassCase {
-    /// The scenes.
+    /// Setup of the scenes.
     pub setup: MassSetup,
-    /// How they are seen.
+    /// Observation of the scenes.
     pub sight: Sighting,
 }
 
 impl MassCase {
-    /// The scenes, for tables.
+    /// Returns a description of the scenes for tables.
     pub fn scenes(&self) -> String {
         match self.setup {
             MassSetup::Touching(count) => format!("{count} touching, 1 stroke"),
@@ -35,34 +35,34 @@ impl MassCase {
     }
 }
 
-/// What is believed of an object in the end.
+/// Final belief about the mass of an object.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SeenMass {
-    /// The range that its mass is in.
+    /// Range of the true mass.
     pub range: usize,
-    /// What touched it.
+    /// Bodies that touched the object.
     pub touched: Touched,
-    /// Probabilities of the ranges; `None` where nothing is known.
+    /// Probabilities of the ranges; `None` if nothing is known.
     pub believed: Option<Vec<f64>>,
 }
 
-/// What is believed of the ratio of two masses.
+/// Belief about the ratio of two masses.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SeenRatio {
-    /// Its natural logarithm.
+    /// Natural logarithm of the true ratio.
     pub truth: f64,
-    /// Mean and standard deviation of that logarithm.
+    /// Mean and standard deviation of the believed logarithm.
     pub believed: [f64; 2],
 }
 
-/// What became of one trajectory.
+/// Result of a trajectory.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MassRecord {
     /// The case, an index into [`MassSuite::cases`].
     pub case: usize,
-    /// All objects.
+    /// Beliefs about all objects.
     pub objects: Vec<SeenMass>,
-    /// Pairs that are believed to have touched each other.
+    /// Beliefs about pairs that are believed to have touched each other.
     pub ratios: Vec<SeenRatio>,
 }
 
@@ -74,11 +74,11 @@ pub struct MassSuite {
 }
 
 impl MassSuite {
-    /// Version of the measurement; another one gives other records for the same settings.
+    /// Version of the measurement; another version has other records for the same settings.
     pub const VERSION: u32 = 1;
 
-    /// Every setup, seen in each of these ways. With `frictions` the friction values of the objects
-    /// and of the table are not known either.
+    /// Creates a suite of every setup, observed in each of these ways. With `frictions`, the
+    /// friction values of the objects and of the table are also unknown.
     pub fn new(setups: &[MassSetup], sights: &[Sighting], seed: u64, frictions: bool) -> Self {
         let of =
             |setup: &MassSetup| sights.iter().map(|sight| (*setup, *sight)).collect::<Vec<_>>();
@@ -86,16 +86,17 @@ impl MassSuite {
         Self { cases: cases.collect(), seed, frictions }
     }
 
-    /// What is measured.
+    /// Returns the cases.
     pub fn cases(&self) -> &[MassCase] {
         &self.cases
     }
 
-    /// Follows the trajectory with this index; `model` plays pushes under every assignment of ranges.
+    /// Follows the trajectory with this index; `model` simulates pushes under every assignment of
+    /// ranges.
     pub fn measure(&self, model: &dyn EffectModel, index: usize) -> Measured<MassRecord> {
         let case = index % self.cases.len();
         let MassCase { setup, sight } = self.cases[case];
-        // The same scenes for every case of a setup.
+        // Every case of a setup has the same scenes.
         let episode = MassEpisode::draw(setup, self.seed, (index / self.cases.len()) as u64);
         let MassEpisode { scene, motion, frames, ranges, touched } = &episode;
         let recording = Recording::of_frames("drawn", scene, motion, frames);

@@ -1,4 +1,4 @@
-//! Many trajectories in a few numbers.
+//! Summary of many trajectories.
 
 use pushplan_act::judge::{mean, percentile};
 use pushplan_learn::dataset::{MASS_RANGES, Touched};
@@ -8,44 +8,43 @@ use crate::bench::Calibration;
 
 use super::suite::{MassCase, MassRecord, SeenMass, SeenRatio};
 
-/// Nine in ten normal numbers lie within this many standard deviations.
+/// Number of standard deviations that contain nine in ten normal numbers.
 const NINE_IN_TEN: f64 = 1.645;
 
-/// A case in numbers.
+/// Summary of a case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MassSummary {
     /// The case.
     pub case: MassCase,
-    /// Trajectories.
+    /// Number of trajectories.
     pub trajectories: usize,
-    /// Objects that another one touched.
+    /// Number of objects touched by another object.
     pub touched: usize,
-    /// Share of them whose likeliest range is the true one; one of which nothing is believed counts by
-    /// chance.
+    /// Share of these objects whose most likely range is the true one; an object without a belief
+    /// counts by chance.
     pub right: f64,
-    /// The mean negative logarithm of the probability of their true range.
+    /// Mean negative logarithm of the probability of their true range.
     pub surprise: f64,
     /// [`Calibration::error`] of their probabilities.
     pub calibration: f64,
-    /// Share of the objects that nothing but the hand touched, or nothing at all, of which nothing is
-    /// believed.
+    /// Share of objects without a belief, among the objects that no other object touched.
     pub unknown: f64,
-    /// How many these are.
+    /// Number of objects that no other object touched.
     pub untouched: usize,
-    /// Pairs with a believed ratio.
+    /// Number of pairs with a believed ratio.
     pub ratios: usize,
     /// Factor by which the median ratio is wrong.
     pub ratio_error: f64,
-    /// The same if every mass were the middle one.
+    /// Factor by which the median ratio would be wrong if every mass were the middle one.
     pub ratio_blind: f64,
-    /// Share of the pairs, one more than twice as heavy as the other, in which it is believed to be the
-    /// heavier one.
+    /// Share of pairs with the heavier object correctly identified, among pairs with a ratio above
+    /// two.
     pub heavier: f64,
-    /// Share of the ratios within 1.645 standard deviations: nine in ten, if errors are normal.
+    /// Share of ratios within 1.645 standard deviations: nine in ten, if errors are normal.
     pub within: f64,
 }
 
-/// One line for every case.
+/// Returns a row for every case.
 pub fn summarise_masses(cases: &[MassCase], records: &[&MassRecord]) -> Vec<MassSummary> {
     let of = |(index, case): (usize, &MassCase)| {
         let records: Vec<&MassRecord> =

@@ -1,5 +1,4 @@
-//! How much is learnt from pushes that were made to learn how objects are joined, by how they were
-//! chosen.
+//! Information gained about joints from exploratory pushes, by the rule of their choice.
 
 mod pushes;
 mod suite;

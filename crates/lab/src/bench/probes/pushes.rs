@@ -11,17 +11,17 @@ use pushplan_act::act::Probe;
 use rand::Rng;
 use rand_pcg::Pcg64;
 
-/// Gap between the hand and what it touches first, metres.
+/// Gap between the hand and the object that it touches first, metres.
 const STAND_OFF: f64 = 0.01;
 
 /// Speed of the hand, m/s.
 const SPEED: f64 = 0.1;
 
-/// From how far off hands come, metres.
+/// Distance from which hands approach, metres.
 const FAR: f64 = 2.0;
 
-/// A push of this length (metres) by the tool of `hand` at an object that it meets first on a straight
-/// way from outside: any direction, any offset.
+/// Draws a push of this length (metres) by the tool of `hand`. The tool touches the object first on
+/// a straight path from outside, in any direction and with any offset.
 pub fn random_push(
     rng: &mut Pcg64,
     (scene, state): (&Scene, &State),

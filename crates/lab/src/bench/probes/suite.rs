@@ -1,4 +1,4 @@
-//! The cases, and what is learnt in each.
+//! The cases, and the measurement of each.
 
 use std::sync::Arc;
 
@@ -22,12 +22,13 @@ use crate::bench::{CrowdFamily, CrowdSet, Sighting};
 
 use super::pushes::random_push;
 
-/// Keep the random numbers of noise, probes and test pushes apart from those of scenes.
+/// Salts that separate the random numbers of noise, probes and test pushes from the numbers of
+/// scenes.
 const NOISE: u64 = 0x5052_4F42_4500_0000;
 const PUSHES: u64 = 0x5052_4F42_4500_0001;
 const TESTS: u64 = 0x5052_4F42_4500_0002;
 
-/// Probes made one after another, and how many there are to choose from each time.
+/// Number of successive probes, and number of candidates for each.
 const PROBES: usize = 3;
 const CHOICE: usize = 16;
 
@@ -35,43 +36,43 @@ const CHOICE: usize = 16;
 const PROBE: f64 = 0.10;
 const TEST: f64 = 0.20;
 
-/// Test pushes in every scene.
+/// Number of test pushes in every scene.
 const TESTED: usize = 4;
 
-/// Samples of the belief under which probes are judged.
+/// Number of samples of the belief that probes are evaluated under.
 const SAMPLES: usize = 12;
 
-/// How probes are chosen in scenes.
+/// A set of scenes and a rule for the choice of probes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ProbeCase {
-    /// The scenes.
+    /// Set of the scenes.
     pub set: CrowdSet,
-    /// How the next push is chosen.
+    /// Rule for the choice of the next push.
     pub rule: ProbeRule,
 }
 
-/// What is known after some probes.
+/// State of knowledge after some probes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Learnt {
-    /// Pairs that stood near each other whose likeliest type is the true one.
+    /// Number of near pairs whose most likely type is the true one.
     pub right: usize,
-    /// The sum of the negative logarithms of the probabilities of their true types.
+    /// Sum of the negative logarithms of the probabilities of their true types.
     pub surprise: f64,
-    /// Of every test push from here on the mean distance of predicted from true final positions over
-    /// all objects, metres.
+    /// Mean distance of predicted from true final positions over all objects, for every test push
+    /// from this state, metres.
     pub errors: Vec<f64>,
-    /// The same with the true joints.
+    /// `errors` with the true joints.
     pub known: Vec<f64>,
 }
 
-/// What became of one scene.
+/// Result of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ProbeRecord {
     /// The case, an index into [`ProbeSuite::cases`].
     pub case: usize,
-    /// Pairs that stood near each other.
+    /// Number of near pairs.
     pub pairs: usize,
-    /// Before the first probe and after each.
+    /// State of knowledge before the first probe and after each.
     pub learnt: Vec<Learnt>,
 }
 
@@ -82,11 +83,11 @@ pub struct ProbeSuite {
 }
 
 impl ProbeSuite {
-    /// Version of the measurement; another one gives other records for the same settings.
+    /// Version of the measurement; another version has other records for the same settings.
     pub const VERSION: u32 = 1;
 
-    /// Dense scenes of `objects` cylinders with all types of joints, seen with 1 mm and 0.5 degrees of
-    /// noise, under each of these rules.
+    /// Creates a suite of dense scenes of `objects` cylinders with all types of joints, observed
+    /// with 1 mm and 0.5 degrees of noise, under each of these rules.
     pub fn new(objects: usize, rules: &[ProbeRule], seed: u64) -> Self {
         let set = CrowdSet {
             family: CrowdFamily::Dense,
@@ -97,14 +98,14 @@ impl ProbeSuite {
         Self { cases: rules.iter().map(|rule| ProbeCase { set, rule: *rule }).collect(), seed }
     }
 
-    /// What is measured.
+    /// Returns the cases.
     pub fn cases(&self) -> &[ProbeCase] {
         &self.cases
     }
 
-    /// Makes the probes of the scene with this index; `model` rolls out hypotheses, probes and test
-    /// pushes, whose truth is that of the planar engine. Every rule has the same scenes, and the same
-    /// probes to choose from as long as it chooses the same.
+    /// Makes the probes of the scene with this index. `model` rolls out hypotheses, probes and test
+    /// pushes; the 2-D engine is the ground truth. Every rule has the same scenes, and the same
+    /// candidate probes while its choices are the same.
     pub fn measure(&self, model: &dyn EffectModel, index: usize) -> Measured<ProbeRecord> {
         let case = index % self.cases.len();
         let ProbeCase { set, rule } = self.cases[case];
@@ -145,12 +146,12 @@ impl ProbeSuite {
     }
 }
 
-/// What really stands on the table.
+/// The true scene on the table.
 struct Table {
     scene: Scene,
     hand: ToolMotion,
     state: State,
-    /// Where random numbers of test pushes begin.
+    /// Seed and stream of the random numbers of test pushes.
     tests: (u64, u64),
 }
 
@@ -160,7 +161,7 @@ impl Table {
         Self { state: scene.start(), scene, hand, tests: (seed ^ TESTS, number) }
     }
 
-    /// The frames before anything has moved.
+    /// Returns the frames before anything has moved.
     fn start(&self) -> Vec<Frame> {
         Simulator::planar()
             .run(&self.scene, &Job::stated(&self.scene, self.hand.clone()), Record::Frames)
@@ -171,14 +172,14 @@ impl Table {
         Recording::of_frames("drawn", &self.scene, motion, frames)
     }
 
-    /// What a motion really does.
+    /// Simulates the true outcome of a motion.
     fn play(&self, motion: &ToolMotion) -> Vec<Frame> {
         let physics = Physics::stated(&self.scene).into();
         let job = Job { start: self.state.clone(), motion: motion.clone().into(), physics };
         Simulator::planar().run(&self.scene, &job, Record::Frames).frames
     }
 
-    /// How right the belief is, and what it is good for.
+    /// Measures the accuracy of the belief, and of predictions made with it.
     fn learnt(&self, model: &dyn EffectModel, belief: &Belief) -> Learnt {
         let situation = belief.situation();
         let shares = belief.probabilities();
@@ -219,7 +220,7 @@ impl Table {
     }
 }
 
-/// How everything lies at rest after a motion.
+/// Returns the state at rest after a motion.
 fn end(frames: &[Frame]) -> State {
     State::at_rest(frames.last().map(|frame| frame.state.poses.clone()).unwrap_or_default())
 }

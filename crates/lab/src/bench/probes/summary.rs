@@ -1,34 +1,34 @@
-//! Many scenes in a few numbers.
+//! Summary of many scenes.
 
 use pushplan_act::judge::{mean, percentile};
 use serde::{Deserialize, Serialize};
 
 use super::suite::{Learnt, ProbeCase, ProbeRecord};
 
-/// A case after a number of probes, in numbers.
+/// Summary of a case after a number of probes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ProbeSummary {
     /// The case.
     pub case: ProbeCase,
-    /// Probes made.
+    /// Number of probes.
     pub probes: usize,
-    /// Scenes.
+    /// Number of scenes.
     pub scenes: usize,
-    /// Pairs that stood near each other.
+    /// Number of near pairs.
     pub pairs: usize,
-    /// Share of them whose likeliest type is the true one.
+    /// Share of these pairs whose most likely type is the true one.
     pub right: f64,
-    /// The mean negative logarithm of the probability of their true type.
+    /// Mean negative logarithm of the probability of their true type.
     pub surprise: f64,
-    /// Error of the mean object in the median and in the mean test push, metres.
+    /// Median over test pushes of the mean error over objects, metres.
     pub error_median: f64,
-    /// See there.
+    /// Mean over test pushes of the mean error over objects, metres.
     pub error_mean: f64,
-    /// The median with the true joints, metres.
+    /// Median with the true joints, metres.
     pub known_median: f64,
 }
 
-/// One line for every case and number of probes.
+/// Returns a row for every case and number of probes.
 pub fn summarise_probes(cases: &[ProbeCase], records: &[&ProbeRecord]) -> Vec<ProbeSummary> {
     let mut summaries = Vec::new();
     for (index, case) in cases.iter().enumerate() {

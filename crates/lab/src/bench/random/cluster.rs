@@ -1,4 +1,4 @@
-//! Objects that stand close, some of them joined.
+//! Scenes of close objects, some of them joined.
 
 use std::f64::consts::TAU;
 
@@ -9,16 +9,16 @@ use rand::Rng;
 use rand::seq::SliceRandom;
 use rand_pcg::Pcg64;
 
-/// Objects of a cluster.
+/// Number of objects of a cluster.
 const COUNT: usize = 4;
 
-/// Share of near pairs that are joined, as far as that closes no loop.
+/// Share of near pairs that are joined, if that closes no loop.
 const JOINED: f64 = 0.5;
 
-/// Share of axes along the line of centres; the others lie anywhere.
+/// Share of axes along the line of centres; the others have random directions.
 const ALONG: f64 = 0.7;
 
-/// A scene of objects each of which stands near another, some of them joined.
+/// Draws a scene in which each object is near another, some of them joined.
 pub(super) fn cluster(rng: &mut Pcg64, ranges: &Ranges) -> Scene {
     loop {
         let crowd = Crowd { count: COUNT, solids: Solids::Any, touching: 0.0, polygons: 0.0 };

@@ -1,4 +1,4 @@
-//! What people have and ask for: things of several solids, goals of every kind, things in the way.
+//! Everyday tasks: compound objects, goals of every kind, obstructed goals.
 
 use pushplan::internals::geometry::{
     ConvexPolygon, Pose, Shape, Vector, clearance, swept_clearance,
@@ -15,19 +15,20 @@ use super::kind::TaskKind;
 use super::layout::{ROOM, TOLERANCE, inscribed, round, round_pose};
 use super::one_push::pushes;
 
-/// Things that are to be moved each for itself stand this far apart, metres.
+/// Distance between objects that are moved separately, metres.
 const APART: f64 = 0.22;
 
-/// Places that are tried for one thing.
+/// Number of places that are tried for an object.
 const PLACES: usize = 200;
 
-/// What stands behind the place to which something is to go where others are in the way.
+/// Name of the wall behind an obstructed goal.
 const WALL: &str = "wall";
 
 /// Tolerance of headings, radians.
 const TURN: f64 = 10.0 * std::f64::consts::PI / 180.0;
 
-/// A task of a kind, its goals still where their objects start; `None` if this draw does not fit.
+/// Draws a task of a kind with its goals at the starts of their objects. Returns `None` if the draw
+/// does not fit.
 pub(super) fn everyday_task(rng: &mut Pcg64, kind: TaskKind, ordinal: usize) -> Option<Task> {
     let rules = kind.rules();
     let mut robot = Robot::reaching(0.1, rules.reach);
@@ -78,8 +79,8 @@ pub(super) fn everyday_task(rng: &mut Pcg64, kind: TaskKind, ordinal: usize) -> 
     Some(task.described(kind.title()))
 }
 
-/// Whether all that is to be in the way of the goal's object stands there at the start, and the first of it
-/// cannot just be shoved ahead to the wall.
+/// Returns `true` if all intended obstructions of the goal's object are effective at the start, and
+/// the first of them cannot be pushed ahead to the wall.
 pub(super) fn all_in_the_way(task: &Task, kind: TaskKind, end: &Pose) -> bool {
     if kind.aside() == 0 {
         return true;
@@ -99,22 +100,22 @@ pub(super) fn all_in_the_way(task: &Task, kind: TaskKind, end: &Pose) -> bool {
     objects[1..].iter().all(blocks) && wall.is_some_and(|wall| !leaves_room(wall))
 }
 
-/// The same task as its own file says it; `None` if that refuses it.
+/// Returns the task as read back from its own file; `None` if the file is refused.
 pub(super) fn as_filed(task: &Task) -> Option<Task> {
     Task::parse(&task.to_yaml().ok()?, &task.name).ok()
 }
 
-/// A multiple of a thousandth between these.
+/// Draws a multiple of a thousandth in a range.
 pub(super) fn drawn(rng: &mut Pcg64, [low, high]: [f64; 2]) -> f64 {
     round(rng.random_range(low..high), 1e3)
 }
 
-/// A goal at the place of an object.
+/// Returns a goal at the pose of an object.
 fn place(scene: &Scene, object: usize, tolerance: f64) -> Goal {
     Goal::new(object, scene.objects[object].pose.position.into(), tolerance)
 }
 
-/// A goal in a region about the first object, not quite at its middle.
+/// Draws a goal in a region around the first object, slightly off its middle.
 fn region(rng: &mut Pcg64, scene: &Scene) -> Option<Goal> {
     let height = 1.0;
     let shape = match rng.random_range(0..3u8) {
@@ -133,7 +134,7 @@ fn region(rng: &mut Pcg64, scene: &Scene) -> Option<Goal> {
     Some(Goal::within(0, shape, round_pose(&Pose { position, heading })))
 }
 
-/// A can or a box.
+/// Draws a can or a box.
 fn solid(rng: &mut Pcg64, number: usize) -> Object {
     let height = drawn(rng, [0.04, 0.1]);
     let shape = match rng.random() {
@@ -145,12 +146,12 @@ fn solid(rng: &mut Pcg64, number: usize) -> Object {
     pushed_by_hand(rng, Object::new(format!("thing-{}", number + 1), shape))
 }
 
-/// With a mass and a friction value as what stands on tables.
+/// Returns the object with a random mass and friction value of everyday objects.
 fn pushed_by_hand(rng: &mut Pcg64, object: Object) -> Object {
     object.mass(drawn(rng, [0.15, 1.0])).friction(drawn(rng, [0.3, 0.6]))
 }
 
-/// This many cans and boxes, well apart.
+/// Draws this many cans and boxes, well apart.
 fn solids(rng: &mut Pcg64, count: usize) -> Option<Scene> {
     let mut objects: Vec<Object> = Vec::new();
     for k in 0..count {
@@ -164,13 +165,13 @@ fn solids(rng: &mut Pcg64, count: usize) -> Option<Scene> {
     Some(Scene::new(objects))
 }
 
-/// Somewhere before the robot.
+/// Draws a pose in front of the robot.
 fn on_the_table(rng: &mut Pcg64) -> Pose {
     let position = Vector::new(drawn(rng, [0.42, 0.62]), drawn(rng, [-0.22, 0.22]));
     round_pose(&Pose { position, heading: rng.random_range(-3.1..3.1) })
 }
 
-/// A mug, a T, an L, a dumb-bell or a tray with two rims.
+/// Draws a mug, a T, an L, a dumb-bell or a tray with two rims.
 fn compound(rng: &mut Pcg64) -> Scene {
     let height = drawn(rng, [0.04, 0.1]);
     let cuboid = |x: f64, y: f64, z: f64| Shape::Cuboid { size: [x, y, z] };
@@ -207,7 +208,8 @@ fn compound(rng: &mut Pcg64) -> Scene {
     with_solids(Scene::new([Object { pose: on_the_table(rng), ..whole }]), &parts)
 }
 
-/// The scene with these solids fixed on its first object, whose mass is spread over all by volume.
+/// Returns the scene with these solids fixed to its first object, whose mass is spread over all by
+/// volume.
 pub(super) fn with_solids(mut scene: Scene, parts: &[(&str, Shape, Pose)]) -> Scene {
     let whole = scene.objects[0].clone();
     let volume = |shape: &Shape| shape.footprint().area() * shape.height();
@@ -222,8 +224,8 @@ pub(super) fn with_solids(mut scene: Scene, parts: &[(&str, Shape, Pose)]) -> Sc
     })
 }
 
-/// A can beyond the hand's reach, to be pulled nearer by a hook, and a puck between two rails, between
-/// which the hook does not fit.
+/// Draws a can beyond the hand's reach, which a hook must pull nearer, and a puck between two rails
+/// that are too narrow for the hook.
 fn rails(rng: &mut Pcg64) -> Scene {
     let side = if rng.random() { 1.0 } else { -1.0 };
     let can = Shape::Cylinder { radius: drawn(rng, [0.03, 0.045]), height: 0.1 };
@@ -242,7 +244,7 @@ fn rails(rng: &mut Pcg64) -> Scene {
         .with_obstacle(rail("rail-2", -apart))
 }
 
-/// A can, the place before a wall to which it is to go, one crate there and others on the way.
+/// Draws a can, its goal before a wall, one crate at the goal and others on the way.
 fn blocked(rng: &mut Pcg64, crates: usize) -> Option<(Scene, Vec<Goal>)> {
     let goal = Vector::new(drawn(rng, [0.75, 0.86]), drawn(rng, [-0.15, 0.15]));
     let radius = drawn(rng, [0.03, 0.04]);

@@ -1,4 +1,4 @@
-//! What moves on a hinge or in a slide.
+//! Doors on hinges and drawers on slides.
 
 use pushplan::internals::geometry::{Pose, Shape, Vector};
 use pushplan::internals::{
@@ -20,14 +20,14 @@ const OUT: f64 = 0.015;
 /// Share of drawers whose cabinet is free to move.
 const FREE: f64 = 0.25;
 
-/// A door that stands ajar before its cabinet, and the goal to turn it.
+/// Draws a door that stands ajar before its cabinet, and a goal for its rotation.
 pub(super) fn door(rng: &mut Pcg64) -> (Scene, Vec<Goal>) {
     let width = drawn(rng, [0.20, 0.34]);
     let (front, middle) = (drawn(rng, [0.59, 0.72]), drawn(rng, [-0.15, 0.15]));
-    // On which side of the cabinet's middle its hinge is not.
+    // Side of the cabinet's middle opposite the hinge.
     let side = if rng.random() { 1.0 } else { -1.0 };
     let ajar = round(rng.random_range(20.0..45.0), 10.0);
-    // From shut, along the cabinet, towards the robot.
+    // Rotation from shut, along the cabinet, towards the robot.
     let heading = f64::to_radians(side * (90.0 + ajar));
     let mut limits = [-side * (ajar - 1.0), side * (105.0 - ajar)].map(f64::to_radians);
     limits.sort_by(f64::total_cmp);
@@ -45,7 +45,7 @@ pub(super) fn door(rng: &mut Pcg64) -> (Scene, Vec<Goal>) {
     (scene, vec![Goal::of(0).facing(heading, AJAR)])
 }
 
-/// A drawer with a bar on a post, shut or pulled out, and the goal to move it.
+/// Draws a drawer with a bar on a post, shut or pulled out, and a goal for its displacement.
 pub(super) fn drawer(rng: &mut Pcg64) -> (Scene, Vec<Goal>) {
     let (width, depth) = (drawn(rng, [0.14, 0.26]), drawn(rng, [0.15, 0.22]));
     let (x, y) = (drawn(rng, [0.66, 0.74]), drawn(rng, [-0.2, 0.2]));
@@ -58,7 +58,7 @@ pub(super) fn drawer(rng: &mut Pcg64) -> (Scene, Vec<Goal>) {
     ];
     let limits = if shut { Span::new(0.0, round(0.8 * depth, 1e3)) } else { Span::new(-0.1, 0.05) };
     let slide = JointKind::Prismatic { axis: -Vector::x(), limits: Some(limits) };
-    // Behind it there is room where it is to go in.
+    // A drawer that must be pushed in has room behind it.
     let back = x + depth / 2.0 + if shut { 0.01 } else { 0.12 };
     let heavy = drawn(rng, [10.0, 30.0]);
     let mass = match free {

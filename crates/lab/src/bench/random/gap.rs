@@ -1,7 +1,6 @@
-//! Tasks that cannot be solved: an object in front of a gap that is narrower than it, the goal
-//! behind.
+//! Unsolvable tasks: an object in front of a gap that is too narrow for it, with the goal behind.
 //!
-//! What a planner says about them shows whether rigid things stay rigid in its verdict.
+//! The planner's answers show whether rigid bodies stay rigid in its verdict.
 
 use pushplan::internals::geometry::{Pose, Shape};
 use pushplan::internals::{
@@ -18,19 +17,19 @@ use super::one_push::pushes;
 /// Diameter of a can, or narrower side of a box, metres.
 const WIDTH: Span = Span::new(0.04, 0.20);
 
-/// Width of the gap as a share of that.
+/// Width of the gap as a share of the object's width.
 const SHARE: Span = Span::new(0.50, 0.97);
 
-/// Height of everything, metres.
+/// Height of all bodies, metres.
 const HEIGHT: f64 = 0.1;
 
-/// Length of the wall on each side of the gap, metres: no task's pushes lead around it.
+/// Length of the wall on each side of the gap, metres, too long for pushes to lead around it.
 const SIDE: f64 = 0.7;
 
-/// Tolerance of the goal, metres: that of the other kinds.
+/// Tolerance of the goal, metres, as in the other kinds.
 const TOLERANCE: f64 = 0.02;
 
-/// The task number `ordinal`: cans and boxes in turn.
+/// Draws task number `ordinal`: cans and boxes in turn.
 pub(super) fn gap_task(rng: &mut Pcg64, ordinal: usize) -> Task {
     let width = round(rng.random_range(WIDTH.low..WIDTH.high), 1e3);
     let gap = round(width * rng.random_range(SHARE.low..SHARE.high), 1e4);
@@ -45,7 +44,7 @@ pub(super) fn gap_task(rng: &mut Pcg64, ordinal: usize) -> Task {
     };
     let thickness = round(rng.random_range(0.02..0.06), 1e3);
     let radius = shape.footprint().bounding_radius();
-    // All along x, then turned about the robot's base.
+    // Everything along x, then rotated about the robot's base.
     let outwards = Pose::new(0.0, 0.0, round(rng.random_range(-1.0..1.0), 1e2));
     let near = round(rng.random_range(0.30..0.45), 1e3);
     let wall = near + radius + rng.random_range(0.01..0.08) + thickness / 2.0;

@@ -1,4 +1,4 @@
-//! Random tasks that do not know their scene.
+//! Random tasks with unknown scenes.
 
 use pushplan::internals::seeded::generator;
 use pushplan::internals::{
@@ -13,30 +13,30 @@ use super::kind::TaskKind;
 use super::layout::round;
 use super::suite::{NoTask, RandomSuite};
 
-/// A task whose joints, masses, frictions and supports are unknown, and what they are.
+/// A task whose joints, masses, frictions and supports are unknown, with their true values.
 #[derive(Clone, Debug)]
 pub struct HiddenTask {
-    /// What kind.
+    /// Kind of the task.
     pub kind: TaskKind,
-    /// The task with guesses.
+    /// Task with initial guesses.
     pub task: Task,
-    /// The same task with everything known.
+    /// Task with full knowledge.
     pub known: Task,
-    /// The world, in the planar engine unless said otherwise.
+    /// World of the task, in the 2-D engine by default.
     pub truth: Truth,
 }
 
-/// What is asked for, and of what kind of world.
+/// Engine of the world and tolerance of the goals.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HiddenWorld {
-    /// What moves it.
+    /// Engine that simulates the world.
     pub engine: Engine,
     /// Tolerance of the goals as a share of the usual one.
     pub tolerance: f64,
 }
 
 impl HiddenTask {
-    /// The same in another world.
+    /// Returns the task in another world.
     pub fn in_world(mut self, world: HiddenWorld) -> Self {
         self.truth.engine = world.engine;
         for task in [&mut self.task, &mut self.known] {
@@ -48,12 +48,11 @@ impl HiddenTask {
 }
 
 impl RandomSuite {
-    /// Task `index` with everything but shapes and places hidden. Its masses and friction values
-    /// are the true ones, times a factor as likely as [`Unknowns`] says; supports are drawn anew, so
-    /// that the plan that made the goal may miss it by a little.
+    /// Returns task `index` with everything hidden except shapes and poses. Its masses and friction
+    /// values are the true ones times a random factor with the spread of [`Unknowns`]. Supports are
+    /// drawn anew, so that the plan behind the goal may miss it slightly.
     ///
-    /// # Errors
-    /// If no task could be made with these tools.
+    /// # Errors If no task could be made with these tools.
     pub fn hidden(&self, index: usize) -> Result<HiddenTask, NoTask> {
         let made = self.task(index)?;
         let mut rng = generator(self.seed() ^ 0x41_DDE2, index as u64);

@@ -1,4 +1,4 @@
-//! The kinds of random tasks, and what makes a task one of them.
+//! The kinds of random tasks, and their criteria.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;
@@ -13,73 +13,73 @@ use super::one_push::TRAVEL;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TaskKind {
-    /// The object stands farther out than the end effector can go, and goes no nearer.
+    /// An object beyond the end effector's reach, which comes no nearer.
     Reach,
-    /// The object comes nearer to the robot.
+    /// An object that comes nearer to the robot.
     Pull,
-    /// The object goes sideways.
+    /// An object that goes sideways.
     Sweep,
-    /// An obstacle stands on the straight way.
+    /// An obstacle on the straight path.
     Obstacle,
     /// A cuboid with a heading to reach, at least 15 degrees from its own.
     Heading,
-    /// One of two objects that are joined.
+    /// Two joined objects, one with a goal.
     Pair,
-    /// The goal lies behind a gap too narrow for the object: no plan can be right.
+    /// A goal behind a gap too narrow for the object: no plan can be right.
     Gap,
-    /// One of four objects that stand close, some of them joined. Asked for by name alone.
+    /// Four close objects, some of them joined, one with a goal. Drawn only if named.
     Cluster,
-    /// A door that stands ajar, to be opened farther or nearly shut.
+    /// A door that stands ajar, and must be opened farther or nearly shut.
     Door,
     /// A drawer with a bar to pull it by, in walls or in a heavy cabinet that is free to move.
     Drawer,
-    /// A thing of several solids, with a heading to reach.
+    /// A compound object with a heading to reach.
     Compound,
-    /// A heading alone.
+    /// A goal heading alone.
     Turn,
-    /// A part of the table.
+    /// A goal region on the table.
     Region,
-    /// A place beside another object, wherever that comes to.
+    /// A goal beside another object, relative to its final pose.
     Relative,
-    /// Two objects, each to its place.
+    /// Two objects, each with a goal.
     TwoGoals,
-    /// Three objects, each to its place.
+    /// Three objects, each with a goal.
     ThreeGoals,
-    /// Two objects, one of them out of reach of the tool that the other one needs.
+    /// Two objects, one of them beyond the reach of the tool that the other one needs.
     TwoTools,
-    /// Something stands where the object is to go, before a wall.
+    /// A goal before a wall, obstructed by an object.
     OneAside,
-    /// Two things stand in the way.
+    /// A goal before a wall, obstructed by two objects.
     TwoAside,
-    /// Three things stand in the way.
+    /// A goal before a wall, obstructed by three objects.
     ThreeAside,
 }
 
-/// Room that a kind gives, and how hard its tasks are.
+/// Layout ranges and difficulty of a kind.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rules {
     /// Distances of the object from the robot's base, metres.
     pub places: Span,
     /// Largest reach of the end effector, metres.
     pub reach: f64,
-    /// Fewest and most pushes of the plan that makes the goal.
+    /// Minimum and maximum number of pushes of the plan behind the goal.
     pub made_with: [usize; 2],
     /// Travel of each of its pushes, metres. Refinement may go from 0.10 to 0.30.
     pub travel: Span,
-    /// Most pushes of a plan.
+    /// Maximum number of pushes of a plan.
     pub max_count: usize,
-    /// The object goes at least this far, metres.
+    /// Minimum displacement of the object, metres.
     pub least_way: f64,
 }
 
-/// Smallest turn where a heading is asked for, radians.
+/// Smallest rotation to a goal heading, radians.
 const LEAST_TURN: f64 = PI / 12.0;
 
-/// How far the way may lean against straight inwards or sideways, radians.
+/// Largest angle between the path and straight inwards or sideways, radians.
 const LEANING: f64 = PI / 6.0;
 
 impl TaskKind {
-    /// What is drawn where no kind is named.
+    /// Default kinds.
     pub const ALL: [TaskKind; 6] = [
         TaskKind::Reach,
         TaskKind::Pull,
@@ -89,7 +89,7 @@ impl TaskKind {
         TaskKind::Pair,
     ];
 
-    /// What people have and ask for. Asked for by name alone.
+    /// Everyday kinds, drawn only if named.
     pub const EVERYDAY: [TaskKind; 12] = [
         TaskKind::Door,
         TaskKind::Drawer,
@@ -105,13 +105,13 @@ impl TaskKind {
         TaskKind::ThreeAside,
     ];
 
-    /// Every kind, in the order in which they are shown.
+    /// Iterates over every kind, in the order of presentation.
     pub fn each() -> impl Iterator<Item = TaskKind> {
         let asked_for = [TaskKind::Cluster, TaskKind::Gap];
         TaskKind::ALL.into_iter().chain(asked_for).chain(TaskKind::EVERYDAY)
     }
 
-    /// One word, as in the names of tasks and on the command line.
+    /// Returns the name in task names and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             TaskKind::Reach => "reach",
@@ -137,7 +137,7 @@ impl TaskKind {
         }
     }
 
-    /// One line for the description of a task.
+    /// Returns a line for the description of a task.
     pub fn title(self) -> &'static str {
         match self {
             TaskKind::Reach => "An object beyond the end effector's reach.",
@@ -178,7 +178,7 @@ impl TaskKind {
             }
             TaskKind::Pull => Rules { places: Span::new(0.50, 0.85), ..usual },
             TaskKind::Sweep => Rules { least_way: 0.12, ..usual },
-            // Short ways leave no room for a wall beside them.
+            // Short paths leave no room for a wall beside them.
             TaskKind::Obstacle => Rules {
                 made_with: [2, 3],
                 travel: Span::new(0.15, TRAVEL.high),
@@ -205,7 +205,7 @@ impl TaskKind {
         }
     }
 
-    /// How many things stand in the way.
+    /// Returns the number of obstructing objects.
     pub(super) fn aside(self) -> usize {
         match self {
             TaskKind::OneAside => 1,
@@ -215,10 +215,10 @@ impl TaskKind {
         }
     }
 
-    /// Middle and half width of the directions in which pushes are tried, for an object that
-    /// stands in direction `outwards` from the base, radians; `index` counts the pushes before,
-    /// `before` is the direction of the last one. Only saves draws: what makes a task one of its
-    /// kind is [`TaskKind::accepts`].
+    /// Returns middle and half width of the directions in which pushes are tried, radians. The
+    /// object is in direction `outwards` from the base, `index` counts the pushes before, and
+    /// `before` is the direction of the last one. The range only saves draws; [`TaskKind::accepts`]
+    /// is the criterion.
     pub(super) fn directions(
         self,
         outwards: f64,
@@ -233,15 +233,15 @@ impl TaskKind {
             TaskKind::Sweep => (outwards + side, 0.7),
             // Around a corner.
             TaskKind::Obstacle if index > 0 => (before + side, 0.4),
-            // Pulled near, then pushed on between the rails.
+            // The first object is pulled near, the second pushed on between the rails.
             TaskKind::TwoTools if index == 0 => (PI, 0.4),
             TaskKind::TwoTools => (0.0, 0.2),
             _ => (0.0, PI),
         }
     }
 
-    /// Whether moving the object of a goal so makes a task of this kind, as far as start and end
-    /// tell; that the straight way is blocked, where it is to be, is seen to elsewhere.
+    /// Returns `true` if the displacement of a goal's object fits this kind. Obstructions of the
+    /// straight path are checked elsewhere.
     pub(super) fn accepts(self, start: &Pose, end: &Pose) -> bool {
         let way = end.position - start.position;
         if !end.is_finite() || way.norm() < self.rules().least_way {

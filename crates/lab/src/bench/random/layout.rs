@@ -1,5 +1,5 @@
-//! What stands on the table of a random task. Every number is round in the units of task files,
-//! so that a saved task reads well and is the same task to the bit.
+//! Layout of the table of a random task. Every number is rounded in the units of task files, so
+//! that a saved task is readable and identical bit by bit.
 
 use std::f64::consts::TAU;
 
@@ -17,23 +17,24 @@ use super::everyday::everyday_task;
 use super::kind::TaskKind;
 use super::one_push::{moderate, pushes};
 
-/// Tolerance of the goals, metres: that of most shipped tasks.
+/// Tolerance of the goals, metres, as in most shipped tasks.
 pub(super) const TOLERANCE: f64 = 0.02;
 
 /// Tolerance of headings, degrees.
 const HEADING_TOLERANCE_DEG: f64 = 10.0;
 
-/// Neighbours with a larger gap are not joined, metres.
+/// Gap above which neighbours are not joined, metres.
 const JOINED_GAP: f64 = 0.03;
 
-/// Masses of joined objects differ by at most this factor; task files allow ten.
+/// Largest ratio of masses of joined objects; task files allow ten.
 const JOINED_MASSES: f64 = 6.0;
 
-/// An obstacle keeps this distance from every object at its start and from the goal object at its
-/// goal, metres.
+/// Distance of an obstacle from every object at its start and from the goal object at its goal,
+/// metres.
 pub(super) const ROOM: f64 = 0.01;
 
-/// A task of a kind, its goals still where their objects start; `None` if this draw does not fit.
+/// Draws a task of a kind with its goals at the starts of their objects. Returns `None` if the draw
+/// does not fit.
 pub(super) fn open_task(rng: &mut Pcg64, kind: TaskKind, ordinal: usize) -> Option<Task> {
     if TaskKind::EVERYDAY.contains(&kind) {
         return everyday_task(rng, kind, ordinal);
@@ -63,7 +64,7 @@ pub(super) fn open_task(rng: &mut Pcg64, kind: TaskKind, ordinal: usize) -> Opti
     Some(task.pushing(pushes(rules.max_count)).described(kind.title()))
 }
 
-/// Every goal where its object ends.
+/// Sets every goal to the final pose of its object.
 pub(super) fn set_goals(task: &mut Task, ends: &State) {
     let start = task.scene.start();
     for goal in &mut task.goals {
@@ -83,15 +84,15 @@ pub(super) fn set_goals(task: &mut Task, ends: &State) {
     }
 }
 
-/// Where a goal's object is, in the frame of what the goal is relative to.
+/// Returns the pose of a goal's object relative to the goal's reference object.
 pub(super) fn seen(goal: &Goal, state: &State) -> Pose {
     let own = state.poses[goal.object];
     goal.relative().map_or(own, |other| state.poses[other].inverse() * own)
 }
 
-/// A wall across the straight way of the goal object, on the other side of it than `corner`, where
-/// the object goes round; clear of everything where it starts and of the goal object where it
-/// ends. `None` if this draw does not fit.
+/// Draws a wall across the straight path of the goal object, opposite `corner`, the side on which
+/// the object passes. The wall is clear of all start poses and of the goal object's final pose.
+/// Returns `None` if the draw does not fit.
 pub(super) fn wall(
     rng: &mut Pcg64,
     scene: &Scene,
@@ -106,7 +107,7 @@ pub(super) fn wall(
     let length = rng.random_range(0.08..0.24);
     let thickness = rng.random_range(0.02..0.05);
     let thin = inscribed(&scene.objects[object].shape);
-    // The end next to the corner stands in the straight way, the rest beyond it.
+    // The end next to the corner stands in the straight path, the rest beyond it.
     let near = rng.random_range(-0.9..0.9) * thin.bounding_radius();
     let middle = middle + along * (near + 0.5 * length);
     let heading = along.y.atan2(along.x) + rng.random_range(-0.3..0.3);
@@ -129,7 +130,8 @@ pub(super) fn wall(
     (clear && blocked).then_some(wall)
 }
 
-/// The largest disc in the goal object: where it does not pass, no turn of the object does.
+/// Returns the largest disc in the goal object: where it does not pass, the object does not pass at
+/// any rotation.
 pub(super) fn inscribed(shape: &Shape) -> Footprint {
     Footprint::Disc { radius: shape.footprint().inner_radius() }
 }
@@ -138,7 +140,7 @@ fn one(rng: &mut Pcg64, solids: Solids) -> Scene {
     random_scene(rng, &moderate(), Crowd { count: 1, solids, touching: 0.0, polygons: 0.0 })
 }
 
-/// Two objects with a joint; its kinds take turns.
+/// Draws two objects with a joint, whose kind alternates.
 fn pair(rng: &mut Pcg64, ordinal: usize) -> Scene {
     let ranges = Ranges { mass_ratio: JOINED_MASSES, ..moderate() };
     loop {
@@ -153,7 +155,7 @@ fn pair(rng: &mut Pcg64, ordinal: usize) -> Scene {
         let kind = match ordinal % 3 {
             0 => JointKind::Fixed,
             1 => {
-                // Between the two rims on the line of centres.
+                // Midway between the two rims on the line of centres.
                 let [near, far] = [(a, first.pose), (b, second.pose)].map(|(footprint, pose)| {
                     footprint.extent(pose.local_vector(line / line.norm()))
                 });
@@ -167,8 +169,7 @@ fn pair(rng: &mut Pcg64, ordinal: usize) -> Scene {
     }
 }
 
-/// The scene with every number rounded, turned and shifted so that object `index` stands at
-/// `place`.
+/// Returns the scene with every number rounded, moved so that object `index` stands at `place`.
 fn moved(mut scene: Scene, place: Vector, index: usize) -> Scene {
     let turn = scene.objects[index].pose.heading;
     let from = Pose { position: scene.objects[index].pose.position, heading: 0.0 };
@@ -196,15 +197,15 @@ fn moved(mut scene: Scene, place: Vector, index: usize) -> Scene {
     scene
 }
 
-/// Tenths of a millimetre and of a degree.
+/// Rounds to tenths of a millimetre and of a degree.
 pub(super) fn round_pose(pose: &Pose) -> Pose {
     let turn = pose.heading.rem_euclid(TAU).to_degrees();
-    // Task files and pictures count from -180 to 180 degrees.
+    // Task files and pictures use -180 to 180 degrees.
     let turn = if turn > 180.0 { turn - 360.0 } else { turn };
     Pose { position: pose.position.map(|x| round(x, 1e4)), heading: round(turn, 10.0).to_radians() }
 }
 
-/// The nearest multiple of 1 / `parts`.
+/// Returns the nearest multiple of 1 / `parts`.
 pub(super) fn round(value: f64, parts: f64) -> f64 {
     (value * parts).round() / parts
 }

@@ -1,4 +1,4 @@
-//! Plans that make goals: random pushes that a task allows, and where they end.
+//! Plans that define goals: random pushes that a task allows, and their outcomes.
 
 use std::f64::consts::FRAC_PI_8;
 use std::sync::Arc;
@@ -18,26 +18,26 @@ use rand_pcg::Pcg64;
 use super::kind::{Rules, TaskKind};
 use super::one_push::{TRAVEL, WAYS};
 
-/// Further pushes of the plans that make goals stand off by this much more than the first,
-/// metres: the object does not stand quite where it was predicted, and the tool must not come
-/// down on it.
+/// Additional stand-off of pushes after the first in plans that define goals, metres. The object is
+/// not exactly at its predicted pose, and the tool must not be placed on top of it.
 const LATER_ROOM: f64 = 0.01;
 
-/// First pushes that are drawn before a table is given up: most tools do not fit most ways.
+/// Number of first pushes that are drawn before a table is given up: most tools do not suit most
+/// directions.
 const DRAWS: usize = 60;
 
-/// How far what others stand in the way of is pushed off its straight way, radians, and how much
-/// farther than that is long, metres.
+/// Largest deviation of an obstructed object's pushes from its straight path, radians, and
+/// additional length of these pushes, metres.
 const STRAIGHT: f64 = 0.1;
 const STRAY: f64 = 0.015;
 
-/// What a task allows with these tools, for plans that make goals.
+/// Returns the search workspace of a task with these tools.
 pub(super) fn workspace<'a>(task: &'a Task, tools: &'a [Arc<Tool>]) -> Workspace<'a> {
     Workspace { task, tools }
 }
 
-/// A random candidate of a kind in which the first push of every object can be made from the start;
-/// `None` if none was found.
+/// Draws a candidate of a kind in which the first push of every object is feasible from the start.
+/// Returns `None` if none was found.
 pub(super) fn random_candidate(
     rng: &mut Pcg64,
     workspace: &Workspace,
@@ -51,7 +51,7 @@ pub(super) fn random_candidate(
     (kind != TaskKind::TwoTools || made.tool_changes() > 0).then_some(made)
 }
 
-/// What the pushes of a plan that makes a task are meant for, in order.
+/// Returns the objects that the pushes of a plan move, in order.
 fn meant_for(rng: &mut Pcg64, task: &Task, kind: TaskKind) -> Vec<usize> {
     let mut objects: Vec<usize> = (1..=kind.aside()).collect();
     objects.shuffle(rng);
@@ -59,8 +59,8 @@ fn meant_for(rng: &mut Pcg64, task: &Task, kind: TaskKind) -> Vec<usize> {
     objects
 }
 
-/// Pushes of an object with one tool, which follow `before` pushes of others; `None` if no first push
-/// was found that can be made from the start.
+/// Draws pushes of an object with one tool, which follow `before` pushes of others. Returns `None`
+/// if no first push was found that is feasible from the start.
 fn pushes_of(
     rng: &mut Pcg64,
     workspace: &Workspace,
@@ -71,7 +71,8 @@ fn pushes_of(
     let task = workspace.task;
     let at = task.scene.objects[object].pose.position;
     let angle = |way: Vector| way.y.atan2(way.x);
-    // What stands in the way goes anywhere, what is to go there as straight as it can.
+    // Obstructing objects are cleared in any direction; the goal's object is pushed as straight as
+    // possible.
     let is_aside = kind.aside() > 0 && object != task.goals[0].object;
     let straight = kind.aside() > 0 && !is_aside;
     (0..DRAWS).find_map(|_| {
@@ -101,9 +102,9 @@ fn pushes_of(
     })
 }
 
-/// A random plan of one push that can be made, in any direction; `None` if none was found.
+/// Draws a feasible plan of one push in any direction. Returns `None` if none was found.
 pub(super) fn random_plan(rng: &mut Pcg64, task: &Task, tools: &[Arc<Tool>]) -> Option<Plan> {
-    /// Enough for any table on which something can be pushed at all.
+    /// Number of tries, enough for any table with a feasible push.
     const TRIES: usize = 2000;
     let workspace = workspace(task, tools);
     (0..TRIES).find_map(|_| {
@@ -116,7 +117,7 @@ pub(super) fn random_plan(rng: &mut Pcg64, task: &Task, tools: &[Arc<Tool>]) -> 
     })
 }
 
-/// The candidate as carried out in the model of `rollouts`; `None` if that breaks a rule.
+/// Rolls out the candidate in the model of `rollouts`. Returns `None` if it breaks a rule.
 pub(super) fn carried_out(
     workspace: &Workspace,
     rollouts: &mut Rollouts,
@@ -126,7 +127,7 @@ pub(super) fn carried_out(
     (made.is_feasible() && made.is_sound()).then_some(made)
 }
 
-/// Whether the tool keeps clear of the obstacles on these pushes.
+/// Returns `true` if the tool keeps clear of the obstacles on these pushes.
 pub(super) fn keeps_clear(workspace: &Workspace, candidate: &Candidate, pushes: &[Push]) -> bool {
     let start = workspace.task.scene.start();
     let object = workspace.task.goals[0].object;
@@ -136,7 +137,7 @@ pub(super) fn keeps_clear(workspace: &Workspace, candidate: &Candidate, pushes: 
     })
 }
 
-/// What a candidate's pushes are to a robot.
+/// Converts a candidate's pushes to a plan.
 pub(super) fn plan(workspace: &Workspace, candidate: &Candidate, pushes: Vec<Push>) -> Plan {
     let rules = &workspace.task.pushes;
     let step = |(push, planned): (Push, &CandidatePush)| {
@@ -147,8 +148,8 @@ pub(super) fn plan(workspace: &Workspace, candidate: &Candidate, pushes: Vec<Pus
     Plan { steps: pushes.into_iter().zip(&candidate.pushes).map(step).collect() }
 }
 
-/// Any tool and grip, and pushes of an object of any face, offset and length in the directions of
-/// `direct`, which is told the number of its pushes before and the direction of the last.
+/// Draws a tool, a grip, and pushes of an object with random faces, offsets and lengths. `direct`
+/// returns their directions, given the number of earlier pushes and the direction of the last.
 fn draw(
     rng: &mut Pcg64,
     workspace: &Workspace,
@@ -177,7 +178,7 @@ fn draw(
     candidate
 }
 
-/// The first push, if it can be made from the start.
+/// Returns the first push, if it is feasible from the start.
 fn first_push(workspace: &Workspace, candidate: &Candidate) -> Option<Push> {
     let (start, planned) = (workspace.task.scene.start(), candidate.pushes.first()?);
     let from = workspace.place(&start, planned, None).ok()?;
@@ -194,8 +195,8 @@ fn first_push(workspace: &Workspace, candidate: &Candidate) -> Option<Push> {
         .then_some(push)
 }
 
-/// A direction near `wanted` that refinement comes to from one of the ways that the search
-/// tries: all do, as the ways are twice as far apart.
+/// Draws a direction near `wanted` that refinement can reach from a direction of the search. Every
+/// direction is reachable, because the search directions are twice as far apart.
 fn near_a_way(rng: &mut Pcg64, wanted: f64) -> f64 {
     let spacing = std::f64::consts::TAU / WAYS as f64;
     (wanted / spacing).round() * spacing + rng.random_range(-FRAC_PI_8..FRAC_PI_8)

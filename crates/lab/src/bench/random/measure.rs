@@ -1,4 +1,4 @@
-//! What is measured on a random task: our plan, doing nothing and a random choice.
+//! Measurement of a random task: the planner's plan, doing nothing and a random choice.
 
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::geometry::Pose;
@@ -21,19 +21,19 @@ use super::suite::{NoTask, RandomSuite, SuiteTask};
 /// The result of a random task.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RandomRecord {
-    /// What kind of task.
+    /// Kind of the task.
     pub kind: TaskKind,
-    /// The plan that made the goal; `None` for a task that no plan can solve.
+    /// Plan behind the goal; `None` for an unsolvable task.
     pub maker: Option<Maker>,
-    /// The planner's plan.
+    /// Result of the planner.
     pub solved: SolvedTask,
-    /// Where the object is if nothing is done.
+    /// Final pose of the object if nothing is done.
     pub nothing: End,
-    /// A random plan of one push; `None` if no push can be made.
+    /// Random plan of one push; `None` if no push is feasible.
     pub random: Option<Choice>,
 }
 
-/// In few words, the plan that made a goal.
+/// Summary of the plan behind a goal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Maker {
     /// Name of its tool.
@@ -47,29 +47,28 @@ pub struct Maker {
 pub struct Choice {
     /// Name of its tool.
     pub tool: String,
-    /// Where it ends in the planar engine.
+    /// Outcome in the 2-D engine.
     pub planar: End,
-    /// Where it ends in the 3-D engine.
+    /// Outcome in the 3-D engine.
     pub spatial: End,
 }
 
-/// Why a random task could not be measured.
+/// Error of a random task that could not be measured.
 #[derive(Debug, Error)]
 pub enum RandomError {
-    /// None could be made.
+    /// No task could be made.
     #[error(transparent)]
     NoTask(#[from] NoTask),
-    /// The planner refuses it.
+    /// The planner refuses the task.
     #[error(transparent)]
     Solve(#[from] SolveError),
 }
 
 impl RandomSuite {
-    /// Solves task `index` with `planner` and the tools of `library`, those of the suite. The
-    /// times are the planner's alone.
+    /// Solves task `index` with `planner` and the tools of `library`, which are the tools of the
+    /// suite. The times are the planner's alone.
     ///
-    /// # Errors
-    /// If the task cannot be made or the planner refuses it.
+    /// # Errors If the task cannot be made or the planner refuses it.
     pub fn measure(
         &self,
         planner: &Planner,

@@ -1,9 +1,9 @@
-//! Random tasks that are known to be solvable.
+//! Random tasks that are solvable by construction.
 //!
-//! The goals of each are where a plan that the task allows really ends: by the planar engine in
-//! [`random_task`] (one object, one push; what refinement is measured on), and by both engines in
-//! [`RandomSuite`] (several kinds, up to five pushes), so that the plan that made a task passes
-//! its verification.
+//! The goals of each task are the true outcome of a plan that the task allows. [`random_task`] uses
+//! the 2-D engine (one object, one push; the tasks that measure refinement). [`RandomSuite`] uses
+//! both engines (several kinds, up to five pushes), so that the plan behind a task passes its
+//! verification.
 
 mod cluster;
 mod everyday;

@@ -1,5 +1,5 @@
-//! One object, one push: the goal is where a random allowed push of a shipped tool really ends, by
-//! the planar engine.
+//! Tasks of one object and one push. The goal is the final pose after a random allowed push of a
+//! shipped tool in the 2-D engine.
 
 use std::f64::consts::{FRAC_PI_8, TAU};
 use std::sync::Arc;
@@ -21,28 +21,28 @@ use rand_pcg::Pcg64;
 /// Distance of the object from the robot's base, metres.
 const PLACES: Span = Span::new(0.35, 0.80);
 
-/// The goal lies at least this far from the object's start, metres; otherwise doing nothing
-/// would nearly do.
+/// Smallest distance of the goal from the object's start, metres; otherwise doing nothing would
+/// nearly solve the task.
 const FARTHEST_TRIVIAL: f64 = 0.05;
 
 /// Tolerance of the goal, metres.
 const TOLERANCE: f64 = 0.03;
 
-/// Travel of the pushes that make goals, metres. Refinement may go to 0.30.
+/// Travel of the pushes that define goals, metres. Refinement may extend it to 0.30.
 pub(super) const TRAVEL: Span = Span::new(0.08, 0.28);
 
-/// Ways round the circle that the search tries; refinement turns them by more than half their
-/// spacing, so every direction is within reach.
+/// Number of directions in the search. Refinement rotates them by more than half their spacing, so
+/// every direction is reachable.
 pub(super) const WAYS: usize = 8;
 
-/// The `index`-th random one-object, one-push task under `seed`, for the tools of `library`,
-/// which must hold at least one.
+/// Returns the `index`-th random one-object, one-push task under `seed`, for the tools of
+/// `library`, which must hold at least one.
 pub fn random_task(library: &ToolLibrary, seed: u64, index: usize) -> Task {
     let mut rng = generator(seed ^ 0x7A5C, index as u64);
     let ranges = moderate();
     let tools: Vec<Arc<Tool>> = library.iter().cloned().collect();
     let planar = Simulated::new(Simulator::planar());
-    // Drawn again until the push can be made and moves the object; a few draws on average.
+    // Drawn again until the push is feasible and moves the object; a few draws on average.
     loop {
         let mut task = open_task(&mut rng, &ranges, index);
         let candidate = random_candidate(&mut rng, &task, &tools);
@@ -61,12 +61,12 @@ pub fn random_task(library: &ToolLibrary, seed: u64, index: usize) -> Task {
     }
 }
 
-/// The pushes that random tasks allow, up to `max_count` of them.
+/// Returns the push rules of random tasks, with up to `max_count` pushes.
 pub(super) fn pushes(max_count: usize) -> PushRules {
     PushRules { directions: Directions::Count(WAYS), max_count, ..PushRules::default() }
 }
 
-/// Objects of a size and weight that one hand pushes: the middle of the trained ranges.
+/// Returns ranges of objects that a hand can push: the middle of the training ranges.
 pub(super) fn moderate() -> Ranges {
     Ranges {
         mass: Span::new(0.1, 2.0),
@@ -78,7 +78,7 @@ pub(super) fn moderate() -> Ranges {
     }
 }
 
-/// A task with its goal still at the object's start.
+/// Draws a task with its goal at the object's start.
 fn open_task(rng: &mut Pcg64, ranges: &Ranges, index: usize) -> Task {
     let solids = if index.is_multiple_of(2) { Solids::Cylinders } else { Solids::Cuboids };
     let mut scene: Scene =
@@ -94,7 +94,7 @@ fn open_task(rng: &mut Pcg64, ranges: &Ranges, index: usize) -> Task {
     Task::new(format!("random-{index}"), scene, robot, goal).pushing(pushes(1))
 }
 
-/// A push that the planner could come to, with continuous parameters.
+/// Draws a push that the planner could find, with continuous parameters.
 fn random_candidate(rng: &mut Pcg64, task: &Task, tools: &[Arc<Tool>]) -> Candidate {
     let tool = rng.random_range(0..tools.len());
     let yaws = &task.pushes.grip_yaws;

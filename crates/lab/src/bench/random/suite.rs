@@ -22,19 +22,18 @@ use super::kind::TaskKind;
 use super::layout::{open_task, seen, set_goals, wall};
 use super::making::{carried_out, keeps_clear, plan, random_candidate, workspace};
 
-/// Tables that are drawn for one task before it is given up. With the shipped tools about ten are
-/// enough.
+/// Maximum number of tables that are drawn for a task. With the shipped tools about ten are enough.
 const MOST_TABLES: usize = 3000;
 
-/// Walls that are tried across one way.
+/// Number of walls that are tried across a path.
 const WALLS: usize = 12;
 
 /// Random tasks of several kinds, in turn.
 ///
-/// Every task was made by a plan that it allows: its goals are where that plan ends in the planar
-/// engine, and the plan's replay in the 3-D engine reaches them within their tolerances. So
-/// every task is solvable by construction, under the very rule by which plans are judged. Pushes
-/// on whose end the engines disagree by more than the tolerance make no tasks.
+/// Every task is derived from a plan that it allows. Its goals are the final poses of this plan in
+/// the 2-D engine, and the plan's replay in the 3-D engine reaches them within their tolerances.
+/// Every task is therefore solvable by construction, under the rule by which plans are judged.
+/// Pushes on whose outcome the engines disagree by more than the tolerance are discarded.
 #[derive(Clone, Debug)]
 pub struct RandomSuite {
     tools: Vec<Arc<Tool>>,
@@ -42,57 +41,58 @@ pub struct RandomSuite {
     kinds: Vec<TaskKind>,
 }
 
-/// A task and the plan that made it.
+/// A task and the plan that it was derived from.
 #[derive(Clone, Debug)]
 pub struct SuiteTask {
-    /// What kind.
+    /// Kind of the task.
     pub kind: TaskKind,
     /// The task.
     pub task: Task,
-    /// A plan that reaches its goals, with its tools; `None` if there is no such plan.
+    /// Plan that reaches the goals, with its tools; `None` if there is no such plan.
     pub made: Option<(Plan, Vec<Arc<Tool>>)>,
 }
 
-/// With these tools no task of a kind could be drawn.
+/// Error of a suite whose tools allow no task of a kind.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("no task of the kind `{kind}` could be made with these tools")]
 pub struct NoTask {
-    /// The kind.
+    /// Kind of the task.
     pub kind: TaskKind,
 }
 
 impl RandomSuite {
-    /// Version of the drawing: another one gives other tasks.
+    /// Version of the generator: another version has other tasks.
     pub const VERSION: u32 = 2;
 
-    /// Tasks for the tools of `library`, of the given kinds (all of them, if none is given).
+    /// Creates a suite for the tools of `library`, of the given kinds ([`TaskKind::ALL`], if none
+    /// is given).
     pub fn new(library: &ToolLibrary, seed: u64, kinds: &[TaskKind]) -> Self {
         let kinds = if kinds.is_empty() { &TaskKind::ALL } else { kinds };
         Self { tools: library.iter().cloned().collect(), seed, kinds: kinds.to_vec() }
     }
 
-    /// The kinds, in the order in which they take turns.
+    /// Returns the kinds in their order of alternation.
     pub fn kinds(&self) -> &[TaskKind] {
         &self.kinds
     }
 
-    /// The seed.
+    /// Returns the seed.
     pub fn seed(&self) -> u64 {
         self.seed
     }
 
-    /// The tools.
+    /// Returns the tools.
     pub fn tools(&self) -> &[Arc<Tool>] {
         &self.tools
     }
 
-    /// Task `index`: the same whether or not other kinds take turns with it, but for its index.
+    /// Returns task `index`. Apart from its index, a task does not depend on the other kinds of the
+    /// suite.
     ///
-    /// # Errors
-    /// If none could be made with these tools.
+    /// # Errors If no task could be made with these tools.
     pub fn task(&self, index: usize) -> Result<SuiteTask, NoTask> {
-        // From one round of kinds to the next the order is turned, so that tasks whose index
-        // leaves the same rest are of all kinds: that is what a shard measures.
+        // The order of kinds is rotated from round to round, so that every residue class of
+        // indices, as measured by a shard, has tasks of all kinds.
         let (round, place) = (index / self.kinds.len(), index % self.kinds.len());
         let kind = self.kinds[(round + place) % self.kinds.len()];
         // Kinds must not share tables.
@@ -105,7 +105,7 @@ impl RandomSuite {
         (0..tables).find_map(|_| self.draw(&mut rng, kind, round)).ok_or(NoTask { kind })
     }
 
-    /// A task, if this draw makes one.
+    /// Draws a task; returns `None` if the draw does not fit.
     fn draw(&self, rng: &mut Pcg64, kind: TaskKind, round: usize) -> Option<SuiteTask> {
         let mut task = open_task(rng, kind, round)?;
         let tools = self.tools_for(&task);
@@ -132,7 +132,7 @@ impl RandomSuite {
         (verdict.passed && both).then_some(SuiteTask { kind, task, made: Some((plan, tools)) })
     }
 
-    /// The tools that a task allows.
+    /// Returns the tools that a task allows.
     pub(super) fn tools_for(&self, task: &Task) -> Vec<Arc<Tool>> {
         let allowed = |tool: &&Arc<Tool>| match &task.tools {
             ToolChoice::All => true,
@@ -141,8 +141,8 @@ impl RandomSuite {
         self.tools.iter().filter(allowed).cloned().collect()
     }
 
-    /// Sets the goals where the candidate ends in the planar engine, if that makes a task of the
-    /// kind.
+    /// Sets the goals to the final poses of the candidate in the 2-D engine, if the result is a
+    /// task of the kind.
     fn made(&self, task: &mut Task, kind: TaskKind, candidate: &Candidate) -> Option<Plan> {
         let planar = Simulated::new(Simulator::planar());
         let scene: Scene = task.scene.clone();
@@ -161,8 +161,8 @@ impl RandomSuite {
         Some(plan)
     }
 
-    /// Puts a wall across the straight way, around which the candidate still brings the object
-    /// to the same place; `plan` is what it does without the wall.
+    /// Places a wall across the straight path. The candidate must still bring the object around the
+    /// wall to the same place; `plan` is its plan without the wall.
     fn walled(
         &self,
         rng: &mut Pcg64,
@@ -177,11 +177,11 @@ impl RandomSuite {
         for _ in 0..WALLS {
             let Some(wall) = wall(rng, &task.scene, object, corner, &straight) else { continue };
             let before = task.clone();
-            // The robot stands behind all others.
+            // The robot comes after all other obstacles.
             task.scene.obstacles.insert(0, wall);
             let clear = keeps_clear(&workspace(task, &self.tools), candidate, &plan.pushes());
             let plan = clear.then(|| self.made(task, TaskKind::Obstacle, candidate)).flatten();
-            // A wall that the object is pushed against would make another task than planned.
+            // A wall that the object is pushed against would change the task.
             let kept = (task.goals[0].place(&task.scene.start()) - straight.position).norm() < 1e-3;
             match plan {
                 Some(plan) if kept => return Some(plan),
@@ -192,7 +192,8 @@ impl RandomSuite {
     }
 }
 
-/// About where the object is farthest from its straight way, if every push carries it along.
+/// Returns roughly the point at which the object is farthest from its straight path, if every push
+/// moves it by its whole length.
 fn corner(start: Vector, end: Vector, candidate: &Candidate) -> Vector {
     let way = end - start;
     let mut at = start;

@@ -1,4 +1,4 @@
-//! Which measured level each effort stands for.
+//! Choice of a measured level for each effort.
 
 use std::collections::BTreeMap;
 
@@ -9,20 +9,20 @@ use super::front::{Noise, on_front};
 use super::measured::PlanRow;
 use super::{PlanLevel, Point};
 
-/// How much more often than the best level each effort may fail, as a share of disturbed replays:
-/// three times less from one to the next.
+/// Largest excess of each effort's failures over the best level, in shares of perturbed replays:
+/// three times less from one effort to the next.
 const LOSSES: [(Effort, f64); 3] =
     [(Effort::Draft, 0.10), (Effort::Standard, 0.032), (Effort::Thorough, 0.01)];
 
-/// Whether a level is one that `effort` can stand for: in all of them the shipped network decides, in
-/// the thorough one no other model screens for it.
+/// Returns `true` if a level is eligible for `effort`. The final model must be the shipped network,
+/// without a screening model for the thorough effort.
 pub fn is_open_to(effort: Effort, level: &PlanLevel) -> bool {
     let decides = level.model.first().kind == ModelKind::NETWORK;
     decides && (effort != Effort::Thorough || level.screen.is_none())
 }
 
-/// The level of each effort: of those that are open to it and on their front, the cheapest that fails
-/// no more often than it may. Where a cheap level is as robust as any, efforts are the same.
+/// Returns the level of each effort: the cheapest on the front of the eligible levels whose
+/// failures are within `LOSSES`. If a cheap level is as robust as any, efforts share it.
 pub fn choose_efforts(plans: &[PlanRow], noise: Noise) -> BTreeMap<Effort, PlanLevel> {
     let choose = |(effort, loss)| {
         let open = |row: &&PlanRow| row.is_complete() && is_open_to(effort, &row.level);
@@ -31,7 +31,7 @@ pub fn choose_efforts(plans: &[PlanRow], noise: Noise) -> BTreeMap<Effort, PlanL
         let front = on_front(&points, noise);
         let front = || rows.iter().zip(&front).filter(|(_, front)| **front).map(|(row, _)| *row);
         let best = front().map(|row| row.robustness).fold(0.0, f64::max);
-        // The small part is rounding.
+        // The small term absorbs rounding.
         let good = front().filter(|row| row.robustness >= best - loss - 1e-9);
         let cheapest = good.min_by(|a, b| a.seconds.total_cmp(&b.seconds))?;
         Some((effort, cheapest.level.clone()))
@@ -39,8 +39,8 @@ pub fn choose_efforts(plans: &[PlanRow], noise: Noise) -> BTreeMap<Effort, PlanL
     LOSSES.into_iter().filter_map(choose).collect()
 }
 
-/// The cheapest level with the prior alone that is cheaper than `row` and as robust, beyond the noise
-/// of costs and within that of robustness.
+/// Returns the cheapest level with the analytic model alone that is cheaper than `row` and as
+/// robust. The costs must differ by more than the noise, the robustness by no more than the noise.
 pub fn prior_instead<'a>(plans: &'a [PlanRow], row: &PlanRow, noise: Noise) -> Option<&'a PlanRow> {
     let alone =
         |level: &PlanLevel| level.model == ModelKind::PRIOR.into() && level.screen.is_none();

@@ -1,4 +1,4 @@
-//! What a push costs at every level, all levels in turn.
+//! Cost of a push at every level, all levels in turn.
 
 use pushplan::internals::asset::ToolLibrary;
 use pushplan_bench::store::Seconds;
@@ -14,26 +14,25 @@ use super::levels::Level;
 /// Numbers of objects on the table for which pushes are timed.
 pub(super) const OBJECTS: [usize; 3] = [1, 3, 9];
 
-/// Pushes predicted together: what a search does.
+/// Number of pushes predicted together, as in a search.
 pub(super) const BATCH: usize = 64;
 
-/// Processor time that each figure takes in a round, seconds, at least.
+/// Minimum processor time of each figure in a round, seconds.
 const ENOUGH: f64 = 0.05;
 
 /// Name of the time of 1e9 floating-point operations of matrix products.
 pub(super) const YARDSTICK: &str = "1e9 operations";
 
-/// The pushes that are timed: with one object, with three that touch, and in crowds of nine
-/// without joints.
+/// Timed pushes: with one object, with three that touch, and in crowds of nine without joints.
 pub(super) struct Timed {
     cases: [Vec<Case>; OBJECTS.len()],
 }
 
 impl Timed {
-    /// `count` pushes with one object, a quarter of that with more.
+    /// Draws `count` pushes with one object, and a quarter of that number with more.
     pub fn draw(library: &ToolLibrary, seed: u64, count: usize) -> Self {
         let few = count.div_ceil(4);
-        // Of touching cases those of one pass over the tools have two objects, the next three.
+        // Touching cases of one pass over the tools have two objects, cases of the next pass three.
         let touching = Suite::draw(SuiteKind::Touching, library, seed, 2 * library.len() + few);
         let three = touching.cases.into_iter().filter(|case| case.scene.objects.len() == 3);
         Self {
@@ -45,7 +44,7 @@ impl Timed {
         }
     }
 
-    /// One round: every level in turn, on this thread.
+    /// Runs a round: every level in turn, on this thread.
     pub fn round(&self, levels: &[Level]) -> Seconds {
         let mut seconds = Seconds::new();
         seconds.insert(YARDSTICK.to_owned(), 1e9 / peak());
@@ -65,12 +64,12 @@ impl Timed {
     }
 }
 
-/// What a push of `model` is called in the times of a round.
+/// Returns the name of the time of a push of `model` in a round.
 pub(super) fn key(objects: usize, model: &str) -> String {
     format!("{model}, {objects} on the table")
 }
 
-/// The same for one push at a time.
+/// Returns the name of the time of a push that is predicted alone.
 pub(super) fn alone_key(model: &str) -> String {
     format!("{model}, alone")
 }

@@ -1,8 +1,8 @@
-//! Which levels are worth having: the Pareto front of cost and error.
+//! The Pareto front of cost and error.
 
 use serde::{Deserialize, Serialize};
 
-/// What a level costs and how far it is off; less of either is better.
+/// Cost and error of a level; less of either is better.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
     /// Cost, in any unit.
@@ -11,7 +11,7 @@ pub struct Point {
     pub error: f64,
 }
 
-/// Differences that mean nothing.
+/// Insignificant differences.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Noise {
     /// Relative difference of costs.
@@ -20,14 +20,15 @@ pub struct Noise {
     pub error: f64,
 }
 
-/// Whether `a` makes `b` needless: it costs no more, is off by no more, and one of the two is less
-/// by more than the noise.
+/// Returns `true` if `a` makes `b` needless: neither cost nor error is larger, and one of the two
+/// is smaller by more than the noise.
 pub fn dominates(a: Point, b: Point, noise: Noise) -> bool {
     let no_worse = a.cost <= b.cost && a.error <= b.error;
     no_worse && (a.cost < b.cost * (1.0 - noise.cost) || a.error < b.error - noise.error)
 }
 
-/// For every point whether no other one dominates it. A point that is not finite is not on it.
+/// Returns for every point whether no other one dominates it. A point that is not finite is not on
+/// the front.
 pub fn on_front(points: &[Point], noise: Noise) -> Vec<bool> {
     let finite = |point: &Point| point.cost.is_finite() && point.error.is_finite();
     points
@@ -59,7 +60,7 @@ mod tests {
         assert!(!dominates(point(0.95, 4.0), point(1.0, 4.2), noise));
         assert!(dominates(point(0.85, 4.0), point(1.0, 4.2), noise));
         assert!(dominates(point(0.95, 3.0), point(1.0, 4.2), noise));
-        // Better of one and worse of the other, by however little.
+        // Better in one and worse in the other, by however little.
         assert!(!dominates(point(0.1, 4.3), point(1.0, 4.2), noise));
     }
 }

@@ -10,11 +10,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::trivial::{self, Follow, Projection};
 
-/// Frames predicted as one, besides single frames, that the shipped network and its prior are
-/// measured with.
+/// Numbers of frames predicted as one, in addition to single frames, for the shipped network and
+/// its analytic model.
 const STRIDES: [u8; 2] = [2, 4];
 
-/// Steps a second besides the default that the engines are measured with.
+/// Rates of the engines in addition to the default, steps per second.
 const PLANAR_RATES: [u16; 3] = [120, 60, 30];
 const SPATIAL_RATES: [u16; 1] = [120];
 
@@ -26,35 +26,35 @@ pub struct Level {
 }
 
 impl Level {
-    /// The predictor that `spec` describes.
+    /// Creates the predictor of `spec`.
     ///
-    /// # Errors
-    /// [`ModelError`] if it needs weights that cannot be used.
+    /// # Errors [`ModelError`] if it needs weights that cannot be used.
     pub fn new(spec: &ModelSpec) -> Result<Self, ModelError> {
         Ok(Self { name: spec.to_string(), model: Arc::new(trivial::load(spec)?) })
     }
 
-    /// The predictor.
+    /// Returns the predictor.
     pub fn model(&self) -> Arc<dyn EffectModel> {
         Arc::clone(&self.model)
     }
 
-    /// What it is.
+    /// Returns its identifier and settings.
     pub fn spec(&self) -> &ModelSpec {
         self.model.spec()
     }
 
-    /// The same in words.
+    /// Returns its name.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Whether jobs of one scene share work: then a push costs less in a batch.
+    /// Returns `true` if jobs of one scene share work, so that a push costs less in a batch.
     pub(super) fn batches(&self) -> bool {
         matches!(self.kind(), ModelKind::Network { .. } | ModelKind::Prior { .. })
     }
 
-    /// Whether it is measured on scenes of several objects too: engines and whole models.
+    /// Returns `true` if it is also measured on scenes of several objects: engines and unreduced
+    /// models.
     pub(super) fn is_plain(&self) -> bool {
         matches!(self.kind(), ModelKind::Simulated { .. })
             || (self.batches() && is_whole(self.kind()))
@@ -65,7 +65,7 @@ impl Level {
     }
 }
 
-/// Whether nothing is left out to make it cheaper.
+/// Returns `true` if nothing is left out to reduce the cost.
 fn is_whole(kind: &ModelKind) -> bool {
     match kind {
         ModelKind::Network { steps, stride, .. } => steps.is_none() && *stride == Stride::ONE,
@@ -74,11 +74,10 @@ fn is_whole(kind: &ModelKind) -> bool {
     }
 }
 
-/// All predictors: the shipped network with its variants, those of `other` weights files, the
-/// prior, the engines at several steps, and the trivial ones.
+/// Returns all predictors: the shipped network with its variants, the networks of `other` weights
+/// files, the analytic model, the engines at several rates, and the trivial models.
 ///
-/// # Errors
-/// [`ModelError`] if weights cannot be used.
+/// # Errors [`ModelError`] if weights cannot be used.
 pub fn levels(other: &[String]) -> Result<Vec<Level>, ModelError> {
     let strides = || STRIDES.into_iter().filter_map(NonZeroU8::new).map(Stride);
     let network = |weights, steps, stride| ModelKind::Network { weights, steps, stride };
@@ -103,19 +102,19 @@ pub fn levels(other: &[String]) -> Result<Vec<Level>, ModelError> {
 /// A predictor with the budgets of a planner.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlanLevel {
-    /// Model and budgets in words.
+    /// Name of the models and budgets.
     pub name: String,
-    /// The effect model that decides.
+    /// Final effect model.
     pub model: ModelSpec,
-    /// The one that screens, if it is another.
+    /// Screening model, if it differs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub screen: Option<ModelSpec>,
-    /// The budgets.
+    /// Budgets of the planner.
     pub settings: Settings,
 }
 
 impl PlanLevel {
-    /// What screens and what decides.
+    /// Returns the screening and the final model.
     pub fn models(&self) -> Models {
         let models = Models::from(self.model.clone());
         match &self.screen {
@@ -128,8 +127,8 @@ impl PlanLevel {
 /// Density of a search: its name, lateral offsets, beam and rollouts.
 type Search = (&'static str, usize, usize, usize);
 
-/// Refinement: its name, candidates, rounds and extra samples; and, where another model screens, the
-/// rounds of the one that decides and the candidates that go through them.
+/// Refinement: its name, candidates, rounds and extra samples. With a screening model, also the
+/// rounds of the final model and the number of candidates that go through them.
 type Refinement = (&'static str, usize, usize, usize, (usize, usize));
 
 const COARSE: Search = ("coarse", 3, 8, 500);
@@ -140,11 +139,13 @@ const LIGHT: Refinement = ("light", 3, 2, 0, (1, 2));
 const USUAL: Refinement = ("usual", 8, 4, 2, (1, 4));
 const STRONG: Refinement = ("strong", 24, 8, 4, (2, 4));
 
-/// Plans verified at once, batches of them, and disturbed replays of those that work, in each
-/// engine. One plan at least: without one it is unknown whether the plan works.
+/// Number of plans verified at once, of batches of them, and of perturbed replays of those that
+/// work, in each engine. At least one plan is verified, because it is otherwise unknown whether the
+/// plan works.
 type Verified = (usize, usize, usize);
 
-/// What the shipped network, alone or screened for by its prior, and the prior are planned with.
+/// Budgets of the shipped network, alone or screened by its analytic model, and of the analytic
+/// model.
 const EVERY: [(Search, Refinement, Verified); 7] = [
     (COARSE, LIGHT, (1, 1, 0)),
     (COARSE, LIGHT, (2, 2, 4)),
@@ -155,17 +156,17 @@ const EVERY: [(Search, Refinement, Verified); 7] = [
     (FINE, STRONG, (2, 12, 16)),
 ];
 
-/// The prior once more with more plans verified at once.
+/// Additional budget of the analytic model with more plans verified at once.
 const MANY_AT_ONCE: (Search, Refinement, Verified) = (MEDIUM, STRONG, (8, 3, 8));
 
-/// What other networks and the planar engine at a coarse step are planned with.
+/// Budgets of other networks and of the 2-D engine at a coarse step.
 const SOME: [(Search, Refinement, Verified); 3] =
     [(COARSE, LIGHT, (2, 2, 4)), (COARSE, USUAL, (2, 4, 8)), (MEDIUM, STRONG, (2, 12, 8))];
 
-/// What the planar engine at its usual step is planned with.
+/// Budgets of the 2-D engine at its usual step.
 const FEW: [(Search, Refinement, Verified); 1] = [(COARSE, LIGHT, (2, 2, 4))];
 
-/// The levels of planning with those of `levels` that are worth it.
+/// Returns the levels of planning with those predictors of `levels` that have budgets.
 pub fn plan_levels(levels: &[Level]) -> Vec<PlanLevel> {
     let mut plans = Vec::new();
     for spec in levels.iter().map(Level::spec) {

@@ -1,4 +1,4 @@
-//! What a run measured: the numbers of every level and which of them are on the front.
+//! Results of a run: the numbers of every level, and the levels on the front.
 
 use std::collections::BTreeMap;
 
@@ -17,42 +17,41 @@ use super::front::{Noise, Point, on_front};
 use super::levels::{Level, PlanLevel};
 use super::run::{CONTROL, TradeOffSettings, Unit, verification_key};
 
-/// Costs of tasks that differ by less are never told apart, relative.
+/// Smallest relative difference of costs of tasks that counts.
 const LEAST_COST_NOISE: f64 = 0.02;
 
-/// Name of the model whose cost the others are compared with.
+/// Name of the reference model for costs.
 const RIVAL: &str = "planar";
 
-/// Errors of one predictor on one kind of held-out pushes; objects that moved.
+/// Errors of a predictor on a kind of held-out pushes; objects that moved.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SuiteErrors {
-    /// Which pushes.
+    /// Kind of the pushes.
     pub suite: SuiteKind,
-    /// Distance from the planar truth's final positions, metres.
+    /// Distance from the final positions in the 2-D ground truth, metres.
     pub position: Option<Summary>,
-    /// Distance from the 3-D engine's, metres.
+    /// Distance from the final positions in the 3-D engine, metres.
     pub position_3d: Option<Summary>,
-    /// Objects without a finite prediction.
+    /// Number of objects without a finite prediction.
     pub failed: usize,
 }
 
 /// A predictor with its errors and its cost.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PredictorRow {
-    /// Its name.
+    /// Name of the predictor.
     pub model: String,
-    /// Its errors.
+    /// Errors by kind of pushes.
     pub suites: Vec<SuiteErrors>,
-    /// Processor time of a push with one object, seconds; of models that gain by it, many
-    /// predicted together.
+    /// Processor time of a push with one object, seconds; in a batch, for models that gain by it.
     pub seconds: f64,
-    /// The same for one push at a time, where that differs.
+    /// Processor time of a push predicted alone, where that differs, seconds.
     pub seconds_alone: Option<f64>,
     /// Whether no other predictor is both cheaper and more accurate (mean over one object).
     pub on_front: bool,
 }
 
-/// What a push costs with several objects on the table.
+/// Cost of a push with several objects on the table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ObjectCost {
     /// Number of objects.
@@ -61,49 +60,49 @@ pub struct ObjectCost {
     pub model: String,
     /// Processor time of a push, seconds.
     pub seconds: f64,
-    /// How many times as long the planar engine takes at its default step.
+    /// Cost of the 2-D engine at its default step relative to this predictor.
     pub planar_ratio: f64,
 }
 
-/// A level of planning with what it brought and cost.
+/// A level of planning with its results and its cost.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlanRow {
-    /// The level.
+    /// Level of planning.
     #[serde(flatten)]
     pub level: PlanLevel,
-    /// Share of the tasks whose goal the effect model says is reached.
+    /// Share of tasks with a predicted success.
     pub predicted: f64,
-    /// Share reached when replayed in the planar engine.
+    /// Share of tasks solved in the 2-D replay.
     pub planar: f64,
-    /// Share solved, as far as the level has verified it.
+    /// Share of tasks solved, as verified by the level.
     pub success: f64,
-    /// Share of disturbed replays that reach the goal, in the engine in which fewer do; mean over
-    /// the tasks. They are other ones than those by which the level has chosen its plan.
+    /// Share of perturbed replays that reach the goal, in the engine with fewer successes; mean
+    /// over the tasks. These replays differ from those by which the level has chosen its plan.
     pub robustness: f64,
     /// Final error in 3-D, metres.
     pub error: Option<Summary>,
-    /// Final error as predicted, metres.
+    /// Predicted final error, metres.
     pub predicted_error: Option<Summary>,
-    /// Rollouts of the effect model a task.
+    /// Number of rollouts of the effect model per task.
     pub rollouts: f64,
-    /// Plans verified a task.
+    /// Number of plans verified per task.
     pub verified: f64,
-    /// Processor time of a task on one thread, verification included, seconds.
+    /// Processor time of a task on one thread, including verification, seconds.
     pub seconds: f64,
-    /// The part of it that went to replays.
+    /// Processor time of the replays, seconds.
     pub verification: f64,
-    /// Whether no other level is both cheaper and more robust, beyond the noise, among those that
-    /// find out the robustness that tasks ask for.
+    /// Whether no other level is both cheaper and more robust, beyond the noise, among the levels
+    /// that determine robustness.
     pub on_front: bool,
 }
 
 impl PlanRow {
-    /// Cost and share of failures under disturbances.
+    /// Returns cost and share of failures under perturbations.
     pub fn point(&self) -> Point {
         Point { cost: self.seconds, error: 1.0 - self.robustness }
     }
 
-    /// Whether it finds out the robustness that tasks ask for.
+    /// Returns `true` if the level determines the robustness of plans.
     pub fn is_complete(&self) -> bool {
         self.level.settings.disturbed > 0
     }
@@ -112,27 +111,27 @@ impl PlanRow {
 /// A finished run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TradeOffReport {
-    /// Version of the form of saved files.
+    /// Version of the file format.
     pub schema_version: u32,
-    /// How much was measured.
+    /// Size of the run.
     pub counts: TradeOffSettings,
-    /// What one thread reached in matrix products in the same run, 1e9 operations a second.
+    /// Rate of matrix products of one thread in the same run, 1e9 operations per second.
     pub gigaflops: f64,
-    /// Relative differences of a push's cost that mean nothing: how far the median round is
-    /// from the fastest, which is the one given.
+    /// Noise of a push's cost, relative: the excess of the median round over the fastest, which is
+    /// the reported one.
     pub push_noise: f64,
-    /// Differences between levels of planning that mean nothing: the cost of one level measured
-    /// twice, and one standard error of the best level's robustness.
+    /// Noise between levels of planning: the difference of two measurements of one level's cost,
+    /// and one standard error of the best level's robustness.
     pub noise: Noise,
-    /// The planar truth against itself with the start off by 0.1 mm.
+    /// Comparison of the 2-D ground truth with itself, with the start off by 0.1 mm.
     pub spread: Vec<SuiteErrors>,
-    /// Predictors.
+    /// Predictors with errors and costs.
     pub predictors: Vec<PredictorRow>,
     /// Costs by number of objects.
     pub objects: Vec<ObjectCost>,
     /// Levels of planning.
     pub plans: Vec<PlanRow>,
-    /// The level that each effort stands for.
+    /// Level chosen for each effort.
     pub efforts: BTreeMap<Effort, PlanLevel>,
 }
 
@@ -222,7 +221,7 @@ fn object_costs<'a>(
         .collect()
 }
 
-/// The tasks with the outcomes of all levels.
+/// Iterates over the tasks with the outcomes of all levels.
 fn tasks(units: &[(Unit, Seconds)]) -> impl Iterator<Item = (&[SolvedTask], &Seconds)> {
     units.iter().filter_map(|(unit, times)| match unit {
         Unit::Task { plans, .. } => Some((plans.as_slice(), times)),
@@ -277,7 +276,7 @@ fn plan_rows(plans: &[PlanLevel], units: &[(Unit, Seconds)], noise: Noise) -> Ve
     rows
 }
 
-/// Where nothing can be pushed, nothing holds.
+/// Returns the robustness, zero if nothing can be pushed.
 fn robustness(task: &SolvedTask) -> f64 {
     task.robustness.unwrap_or_default()
 }
@@ -304,7 +303,7 @@ fn task_noise(units: &[(Unit, Seconds)], plans: &[PlanLevel]) -> Noise {
     }
 }
 
-/// Median over all figures of how much longer than the fastest the median round is.
+/// Returns the median over all figures of the relative excess of the median round over the fastest.
 fn round_noise(rounds: &[&Seconds]) -> f64 {
     let keys = rounds.first().map(|round| round.keys()).into_iter().flatten();
     let mut excess: Vec<f64> = keys

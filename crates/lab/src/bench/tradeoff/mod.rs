@@ -1,11 +1,15 @@
-//! Speed against accuracy: every level of the ladder on the same pushes and the same tasks, in
-//! one run.
+//! Speed against accuracy: every level of the ladder on the same pushes and the same tasks, in a
+//! single run.
 //!
-//! A run is made of units that are kept one by one (see [`pushplan_bench::store::Store`]): the errors of one
-//! predictor on held-out pushes; one round of timing all predictors in turn; one task solved at
-//! all levels of planning in turn. Costs are processor time of one thread, so other work on the
-//! machine does not count, and comparisons are between neighbours in time. What comes out is
-//! plain data: the measured levels, those on the front, and the one that each effort stands for.
+//! A run consists of units that are stored one by one (see [`pushplan_bench::store::Store`]):
+//!
+//! * the errors of a predictor on held-out pushes,
+//! * a round of timing all predictors in turn,
+//! * a task solved at all levels of planning in turn.
+//!
+//! Costs are processor time of one thread, so other work on the machine does not count. Compared
+//! measurements are close in time. The result is plain data: the measured levels, the levels on the
+//! front, and the level chosen for each effort.
 
 mod choice;
 mod cost;

@@ -1,4 +1,4 @@
-//! Measuring, unit by unit.
+//! Measurement, unit by unit.
 
 use std::sync::OnceLock;
 
@@ -25,49 +25,49 @@ use super::measured::{SuiteErrors, TradeOffReport};
 /// Held-out pushes on which errors are measured.
 const SUITES: [SuiteKind; 2] = [SuiteKind::Single, SuiteKind::Touching];
 
-/// How often the plan of a level is replayed with small disturbances in each engine after the clock
-/// has stopped: the same draws for all levels, and other ones than it was chosen by.
+/// Perturbed replays of the plan of a level in each engine, after the clock has stopped. All levels
+/// have the same draws, which differ from those by which the plan was chosen.
 const DISTURBED: VerifySettings = VerifySettings { disturbed: 12, seed: 0xD157 };
 
-/// Name of the time of the level that every task is solved with a second time.
+/// Name of the time of the level that solves every task a second time.
 pub(super) const CONTROL: &str = "control";
 
-/// How much is measured.
+/// Size of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TradeOffSettings {
-    /// Held-out pushes of each kind.
+    /// Number of held-out pushes of each kind.
     pub pushes: usize,
-    /// Pushes that are timed.
+    /// Number of timed pushes.
     pub timed: usize,
-    /// Rounds of timing.
+    /// Number of rounds of timing.
     pub rounds: usize,
-    /// Tasks solved.
+    /// Number of tasks.
     pub tasks: usize,
-    /// Their tolerances, as a share of those with which the suite makes them: the smaller, the
-    /// more a level must try.
+    /// Tolerances of the tasks relative to the tolerances of the suite. Smaller tolerances
+    /// require more search.
     pub tolerance: f64,
-    /// Seed of all of them.
+    /// Seed of pushes and tasks.
     pub seed: u64,
 }
 
-/// What is kept of a unit; its times are kept apart.
+/// Record of a unit; its times are stored separately.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Unit {
-    /// Errors of one predictor.
+    /// Errors of a predictor.
     Predictor {
-        /// Its name.
+        /// Name of the predictor.
         model: String,
-        /// Of each kind of pushes.
+        /// Errors on each kind of pushes.
         suites: Vec<SuiteErrors>,
     },
     /// A round of timing.
     Round,
     /// A task at all levels of planning.
     Task {
-        /// Its kind.
+        /// Kind of the task.
         kind: TaskKind,
-        /// In the order of the levels.
+        /// Results in the order of the levels.
         plans: Vec<SolvedTask>,
     },
 }
@@ -89,11 +89,10 @@ impl<'a> TradeOff<'a> {
     /// Name of the suite in manifests.
     pub const SUITE: &'static str = "tradeoff";
 
-    /// A run over `levels` and `plans`, whose models are among them; those of others are left
-    /// out.
+    /// Creates a run over `levels` and `plans`. Plans whose models are not among the levels are
+    /// left out.
     ///
-    /// # Errors
-    /// If the one thread that is timed cannot be started.
+    /// # Errors If the timing thread cannot be started.
     pub fn new(
         library: &'a ToolLibrary,
         levels: Vec<Level>,
@@ -125,7 +124,8 @@ impl<'a> TradeOff<'a> {
         })
     }
 
-    /// What decides the records. `weights` are digests of the networks' weights.
+    /// Returns the settings that determine the records. `weights` are digests of the networks'
+    /// weights.
     pub fn manifest(&self, weights: &[String]) -> RunManifest {
         let units = self.levels.len() + 1 + self.settings.rounds + self.settings.tasks;
         let names: Vec<&str> = self.levels.iter().map(Level::name).collect();
@@ -140,7 +140,7 @@ impl<'a> TradeOff<'a> {
             .with_settings(settings)
     }
 
-    /// What unit `index` is, in words.
+    /// Returns the title of unit `index`.
     pub fn title(&self, index: usize) -> String {
         let rounds = self.levels.len() + 1;
         match index {
@@ -151,11 +151,10 @@ impl<'a> TradeOff<'a> {
         }
     }
 
-    /// Measures unit `index`. Errors are computed on the current rayon pool; what is timed runs
-    /// on one thread.
+    /// Measures unit `index`. Errors are computed on the current rayon pool; timed work runs on one
+    /// thread.
     ///
-    /// # Errors
-    /// If a task cannot be made with these tools.
+    /// # Errors If a task cannot be made with these tools.
     pub fn measure(&self, index: usize) -> Result<Measured<Unit>, RandomError> {
         let rounds = self.levels.len() + 1;
         let tasks = rounds + self.settings.rounds;
@@ -178,7 +177,7 @@ impl<'a> TradeOff<'a> {
         })
     }
 
-    /// The numbers of a finished run.
+    /// Returns the numbers of a finished run.
     pub fn report(&self, units: &[(Unit, Seconds)]) -> TradeOffReport {
         TradeOffReport::of(self.settings, &self.levels, &self.plans, units)
     }
@@ -229,7 +228,7 @@ impl<'a> TradeOff<'a> {
     }
 }
 
-/// Replays the plan to use, verified or not, as written and disturbed.
+/// Replays the selected plan, verified or not, nominally and perturbed.
 fn replay(task: &Task, solution: &mut Solution) {
     let situation = Situation::stated(&task.scene);
     if let Some(best) = solution.plans.first_mut() {
@@ -238,7 +237,7 @@ fn replay(task: &Task, solution: &mut Solution) {
     }
 }
 
-/// What the time of a level's replays is called.
+/// Returns the name of the time of a level's replays.
 pub(super) fn verification_key(level: &str) -> String {
     format!("{level}, verification")
 }

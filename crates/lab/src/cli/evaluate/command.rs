@@ -1,4 +1,4 @@
-//! The command: what is measured on what.
+//! The command and its arguments.
 
 use clap::Args;
 use pushplan::internals::scene::ModelSpec;

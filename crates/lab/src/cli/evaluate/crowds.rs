@@ -1,4 +1,4 @@
-//! Measuring on a set of crowds.
+//! Evaluation on a set of crowds.
 
 use pushplan::internals::effect::EffectModel;
 use pushplan::internals::scene::ModelSpec;
@@ -16,7 +16,7 @@ use crate::trivial;
 
 use super::sources::CrowdArgs;
 
-/// What is asked for.
+/// An evaluation on crowds.
 pub struct Crowds<'a> {
     pub sets: &'a [CrowdSet],
     pub model: &'a ModelSpec,
@@ -27,10 +27,9 @@ pub struct Crowds<'a> {
 }
 
 impl Crowds<'_> {
-    /// Errors on a set of scenes.
+    /// Returns the errors on a set of scenes.
     ///
-    /// # Errors
-    /// A model that cannot be read.
+    /// # Errors If a model cannot be read.
     pub fn set(&self, set: &CrowdSet, session: &Session) -> Result<CrowdReport, CliError> {
         let models = self.models()?;
         let following = Following::bar(session, &set.title());
@@ -42,10 +41,9 @@ impl Crowds<'_> {
         Ok(report)
     }
 
-    /// Prints the newest report, unless only one table of all is wanted.
+    /// Prints the newest report, unless only a summary table is requested.
     ///
-    /// # Errors
-    /// Those of [`Form::show`].
+    /// # Errors Returns errors of [`Form::show`].
     pub fn show_part(&self, reports: &[CrowdReport], session: &Session) -> Result<(), CliError> {
         match self.args.summary {
             true => Ok(()),
@@ -55,8 +53,7 @@ impl Crowds<'_> {
 
     /// Writes the folder's files, if there is a folder.
     ///
-    /// # Errors
-    /// If that cannot be done.
+    /// # Errors If a file cannot be written.
     pub fn write(&self, suites: &[HeldOutReport], crowds: &[CrowdReport]) -> Result<(), CliError> {
         let Some(folder) = &self.args.out else { return Ok(()) };
         let document = evaluation_document(suites, crowds);
@@ -65,8 +62,8 @@ impl Crowds<'_> {
         Ok(())
     }
 
-    /// The model that is asked for, the same under other assumptions about joints, and what
-    /// it is compared with.
+    /// Returns the requested model, the model under other assumptions about joints, and its
+    /// baselines.
     fn models(&self) -> Result<Vec<Box<dyn EffectModel>>, CliError> {
         let mut models: Vec<Box<dyn EffectModel>> = vec![self.load(self.model)?];
         if self.args.no_baselines {
@@ -83,8 +80,7 @@ impl Crowds<'_> {
 
     /// Builds a model that is used only where it can be trusted.
     ///
-    /// # Errors
-    /// A model that cannot be read.
+    /// # Errors If a model cannot be read.
     pub fn load(&self, spec: &ModelSpec) -> Result<Box<dyn EffectModel>, CliError> {
         Ok(Box::new(trivial::load(spec)?.outside(self.outside.outside())))
     }

@@ -1,5 +1,5 @@
-//! `pushplan-lab evaluate`: errors of effect models on pushes that none was trained on, on crowds, and
-//! on the user's own recordings.
+//! `pushplan-lab evaluate`: errors of effect models on held-out pushes, on crowds, and on the
+//! user's own recordings.
 
 mod command;
 mod crowds;

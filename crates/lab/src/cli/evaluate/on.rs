@@ -1,10 +1,10 @@
-//! What to measure on, by a word.
+//! Targets of an evaluation, by name.
 
 use std::str::FromStr;
 
 use crate::bench::{CrowdFamily, SuiteKind};
 
-/// One thing to measure on.
+/// A target of an evaluation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum On {
     /// Pushes of the shipped tools.

@@ -1,4 +1,4 @@
-//! What is drawn to be measured on, part by part: kept, resumed and split into shards.
+//! Drawn pushes and trajectories, measured part by part: stored, resumed and split into shards.
 
 use pushplan::internals::effect::EffectModel;
 use pushplan::internals::watch::Unwatched;
@@ -20,13 +20,13 @@ use crate::trivial;
 /// Name of the suite in manifests.
 pub const SUITE: &str = "evaluation";
 
-/// All pushes of a kind, or all trajectories of a set.
+/// Pushes of a kind, or trajectories of a set.
 enum Part<'a> {
     Tools(SuiteKind),
     Crowd(&'a CrowdSet),
 }
 
-/// What is measured on what is drawn.
+/// An evaluation on drawn pushes and trajectories.
 pub struct Parts<'a> {
     pub args: &'a EvaluateArgs,
     pub kinds: &'a [SuiteKind],
@@ -34,11 +34,10 @@ pub struct Parts<'a> {
 }
 
 impl Parts<'_> {
-    /// Measures what is left of this shard's parts; each table is printed, and the folder's files
-    /// are written, as it is done.
+    /// Measures the remaining parts of this shard. Each table is printed, and the folder's files
+    /// are written, as soon as its part is done.
     ///
-    /// # Errors
-    /// A model that cannot be read; a folder that holds something else or cannot be written.
+    /// # Errors If a model cannot be read, or the folder has other content or cannot be written.
     pub fn run(
         &self,
         session: &Session,
@@ -70,7 +69,7 @@ impl Parts<'_> {
         Ok(by_kind(store.finished().iter().map(|part| &part.record)))
     }
 
-    /// Everything that decides the records.
+    /// Returns the settings that determine the records.
     fn manifest(&self, parts: &[Part]) -> Result<RunManifest, CliError> {
         let EvaluateArgs { pushes, seed, crowd, outside, library, .. } = self.args;
         let library = library.load()?;
@@ -92,7 +91,7 @@ impl Parts<'_> {
             .with_settings(settings))
     }
 
-    /// Errors on pushes of the shipped tools.
+    /// Returns the errors on pushes of the shipped tools.
     fn tools(&self, kind: SuiteKind, session: &Session) -> Result<HeldOutReport, CliError> {
         let (args, spec) = (self.args, self.crowds.model);
         let library = args.library.load()?;
@@ -112,7 +111,8 @@ impl Parts<'_> {
         Ok(report)
     }
 
-    /// Prints the table of a part and writes the folder's files, with those `shown` before it.
+    /// Prints the table of a part and writes the folder's files, including the parts `shown`
+    /// before.
     fn show(
         &self,
         shown: &mut Vec<Evaluated>,

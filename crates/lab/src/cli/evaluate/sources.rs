@@ -1,4 +1,4 @@
-//! Crowds to measure on, picked by options.
+//! Selection of crowds by options.
 
 use std::path::PathBuf;
 
@@ -39,10 +39,9 @@ pub struct CrowdArgs {
 }
 
 impl CrowdArgs {
-    /// The sets that are asked for.
+    /// Returns the selected sets.
     ///
-    /// # Errors
-    /// Options that leave none of them.
+    /// # Errors If the options leave none of them.
     pub fn sets(&self, families: &[CrowdFamily]) -> Result<Vec<CrowdSet>, CliError> {
         let all = families.iter().flat_map(|family| CrowdSet::all(*family));
         let sets: Vec<CrowdSet> = all.filter(|set| self.picks(set)).collect();

@@ -1,4 +1,4 @@
-//! Which network is trained, and what every training is told.
+//! Choice of the network to train, and common arguments.
 
 use std::path::PathBuf;
 
@@ -53,7 +53,7 @@ pub(super) struct RunArgs {
 }
 
 impl RunArgs {
-    /// The number of lever-ups, out of `count`, that are learned from.
+    /// Returns the number of lever-ups, out of `count`, that are learned from.
     pub fn share(&self, count: usize) -> usize {
         (count * usize::from(self.share)).div_ceil(100)
     }

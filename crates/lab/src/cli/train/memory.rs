@@ -1,4 +1,4 @@
-//! `pushplan-lab train memory`: a long short-term memory that is told other things than the shipped one.
+//! `pushplan-lab train memory`: a long short-term memory with other inputs than the shipped one.
 
 use std::path::PathBuf;
 
@@ -84,7 +84,7 @@ pub fn run(args: &MemoryArgs, session: &Session) -> Result<u8, CliError> {
 }
 
 impl MemoryArgs {
-    /// Of a network that is told nothing of the shape.
+    /// Returns the settings of a network without features of the shape.
     fn settings(&self, data: &[LeverDataset]) -> LeverSettings {
         let config = |set: &LeverDataset| {
             let share = self.run.share(set.episodes().len()) as u64;
@@ -108,7 +108,7 @@ impl MemoryArgs {
         }
     }
 
-    /// What is learned from.
+    /// Returns the training set.
     fn known(&self, set: &LeverDataset) -> Vec<LeverEpisode> {
         let corners =
             |episode: &LeverEpisode| episode.scene.plates[episode.lever.plate].corners().len();
@@ -116,7 +116,7 @@ impl MemoryArgs {
         some.filter(|episode| Some(corners(episode)) != self.leave_out).cloned().collect()
     }
 
-    /// A part of a random split, or all without one.
+    /// Returns a part of a random split, or everything without a split.
     fn part<'a>(
         &self,
         set: &'a LeverDataset,

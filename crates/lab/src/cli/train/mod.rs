@@ -1,4 +1,4 @@
-//! `pushplan-lab train`: networks of lever-ups that are compared with the shipped one, and lost.
+//! `pushplan-lab train`: rejected networks of lever-ups, for comparison with the shipped one.
 
 mod command;
 mod memory;

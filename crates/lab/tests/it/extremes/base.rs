@@ -1,4 +1,4 @@
-//! The base scene that one factor at a time departs from, and the pushes drawn for it.
+//! The base scene, from which one factor at a time departs, and the pushes drawn for it.
 
 use std::sync::Arc;
 
@@ -14,23 +14,23 @@ use pushplan::{
 use pushplan_lab::bench::Case;
 use pushplan_learn::dataset::{Aim, aimed_stroke, random_direction, random_heading};
 
-/// Tries to aim a push before a scene is given up: nearly all succeed within ten.
+/// Number of tries to aim a push before a scene is given up: nearly all succeed within ten.
 const TRIES: usize = 1000;
 
-/// Height of the tools' underside above the metres.
+/// Height of the tools' underside above the table, metres.
 pub const LIFT: f64 = 0.002;
 
-/// Where pushes come from.
+/// Source of pushes.
 pub struct Draw<'a> {
-    /// The shipped tools, which take turns.
+    /// Shipped tools, which alternate.
     pub library: &'a ToolLibrary,
-    /// Pushes a cell.
+    /// Number of pushes per cell.
     pub pushes: usize,
-    /// The same scenes and pushes are drawn in every cell, as far as its extreme lets them.
+    /// Seed of scenes and pushes, which are equal in every cell as far as its extreme allows.
     pub seed: u64,
 }
 
-/// How a push goes.
+/// Geometry and speed of a push.
 #[derive(Clone)]
 pub struct Way {
     /// Travel, metres.
@@ -39,7 +39,7 @@ pub struct Way {
     pub speed: f64,
     /// Gap at the start, metres.
     pub gap: f64,
-    /// The tool, where it is none of the shipped ones.
+    /// Tool, if it is not a shipped one.
     pub tool: Option<Arc<Tool>>,
 }
 
@@ -50,13 +50,12 @@ impl Default for Way {
 }
 
 impl Draw<'_> {
-    /// One push for each scene that `scene` makes; the random generator is the same in every
-    /// cell.
+    /// Draws a push for each scene of `scene`. The random generator is equal in every cell.
     pub fn pushes(&self, way: &Way, scene: impl Fn(&mut Pcg64) -> Scene) -> Vec<Case> {
         let tools: Vec<_> = self.library.iter().collect();
         let case = |index: usize| {
             let mut rng = generator(self.seed ^ 0xE57E, index as u64);
-            // Models are told how high the planar engine presses, which judges them.
+            // Models receive the push height of the 2-D engine, their reference.
             let scene = Scene { push_height: Some(Physics::PUSH_HEIGHT), ..scene(&mut rng) };
             let state = scene.start();
             let tool = match &way.tool {
@@ -75,13 +74,13 @@ impl Draw<'_> {
         (0..self.pushes).filter_map(case).collect()
     }
 
-    /// The same with another number of pushes.
+    /// Returns the source with another number of pushes.
     pub fn with(&self, pushes: usize) -> Self {
         Self { pushes: pushes.min(self.pushes), ..*self }
     }
 }
 
-/// The two solids that single pushes are made on.
+/// The two solids of single pushes.
 #[derive(Clone, Copy)]
 pub enum Solid {
     Cylinder,
@@ -91,12 +90,12 @@ pub enum Solid {
 impl Solid {
     pub const BOTH: [Self; 2] = [Self::Cylinder, Self::Cuboid];
 
-    /// The base object: 10 cm across, 400 g, of wood.
+    /// Returns the base object: 10 cm across, 400 g, of wood.
     pub fn object(self) -> Object {
         self.sized(0.10)
     }
 
-    /// The same with its longest horizontal extent `size` metres.
+    /// Returns the base object with a longest horizontal extent of `size` metres.
     pub fn sized(self, size: f64) -> Object {
         match self {
             Self::Cylinder => Object::cylinder("object", 0.5 * size, 0.1),
@@ -105,7 +104,7 @@ impl Solid {
     }
 }
 
-/// A scene and its motion, shifted by `shift` metres.
+/// Returns a scene and its motion, shifted by `shift` metres.
 pub fn shifted(mut case: Case, shift: Vector) -> Case {
     use pushplan::scene::JointKind;
     let objects = case.scene.objects.iter_mut().map(|object| &mut object.pose);
@@ -122,7 +121,8 @@ pub fn shifted(mut case: Case, shift: Vector) -> Case {
     case
 }
 
-/// A scene and its motion with `turn` radians added to every heading, which turns nothing.
+/// Returns a scene and its motion with `turn` radians, a multiple of a full rotation, added to
+/// every heading.
 pub fn wound(mut case: Case, turn: f64) -> Case {
     for object in &mut case.scene.objects {
         object.pose.heading += turn;

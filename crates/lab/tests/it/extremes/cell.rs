@@ -1,13 +1,13 @@
-//! A cell of the grid: pushes that have one extreme in common.
+//! A cell of the grid: pushes that share an extreme.
 
 use pushplan_lab::bench::Case;
 
-/// Which ordinary pushes the errors of a cell are measured by.
+/// Kind of ordinary pushes that the errors of a cell are compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// One cylinder.
+    /// A cylinder.
     Cylinder,
-    /// One cuboid.
+    /// A cuboid.
     Cuboid,
     /// Several objects that touch.
     Several,
@@ -19,25 +19,25 @@ impl Kind {
     pub const ALL: [Self; 4] = [Self::Cylinder, Self::Cuboid, Self::Several, Self::Jointed];
 }
 
-/// Pushes that have one extreme in common.
+/// Pushes that share an extreme.
 pub struct Cell {
-    /// What is extreme.
+    /// Name of the extreme factor.
     pub factor: &'static str,
-    /// How extreme it is.
+    /// Value of the factor.
     pub value: String,
-    /// Which ordinary pushes its errors are measured by.
+    /// Kind of ordinary pushes that its errors are compared with.
     pub kind: Kind,
     /// The pushes.
     pub cases: Vec<Case>,
-    /// Why the planar engine cannot be trusted here either, where that is known.
+    /// Reason for which the 2-D engine cannot be trusted either, if known.
     pub doubt: Option<Doubt>,
 }
 
-/// Why, and in which pushes, the planar engine is not to be trusted.
+/// Reason and condition of distrust in the 2-D engine.
 #[derive(Clone, Copy)]
 pub struct Doubt {
     pub why: &'static str,
-    /// Only where an object touches the tool and an obstacle.
+    /// Whether only pushes in which an object touches the tool and an obstacle are affected.
     pub crushed: bool,
 }
 
@@ -51,12 +51,12 @@ impl Cell {
         Self { factor, value: value.into(), kind, cases, doubt: None }
     }
 
-    /// The same cell with a truth that is not to be trusted.
+    /// Returns the cell with an untrusted ground truth.
     pub fn doubted(self, why: &'static str) -> Self {
         Self { doubt: Some(Doubt { why, crushed: false }), ..self }
     }
 
-    /// The same cell with a truth that is not to be trusted where an object touches the tool and
+    /// Returns the cell with a ground truth that is untrusted where an object touches the tool and
     /// an obstacle.
     pub fn doubted_if_crushed(self, why: &'static str) -> Self {
         Self { doubt: Some(Doubt { why, crushed: true }), ..self }

@@ -23,18 +23,18 @@ const SINKING: &str = "bodies of very different mass sink into each other, or ne
 const THROWN: &str = "the engine throws overlapping bodies apart";
 const CRUSHED: &str = "nothing gives way: the engine presses the object into tool or wall";
 
-/// Objects that touch, as many as wanted, drawn from the trained ranges.
+/// Draws a given number of touching objects from the training ranges.
 pub fn touching(draw: &Draw, count: usize) -> Vec<Case> {
     let crowd = Crowd { count, solids: Solids::Any, touching: 0.8, polygons: 0.0 };
     draw.pushes(&Way::default(), |rng| random_scene(rng, &Preset::Tools.ranges(), crowd))
 }
 
-/// A row of cans, each joined to the next.
+/// Returns a row of cans, each joined to the next.
 pub fn row(draw: &Draw, count: usize, kind: fn(Vector) -> JointKind) -> Vec<Case> {
     draw.pushes(&Way::default(), |rng| turned(rng, row_scene(count, kind)))
 }
 
-/// A joint about a free axis at the point between two neighbours.
+/// Returns a joint about a free axis at the point between two neighbours.
 pub fn hinge(at: Vector) -> JointKind {
     JointKind::Revolute { at, limits: None }
 }
@@ -47,7 +47,7 @@ fn rigid(_: Vector) -> JointKind {
     JointKind::Fixed
 }
 
-/// All cells of several objects.
+/// Returns all cells of several objects.
 pub fn cells(draw: &Draw) -> Vec<Cell> {
     let mut cells = Vec::new();
     let several = Kind::Several;
@@ -65,7 +65,7 @@ pub fn cells(draw: &Draw) -> Vec<Cell> {
     cells
 }
 
-/// Two objects in a row, the tool meeting either.
+/// Adds cells of two objects in a row, with the tool on either side.
 fn mass_ratios(draw: &Draw, cells: &mut Vec<Cell>) {
     for ratio in [3.0, 10.0, 30.0, 100.0, 1000.0] {
         let cases = draw.pushes(&Way::default(), |rng| {
@@ -77,7 +77,7 @@ fn mass_ratios(draw: &Draw, cells: &mut Vec<Cell>) {
         let cell = Cell::new("ratio of masses", format!("1:{ratio}"), Kind::Several, cases);
         cells.push(if ratio > 10.0 { cell.doubted(SINKING) } else { cell });
     }
-    // Light between heavy: what task files are not allowed to hold.
+    // A light object between heavy ones, which task files do not allow.
     let cases = draw.pushes(&Way::default(), |rng| {
         let mut scene = row_scene(5, rigid);
         scene.joints.clear();
@@ -105,7 +105,7 @@ fn overlaps(draw: &Draw, cells: &mut Vec<Cell>) {
     }
 }
 
-/// An object before a wall, pushed towards it.
+/// Adds cells of an object before a wall, pushed towards it.
 fn walls(draw: &Draw, cells: &mut Vec<Cell>) {
     for (gap, name) in
         [(0.19, "just reached"), (0.15, "after 15 cm of 20"), (0.05, "after 5 cm of 20")]
@@ -129,7 +129,7 @@ fn walls(draw: &Draw, cells: &mut Vec<Cell>) {
     }
 }
 
-/// Puts a wide wall square to the push, `gap` metres ahead of the object.
+/// Adds a wide wall perpendicular to the push, `gap` metres ahead of the object.
 fn wall(case: &mut Case, gap: f64) {
     let Some(stroke) = case.motion.strokes.first() else { return };
     let ahead = (stroke.to.position - stroke.from.position).normalize();
@@ -179,7 +179,7 @@ fn row_scene(count: usize, kind: fn(Vector) -> JointKind) -> Scene {
     })
 }
 
-/// A can and a brick that touch, or are `depth` metres deep in each other.
+/// Returns a can and a brick that touch, or overlap by `depth` metres.
 fn pair(rng: &mut rand_pcg::Pcg64, depth: f64) -> Scene {
     let (mut can, mut brick) = (Solid::Cylinder.object(), Solid::Cuboid.object());
     (can.name, brick.name) = ("can".into(), "brick".into());
@@ -187,7 +187,7 @@ fn pair(rng: &mut rand_pcg::Pcg64, depth: f64) -> Scene {
     turned(rng, Scene::new([can, brick]))
 }
 
-/// The scene turned by any angle about the origin.
+/// Returns the scene rotated by a random angle about the origin.
 fn turned(rng: &mut rand_pcg::Pcg64, mut scene: Scene) -> Scene {
     let turn = Pose::new(0.0, 0.0, rng.random_range(0.0..TAU));
     for object in &mut scene.objects {

@@ -1,11 +1,11 @@
-//! Judging a cell: the model against the planar engine, and the engine against itself.
+//! Judgement of a cell: the model against the 2-D engine, and the engine against itself.
 //!
-//! A push is *wrong* when its error exceeds [`TIMES_P95`] times the 95th percentile of ordinary
-//! pushes of its kind and [`SHARE`] of the true motion, and also [`TIMES_OWN`] times the truth's
-//! own uncertainty: what it changes by when the time step is halved or the start shifted by 0.1
-//! mm. An error within that uncertainty is *undecided*. A cell is wrong (or undecided) when more
-//! than [`PUSHES`] of its pushes are; single pushes beyond the rule occur among ordinary ones,
-//! too.
+//! A push is *wrong* when its error exceeds three bounds: [`TIMES_P95`] times the 95th percentile
+//! of ordinary pushes of its kind, [`SHARE`] of the true motion, and [`TIMES_OWN`] times the
+//! uncertainty of the ground truth. This uncertainty is the change of its motion with half the time
+//! step or the start shifted by 0.1 mm. An error within that uncertainty is *undecided*. A cell is
+//! wrong (or undecided) when more than [`PUSHES`] of its pushes are, because single pushes beyond
+//! the rule also occur among ordinary ones.
 
 use std::num::NonZeroU16;
 
@@ -25,41 +25,41 @@ use serde_json::Value as Json;
 
 use super::cell::{Cell, Kind};
 
-/// Times the 95th percentile of ordinary errors of the kind.
+/// Factor on the 95th percentile of ordinary errors of the kind.
 const TIMES_P95: f64 = 3.0;
 
 /// Share of the true motion.
 const SHARE: f64 = 0.05;
 
-/// The truth's rate of steps, doubled.
+/// Twice the step rate of the ground truth.
 const TWICE: Rate = Rate(Rate::DEFAULT.0.saturating_mul(NonZeroU16::MIN.saturating_add(1)));
 
-/// Times the truth's own uncertainty.
+/// Factor on the uncertainty of the ground truth.
 const TIMES_OWN: f64 = 3.0;
 
 /// Share of a cell's pushes.
 const PUSHES: f64 = 0.10;
 
-/// An object that ends farther from its start than this many times what the tool covers, while
-/// it moves and while the object may coast at its speed, has been thrown. Joints make levers.
+/// Factor on the travel of the tool, including coasting at its speed, beyond which an object has
+/// been thrown. The factor is above one because joints make levers.
 const THROWN: f64 = 5.0;
 
-/// What became of a cell.
+/// Verdict on a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// Right, and no warning.
     Right,
-    /// Right, and the model warned: it did not know that it would be.
+    /// Right, but the model warned, because its accuracy was unknown.
     RightFlagged,
     /// Wrong, and the model warned.
     WrongFlagged,
-    /// The planar engine itself cannot be trusted, and the model warned.
+    /// The 2-D engine itself cannot be trusted, and the model warned.
     Undecided,
     /// Wrong or undecided without a warning, not finite or not bounded.
     Defect,
 }
 
-/// Errors of the ordinary pushes of a kind: what the extremes are measured by.
+/// Errors of the ordinary pushes of a kind, the reference for the extremes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Yardstick {
     pub kind: Kind,
@@ -67,36 +67,36 @@ pub struct Yardstick {
     pub error: Summary,
     /// Largest motion of a push, metres.
     pub motion: Summary,
-    /// Share of the pushes that the rule calls wrong.
+    /// Share of pushes judged wrong.
     pub wrong: f64,
 }
 
-/// A cell, judged.
+/// Result of a cell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judged {
     pub pushes: usize,
-    /// Pushes with a finite answer in every frame.
+    /// Number of pushes with a finite answer in every frame.
     pub finite: usize,
-    /// Pushes in which everything kept within what the tool could do.
+    /// Number of pushes in which all motion was within the tool's means.
     pub bounded: usize,
     /// Largest true motion of a push, metres.
     pub motion: Option<Summary>,
     /// Largest error of a push, metres.
     pub error: Option<Summary>,
-    /// The planar engine against itself, metres.
+    /// Differences of the 2-D engine from itself, metres.
     pub own: Option<Summary>,
-    /// Pushes that the rule calls wrong.
+    /// Number of pushes judged wrong.
     pub wrong: usize,
-    /// Pushes for which the truth's own uncertainty is larger than the rule's bound.
+    /// Number of pushes for which the uncertainty of the ground truth exceeds the rule's bound.
     pub undecided: usize,
-    /// Pushes that the model warned of.
+    /// Number of pushes with a warning.
     pub flagged: usize,
-    /// What it warned of, each once.
+    /// Distinct warnings.
     pub warnings: Vec<String>,
     pub verdict: Verdict,
 }
 
-/// One push, measured.
+/// Result of a push.
 struct Measured {
     finite: bool,
     bounded: bool,
@@ -187,7 +187,7 @@ impl Measured {
     }
 }
 
-/// Over the finite values.
+/// Summarises the finite values.
 fn summary(measured: &[Measured], value: impl Fn(&Measured) -> f64) -> Option<Summary> {
     let values = measured.iter().map(value).filter(|value| value.is_finite());
     Summary::of(&values.collect::<Vec<f64>>())
@@ -200,12 +200,12 @@ fn measure_all(model: &dyn EffectModel, cases: &[Case]) -> Vec<Measured> {
 fn measure(model: &dyn EffectModel, Case { scene, motion }: &Case, index: usize) -> Measured {
     let job = Job::stated(scene, motion.clone());
     let start = &job.start;
-    // Contacts are noted frame by frame only.
+    // Contacts are recorded only with frames.
     let run = |simulator: Simulator, job: &Job| simulator.run(scene, job, Record::Frames);
     let truth = run(Simulator::planar(), &job);
     let poses = &truth.outcome().poses;
     let finer = run(Simulator::new(Engine::Planar, TWICE), &job);
-    // Every object by itself, so that joints are strained, too.
+    // Every object is shifted alone, so that joints are strained as well.
     let loose = Physics { joints: Vec::new(), ..Physics::clone(&job.physics) };
     let mut rng = generator(0xD157, index as u64);
     let shifted = shifted_start(start, &loose, DISTURBANCE, &mut rng);
@@ -243,8 +243,8 @@ fn measure(model: &dyn EffectModel, Case { scene, motion }: &Case, index: usize)
     }
 }
 
-/// How far the object that is farthest off is off, metres: its centre's distance and, for a
-/// cuboid, the turn times the mean radius, added as squares.
+/// Returns the largest error of an object, metres. The error is the distance of its centre and, for
+/// a cuboid, the rotation times the mean radius, added as squares.
 fn apart(scene: &Scene, start: &State, predicted: &[Pose], truth: &[Pose]) -> f64 {
     let errors = object_errors(scene, &start.poses, Some(predicted), truth);
     largest(errors.iter().zip(&scene.objects).map(|(error, object)| {
@@ -253,12 +253,12 @@ fn apart(scene: &Scene, start: &State, predicted: &[Pose], truth: &[Pose]) -> f6
     }))
 }
 
-/// The largest, undefined if any is.
+/// Returns the largest value, or NaN if any is NaN.
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |most, value| if value.is_nan() || value > most { value } else { most })
 }
 
-/// Whether an object touches the tool and an obstacle.
+/// Returns `true` if an object touches the tool and an obstacle.
 fn crushed(scene: &Scene, truth: &Trajectory) -> bool {
     let touches = |object: usize, obstacle: bool| {
         truth.contacts.iter().any(|contact| {
@@ -273,8 +273,8 @@ fn crushed(scene: &Scene, truth: &Trajectory) -> bool {
     (0..scene.objects.len()).any(|k| touches(k, false) && touches(k, true))
 }
 
-/// Length of the way of the tool's farthest point, and of what slides on at its greatest speed
-/// until waiting is given up, metres.
+/// Returns the path length of the tool's farthest point, plus the maximum coasting distance of an
+/// object at its greatest speed, metres.
 fn covered(motion: &ToolMotion) -> f64 {
     let parts = motion.tool.parts().iter();
     let reach = parts
@@ -288,16 +288,16 @@ fn covered(motion: &ToolMotion) -> f64 {
     };
     let way: f64 = ways().map(|(way, _)| way).sum();
     let speed = ways().map(|(way, time)| way / time).fold(0.0, f64::max);
-    // A tool set down into an object pushes it out by at most its own size.
+    // A tool placed in an object pushes it out by at most its own size.
     way + speed * MAX_COAST_FRAMES as f64 * COAST_FRAME + reach
 }
 
-/// A warning without its numbers and names.
+/// Returns a warning without its numbers and names.
 fn brief(warning: &Warning) -> String {
     if let Warning::OutsideRange { quantity, .. } = warning {
         return format!("outside: {quantity}");
     }
-    // The name of the kind, as files have it.
+    // Name of the kind, as in files.
     match serde_json::to_value(warning) {
         Ok(Json::String(kind)) => kind.replace('_', " "),
         Ok(Json::Object(map)) => map.keys().map(|kind| kind.replace('_', " ")).collect(),

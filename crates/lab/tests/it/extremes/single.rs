@@ -16,7 +16,7 @@ use super::{
     cell::{Cell, Kind},
 };
 
-/// Pushes of the cells that take minutes of simulated time each.
+/// Number of pushes of the cells that take minutes of simulated time each.
 const FEW: usize = 6;
 
 const NEVER_STOPS: &str = "without friction nothing comes to rest";
@@ -30,7 +30,7 @@ impl Solid {
     }
 }
 
-/// Pushes on one object that `change` has made extreme, at a random heading.
+/// Draws pushes on an object that `change` has made extreme, at a random heading.
 fn on(draw: &Draw, solid: Solid, way: &Way, change: impl Fn(&mut Object)) -> Vec<Case> {
     draw.pushes(way, |rng| {
         let mut object = solid.object();
@@ -40,12 +40,12 @@ fn on(draw: &Draw, solid: Solid, way: &Way, change: impl Fn(&mut Object)) -> Vec
     })
 }
 
-/// The ordinary pushes of `solid`.
+/// Draws the ordinary pushes of `solid`.
 pub fn ordinary(draw: &Draw, solid: Solid) -> Vec<Case> {
     on(draw, solid, &Way::default(), |_| {})
 }
 
-/// All cells of one object.
+/// Returns all cells of one object.
 pub fn cells(draw: &Draw) -> Vec<Cell> {
     let mut cells = Vec::new();
     for solid in Solid::BOTH {
@@ -164,7 +164,7 @@ fn places(draw: &Draw, solid: Solid, cells: &mut Vec<Cell>) {
         let cases = ordinary.iter().map(|case| wound(case.clone(), turns * TAU)).collect();
         cells.push(Cell::new("turns of every heading", turns.to_string(), kind, cases));
     }
-    // A wide face that the object cannot leave at once, for as long as 10,000 frames.
+    // A wide face that the object cannot leave at once, for up to 10,000 frames.
     let way = Way { travel: 100.0, speed: 0.3, tool: Some(bar([0.02, 0.5])), ..Way::default() };
     let cases = on(&draw.with(FEW), solid, &way, |_| {});
     cells.push(Cell::new("frames in a rollout", "10000", kind, cases));
@@ -190,7 +190,7 @@ fn tools(draw: &Draw, solid: Solid, cells: &mut Vec<Cell>) {
     add("32 parts in a row", tool(teeth.collect()));
 }
 
-/// Several factors at once, each just outside or at the end of what was trained.
+/// Adds cells with several factors, each just outside or at the end of the training range.
 fn corners(draw: &Draw, solid: Solid, cells: &mut Vec<Cell>) {
     let kind = solid.kind();
     let mut add = |value: &str, size: f64, friction: f64, speed: f64| {
@@ -215,13 +215,13 @@ fn corners(draw: &Draw, solid: Solid, cells: &mut Vec<Cell>) {
     add("1 m, 2 m/s, friction 1.5", 1.0, 1.5, 2.0);
 }
 
-/// A tool of one cuboid of these horizontal extents (metres).
+/// Returns a tool of a cuboid with these horizontal extents (metres).
 fn bar([x, y]: [f64; 2]) -> Arc<Tool> {
     tool(vec![Part::cuboid("bar", [x, y, 0.05], Pose::default())])
 }
 
 fn tool(parts: Vec<Part>) -> Arc<Tool> {
-    // Parts above lie side by side, so no joint has to be found.
+    // The parts above are side by side, so no joint has to be found.
     let joints: Vec<[usize; 2]> = (1..parts.len()).map(|k| [k - 1, k]).collect();
     Arc::new(Tool::joined("extreme", parts, &joints).expect("one piece"))
 }

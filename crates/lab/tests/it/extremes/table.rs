@@ -8,7 +8,7 @@ use super::cell::{Cell, Kind};
 use super::judged::{Judged, Verdict, Yardstick};
 use super::tasks::TaskCell;
 
-/// How cells are judged, in words.
+/// Rule by which cells are judged.
 const RULE: &str = "\
 Every cell is a set of pushes that have one extreme in common; everything else is a 10 cm object of
 400 g and friction 0.4 on a table of 0.5, or two or three of them, pushed 20 cm at 0.1 m/s by the
@@ -25,7 +25,7 @@ Where the engine itself is known to be wrong (\u{2020}) every push must be flagg
 that is where the object truly touches both tool and wall.
 ";
 
-/// The page; `command` made it.
+/// Returns the page, with the `command` that writes it.
 pub fn page(extremes: &Extremes, command: &str) -> String {
     let mut doubts: Vec<&str> =
         extremes.cells.iter().filter_map(|(cell, _)| Some(cell.doubt?.why)).collect();
@@ -170,7 +170,7 @@ fn verdict(judged: &Judged) -> String {
     }
 }
 
-/// `NoPlan` as `no plan`.
+/// Converts `NoPlan` to `no plan`.
 fn words(name: &str) -> String {
     let mut words = String::new();
     for letter in name.chars() {
@@ -182,7 +182,7 @@ fn words(name: &str) -> String {
     words
 }
 
-/// A length from micrometres to whatever.
+/// Formats a length from micrometres upwards.
 fn short(metres: f64) -> String {
     if metres >= 10.0 {
         format!("{metres:.3e} m")

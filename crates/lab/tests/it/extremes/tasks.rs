@@ -1,4 +1,4 @@
-//! Whole tasks with extreme numbers: what the planner makes of them.
+//! Whole tasks with extreme numbers, solved by the planner.
 
 use std::sync::Arc;
 
@@ -12,10 +12,10 @@ use pushplan::{
 };
 use pushplan_lab::bench::random_task;
 
-/// What should come of a task.
+/// Expected result of a task.
 #[derive(Clone, Copy)]
 enum Expected {
-    /// A plan that works, of at most this many pushes.
+    /// A plan that works, with at most this many pushes.
     Solved(usize),
     /// No plan that works.
     Unsolved,
@@ -25,21 +25,21 @@ enum Expected {
     Refused,
 }
 
-/// Something that makes a task extreme.
+/// A change that makes a task extreme.
 type Change = fn(&mut Task);
 
-/// A task, solved.
+/// Result of a task.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TaskCell {
     pub name: &'static str,
-    /// How solving ended; `None` where the task was refused.
+    /// Final status; `None` if the task was refused.
     pub status: Option<PlanStatus>,
-    /// Pushes of the first plan.
+    /// Number of pushes of the first plan.
     pub pushes: Option<usize>,
     /// Its predicted error, metres.
     pub error: Option<f64>,
     pub rollouts: usize,
-    /// Whether that is what it should be.
+    /// Whether the result is the expected one.
     pub sound: bool,
 }
 
@@ -115,13 +115,13 @@ const TASKS: [(&str, Expected, Change); 20] = [
     ("negative mass", Expected::Refused, |task| task.scene.objects[0].mass = -1.0),
 ];
 
-/// Solves all of them with a first look's effort.
+/// Solves all tasks with draft effort.
 pub fn solved(model: &Arc<dyn EffectModel>, library: &ToolLibrary, seed: u64) -> Vec<TaskCell> {
     let planner = Planner::builder(Arc::clone(model)).effort(Effort::Draft).build();
     TASKS
         .into_iter()
         .map(|(name, expected, change)| {
-            // A cuboid: headings count.
+            // A cuboid, because headings count.
             let mut task = random_task(library, seed, 1);
             change(&mut task);
             judged(name, expected, planner.solve(&task, library).ok())
@@ -129,7 +129,7 @@ pub fn solved(model: &Arc<dyn EffectModel>, library: &ToolLibrary, seed: u64) ->
         .collect()
 }
 
-/// `None` for a task that was refused.
+/// Judges a solution; `None` is a refused task.
 fn judged(name: &'static str, expected: Expected, solution: Option<Solution>) -> TaskCell {
     let best = solution.as_ref().and_then(Solution::best);
     let status = solution.as_ref().map(|solution| solution.status);
