@@ -30,13 +30,13 @@
 //! |---|---|
 //! | an object is not observed | the others are used; up to three observations at rest |
 //! | an object is not at its position in the task at first | the observed position is used |
-//! | an object is still not observed at rest | predicted pose; [`ActError::Lost`] for a goal's object |
+//! | an object is still not observed | predicted pose; [`ActError::Lost`] for a goal's object |
 //! | an instant is missing | the next observation covers the motion since the last one |
 //! | late, out of order | sorted by time within one motion |
 //! | from before the motion, or without a finite time | discarded |
 //! | NaN or infinity | treated as not observed |
 //! | two objects confused | swapped back |
-//! | an object far from any possible position | not observed, unless a second observation at rest agrees |
+//! | an object far from any possible position | discarded unless a second observation agrees |
 //! | another number of objects | [`ActError::Objects`] |
 //!
 //! If a robot stops a push early, [`World::stopped`] returns where, and the observations cover the
