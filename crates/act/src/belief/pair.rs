@@ -60,20 +60,16 @@ impl fmt::Display for JointType {
     }
 }
 
-/// Prior probabilities of near pairs: half of them are joined, and all joint types are equally
-/// frequent.
+/// Prior probabilities of near pairs: half are joined, with equally frequent joint types.
 const PRIOR: [f64; 4] = [0.5, 1.0 / 6.0, 1.0 / 6.0, 1.0 / 6.0];
 
-/// Share of anchors midway between two objects and of axes along their line of centres.
-///
-/// `MIDWAY` and `ALONG` are the standard deviations of regular and other anchors, metres, and axes,
-/// radians.
+/// Share of regular anchors (midway) and axes (along the line of centres), and standard
+/// deviations of regular and other anchors, metres, and axes, radians.
 const REGULAR: f64 = 0.6;
 const MIDWAY: [f64; 2] = [3e-3, 25e-3];
 const ALONG: [f64; 2] = [0.05, 0.35];
 
-/// Number of evenly spaced directions over half a turn around which irregular axes are searched
-/// for.
+/// Number of evenly spaced directions around which irregular axes are searched for.
 const DIRECTIONS: usize = 4;
 
 /// Lower bound of a hypothesis's log-weight relative to the best, so that it can recover.
