@@ -32,7 +32,7 @@ pub trait World {
     ///
     /// The tool is set down where the first stroke begins and moved along all strokes; only the
     /// last one settles. After all objects rest, the tool [retreats](ToolMotion::retreat) and is
-    /// lifted. More instants give more information; one per 10 mm of travel is sufficient.
+    /// lifted. More observations give more information, but one per 10 mm of travel is sufficient.
     ///
     /// # Errors
     /// If the motion was not carried out as requested.

@@ -237,7 +237,7 @@ impl Belief {
         self.with_known(of_types(&self.scene, &self.pairs, &self.track.state, types))
     }
 
-    /// Returns the types from the last informative window alone, as a memoryless baseline.
+    /// Returns the types from the last informative window alone: a memoryless baseline.
     pub fn last_types(&self) -> Vec<JointType> {
         let last = |p: usize| self.history.iter().rev().find_map(|step| step.evidence[p]);
         let of = |p| last(p).map_or(JointType::None, |evidence| PairBelief::by_window(&evidence));

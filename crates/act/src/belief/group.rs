@@ -42,7 +42,7 @@ const SWEEPS: usize = 2;
 /// Minimum filter probability of a type that is tried.
 const LEAST: f64 = 0.01;
 
-/// Maximum number of replayed assignments, whose cost is about that of the filter.
+/// Maximum number of replayed assignments, whose cost equals about the cost of the filter.
 const PLAYS: usize = 64;
 
 /// Log-likelihood deficit to the best assignment after any window at which a replay is abandoned.

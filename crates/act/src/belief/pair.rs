@@ -215,7 +215,7 @@ impl PairBelief {
 
     /// Returns the rank of a pair among pairs whose joints would close a loop.
     ///
-    /// In a rigid group, all objects move alike relative to a third, so fixed joints rank first.
+    /// All objects of a rigid group move alike relative to a third, so fixed joints rank first.
     /// Then come joints whose anchor or axis is regular for the pair. The regulator already
     /// accounts for this.
     pub fn rank(&self) -> f64 {
@@ -262,9 +262,9 @@ impl PairBelief {
 
     /// Returns how irregular the most probable anchor and axis are.
     ///
-    /// The values are the distance of the anchor from the midpoint, metres, the sine of the angle
-    /// between axis and line of centres, and the standard deviations of anchor (metres) and axis
-    /// (radians).
+    /// The first two values are the distance of the anchor from the midpoint, metres, and the sine
+    /// of the angle between axis and line of centres. The others are the standard deviations of
+    /// anchor and axis, metres and radians.
     pub fn places(&self) -> [f64; 4] {
         let [mut anchor, mut axis, mut anchor_sd, mut axis_sd] = [0.0; 4];
         if let Some(best) = self.best(JointType::Revolute) {

@@ -41,7 +41,7 @@ pub const NO_STOP: [f64; 2] = [3.0, 10.0];
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stops([Side; 2]);
 
-/// One side of a joint.
+/// Side of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Side {
     /// Maximum observed displacement, radians or metres, and its variance.

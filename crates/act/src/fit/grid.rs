@@ -13,7 +13,7 @@ pub struct Axis {
     pub count: usize,
 }
 
-/// All pairs of a spread and a friction coefficient.
+/// Pairs of a spread and a friction coefficient.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Grid {
     /// Support spread as a share of the corners' distance.

@@ -24,7 +24,7 @@ pub struct Estimate {
     /// Central interval with a probability of 0.9.
     pub interval: Span,
     /// Whether the recordings identify the parameter: the posterior standard deviation is less than
-    /// 0.6 times that of the uniform prior.
+    /// 0.6 times the deviation of the uniform prior.
     pub told: bool,
     /// Whether the best value is at the end of the prior range.
     pub at_the_end: bool,

@@ -4,8 +4,8 @@
 //! rollout on it: pose errors, joint drift and overlap. [`Summary`] and [`RelativeErrors`]
 //! aggregate these with confidence intervals.
 //!
-//! Held-out evaluation in training, benchmarks and robustness tests all use this module, so it
-//! depends on `effect` only. It draws no scenes, creates no ground truth and prints nothing.
+//! Held-out evaluation in training, benchmarks and robustness tests all use this module. It draws
+//! no scenes, creates no ground truth and prints nothing.
 
 mod baselines;
 mod comparison;

@@ -14,9 +14,8 @@ pub struct Drift {
     pub joints: usize,
     /// Mean violation of the joint, metres.
     ///
-    /// For a fixed joint this is the distance of the second object from its place relative to the
-    /// first. For a revolute joint it is the distance between both anchors, for a prismatic joint
-    /// the offset across the axis.
+    /// Fixed joint: distance of the second object from its place relative to the first. Revolute
+    /// joint: distance between both anchors. Prismatic joint: offset across the axis.
     pub mean: f64,
     /// Maximum violation, metres.
     pub max: f64,

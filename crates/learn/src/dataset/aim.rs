@@ -17,8 +17,8 @@ use super::chance::{heading, uniform, weighted};
 /// Minimum distance to all other bodies when the tool is set down, metres.
 pub const SET_DOWN: f64 = 1e-4;
 
-/// Probabilities of the lateral aim: at the face of a part; anywhere over the tool's outline,
-/// including edges and near misses; beside an edge, for inner corners and grazing contacts.
+/// Probabilities of the lateral aim: at the face of a part, anywhere over the tool's outline
+/// (including edges and near misses), and beside an edge (inner corners and grazing contacts).
 const LATERAL: [f64; 3] = [0.5, 0.2, 0.3];
 
 /// Share of near misses that are kept: a model must recognise a miss but learns little from it.

@@ -14,7 +14,7 @@ use super::tools::pushed_by_tool;
 /// Scene, tool motion and ground truth.
 ///
 /// The ground truth is from the 2-D engine if the scene states the height at which the tool
-/// presses. Otherwise it is from the 3-D engine or MuJoCo, as the data set is configured.
+/// presses. Otherwise it is from the 3-D engine or MuJoCo, depending on the configuration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Episode {
     /// Index of the episode in its data set.

@@ -29,8 +29,8 @@ use super::tabletop::USUAL_HEIGHT;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Preset {
-    /// One to three objects, sometimes obstacles, pushed by random tools of cuboids, occasionally
-    /// by a round tool.
+    /// Tables with one to three objects, sometimes with obstacles, pushed by random tools of
+    /// cuboids and occasionally by a round tool.
     #[default]
     Tools,
     /// Scattered objects. The hand makes seven or eight straight 30 cm strokes, each aimed at an

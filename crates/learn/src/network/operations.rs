@@ -68,9 +68,9 @@ impl CustomOp2 for BiasRectify {
 
 /// Messages summed at their receivers.
 ///
-/// For every relation k from s to r the message is `rectify(a_k + b_r + c_s)`, with a [2, R, h], b
-/// [2, N, h], c [2, M, h] and the result [2, N, h]. A sender beyond the last row of c has no term
-/// of its own.
+/// The message of every relation k from s to r is `rectify(a_k + b_r + c_s)`. Shapes: a [2, R, h],
+/// b [2, N, h], c [2, M, h], result [2, N, h]. A sender beyond the last row of c has no term of its
+/// own.
 pub(super) struct Messages {
     pub receivers: Arc<[u32]>,
     pub senders: Arc<[u32]>,

@@ -112,7 +112,7 @@ impl Predictor {
 
     /// Returns the outputs of every node, even columns first.
     ///
-    /// For pushes they are the corrections of the analytic model in output units, [N, 6] in the
+    /// The outputs for pushes are corrections of the analytic model in output units, [N, 6] in the
     /// order of [`pushplan::internals::graph::Node::prior`].
     ///
     /// # Errors

@@ -5,7 +5,7 @@
 //! `last.safetensors` (the weights of the last evaluation).
 //!
 //! A network implements [`Trainable`]; its examples, loss and score are in a folder of its own.
-//! Data come from `dataset`; this module generates none.
+//! Data come from `dataset`. This module generates none.
 
 mod checkpoint;
 mod descent;

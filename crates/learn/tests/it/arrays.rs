@@ -64,7 +64,7 @@ fn files_are_the_same_for_any_number_of_threads_and_interruptions() {
         .sum::<usize>();
     assert_eq!([bytes, again], [sizes as u64; 2]);
 
-    // The arrays contain what the sampler draws.
+    // The arrays contain the sampler's episodes.
     let drawn = Dataset::in_memory(&config.split(5, 2), &Unwatched).unwrap();
     let first = whole.path().join("episodes-00000.npz");
     let (header, poses) = floats(&first, "pose");

@@ -1,7 +1,7 @@
 //! Comparison of lever-ups in MuJoCo and our engine by medians, because slips and falls are
 //! sensitive.
 //!
-//! These tests need a Python with the package `mujoco`, as the tests of plans do.
+//! These tests need a Python with the package `mujoco`, like the tests of plans.
 
 use std::fs;
 use std::process::Command;

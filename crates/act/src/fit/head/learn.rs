@@ -28,8 +28,8 @@ const FOLDS: usize = 5;
 
 /// Number of standard errors by which a head must improve on no head.
 ///
-/// With one, a third of the draws of 20 pushes yielded a head, and those heads were worse on new
-/// pushes.
+/// A third of the draws of 20 pushes yielded a head with one standard error, and these heads were
+/// worse on new pushes.
 const SURE: f64 = 2.0;
 
 /// Number of posterior directions kept: a file of about 60 KB. The other directions count as

@@ -29,7 +29,7 @@ const DENSITY: f64 = 1900.0;
 /// standoff and wall and stay upright.
 const STANDOFF: f64 = 0.006;
 
-/// Distance of the levered place from a corner, metres, beside the standoffs.
+/// Minimum distance of the levered place from a corner, metres, beside the standoffs.
 const FROM_CORNER: f64 = 0.014;
 
 /// Names of the walls, in the order of the board's edges.

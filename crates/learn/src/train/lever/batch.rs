@@ -163,8 +163,8 @@ impl LeverBatch {
 
     /// Returns the loss, averaged over lever-ups.
     ///
-    /// It contains root mean square distances of positions and axes over the frames and at rest,
-    /// and cross entropies of slip and ending. `beside` is an optional additional input, see
+    /// The loss contains root mean square distances of positions and axes over the frames and at
+    /// rest, and cross entropies of slip and ending. `beside` is an optional additional input, see
     /// [`LeverGraph::forward`].
     ///
     /// # Errors

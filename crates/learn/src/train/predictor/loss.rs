@@ -1,4 +1,4 @@
-//! One-frame loss: pseudo-Huber on the six outputs of every node.
+//! Loss of a single frame: pseudo-Huber on the six outputs of every node.
 
 use candle_core::{Device, Result, Tensor};
 
