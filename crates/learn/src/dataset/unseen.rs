@@ -9,8 +9,8 @@ use rand_pcg::Pcg64;
 
 use super::chance::{log_uniform, uniform, weighted};
 
-/// Probabilities of uniform support, of a spread support between the centre and the corners, and of
-/// three support points.
+/// Probabilities of uniform support, of a spread support (see [`SPREAD`]), and of three support
+/// points.
 const SUPPORTS: [f64; 3] = [0.35, 0.40, 0.25];
 
 /// Radius of spread supports, as a share of the corners' distance.

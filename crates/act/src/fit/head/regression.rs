@@ -74,8 +74,8 @@ impl Regression {
 
     /// Adds the posterior of an earlier fit as prior knowledge.
     ///
-    /// Each direction in which that posterior is narrow becomes a pseudo-observation. Across them
-    /// its mean becomes the prior mean.
+    /// Each direction in which that posterior is narrow becomes a pseudo-observation. Across these
+    /// directions its mean becomes the prior mean.
     pub fn after(mut self, TableFit { head, spread, .. }: &TableFit) -> Self {
         let dot = |direction: &[f32], values: &[f64]| -> f64 {
             direction.iter().zip(values).map(|(a, b)| f64::from(*a) * b).sum()
