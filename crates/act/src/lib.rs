@@ -2,9 +2,9 @@
 //!
 //! - [`judge`]: errors of predictions against recorded and simulated motion,
 //! - [`fit`]: frictions, supports and an adapted network from recordings of a table,
-//! - [`belief`]: what objects are like, from observed motion,
-//! - [`regulator`]: the network that corrects beliefs about joints,
-//! - [`act`]: the closed loop.
+//! - [`belief`]: joints and parameters of objects, from observed motion,
+//! - [`regulator`]: network that corrects beliefs about joints,
+//! - [`act`]: closed loop.
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 

@@ -1,28 +1,28 @@
-//! How far a predicted lever-up is from what happened.
+//! Errors of predicted lever-ups.
 
 use serde::{Deserialize, Serialize};
 
 use pushplan::internals::geometry::Pose3;
 use pushplan::internals::{outcome::LeverTrajectory, task::LeverJob};
 
-/// Differences of two trajectories of one lever-up.
+/// Differences between two trajectories of a lever-up.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeverError {
     /// Root mean square distance of the centres of mass over the frames of the turn, metres.
     pub lift: f64,
-    /// Their distance at its end, metres.
+    /// Distance of the centres of mass at the end of the turn, metres.
     pub last: f64,
-    /// Angle between the two at its end, radians.
+    /// Angle between both rotations at the end of the turn, radians.
     pub turn: f64,
-    /// Their distance at rest, metres.
+    /// Distance of the centres of mass at rest, metres.
     pub rest: f64,
-    /// Whether both slip, or neither.
+    /// Whether both slip or both do not slip.
     pub same_slip: bool,
-    /// Whether both end alike.
+    /// Whether both have the same ending.
     pub same_ending: bool,
 }
 
-/// Compares what a model `predicted` of `job` with the `truth`.
+/// Compares the trajectory `predicted` for `job` with the ground truth.
 pub fn lever_error(
     job: &LeverJob,
     truth: &LeverTrajectory,

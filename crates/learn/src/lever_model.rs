@@ -1,4 +1,4 @@
-//! Models of lever-ups as they are trained and compared: one object followed through one lever-up.
+//! Models of lever-ups for training and comparison: one object followed through one lever-up.
 
 use std::sync::Arc;
 
@@ -9,22 +9,22 @@ use pushplan::internals::outcome::LeverTrajectory;
 use pushplan::internals::sim::LeverSimulator;
 use pushplan::internals::task::LeverJob;
 
-/// Predicts what lever-ups do.
+/// Model that predicts lever-ups.
 ///
 /// Implementations run a batch of jobs in parallel on the current rayon pool and return the
 /// same bits for any number of threads, trajectories in the order of the jobs.
 pub trait LeverModel: Send + Sync {
-    /// Name in a comparison.
+    /// Returns the name in a comparison.
     fn name(&self) -> String;
 
-    /// Returns `true` if the model leaves out nothing that matters for `job`.
+    /// Returns `true` if the model covers all relevant effects of `job`.
     fn takes(&self, job: &LeverJob) -> bool;
 
-    /// Predicts every job until everything rests.
+    /// Predicts every job until all objects rest.
     fn rollout(&self, jobs: &[LeverJob]) -> Vec<LeverTrajectory>;
 }
 
-/// Makes a pointer to a model a model.
+/// Implements [`LeverModel`] for a pointer to a model.
 macro_rules! models_behind {
     ($($pointer:ident),*) => {$(
         impl<M: LeverModel + ?Sized> LeverModel for $pointer<M> {
@@ -82,10 +82,10 @@ impl LeverModel for LeverNetwork {
     }
 }
 
-/// A simulator as a model: the most expensive levels of the ladder, and the truth of the others.
+/// Simulator as a model: the ground truth, or a more expensive baseline.
 #[derive(Clone, Copy, Debug)]
 pub struct SimulatedLevers {
-    /// The engine with its step.
+    /// Engine with its time step.
     pub simulator: LeverSimulator,
 }
 

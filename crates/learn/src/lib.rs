@@ -1,8 +1,8 @@
-//! Makes what pushplan's networks are: data from simulation, and weights trained on them.
+//! Training data from simulation, and training of pushplan's networks.
 //!
-//! `dataset` draws scenes and motions and has an engine say what they do; `network` is the candle
-//! graph of every network that `pushplan` runs without candle; `train` fits the one to the other;
-//! `cli` is the command `pushplan-learn`. Nothing in `pushplan` knows this crate.
+//! `dataset` draws scenes and motions and simulates them. `network` contains the candle graphs of
+//! all networks that `pushplan` runs without candle. `train` fits the networks to the data, and
+//! `cli` is the command `pushplan-learn`. `pushplan` does not depend on this crate.
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 

@@ -5,7 +5,7 @@ use serde_json::json;
 
 use crate::train::{HeldOutError, Line};
 
-/// A run of training so far, as curves.
+/// Returns the curves of a training run so far.
 pub fn training_document(lines: &[Line<HeldOutError>]) -> Document {
     let section =
         Section { figures: vec![Figure::chart("curves", chart(lines))], ..Section::default() };
@@ -17,10 +17,10 @@ pub fn training_document(lines: &[Line<HeldOutError>]) -> Document {
     }
 }
 
-/// What the curves show.
+/// Title of the curves.
 const TITLE: &str = "Held-out final position error during training";
 
-/// Held-out errors over the steps.
+/// Returns the chart of held-out errors over the steps.
 fn chart(lines: &[Line<HeldOutError>]) -> Chart {
     let series = |name: &str, value: &dyn Fn(&Line<HeldOutError>) -> f64| Series {
         name: name.to_owned(),

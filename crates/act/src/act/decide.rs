@@ -1,4 +1,4 @@
-//! Which push comes next, under what is believed.
+//! Choice of the next push under the current belief.
 
 use std::sync::Arc;
 
@@ -17,23 +17,24 @@ use super::probe::{pays, probe};
 use super::runner::Runner;
 use super::trace::{Step, Trace, Why};
 
-/// A plan that misses in all samples is worth a push if it comes nearer by this share on average.
+/// Minimum relative reduction of the mean error that justifies a plan reaching the goal in no
+/// sample.
 const NEARER: f64 = 0.05;
 
-/// The most pushes that are planned at once; of a longer way only the first are.
+/// Maximum number of pushes planned at once. Of longer plans only the first pushes are planned.
 const AT_ONCE: usize = 3;
 
-/// Plans of more pushes are not looked for, however many the task allows.
+/// Maximum length of the plans searched for, in pushes, however many the task allows.
 const MOST_AT_ONCE: usize = 6;
 
-/// What is done next.
+/// Next action of the runner.
 #[derive(Clone, Debug)]
 pub(super) enum Decision {
-    /// A plan, of which the first push is made.
+    /// Carries out the first push of `plan`.
     Do { why: Why, plan: Plan, tool: Arc<Tool>, chance: Chance },
-    /// Nothing, as the goal is reached.
+    /// Stops because the goal is reached.
     Done,
-    /// Nothing, as nothing helps.
+    /// Stops because no push helps.
     Nothing,
 }
 
@@ -44,7 +45,7 @@ struct Judged {
 }
 
 impl Judged {
-    /// The best; the first of equals, as the planner ranks them.
+    /// Returns the best plan; of equal plans, the first in the planner's ranking.
     fn best(&self) -> Option<(&Tooled, Chance)> {
         let mut best: Option<(usize, Chance)> = None;
         for (k, reach) in self.reach.iter().enumerate() {
@@ -58,7 +59,7 @@ impl Judged {
 }
 
 impl Runner<'_> {
-    /// What to do under a belief, of which `samples` were drawn.
+    /// Chooses the next action under `belief`, from which `samples` were drawn.
     pub(super) fn decide(
         &self,
         trace: &Trace,
@@ -75,7 +76,8 @@ impl Runner<'_> {
                 return Ok(Decision::Do { why: Why::Rest, plan, tool, chance });
             }
         }
-        // The first pushes of a long way are planned by themselves: no search grows with what is left.
+        // The first pushes of a long plan are searched for separately because the cost of a search
+        // must not grow with the remaining distance.
         if task.pushes.max_count > AT_ONCE
             && let Some(decision) = self.approach(task, samples, AT_ONCE + 1, watch)?
         {
@@ -90,7 +92,7 @@ impl Runner<'_> {
         let sure = |judged: &Judged| {
             judged.best().is_some_and(|(_, chance)| chance.share >= settings.enough)
         };
-        // Where no plan works in enough samples, one is made for those in which none works at all.
+        // If no plan works in enough samples, plans are added for samples in which none works.
         let mut tried = Vec::new();
         while tried.len() < settings.others && !sure(&judged) && !watch.cancelled() {
             let missed = |s: &usize| judged.reach.iter().all(|plan| !plan[*s].reached);
@@ -118,7 +120,7 @@ impl Runner<'_> {
         }
         let nothing = task.score(&samples.now.start);
         let best = judged.best();
-        // What reaches no goal may lead into a dead end; the first pushes of a way do not.
+        // A plan that reaches the goal in no sample may be a dead end; an approach is not.
         if best.is_none_or(|(_, chance)| chance.share == 0.0)
             && let Some(decision) = self.approach(task, samples, 1, watch)?
         {
@@ -131,7 +133,7 @@ impl Runner<'_> {
         Ok(if helps { Decision::Do { why, plan, tool, chance } } else { Decision::Nothing })
     }
 
-    /// The first pushes of a way of at least `least` pushes, if there is one.
+    /// Returns the first pushes of an approach of at least `least` pushes, if there is one.
     fn approach(
         &self,
         task: &Task,
@@ -148,7 +150,7 @@ impl Runner<'_> {
         Ok(Some(Decision::Do { why: Why::Approach, plan, tool, chance }))
     }
 
-    /// Plans for a situation, judged under the samples; `None` if no push is needed.
+    /// Plans for a situation and judges the plans under all samples; `None` if no push is needed.
     fn plans(
         &self,
         task: &Task,
@@ -172,7 +174,7 @@ impl Runner<'_> {
     }
 }
 
-/// Stops as another does, but tells it nothing: progress of planning is not progress of the run.
+/// Passes on cancellation only, because progress of planning is not progress of the run.
 struct Quiet<'a>(&'a dyn Watch);
 
 impl Watch for Quiet<'_> {
@@ -181,23 +183,24 @@ impl Watch for Quiet<'_> {
     }
 }
 
-/// Pushes that were made only to learn something.
+/// Counts the exploratory pushes.
 fn probes(steps: &[Step]) -> usize {
     steps.iter().filter(|step| step.why == Why::Probe).count()
 }
 
-/// What is left of a plan after a step, moved by as much as the object is off from where it was
-/// expected; `None` if that breaks a rule of the task or no push is left.
+/// Returns the remaining pushes of the last plan, shifted by the position error of the object.
+///
+/// Returns `None` if the shifted pushes break a rule of the task or no push is left.
 fn rest(task: &Task, now: &Situation, last: &Step) -> Option<(Plan, Arc<Tool>)> {
     let made = last.plan.pushes();
     let left = made.get(last.pushes..).filter(|left| !left.is_empty())?;
     let mut steps = last.plan.push_steps().skip(last.pushes);
     let grip_yaw = steps.next()?.grip_yaw;
-    // Another tool, or another grip, is for another plan.
+    // A plan with several tools or grips is planned anew.
     if last.plan.tools().len() > 1 || steps.any(|step| step.grip_yaw != grip_yaw) {
         return None;
     }
-    // Of several goals it is not known which object the next push is for.
+    // With several goals the object of the next push is unknown.
     let several = task.goals.len() > 1;
     if last.why == Why::Probe || last.plan.form() == PushForm::Chained || several {
         return None;

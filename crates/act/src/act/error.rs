@@ -1,4 +1,4 @@
-//! Why a run cannot go on.
+//! Errors of a closed-loop run.
 
 use thiserror::Error;
 
@@ -8,44 +8,44 @@ use pushplan::solve::SolveError;
 
 use super::world::WorldError;
 
-/// Why a run cannot go on. What was done is in the trace.
+/// Error that ends a run. The trace keeps all steps up to it.
 #[derive(Debug, Error)]
 pub enum ActError {
-    /// The task cannot be tried.
+    /// The task is invalid or cannot be planned.
     #[error(transparent)]
     Solve(#[from] SolveError),
-    /// What was learnt cannot be planned with.
+    /// The network learnt in the run is not accepted by the planner.
     #[error(transparent)]
     Model(#[from] ModelError),
-    /// It is no longer possible to act in the world.
+    /// The world no longer executes motions or returns observations.
     #[error(transparent)]
     World(#[from] WorldError),
-    /// Another table is seen.
+    /// The number of observed objects differs from the task.
     #[error("{found} objects are reported where the task has {expected}")]
     Objects {
         /// Objects of the task.
         expected: usize,
-        /// Objects that were reported.
+        /// Number of objects that were observed.
         found: usize,
     },
-    /// The goal's object is no longer seen.
+    /// The object of a goal is no longer observed.
     #[error("`{object}` is not seen, though the tool is lifted and {looks} looks were taken")]
     Lost {
-        /// Its name.
+        /// Name of the object.
         object: String,
-        /// How often was looked.
+        /// Number of observations taken.
         looks: usize,
     },
-    /// The trace is of another run, or was damaged.
+    /// The trace belongs to another run or is damaged.
     #[error("the trace does not fit: {0}")]
     Trace(String),
-    /// The trace cannot be kept.
+    /// The trace cannot be written.
     #[error(transparent)]
     Keep(#[from] Faults),
-    /// Stopped from outside.
+    /// The run was cancelled by the caller.
     #[error("stopped after {pushes} pushes")]
     Stopped {
-        /// Pushes that were made and kept.
+        /// Number of pushes carried out and recorded.
         pushes: usize,
     },
 }

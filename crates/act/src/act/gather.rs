@@ -1,4 +1,4 @@
-//! What was seen during a motion, put in order.
+//! Ordering and checking of the observations of a motion.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,63 +11,63 @@ use pushplan::{
 use super::error::ActError;
 use super::world::{Look, Stop};
 
-/// Two objects have changed places where each is farther than the first from where it can be and
-/// nearer than the second to where the other can be, metres.
+/// Thresholds for swapped objects, metres: each object is more than `APART` from its expected
+/// position and less than `THERE` from the other's.
 const APART: f64 = 0.04;
 const THERE: f64 = 0.02;
 
-/// What a tool pushes goes at most this many times as far as the tool, and this much farther,
-/// metres: it may swing about a joint and slide on.
+/// Maximum displacement of a pushed object: `SWING` times the travel of the tool plus `SLIDE`
+/// metres. The object may swing about a joint and slide after the contact ends.
 const SWING: f64 = 2.0;
 const SLIDE: f64 = 0.10;
 
-/// Something that was wrong with what was seen, and was put right.
+/// Correction made to the observations.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Note {
-    /// Looks came late and were put in order.
+    /// Observations arrived late and were sorted by time.
     OutOfOrder,
-    /// Looks from other times than those of this motion were left out.
+    /// Observations from outside the motion were discarded.
     Untimely,
-    /// A sight without a finite place was left out.
+    /// An observed pose with non-finite coordinates was discarded.
     Unreadable {
         /// Index of the object.
         object: usize,
     },
-    /// Two objects were mistaken for each other.
+    /// Two objects were confused and swapped back.
     Swapped {
-        /// Their indices.
+        /// Indices of the objects.
         between: [usize; 2],
     },
-    /// An object was seen where it cannot be.
+    /// An object was observed at an impossible position, which was discarded.
     Jumped {
-        /// Its index.
+        /// Index of the object.
         object: usize,
     },
-    /// An object was not seen at rest, and is taken to be where it was predicted.
+    /// An object was not observed at rest and is assumed to be at its predicted pose.
     Unseen {
-        /// Its index.
+        /// Index of the object.
         object: usize,
     },
-    /// The push ended before its end.
+    /// The push ended early.
     Ended {
-        /// Why.
+        /// Reason.
         why: String,
     },
-    /// At first an object is seen elsewhere than the task states it.
+    /// The first observation of an object differs from the position in the task.
     Elsewhere {
-        /// Its index.
+        /// Index of the object.
         object: usize,
     },
-    /// An object is not where any push can have brought it: somebody has moved it.
+    /// An object is where no push can have moved it and was moved from outside.
     Moved {
-        /// Its index.
+        /// Index of the object.
         object: usize,
     },
 }
 
 impl Note {
-    /// In words, with the names of `scene`.
+    /// Returns the note as text, with the object names of `scene`.
     pub fn words(&self, scene: &Scene) -> String {
         let name = |k: usize| scene.objects.get(k).map_or("?", |object| object.name.as_str());
         match *self {
@@ -95,20 +95,21 @@ impl Note {
     }
 }
 
-/// Observations, one after another, with notes on what was wrong with them.
+/// Collects observations in order, with notes on their corrections.
 #[derive(Clone, Debug)]
 pub(super) struct Gatherer {
-    /// Where every object was seen last, or else is thought to be.
+    /// Last observed position of every object, otherwise its assumed one.
     last: Vec<Vector>,
-    /// Where every object is predicted to come to rest.
+    /// Predicted position of every object at rest.
     predicted: Vec<Vector>,
-    /// Travel of the tool since every object was seen last, metres.
+    /// Travel of the tool since the last observation of every object, metres.
     travelled: Vec<f64>,
     pub notes: Vec<Note>,
 }
 
 impl Gatherer {
-    /// Before a motion that begins in `before` and is predicted to end in `predicted`.
+    /// Creates a gatherer for a motion that starts in `before` and is predicted to end in
+    /// `predicted`.
     pub fn new(before: &State, predicted: &State) -> Self {
         let places = |state: &State| state.poses.iter().map(|pose| pose.position).collect();
         Self {
@@ -119,10 +120,11 @@ impl Gatherer {
         }
     }
 
-    /// [`Gatherer::motion`] of a motion that may have ended early.
+    /// Returns the observations of a motion that may have ended early, as [`Gatherer::motion`]
+    /// does.
     ///
     /// # Errors
-    /// As there.
+    /// Same errors as [`Gatherer::motion`].
     pub fn made(
         &mut self,
         motion: &ToolMotion,
@@ -138,11 +140,11 @@ impl Gatherer {
         }
     }
 
-    /// What was seen while a motion went on, and at rest after it; `None` for the latter where
-    /// there is no look at rest.
+    /// Returns the observations during a motion and the one at rest after it, `None` if there is
+    /// none.
     ///
     /// # Errors
-    /// [`ActError::Objects`] if the looks are of another table.
+    /// [`ActError::Objects`] if an observation has another number of objects.
     pub fn motion(
         &mut self,
         motion: &ToolMotion,
@@ -159,7 +161,8 @@ impl Gatherer {
             looks.sort_by(|a, b| a.time.total_cmp(&b.time));
             self.note(Note::OutOfOrder);
         }
-        // About one look for each frame of a model: nearer ones show less than the noise.
+        // About one observation per frame of a model, because closer ones differ by less than the
+        // noise.
         let least = 0.8 * whole * FRAME_TRAVEL / travel.max(FRAME_TRAVEL);
         let (mut observations, mut rest, mut done) = (Vec::new(), None, 0.0);
         for look in looks {
@@ -189,10 +192,11 @@ impl Gatherer {
         Ok((observations, rest))
     }
 
-    /// Where objects were seen after another `gone` metres of travel, as far as that can be.
+    /// Returns the observed poses after `gone` metres of further travel; impossible ones are
+    /// `None`.
     ///
     /// # Errors
-    /// [`ActError::Objects`] if the look is of another table.
+    /// [`ActError::Objects`] if the observation has another number of objects.
     pub fn sights(&mut self, look: &Look, gone: f64) -> Result<Vec<Option<Sight>>, ActError> {
         let (expected, found) = (self.last.len(), look.seen.len());
         if expected != found {
@@ -225,7 +229,7 @@ impl Gatherer {
         Ok(seen)
     }
 
-    /// Notes something once.
+    /// Adds a note unless it is already present.
     pub fn note(&mut self, note: Note) {
         if !self.notes.contains(&note) {
             self.notes.push(note);
@@ -251,7 +255,7 @@ impl Gatherer {
     }
 }
 
-/// What the tool does from one time of a motion to another, seconds.
+/// Returns the strokes of a motion between two times, seconds.
 fn between(motion: &ToolMotion, from: f64, to: f64) -> Vec<Stroke> {
     let mut strokes = Vec::new();
     let mut begins = 0.0;

@@ -1,4 +1,4 @@
-//! How good a plan is under samples of a belief.
+//! Evaluation of plans under samples of a belief.
 
 use std::sync::Arc;
 
@@ -11,24 +11,24 @@ use pushplan::{
     task::{Job, Plan, Task, ToolMotion},
 };
 
-/// A miss by more tolerances than this is no worse: one sample in which everything goes wrong must
-/// not outweigh the others.
+/// Upper bound of an error, in tolerances, so that a single failed sample does not outweigh the
+/// others.
 const WORST: f64 = 10.0;
 
-/// A plan with the tools that it names, the first one first.
+/// Plan with the tools that it names, starting with the tool of its first push.
 pub(super) type Tooled = (Plan, Vec<Arc<Tool>>);
 
-/// What is expected of a plan.
+/// Expected outcome of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Chance {
-    /// Share of the samples in which it reaches the goal.
+    /// Share of the samples in which the plan reaches the goal.
     pub share: f64,
-    /// Mean error at its end in units of the tolerance.
+    /// Mean final error in units of the tolerance.
     pub score: f64,
 }
 
-/// The situation under every sample: objects are at the same places, but have other physics.
+/// Situation with one set of physics per sample; the poses are equal in all samples.
 #[derive(Clone, Debug)]
 pub(super) struct Samples {
     pub now: Situation,
@@ -36,7 +36,7 @@ pub(super) struct Samples {
 }
 
 impl Samples {
-    /// Jobs of a motion under all samples.
+    /// Returns the jobs of a motion, one per sample.
     pub fn jobs(&self, motion: &ToolMotion) -> Vec<Job> {
         let job = |physics: &Arc<Physics>| Job {
             start: self.now.start.clone(),
@@ -46,7 +46,7 @@ impl Samples {
         self.physics.iter().map(job).collect()
     }
 
-    /// The outcome of plans with at least one push each, in every sample.
+    /// Returns the outcome of every plan in every sample. Each plan has at least one push.
     pub fn reach(&self, model: &dyn EffectModel, task: &Task, plans: &[Tooled]) -> Vec<Vec<Reach>> {
         let under = |physics: &Arc<Physics>, motions: &[ToolMotion]| {
             let now = Situation { physics: Arc::clone(physics), ..self.now.clone() };
@@ -64,7 +64,7 @@ impl Samples {
         let reach = |trajectory: &Trajectory| {
             let outcome = Outcome::judge(&task.scene, task, trajectory);
             let score = task.score(&outcome.state);
-            // A NaN is no smaller than anything.
+            // The comparison is false for a NaN.
             Reach { reached: outcome.reached, score: if score < WORST { score } else { WORST } }
         };
         let each = rolled.chunks(self.physics.len().max(1));
@@ -72,17 +72,17 @@ impl Samples {
     }
 }
 
-/// The outcome of a plan in a sample.
+/// Outcome of a plan in one sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reach {
-    /// Whether it reaches the goal.
+    /// Whether the plan reaches the goal.
     pub reached: bool,
-    /// Error at its end in units of the tolerance.
+    /// Final error in units of the tolerance.
     pub score: f64,
 }
 
 impl Chance {
-    /// Over all samples.
+    /// Averages the outcomes over all samples.
     pub(super) fn of(reach: &[Reach]) -> Self {
         let count = reach.len().max(1) as f64;
         let reached = reach.iter().filter(|reach| reach.reached).count();
@@ -92,8 +92,8 @@ impl Chance {
         }
     }
 
-    /// Whether it is better than another: reaches the goal in more samples, or, in as many, ends
-    /// nearer.
+    /// Returns `true` if `self` reaches the goal in more samples than `other`, or in equally many
+    /// with a smaller mean error.
     pub fn beats(&self, other: &Self) -> bool {
         let (mine, theirs) = ((self.share, -self.score), (other.share, -other.score));
         mine.0 > theirs.0 || (mine.0 == theirs.0 && mine.1 > theirs.1)

@@ -1,4 +1,4 @@
-//! What the pushes of a run teach the network that plans them about the table.
+//! Adaptation of the planner's network to the table during a run.
 
 use crate::fit::{Basis, HeadSettings, learn};
 use crate::judge::Trial;
@@ -8,21 +8,24 @@ use pushplan::scene::{ModelSpec, State, TableFit};
 use super::runner::seen_at;
 use super::trace::{Step, Trace};
 
-/// Learns while a run goes on; what it was given is never changed.
+/// Adapts the network to the pushes of a run; the initial fit stays unchanged.
 pub(super) struct Learner {
     network: Network,
     given: Option<TableFit>,
 }
 
 impl Learner {
-    /// Of the network in `spec`, after what was `given`; `None` if there is no network.
+    /// Creates a learner for the network of `spec`, starting from the fit `given`; `None` without a
+    /// network.
     pub fn new(spec: &ModelSpec, given: Option<TableFit>) -> Result<Option<Self>, ModelError> {
         let weights = EffectModels::weights_of(spec)?;
         Ok(weights.map(|weights| Self { network: Network::new(weights), given }))
     }
 
-    /// Everything that the steps of a trace which began at `start` have taught; `None` if the task leaves
-    /// masses, frictions, supports or joints unknown, since pushes tell of those first.
+    /// Fits the network to all steps of a trace that began at `start`.
+    ///
+    /// Returns `None` if masses, frictions, supports or joints of the task are unknown, because the
+    /// pushes then identify those first.
     pub fn learn(&self, trace: &Trace, start: &State) -> Result<Option<TableFit>, ModelError> {
         let Trace { task, settings, steps, .. } = trace;
         if task.unknown.any() || steps.is_empty() {
@@ -34,7 +37,7 @@ impl Learner {
             Trial::to_rest(scene, step.motion(), step.state.poses.clone())
         };
         let trials = steps.iter().zip(before).map(trial);
-        // A push that ended before it began moved nothing.
+        // A push that ended before its first stroke has moved no object.
         let trials: Vec<Trial> = trials.filter(|trial| !trial.motion.strokes.is_empty()).collect();
         if trials.is_empty() {
             return Ok(self.given.clone());

@@ -1,7 +1,7 @@
-//! The closed loop: plan under what is believed, push, look, believe, plan again.
+//! Closed loop: plan under the belief, push, observe, update the belief, plan again.
 //!
-//! A [`Runner`] does that in any [`World`], a robot's table or a [`SimulatedWorld`] with a hidden
-//! truth, and writes down everything in a [`Trace`], from which it can go on after an interruption.
+//! A [`Runner`] does this in any [`World`], a robot's table or a [`SimulatedWorld`] with a hidden
+//! ground truth. It records every step in a [`Trace`], from which an interrupted run resumes.
 //!
 //! ```
 //! use pushplan::{Effort, Planner, Task, ToolLibrary};
@@ -20,27 +20,28 @@
 //! # Ok::<(), pushplan::Error>(())
 //! ```
 //!
-//! Nothing is planned, predicted or inferred here; that is for `solve`, `effect` and `belief`.
+//! Planning, prediction and inference are in `solve`, `effect` and `belief`.
 //!
-//! # What is seen
+//! # Observations
 //!
-//! A camera reports what it happens to see, not what a filter would like:
+//! Observations of a camera are incomplete and may be wrong:
 //!
-//! | what is reported | what is done |
+//! | observation | treatment |
 //! |---|---|
-//! | an object is not seen | the others tell what they can; at rest the table is looked at again, up to three times |
-//! | an object stands elsewhere at the first look than the task states it | taken to be where it is seen |
-//! | still not seen at rest | taken to be where it was predicted; of the goal's object [`ActError::Lost`] |
-//! | an instant is missing | the next one tells of the motion since the last |
-//! | late, out of order | put in order by its time, within one motion |
-//! | from before the motion, or without a finite time | left out |
-//! | NaN or infinity | that object was not seen |
-//! | two objects in each other's places | swapped back |
-//! | an object far from anywhere it can be | not seen; believed where a second look at rest agrees |
-//! | another number of objects | [`ActError::Objects`]: this is another table |
+//! | an object is not observed | the others are used; up to three observations at rest |
+//! | an object is not at its position in the task at first | the observed position is used |
+//! | an object is still not observed | predicted pose; [`ActError::Lost`] for a goal's object |
+//! | an instant is missing | the next observation covers the motion since the last one |
+//! | late, out of order | sorted by time within one motion |
+//! | from before the motion, or without a finite time | discarded |
+//! | NaN or infinity | treated as not observed |
+//! | two objects confused | swapped back |
+//! | an object far from any possible position | discarded unless a second observation agrees |
+//! | another number of objects | [`ActError::Objects`] |
 //!
-//! Where a robot cannot go on with a push it says so ([`World::stopped`]), and what was seen is of the push
-//! as far as it was made. All of this, except objects that are not seen for a while and missing instants, leaves a [`Note`] in the trace.
+//! If a robot stops a push early, [`World::stopped`] returns where, and the observations cover the
+//! shorter motion. Every treatment leaves a [`Note`] in the trace, except temporary occlusion and
+//! missing instants.
 
 mod decide;
 mod error;

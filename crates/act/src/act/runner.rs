@@ -1,4 +1,4 @@
-//! The loop.
+//! The closed loop.
 
 use std::sync::Arc;
 
@@ -22,43 +22,44 @@ use super::learning::Learner;
 use super::trace::{End, Step, Trace, Why};
 use super::world::{Look, World};
 
-/// How often the table is looked at where something is not seen at rest.
+/// Maximum number of further observations at rest if an object is missing.
 const LOOKS: usize = 3;
 
-/// Two looks at rest agree within this distance beyond the noise, metres.
+/// Maximum distance between two agreeing observations at rest, in addition to the noise, metres.
 const AGREE: f64 = 0.01;
 
-/// The goal counts as reached if it is with this many standard deviations of doubt, but half of the
-/// tolerance is never asked for more.
+/// Required margin at the goal, in standard deviations of the pose; it is limited to half of the
+/// tolerance.
 const SURE: f64 = 1.645;
 
-/// Plans, acts, looks, believes, and plans again.
+/// Runner of the closed loop of planning, pushing, observing and updating the belief.
 #[derive(Clone)]
 pub struct Runner<'a> {
     pub(super) planner: &'a Planner,
     pub(super) library: &'a ToolLibrary,
-    /// Rolls out hypotheses of the belief.
+    /// Model for rollouts of the belief's hypotheses.
     model: Prior,
     regulator: Option<BeliefRegulator>,
-    /// Shared, as a runner is cloned for every decision.
+    /// Shared because a runner is cloned for every decision.
     learner: Option<Arc<Learner>>,
 }
 
 impl<'a> Runner<'a> {
-    /// A runner that plans with `planner`, chooses among the tools of `library` and believes what a
-    /// filter over hypotheses finds.
+    /// Creates a runner that plans with `planner` and the tools of `library`. Its belief is the
+    /// filter over hypotheses, uncorrected.
     pub fn new(planner: &'a Planner, library: &'a ToolLibrary) -> Self {
         Self { planner, library, model: Prior::default(), regulator: None, learner: None }
     }
 
-    /// Has `regulator` correct what the filter finds.
+    /// Enables correction of the filter by `regulator`.
     pub fn regulated(self, regulator: BeliefRegulator) -> Self {
         Self { regulator: Some(regulator), ..self }
     }
 
-    /// Lets the planner's network learn from every push where a task leaves nothing open, after what
-    /// `given` says; [`Trace::learnt`] has it. `given` should be what the planner was
-    /// [fitted](Planner::fitted) with. Nothing is learnt by a planner without a network.
+    /// Enables adaptation of the planner's network after every push, starting from the fit `given`.
+    ///
+    /// This applies if the task has no unknowns and the planner has a network; the result is
+    /// [`Trace::learnt`]. The planner should be [fitted](Planner::fitted) with `given`.
     ///
     /// # Errors
     /// [`ModelError`] if the network's weights cannot be read.
@@ -67,12 +68,13 @@ impl<'a> Runner<'a> {
         Ok(Self { learner: learner.map(Arc::new), ..self })
     }
 
-    /// Goes on with `trace`, from the beginning if it is new, until it has an end. `keep` is given the
-    /// trace after the first look and after every step, so that an interrupted run goes on from there,
-    /// to the same bits.
+    /// Starts or resumes the run of `trace` and continues it to its end.
+    ///
+    /// `keep` receives the trace after the first observation and after every step. An interrupted
+    /// run resumes from there and yields bit-identical results.
     ///
     /// # Errors
-    /// If the run cannot go on, or is stopped by `watch`; what was done is in the trace.
+    /// If the run cannot continue or is cancelled by `watch`; the trace holds the finished steps.
     pub fn run(
         &self,
         trace: &mut Trace,
@@ -110,7 +112,7 @@ impl<'a> Runner<'a> {
             let planner = learnt.as_ref().unwrap_or(self.planner);
             let now = Runner { planner, ..self.clone() };
             let decision = now.next(trace, &belief, watch)?;
-            // A decision under a time limit would not be made again.
+            // A decision under a time limit would not be reproducible.
             if watch.cancelled() {
                 return Err(ActError::Stopped { pushes: trace.pushes() });
             }
@@ -132,16 +134,16 @@ impl<'a> Runner<'a> {
         Ok(())
     }
 
-    /// Learns from all steps of a trace that began at `start`, and gives the planner that knows it.
+    /// Learns from all steps of a trace that began at `start` and returns the adapted planner.
     fn learnt(&self, trace: &mut Trace, start: &State) -> Result<Option<Planner>, ActError> {
         let Some(learner) = &self.learner else { return Ok(None) };
         trace.learnt = learner.learn(trace, start)?;
-        // A planner that would decide the same need not be made.
+        // No new planner is needed if the fit changes no decision.
         let news = trace.learnt.as_ref().filter(|fit| fit.head.iter().any(|value| *value != 0.0));
         Ok(news.map(|fit| self.planner.fitted_anew(fit)).transpose()?)
     }
 
-    /// What is believed after the first look, and what is odd about that.
+    /// Returns the belief after the first observation, with notes on corrections.
     fn begin(&self, trace: &Trace) -> Result<(Belief, Vec<Note>), ActError> {
         let Trace { task, settings, first, .. } = trace;
         if task.levers.is_some() {
@@ -153,7 +155,7 @@ impl<'a> Runner<'a> {
         let look = first.as_ref().ok_or_else(|| ActError::Trace("it has no first look".into()))?;
         let mut seen = gatherer.sights(look, 0.0)?;
         let mut notes = std::mem::take(&mut gatherer.notes);
-        // The table is as it is, whatever was written about it.
+        // The observation overrides the positions in the task.
         for (object, (sight, looked)) in seen.iter_mut().zip(&look.seen).enumerate() {
             if sight.is_none() && looked.is_some_and(|one| one.position.norm().is_finite()) {
                 *sight = *looked;
@@ -182,7 +184,7 @@ impl<'a> Runner<'a> {
         Ok((belief, notes))
     }
 
-    /// What is done next.
+    /// Returns the next decision.
     fn next(
         &self,
         trace: &Trace,
@@ -201,7 +203,8 @@ impl<'a> Runner<'a> {
         self.decide(trace, (belief, &samples), watch)
     }
 
-    /// Makes the first push of a plan, or all of a chained one, and takes in what is seen.
+    /// Carries out the first push of a plan, or all pushes of a chained plan, and updates the
+    /// belief.
     fn step(
         &self,
         trace: &Trace,
@@ -254,7 +257,7 @@ impl<'a> Runner<'a> {
         })
     }
 
-    /// Takes a step of a trace into the belief again.
+    /// Repeats the belief update of a recorded step.
     fn again(&self, trace: &Trace, belief: &mut Belief, step: &Step) -> Result<(), ActError> {
         let unfit = |why: &str| ActError::Trace(why.to_owned());
         let made = step.plan.pushes();
@@ -298,7 +301,8 @@ impl<'a> Runner<'a> {
         belief.settle(&self.model);
     }
 
-    /// What a plan is believed to do to all objects; `None` if no model says.
+    /// Returns the predicted effect of a plan on all objects; all stay in place if the model
+    /// declines.
     fn predicted(
         &self,
         now: &Situation,
@@ -319,7 +323,7 @@ impl<'a> Runner<'a> {
     }
 }
 
-/// Looks again at what was not seen at rest, and returns the observations with what is then seen.
+/// Repeats observations at rest while objects are missing and returns the completed observations.
 fn rests(
     trace: &Trace,
     gatherer: &mut Gatherer,
@@ -340,7 +344,7 @@ fn rests(
             let twice = [rest.as_ref().and_then(|rest| rest.seen[object]), now.seen[object]];
             if let (None, [Some(one), Some(other)]) = (&sight, twice) {
                 let off = (one.position - other.position).norm();
-                // A NaN agrees with nothing.
+                // The comparison is false for a NaN.
                 if off <= AGREE + 6.0 * trace.settings.noise.position {
                     *sight = Some(other);
                     gatherer.note(Note::Moved { object });
@@ -359,18 +363,18 @@ fn rests(
     Ok(observations)
 }
 
-/// Whether the goal is reached despite the doubt about where the object is: metres and radians.
+/// Returns `true` if the goal is reached within the pose uncertainty, metres and radians.
 fn is_sure(goal: &Goal, state: &State, [place, turn]: [f64; 2]) -> bool {
     goal.stricter(SURE * place, SURE * turn).reached(state)
 }
 
-/// The scene with its objects where they are seen; known joints go with them.
+/// Returns the scene with its objects at the observed poses; known joints move with them.
 pub(super) fn seen_at(scene: &Scene, start: &State) -> Scene {
     let joints = crate::belief::carried(&scene.joints, scene, start);
     Scene { joints, ..scene.moved_to(start) }
 }
 
-/// A heading up to whole turns, near another.
+/// Returns `heading` plus the multiple of 2π that brings it closest to `other`.
 fn near(heading: f64, other: f64) -> f64 {
     other + pushplan::geometry::wrap_angle(heading - other)
 }

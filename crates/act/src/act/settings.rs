@@ -1,4 +1,4 @@
-//! What a run may cost, and when it is content.
+//! Budgets and acceptance thresholds of a run.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,26 +6,28 @@ use pushplan::task::{Noise, Truth};
 
 use super::probe::ProbeRule;
 
-/// What a run may cost, and when it is satisfied. All budgets are counts.
+/// Budgets and acceptance thresholds of a run. All budgets are counts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RunSettings {
-    /// Most pushes; a plan of chained pushes, which cannot be parted, counts as one.
+    /// Maximum number of pushes; an indivisible plan of chained pushes counts as one.
     pub pushes: usize,
-    /// Samples of the belief under which plans are judged. Shares of 16 are off by a tenth.
+    /// Number of belief samples under which plans are judged. The standard error of a share of 16
+    /// samples is about 0.1.
     pub samples: usize,
-    /// Share of the samples in which a plan must reach the goal to be carried out without doubt.
+    /// Share of the samples in which a plan must reach the goal to be carried out without
+    /// exploration.
     pub enough: f64,
-    /// Most pushes that are made only to learn something.
+    /// Maximum number of exploratory pushes.
     pub probes: usize,
-    /// How these are chosen.
+    /// Rule for choosing exploratory pushes.
     pub rule: ProbeRule,
-    /// Samples that are planned for by themselves where no plan is good enough, one after another of
-    /// those in which none reaches the goal.
+    /// Maximum number of samples planned for individually if no plan is good enough. Each is a
+    /// sample in which no plan reaches the goal.
     pub others: usize,
-    /// Errors of what is seen.
+    /// Noise of the observations.
     pub noise: Noise,
-    /// Seed of the samples.
+    /// Seed of the belief samples.
     pub seed: u64,
 }
 

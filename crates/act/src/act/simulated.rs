@@ -1,4 +1,4 @@
-//! A simulated world, whose truth is hidden behind noise.
+//! Simulated world with observation noise and a hidden ground truth.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use pushplan::{
 use super::trace::{Step, Trace};
 use super::world::{Look, Stop, World, WorldError, WorldState};
 
-/// A world in one of the engines.
+/// World simulated in one of the engines.
 #[derive(Clone, Debug)]
 pub struct SimulatedWorld {
     truth: Truth,
@@ -27,25 +27,24 @@ pub struct SimulatedWorld {
 }
 
 impl SimulatedWorld {
-    /// The world as it begins.
+    /// Creates the world in its initial state.
     pub fn new(truth: Truth) -> Self {
         let simulator = Simulator::new(truth.engine, Rate::DEFAULT).retreating();
         let (state, arm) = (truth.scene.start(), Arm::default());
         Self { state, simulator, looks: 0, truth, arm, stop: None }
     }
 
-    /// The same, in which the robot's arm can keep up `max_force` newtons; `None` if no force is too
-    /// large for it.
+    /// Limits the force of the robot's arm to `max_force` newtons; `None` removes the limit.
     pub fn pushed_with(self, max_force: Option<f64>) -> Self {
         Self { arm: Arm { max_force }, ..self }
     }
 
-    /// Where everything really is.
+    /// Returns the true state.
     pub fn state(&self) -> &State {
         &self.state
     }
 
-    /// What is seen of a state.
+    /// Returns a noisy observation of a state.
     fn see(&mut self, time: f64, state: &State) -> Look {
         let mut rng = generator(self.truth.seed, self.looks);
         self.looks += 1;
@@ -81,7 +80,7 @@ impl World for SimulatedWorld {
         let last = &frames[kept - 1];
         self.state = State::at_rest(last.state.poses.clone());
         if stop.is_some() {
-            // Things have come to rest by the next look.
+            // The objects have come to rest by the next observation.
             let state = self.state.clone();
             looks.push(self.see(last.time + COAST_FRAME, &state));
         }
@@ -103,9 +102,10 @@ impl World for SimulatedWorld {
     }
 }
 
-/// Where a motion ended that the arm could not go on with, and how many of the frames lead there: that
-/// in which it gave up is left out, as rigid bodies do not get into each other and a force that is not
-/// there moves nothing.
+/// Returns where the arm gave up a motion and the number of valid frames before that.
+///
+/// The frame in which the arm gave up is excluded because rigid bodies do not penetrate and an
+/// unavailable force moves nothing.
 fn stop(motion: &ToolMotion, run: &Trajectory) -> (Option<Stop>, usize) {
     let all = run.frames.len();
     let stops = |warning: &&Warning| {
@@ -129,13 +129,15 @@ fn stop(motion: &ToolMotion, run: &Trajectory) -> (Option<Stop>, usize) {
         .strokes
         .get(stroke)
         .map_or(0.0, |stroke| Stroke { to: last.tool, ..*stroke }.travel());
-    // The start is of no stroke yet.
+    // The initial frame belongs to no stroke.
     let share = if kept > 1 && whole > 0.0 { done / whole } else { 0.0 };
     (Some(Stop { stroke, share, why }), kept)
 }
 
-/// What really happened in every step of a run in a simulated world, frame by frame: an engine that
-/// begins at the same start computes the same bits again. `None` where the world was not simulated.
+/// Returns the true trajectory of every step of a run, frame by frame.
+///
+/// The engine is deterministic, so a replay from the recorded start is bit-identical. Returns an
+/// empty vector if the world was not simulated.
 pub fn really(trace: &Trace) -> Vec<Trajectory> {
     let (Some(truth), Some(before)) = (&trace.truth, &trace.before) else { return Vec::new() };
     let physics = Arc::new(Physics::stated(&truth.scene));
@@ -153,7 +155,7 @@ pub fn really(trace: &Trace) -> Vec<Trajectory> {
     begins.zip(&trace.steps).map(replay).collect()
 }
 
-/// Whether a replay with this warning left no table to go on with.
+/// Returns `true` if the run cannot continue after a replay with this warning.
 fn ends(warning: &Warning) -> bool {
     matches!(
         warning,
@@ -161,14 +163,16 @@ fn ends(warning: &Warning) -> bool {
     )
 }
 
-/// A world of a task, drawn from `seed`: what the task does not know is as likely as it says, everything
-/// else as it is stated. In the planar engine, seen with [`Truth::NOISE`].
+/// Draws the ground truth of a task from `seed`.
+///
+/// Unknowns are drawn from the task's prior distributions; all other values are as stated. The
+/// engine is the 2-D one and the noise is [`Truth::NOISE`].
 ///
 /// # Errors
 /// If the task names tools that `library` does not have.
 pub fn hidden(task: &Task, library: &ToolLibrary, seed: u64) -> Result<Truth, Faults> {
     let mut truth = Truth::stated(&task.scene, seed);
-    // Before anything has moved the tool does not matter.
+    // The tool is irrelevant before the first motion.
     if let Some(tool) = task.tools(library)?.into_iter().next() {
         let settings = BeliefSettings::new(Default::default());
         let belief = Belief::about(&task.scene, task.unknown, (tool, 0.0), settings, seed);

@@ -1,4 +1,4 @@
-//! What happened in a run: all that was seen, thought and done.
+//! Record of a run: observations, beliefs and pushes.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -20,122 +20,122 @@ use super::judge::Chance;
 use super::settings::RunSettings;
 use super::world::{Look, Stop, WorldState};
 
-/// Version of the format; runs of another one cannot be continued.
+/// Version of the trace format; runs of other versions cannot be resumed.
 pub const TRACE_VERSION: u32 = 2;
 
-/// A run from its beginning to where it is.
+/// Record of a run from its start to its current step.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Trace {
-    /// Version of the format.
+    /// Version of the trace format.
     pub schema_version: u32,
-    /// What the file is.
+    /// Kind of file.
     pub kind: Kind,
-    /// What is to be done.
+    /// Task of the run.
     pub task: Task,
-    /// With which budgets.
+    /// Budgets and thresholds.
     pub settings: RunSettings,
-    /// What plans: effect model and effort.
+    /// Planner: effect model and effort.
     pub planner: String,
-    /// What the world is really like, where it is simulated. The planner does not see it.
+    /// Ground truth of a simulated world. It is hidden from the planner.
     pub truth: Option<Truth>,
-    /// What was seen before anything was done.
+    /// Observation before the first push.
     pub first: Option<Look>,
-    /// What was odd about that.
+    /// Corrections made to the first observation.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<Note>,
-    /// The simulated world then.
+    /// State of the simulated world at the first observation.
     pub before: Option<WorldState>,
-    /// Pairs of objects that were seen near each other then and so may be joined, where that is unknown.
+    /// Pairs of objects close enough to be joined at the first observation, if joints are unknown.
     pub pairs: Vec<[usize; 2]>,
-    /// What was believed then of every one of them, as in steps.
+    /// Initial joint probabilities of every pair, ordered as in [`Step::probabilities`].
     pub prior: Vec<[f64; 4]>,
-    /// What was believed then of masses, frictions and supports.
+    /// Initial belief about masses, frictions and supports.
     pub prior_numbers: Numbers,
-    /// What was done, in order.
+    /// Steps in order.
     pub steps: Vec<Step>,
-    /// What all of that taught the network, with what it had been given; `None` if nothing was learnt.
+    /// Network fit learnt from all steps, including the initial fit; `None` if nothing was learnt.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub learnt: Option<TableFit>,
-    /// How it ended; `None` as long as it goes on.
+    /// Reason for the end of the run; `None` while it continues.
     pub end: Option<End>,
 }
 
-/// What the file is.
+/// Kind of file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
-    /// A run.
+    /// Record of a run.
     Run,
 }
 
-/// Why a push was made.
+/// Reason for a push.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Why {
-    /// It begins a new plan that reaches the goal in enough samples.
+    /// First push of a new plan that reaches the goal in enough samples.
     Plan,
-    /// It goes on with the plan before, which still does.
+    /// Next push of the previous plan, which still reaches the goal in enough samples.
     Rest,
-    /// No plan reaches the goal in enough samples; it begins the one that is best on average.
+    /// First push of the plan that is best on average; no plan reaches the goal in enough samples.
     Best,
-    /// It is the first of a way to the goals that takes more pushes than are planned at once.
+    /// First push of an approach: the goals need more pushes than are planned at once.
     Approach,
-    /// It tells apart what the task depends on.
+    /// Exploratory push that separates samples relevant to the task.
     Probe,
 }
 
-/// One push, or the pushes of a chained plan.
+/// Single push, or all pushes of a chained plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Step {
-    /// Why it was made.
+    /// Reason for the push.
     pub why: Why,
-    /// The plan from here on.
+    /// Plan from this step on.
     pub plan: Plan,
-    /// With which tool.
+    /// Tool of the push.
     pub tool: Tool,
-    /// How many of its pushes were made.
+    /// Number of pushes of the plan that were carried out.
     pub pushes: usize,
-    /// What was expected of the plan.
+    /// Expected outcome of the plan.
     pub chance: Chance,
-    /// Where the goal's object was expected after these pushes.
+    /// Expected pose of the goal's object after the pushes.
     pub expected: Pose,
-    /// What was expected of these pushes, frame by frame, under what was likeliest then.
+    /// Predicted frames of the pushes under the most probable hypothesis.
     pub predicted: Vec<Frame>,
-    /// What was seen meanwhile and at rest, as it was reported.
+    /// Raw observations during the motion and at rest.
     pub looks: Vec<Look>,
-    /// What was seen at rest where that was not enough, look by look.
+    /// Additional observations at rest, if objects were missing.
     pub again: Vec<Look>,
-    /// Where the robot could not go on, if it could not.
+    /// Point at which the robot stopped early, if it did.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stop: Option<Stop>,
-    /// What was wrong with all that.
+    /// Corrections made to the observations.
     pub notes: Vec<Note>,
-    /// Where everything is thought to be now.
+    /// Estimated state after the step.
     pub state: State,
-    /// Of each of [`Trace::pairs`] the probabilities of no, a fixed, a revolute and a prismatic joint.
+    /// Probabilities of no, a fixed, a revolute and a prismatic joint for each of [`Trace::pairs`].
     pub probabilities: Vec<[f64; 4]>,
-    /// What is believed of masses, frictions and supports.
+    /// Belief about masses, frictions and supports.
     pub numbers: Numbers,
-    /// The simulated world after it.
+    /// State of the simulated world after the step.
     pub world: Option<WorldState>,
 }
 
-/// How a run ended.
+/// Reason for the end of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum End {
-    /// The goal is reached, as far as can be seen.
+    /// The goal is reached according to the observations.
     Reached,
-    /// All pushes are used up.
+    /// The budget of pushes is exhausted.
     UsedUp,
-    /// No push brings the object nearer.
+    /// No push brings the object nearer to the goal.
     NoPush,
 }
 
 impl Step {
-    /// The motion of the pushes that were made, as far as it was.
+    /// Returns the executed motion, which ends early if the robot stopped.
     pub fn motion(&self) -> ToolMotion {
         let motion = self.plan.first(self.pushes).motion(&Arc::new(self.tool.clone()));
         match &self.stop {
@@ -146,7 +146,7 @@ impl Step {
 }
 
 impl Trace {
-    /// Of a run that begins.
+    /// Creates the trace of a new run.
     pub fn new(task: Task, settings: RunSettings, planner: String, truth: Option<Truth>) -> Self {
         Self {
             schema_version: TRACE_VERSION,
@@ -170,13 +170,13 @@ impl Trace {
     /// Reads a trace.
     ///
     /// # Errors
-    /// [`ActError::Trace`] if there is none at `path`, or a damaged one.
+    /// [`ActError::Trace`] if the file at `path` is missing or damaged.
     pub fn load(path: &Path) -> Result<Self, ActError> {
         let fault = |why: String| ActError::Trace(format!("{}: {why}", path.display()));
         let text = std::fs::read(path).map_err(|error| fault(error.to_string()))?;
         let trace: Self =
             serde_json::from_slice(&text).map_err(|error| fault(error.to_string()))?;
-        // Strokes are counted when a page is made of them.
+        // Pages count strokes by these indices.
         let strange = |step: &Step| step.predicted.iter().any(|frame| frame.stroke >= step.pushes);
         match trace.schema_version {
             TRACE_VERSION if trace.steps.iter().any(strange) => {
@@ -190,18 +190,18 @@ impl Trace {
         }
     }
 
-    /// Writes the trace whole or not at all.
+    /// Writes the trace atomically.
     ///
     /// # Errors
     /// If it cannot be written.
     pub fn write(&self, path: &Path) -> Result<(), Faults> {
-        // Plain data: it always has a JSON text.
+        // Serialising plain data cannot fail.
         let mut text = serde_json::to_vec(self).unwrap_or_default();
         text.push(b'\n');
         write_atomic(path, &text)
     }
 
-    /// Whether it began as `other` did, so that it can be gone on with.
+    /// Returns `true` if both traces began equally, so that `self` can be resumed.
     pub fn is_of(&self, other: &Self) -> bool {
         self.task == other.task
             && self.settings == other.settings
@@ -209,17 +209,17 @@ impl Trace {
             && self.truth == other.truth
     }
 
-    /// All that was odd about what was seen, in order.
+    /// Returns the notes on all corrections, in order.
     pub fn all_notes(&self) -> impl Iterator<Item = &Note> {
         self.notes.iter().chain(self.steps.iter().flat_map(|step| &step.notes))
     }
 
-    /// Pushes made so far, those of chained plans one by one.
+    /// Returns the number of pushes made so far, with every push of a chained plan counted.
     pub fn pushes(&self) -> usize {
         self.steps.iter().map(|step| step.pushes).sum()
     }
 
-    /// Where everything really is in a simulated world.
+    /// Returns the true state in a simulated world.
     pub fn real(&self) -> Option<State> {
         let saved = match self.steps.last() {
             Some(step) => step.world.as_ref(),

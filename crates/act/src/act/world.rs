@@ -1,4 +1,4 @@
-//! What can be acted in.
+//! Interface of the environment.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -8,82 +8,87 @@ use pushplan::{
     task::ToolMotion,
 };
 
-/// A table on which objects can be pushed and looked at; a robot can implement it.
+/// Environment in which objects can be pushed and observed, for example a robot's table.
 pub trait World {
-    /// Looks at the table at rest.
+    /// Returns an observation of the table at rest.
     ///
     /// # Errors
-    /// If nothing can be seen at all.
+    /// If no observation is available.
     fn look(&mut self) -> Result<Look, WorldError>;
 
-    /// Takes another tool, before the first motion with it; what a robot does that changes tools by itself.
-    /// By default nothing, as every motion says which tool makes it.
+    /// Changes the tool before its first motion.
+    ///
+    /// Robots with an automatic tool changer implement this. The default does nothing because every
+    /// motion names its tool.
     ///
     /// # Errors
-    /// If the tool was not taken.
+    /// If the tool was not changed.
     fn change_tool(&mut self, tool: &Tool) -> Result<(), WorldError> {
         let _ = tool;
         Ok(())
     }
 
-    /// Carries out a motion, of whose strokes only the last one settles: sets the tool down where
-    /// the first stroke begins, moves it along all of them, waits until everything rests, goes
-    /// [back](ToolMotion::retreat) and lifts it. Gives what was seen meanwhile and at rest, as much as there is; the more instants the more
-    /// can be learnt, one for each 10 mm of travel being enough.
+    /// Carries out a motion and returns the observations during it and at rest.
+    ///
+    /// The tool is set down where the first stroke begins and moved along all strokes; only the
+    /// last one settles. After all objects rest, the tool [retreats](ToolMotion::retreat) and is
+    /// lifted. More observations give more information, but one per 10 mm of travel is sufficient.
     ///
     /// # Errors
-    /// If the motion was not carried out as it is.
+    /// If the motion was not carried out as requested.
     fn act(&mut self, motion: &ToolMotion) -> Result<Vec<Look>, WorldError>;
 
-    /// Where and why the last motion ended before its end; `None` if it was carried out whole, or if
-    /// nobody can say. What was seen is then of the shorter motion.
+    /// Returns where and why the last motion ended early.
+    ///
+    /// Returns `None` if the motion was completed or its end is unknown. The observations cover the
+    /// shortened motion.
     fn stopped(&self) -> Option<Stop> {
         None
     }
 
-    /// What an interrupted run needs to go on in a world that ends with it; `None` for a real one.
+    /// Returns the state needed to resume an interrupted run; `None` for a real world.
     fn save(&self) -> Option<WorldState> {
         None
     }
 
-    /// Goes back to what was [saved](Self::save).
+    /// Restores a [saved](Self::save) state.
     fn restore(&mut self, state: &WorldState) {
         let _ = state;
     }
 }
 
-/// What is seen of the table at one instant.
+/// Observation of the table at one instant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Look {
-    /// Since the motion began, seconds. What is seen at rest after it has a later time than its end.
+    /// Time since the start of the motion, seconds. It is later than the end of the motion at rest.
     pub time: f64,
-    /// Every object of the scene, with or without the parts of those of several solids; `None` where it
-    /// is not seen.
+    /// Observed pose of every object of the scene, `None` if the object is not observed. Parts of
+    /// compound objects may be omitted.
     pub seen: Vec<Option<Sight>>,
 }
 
 impl Look {
-    /// The look with the parts of all things, which nobody sees by themselves.
+    /// Adds the poses of parts of compound objects, which are not observed separately.
     pub(super) fn with_parts(self, scene: &Scene) -> Self {
         Self { seen: scene.sights_with_parts(self.seen), ..self }
     }
 }
 
-/// A motion that ended before its end.
+/// Early end of a motion.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stop {
-    /// The index of the stroke that was under way.
+    /// Index of the interrupted stroke.
     pub stroke: usize,
-    /// How much of it was made, 0 to 1.
+    /// Completed share of this stroke, 0 to 1.
     pub share: f64,
-    /// Why it was not gone on with.
+    /// Reason for the early end.
     pub why: String,
 }
 
 impl Stop {
-    /// As much of `motion` as was made.
+    /// Returns the completed part of `motion`.
     pub fn made(&self, motion: &ToolMotion) -> ToolMotion {
         let mut made = motion.clone();
         made.strokes.truncate(self.stroke + 1);
@@ -93,23 +98,23 @@ impl Stop {
             last.duration *= share;
             last.settle = true;
         }
-        // What was hardly begun was not made.
+        // Strokes that have hardly begun are dropped.
         made.strokes.retain(|stroke| stroke.duration > 0.0);
         made
     }
 }
 
-/// A simulated world at rest.
+/// State of a simulated world at rest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WorldState {
-    /// Where everything really is.
+    /// True state.
     pub state: State,
-    /// How often was looked.
+    /// Number of observations taken.
     pub looks: u64,
 }
 
-/// Why it is no longer possible to act in a world.
+/// Error of a world in which motions can no longer be executed.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("{0}")]
 pub struct WorldError(pub String);

@@ -1,28 +1,28 @@
-//! Seeded random numbers, and what is like the normal distribution.
+//! Seeded random numbers and approximations of the normal distribution.
 
 use std::f64::consts::TAU;
 
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// The logistic function of so many times a number is within a hundredth of the normal distribution's
-/// (Bowling et al. 2009, doi:10.3926/jiem.2009.v2n1.p114-127).
+/// Factor for which the logistic function of the scaled number is within 0.01 of the normal
+/// distribution function (Bowling et al. 2009, doi:10.3926/jiem.2009.v2n1.p114-127).
 pub(super) const LOGISTIC: f64 = 1.702;
 
-/// The generator of draw `index` under `seed`.
+/// Returns the generator of draw `index` under `seed`.
 pub fn generator(seed: u64, index: u64) -> Pcg64 {
     // An odd factor keeps indices apart; the seeding mixes the bits.
     Pcg64::seed_from_u64(seed ^ index.wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15))
 }
 
-/// A standard normal number (Box and Muller 1958, doi:10.1214/aoms/1177706645).
+/// Draws a standard normal number (Box and Muller 1958, doi:10.1214/aoms/1177706645).
 pub fn normal(rng: &mut impl Rng) -> f64 {
-    // From (0, 1], whose logarithm is finite.
+    // The argument is in (0, 1], so its logarithm is finite.
     let radius = (-2.0 * (1.0 - rng.random::<f64>()).ln()).sqrt();
     radius * (TAU * rng.random::<f64>()).cos()
 }
 
-/// An index, drawn with these weights.
+/// Draws an index with these weights.
 pub(super) fn weighted(rng: &mut impl Rng, weights: &[f64]) -> usize {
     let mut left = rng.random::<f64>() * weights.iter().sum::<f64>();
     for (index, weight) in weights.iter().enumerate() {

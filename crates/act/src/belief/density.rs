@@ -1,12 +1,15 @@
-//! How likely many numbers are together.
+//! Logarithms of probability densities.
 
 use nalgebra::{DMatrix, DVector};
 
-/// Degrees of freedom of Student's law: what was seen may be far from every hypothesis now and then.
+/// Degrees of freedom of Student's t distribution, which allows occasional observations far from
+/// every hypothesis.
 const FREEDOM: f64 = 4.0;
 
-/// Logarithm of Student's density of `off` with the scale matrix `spread`, up to a constant that
-/// depends on the number of them alone; minus infinity where `spread` is no covariance.
+/// Returns the logarithm of Student's density of `off` with scale matrix `spread`.
+///
+/// A constant that depends only on the dimension is omitted. Returns minus infinity if `spread` is
+/// not positive definite.
 pub(super) fn student(off: &DVector<f64>, spread: DMatrix<f64>) -> f64 {
     let n = off.len() as f64;
     let Some(factor) = spread.cholesky() else { return f64::NEG_INFINITY };
@@ -15,14 +18,14 @@ pub(super) fn student(off: &DVector<f64>, spread: DMatrix<f64>) -> f64 {
     -volume - 0.5 * (FREEDOM + n) * (square / FREEDOM).ln_1p()
 }
 
-/// Logarithm of Student's density of one number with this scale squared.
+/// Returns the logarithm of Student's density of one number with the squared scale `variance`.
 pub(super) fn student_of_one(off: f64, variance: f64) -> f64 {
-    // The density at zero of four degrees of freedom.
+    // Density at zero with four degrees of freedom.
     let most = 0.375f64.ln() - 0.5 * variance.ln();
     most - 0.5 * (FREEDOM + 1.0) * (off * off / variance / FREEDOM).ln_1p()
 }
 
-/// Logarithm of the sum of what these are logarithms of.
+/// Returns the logarithm of the sum of the exponentials of `logs`.
 pub(super) fn log_sum(logs: impl Iterator<Item = f64> + Clone) -> f64 {
     let most = logs.clone().fold(f64::NEG_INFINITY, f64::max);
     if most == f64::NEG_INFINITY {
@@ -40,7 +43,7 @@ mod tests {
         let log = |x: f64, s: f64| {
             student(&DVector::from_element(1, x), DMatrix::from_element(1, 1, s * s))
         };
-        // The density with four degrees of freedom: 3/8 (1 + x^2/4)^(-5/2).
+        // Density with four degrees of freedom: 3/8 (1 + x^2/4)^(-5/2).
         let density = |x: f64| 0.375 * (1.0 + 0.25 * x * x).powf(-2.5);
         for x in [0.3, 1.0, 4.0] {
             let wanted = (density(x / 2.0) / density(0.0)).ln();

@@ -1,4 +1,4 @@
-//! The belief, and how it follows what is seen.
+//! The belief filter and its update with observations.
 
 use std::{borrow::Cow, sync::Arc};
 
@@ -28,55 +28,57 @@ use super::{
     weighing::Stretch,
 };
 
-/// Observations that are looked at together: fewer show less than the noise, more let errors of the
-/// rollout grow.
+/// Number of observations per window. Shorter windows are dominated by noise; in longer ones errors
+/// of the rollout grow.
 const WINDOW: usize = 5;
 
-/// How far beyond what may be joined two objects may be seen and yet be thought to be joined: standard
-/// deviations of their gap.
+/// Additional gap up to which two objects are considered joinable, in standard deviations of the
+/// observed gap.
 const BEYOND: f64 = 2.0;
 
-/// What is believed about a scene.
+/// Belief about a scene.
 #[derive(Clone, Debug)]
 pub struct Belief {
     pub(super) scene: Scene,
     pub(super) tool: Arc<Tool>,
     pub(super) lift: f64,
     pub(super) settings: BeliefSettings,
-    /// As the filter has them.
+    /// Pairs as the filter estimates them.
     pub(super) pairs: Vec<PairBelief>,
     pub(super) track: Track,
-    /// Joints that are not to be found out, where the scene states its objects.
+    /// Known joints, at the poses stated in the scene.
     pub(super) known: Vec<Joint>,
     pub(super) particles: Particles,
     pub(super) masses: Option<Masses>,
     pub(super) stretch: Option<Stretch>,
     pub(super) push: Option<Push>,
-    /// Of every pair, while a push is taken again after its joints were inferred together.
+    /// Results of the joint inference for every pair, while a push is replayed with them.
     pub(super) together: Option<Vec<Together>>,
-    /// Not looked at yet.
+    /// Observations not yet processed.
     window: Vec<Observation>,
     pub(super) seen: usize,
     pub(super) history: Vec<Step>,
     pub(super) regulation: Option<Regulation>,
 }
 
-/// What was believed when, and why.
+/// Entry of a belief's history.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Step {
-    /// Observations until then.
+    /// Number of observations processed so far.
     pub observations: usize,
-    /// Of every near pair, in the order of [`Belief::pairs`]: probabilities of [`JointType::ALL`];
-    /// at the end of a push, those of all joints inferred together.
+    /// Probabilities of [`JointType::ALL`] for every pair, in the order of [`Belief::pairs`]. At
+    /// the end of a push they come from the joint inference over all pairs.
     pub probabilities: Vec<[f64; 4]>,
-    /// What the window said for each type, as logarithms against the best; `None` where nothing of
-    /// the pair moved.
+    /// Log-likelihood of the window for each type, relative to the best; `None` if neither object
+    /// moved.
     pub evidence: Vec<Option<[f64; 4]>>,
 }
 
 impl Belief {
-    /// What is believed of `scene` before anything has moved, but for its joints, which are not
-    /// known other than those within a thing; its objects were seen where it states them. The tool's underside is `lift` metres above
+    /// Returns the initial belief about `scene`, whose joints are unknown except within compound
+    /// objects.
+    ///
+    /// The objects were observed at their stated poses. The tool's underside is `lift` metres above
     /// the table.
     pub fn new(scene: &Scene, tool: Arc<Tool>, lift: f64, settings: BeliefSettings) -> Self {
         let known = scene.seams().collect();
@@ -116,35 +118,36 @@ impl Belief {
         }
     }
 
-    /// The belief with a regulator beside the filter.
+    /// Adds a regulator that corrects the filter.
     pub fn regulated(self, regulator: BeliefRegulator) -> Self {
         Self { regulation: Some(Regulation::new(regulator)), ..self }
     }
 
-    /// What windows told a regulator that only listens.
+    /// Returns the features of all windows recorded by a [listening](BeliefRegulator::listening)
+    /// regulator.
     pub fn heard(&self) -> &[Testimony] {
         self.regulation.as_ref().map_or(&[], |regulation| &regulation.heard)
     }
 
-    /// What it heard of pushes before their joints were inferred together, where they were.
+    /// Returns the features recorded for pushes before their joints were inferred jointly.
     pub fn drafts(&self) -> &[Draft] {
         self.regulation.as_ref().map_or(&[], |regulation| &regulation.drafts)
     }
 
-    /// Pairs of objects that were near each other at the start and so may be joined: indices, the
-    /// lower first.
+    /// Returns the pairs of objects that were close at the start and so may be joined. The lower
+    /// index is first.
     pub fn pairs(&self) -> impl ExactSizeIterator<Item = [usize; 2]> {
         self.pairs.iter().map(|pair| pair.between)
     }
 
-    /// Of each of these pairs the probabilities of [`JointType::ALL`].
+    /// Returns the probabilities of [`JointType::ALL`] for each of these pairs.
     pub fn probabilities(&self) -> Vec<[f64; 4]> {
         let pairs = self.regulated_pairs();
         let map = likeliest(&self.scene, &pairs, &self.track.state);
         pairs.iter().map(|pair| pair.probabilities(follows(&map, pair))).collect()
     }
 
-    /// Pairs as the regulator has them, where it told of them.
+    /// Returns the pairs, with the regulator's probabilities where it corrects them.
     pub(super) fn regulated_pairs(&self) -> Cow<'_, [PairBelief]> {
         let Some(regulation) = &self.regulation else { return Cow::Borrowed(&self.pairs) };
         let mut pairs = self.pairs.clone();
@@ -154,13 +157,13 @@ impl Belief {
         Cow::Owned(pairs)
     }
 
-    /// What was believed when, and why.
+    /// Returns the history of the belief.
     pub fn history(&self) -> &[Step] {
         &self.history
     }
 
-    /// Takes what was seen. Every few observations are looked at together, so the last ones may
-    /// not have told anything yet: see [`Self::settle`].
+    /// Adds an observation. Observations are processed in windows, so the last ones may have no
+    /// effect before [`Self::settle`].
     pub fn update(&mut self, model: &dyn EffectModel, observation: Observation) {
         let lifted = is_lifted(&observation);
         self.window.push(observation);
@@ -169,7 +172,7 @@ impl Belief {
         }
     }
 
-    /// Looks at all that was seen.
+    /// Processes all pending observations.
     pub fn settle(&mut self, model: &dyn EffectModel) {
         let window = std::mem::take(&mut self.window);
         if window.is_empty() {
@@ -180,7 +183,7 @@ impl Belief {
         self.look_together(model);
     }
 
-    /// Takes a window, in which physics is as `assumed`, or else the likeliest.
+    /// Processes a window with the physics `assumed`, otherwise with the most probable physics.
     pub(super) fn take(
         &mut self,
         model: &dyn EffectModel,
@@ -192,8 +195,8 @@ impl Belief {
         let mut map = assumed.unwrap_or_else(|| self.filtered_map());
         let Some(mut looked) = self.look(model, window, &map) else { return };
         if open && has_unseen_headings(window) {
-            // Without headings a pair is told by how all of its group moves: once more, with the
-            // others joined as this window has them.
+            // Without headings the evidence about a pair depends on the motion of its group. The
+            // window is therefore evaluated again with the joints that it supports.
             let mut pairs = self.pairs.clone();
             weigh(&mut pairs, &looked.told, self.settings.tempering);
             map = self.with_known(likeliest(&self.scene, &pairs, &self.track.state));
@@ -216,7 +219,7 @@ impl Belief {
         self.history.push(Step { observations: self.seen, probabilities, evidence });
     }
 
-    /// Takes what was seen in a window into where everything is and the geometry of all hypotheses.
+    /// Updates the state estimate and the geometry of all hypotheses with a window.
     pub(super) fn learn(&mut self, window: &[Observation], looked: &Looked) {
         self.track.follow(&looked.base, window);
         for (pair, Told { instants, ends, .. }) in self.pairs.iter_mut().zip(&looked.told) {
@@ -228,21 +231,21 @@ impl Belief {
         }
     }
 
-    /// Physics in which [`Self::pairs`] are joined as `types` say, where these joints would most likely
-    /// be; joints close no loop.
+    /// Returns the physics in which [`Self::pairs`] have joints of these `types`, at their most
+    /// probable geometry. Joints close no loop.
     pub fn physics_of(&self, types: &[JointType]) -> Physics {
         self.with_known(of_types(&self.scene, &self.pairs, &self.track.state, types))
     }
 
-    /// The types that the last window which told of a pair says by itself: a belief without memory.
+    /// Returns the types from the last informative window alone: a memoryless baseline.
     pub fn last_types(&self) -> Vec<JointType> {
         let last = |p: usize| self.history.iter().rev().find_map(|step| step.evidence[p]);
         let of = |p| last(p).map_or(JointType::None, |evidence| PairBelief::by_window(&evidence));
         (0..self.pairs.len()).map(of).collect()
     }
 
-    /// Has the regulator, if there is one, correct what the filter found in a window, which was
-    /// `played` with the likeliest physics in the scene before it.
+    /// Lets the regulator, if any, correct the filter's result for a window. `played` is the
+    /// rollout job with the most probable physics, in the scene before the window.
     fn regulate(&mut self, played: (Scene, Job), window: &[Observation], looked: &Looked) {
         let Some(mut regulation) = self.regulation.take() else { return };
         let (scene, job) = (&played.0, &played.1);
@@ -272,38 +275,40 @@ impl Belief {
         self.regulation = Some(regulation);
     }
 
-    /// How far two objects are thought to have moved against each other: metres, radians.
+    /// Returns the estimated relative displacement of two objects: metres, radians.
     fn worked(&self, [a, b]: [usize; 2]) -> [f64; 2] {
         let (start, now) = (&self.scene.objects, &self.track.state.poses);
         let change = relative(&now[a], &now[b]) - relative(&start[a].pose, &start[b].pose);
         [change.xy().norm(), change.z.abs()]
     }
 
-    /// The scene as it is thought to stand now, with the joints to predict with.
+    /// Returns the estimated current scene, with the joints used for prediction.
     pub fn situation(&self) -> Situation {
         let physics = Arc::new(self.supposed());
         Situation { scene: Arc::new(self.scene_now()), start: self.track.state.clone(), physics }
     }
 
-    /// The likeliest physics: anchors and axes are where they are with the objects as in
+    /// Returns the most probable physics, with anchors and axes at the poses of
     /// [`Self::situation`].
     pub fn map(&self) -> Physics {
         self.with_known(likeliest(&self.scene, &self.regulated_pairs(), &self.track.state))
     }
 
-    /// The likeliest physics by the filter alone. Windows are rolled out in it, so that what they
-    /// tell is what the regulator heard in its lessons.
+    /// Returns the most probable physics according to the filter alone.
+    ///
+    /// Windows are rolled out with it because the regulator was trained on evidence obtained this
+    /// way.
     pub(super) fn filtered_map(&self) -> Physics {
         self.with_known(likeliest(&self.scene, &self.pairs, &self.track.state))
     }
 
-    /// These joints of near pairs with all that is believed besides.
+    /// Completes the physics of near pairs with the known joints and the estimated parameters.
     pub(super) fn with_known(&self, mut physics: Physics) -> Physics {
         physics.joints.extend(carried(&self.known, &self.scene, &self.track.state));
         self.with_numbers(physics)
     }
 
-    /// The likeliest masses, frictions and supports.
+    /// Inserts the most probable masses, frictions and supports.
     pub(super) fn with_numbers(&self, physics: Physics) -> Physics {
         let physics = self.particles.mean(&self.scene, physics);
         match &self.masses {
@@ -321,13 +326,13 @@ impl Belief {
     }
 }
 
-/// Standard deviation of the gap between two objects that were seen with this noise, metres.
+/// Returns the standard deviation of the gap between two objects observed with this noise, metres.
 fn gap_deviation(noise: Noise) -> f64 {
     noise.position.hypot(ARM * noise.heading) * std::f64::consts::SQRT_2
 }
 
-/// How likely objects that were seen with this gap and its standard deviation, metres, are so near that
-/// they may be joined.
+/// Returns the probability that two objects are close enough to be joined, given their observed gap
+/// and its standard deviation, metres.
 fn joinable(gap: f64, doubt: f64) -> f64 {
     if doubt == 0.0 {
         return 1.0;
@@ -335,7 +340,7 @@ fn joinable(gap: f64, doubt: f64) -> f64 {
     (1.0 + (LOGISTIC * (gap - JOINABLE) / doubt).exp()).recip()
 }
 
-/// Whether the motion of a pair is likest to a joint but follows from likelier ones already.
+/// Returns `true` if a pair moves as if joined but its motion follows from more probable joints.
 pub(super) fn follows(physics: &Physics, pair: &PairBelief) -> bool {
     pair.likeliest() != JointType::None && joint_of(physics, pair.between).is_none()
 }
@@ -344,7 +349,7 @@ pub(super) fn joint_of(physics: &Physics, between: [usize; 2]) -> Option<&Joint>
     physics.joints.iter().find(|joint| joint.between == between)
 }
 
-/// Takes what a window tells of pairs, as far as it is trusted.
+/// Updates the pairs with the evidence of a window, raised to the power `tempering`.
 pub(super) fn weigh(pairs: &mut [PairBelief], told: &[Told], tempering: f64) {
     for (pair, told) in pairs.iter_mut().zip(told) {
         if let Some(judged) = &told.judged {
@@ -373,7 +378,7 @@ mod tests {
             belief.pairs().zip(belief.probabilities()).map(|(_, [none, ..])| none).next()
         };
         assert_eq!(none(0.0), None);
-        // With more noise it says less that they stood too far apart.
+        // With more noise, the observed gap is weaker evidence against a joint.
         let (fine, coarse) = (none(1e-3).expect("a pair"), none(5e-3).expect("a pair"));
         assert!(0.85 < fine && fine < 0.9, "{fine}");
         assert!(0.75 < coarse && coarse < 0.8, "{coarse}");

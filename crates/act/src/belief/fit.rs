@@ -1,7 +1,7 @@
-//! Where a joint holds two objects, as far as was seen: a Gaussian over its geometry and the errors of
-//! unseen headings, and what was seen in the joint's own coordinates.
+//! Estimate of a joint's geometry: a Gaussian over the geometry and the errors of unobserved
+//! headings, and observations in joint coordinates.
 //!
-//! With the pose (r, h) of the second object in the frame of the first, R a turn by h:
+//! The second object has position r and heading h in the frame of the first; R is a rotation by h:
 //!
 //! | type | geometry | held | free |
 //! |---|---|---|---|
@@ -10,11 +10,12 @@
 //! | revolute | anchor c in the first frame, d in the second | r + R d - c | h |
 //! | prismatic | angle p of the axis u in the first frame, offset o, h0 | n.r - o, h - h0 | u.r |
 //!
-//! The change to these coordinates keeps volumes, so densities in them compare between types. What
-//! is held follows a Kalman filter, extended for the axis. Its state also has the errors of the two
-//! headings where these are not seen: they are then rolled out under this type of joint, drift a
-//! little in every window, and are corrected by what the joint holds, be it a heading held against
-//! another unseen one.
+//! The change to these coordinates preserves volume, so their densities compare between types. The
+//! held coordinates follow a Kalman filter, extended for the axis.
+//!
+//! Its state also contains the errors of the two headings if these are not observed. Such headings
+//! are rolled out under the joint type and drift slightly in every window. They are corrected by
+//! the held coordinates, even if a heading is held relative to another unobserved one.
 
 use nalgebra::{
     Matrix3, Matrix3x4, Matrix3x6, Matrix4, Matrix6, SMatrix, Vector2, Vector3, Vector4,
@@ -27,53 +28,54 @@ use super::{
     window::{Instant, Look},
 };
 
-/// Play of joints, as standard deviations: metres and radians. Real joints have some, and
-/// simulated ones drift.
+/// Standard deviations of the play of joints: metres and radians. Real joints have play, and
+/// simulated joints drift.
 const PLAY: [f64; 2] = [1.2e-4, 2e-3];
 
-/// A Gaussian over the geometry of a joint of some type and the errors of unseen headings.
+/// Gaussian over the geometry of a joint and the errors of unobserved headings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Fit {
     pub kind: JointType,
-    /// Numbers of the geometry, see the table above; unused ones are zero.
+    /// Geometry parameters, see the table above; unused ones are zero.
     pub mean: Vector4<f64>,
-    /// Of headings that are not seen: what to add to those that are tracked.
+    /// Corrections to the tracked headings, for headings that are not observed.
     pub errors: Vector2<f64>,
-    /// Of the geometry and these errors.
+    /// Covariance of the geometry and the heading errors.
     pub covariance: Matrix6<f64>,
 }
 
-/// What was seen at one instant in a joint's own coordinates.
+/// Observation at one instant in joint coordinates.
 pub(super) struct Row {
-    /// What was seen minus what the geometry, where it holds, or else the model says.
+    /// Observation minus the value of the geometry for held coordinates, otherwise minus the
+    /// prediction.
     pub off: Vector3<f64>,
-    /// How it changes with the numbers of the geometry and the errors of unseen headings.
+    /// Jacobian with respect to the geometry and the errors of unobserved headings.
     pub by_state: Matrix3x6<f64>,
-    /// How it changes with what was seen.
+    /// Jacobian with respect to the observation.
     pub by_seen: Matrix3<f64>,
-    /// Which coordinates the joint holds.
+    /// Coordinates held by the joint.
     pub held: [bool; 3],
 }
 
 impl Fit {
-    /// Of two objects that are not joined.
+    /// Creates the fit for two objects without a joint.
     pub fn none() -> Self {
         Self::new(JointType::None, Vector4::zeros(), Matrix4::zeros())
     }
 
-    /// Of two that hold each other as they were `seen` with this `spread`.
+    /// Creates the fit of a fixed joint at the relative pose `seen` with covariance `spread`.
     pub fn fixed(seen: &Vector3<f64>, spread: &Matrix3<f64>) -> Self {
         let mut covariance = Matrix4::zeros();
         covariance.fixed_view_mut::<3, 3>(0, 0).copy_from(spread);
         Self::new(JointType::Fixed, seen.push(0.0), covariance)
     }
 
-    /// Of two that turn about a point somewhere around `anchor`, in the frame of the first, with
-    /// the standard deviation `far` of either coordinate, metres.
+    /// Creates the fit of a revolute joint near `anchor`, in the frame of the first object. The
+    /// standard deviation of either coordinate is `far`, metres.
     pub fn revolute(seen: &Vector3<f64>, spread: &Matrix3<f64>, anchor: Vector, far: f64) -> Self {
         let turn = turn(seen.z);
         let other = turn.transpose() * (anchor - seen.xy());
-        // The second frame's anchor follows from the first's and what was seen.
+        // The anchor in the second frame follows from the first anchor and the observation.
         let by_anchor = SMatrix::<f64, 4, 2>::from_fn(|row, column| match row {
             0 | 1 => f64::from(u8::from(row == column)),
             _ => turn[(column, row - 2)],
@@ -90,12 +92,12 @@ impl Fit {
         Self::new(JointType::Revolute, mean, covariance)
     }
 
-    /// Of two that slide along an axis with about this `angle` in the frame of the first, `wide`
-    /// its standard deviation, radians.
+    /// Creates the fit of a prismatic joint near the axis `angle`, in the frame of the first
+    /// object. The standard deviation of the angle is `wide`, radians.
     pub fn prismatic(seen: &Vector3<f64>, spread: &Matrix3<f64>, angle: f64, wide: f64) -> Self {
         let (axis, normal) = frame(angle);
         let mean = Vector4::new(angle, normal.dot(&seen.xy()), seen.z, 0.0);
-        // The offset is that of what was seen at any angle.
+        // At every angle the offset passes through the observation.
         let by_angle = Vector4::new(1.0, -axis.dot(&seen.xy()), 0.0, 0.0);
         let by_seen = SMatrix::<f64, 4, 3>::from_fn(|row, column| match (row, column) {
             (1, 0 | 1) => normal[column],
@@ -107,14 +109,15 @@ impl Fit {
         Self::new(JointType::Prismatic, mean, covariance)
     }
 
-    /// Unseen headings are counted from how they are tracked at the start, so they have no errors.
+    /// Creates a fit without heading errors: unobserved headings are measured from the tracked
+    /// start.
     fn new(kind: JointType, mean: Vector4<f64>, geometry: Matrix4<f64>) -> Self {
         let mut covariance = Matrix6::zeros();
         covariance.fixed_view_mut::<4, 4>(0, 0).copy_from(&geometry);
         Self { kind, mean, errors: Vector2::zeros(), covariance }
     }
 
-    /// What was seen at an instant.
+    /// Returns the residual of an observation with its Jacobians.
     pub fn read(&self, look: &Look) -> Row {
         let m = &self.mean;
         let identity = Matrix3::identity();
@@ -151,7 +154,7 @@ impl Fit {
                 (off, by_geometry, by_seen, [true, false, true])
             }
         };
-        // What is free is compared with a rollout of the same headings.
+        // Free coordinates are compared with a rollout of equal headings.
         let mut by_errors = by_seen * look.seen_by_errors;
         let rolled = by_seen * look.predicted_by_errors;
         for (k, _) in held.iter().enumerate().filter(|(_, held)| !**held) {
@@ -164,7 +167,7 @@ impl Fit {
         Row { off, by_state, by_seen, held }
     }
 
-    /// Takes what was seen in a window into the geometry and the errors of unseen headings.
+    /// Updates the geometry and the heading errors with a window.
     pub fn learn(&mut self, instants: &[Instant]) {
         let mut before = [0.0f64; 2];
         for now in instants {
@@ -181,7 +184,7 @@ impl Fit {
         }
     }
 
-    /// The heading of one of the two has this error, whatever was thought before.
+    /// Replaces the error of one of the two headings, discarding its correlations.
     pub fn forget(&mut self, which: usize, error: f64, variance: f64) {
         self.errors[which] = error;
         self.covariance.row_mut(4 + which).fill(0.0);
@@ -205,14 +208,14 @@ impl Fit {
         self.mean -= change.fixed_rows::<4>(0);
         self.errors -= change.fixed_rows::<2>(4);
         let left = Matrix6::identity() - gain * row.by_state;
-        // Joseph's form, which stays a covariance.
+        // The Joseph form keeps the matrix positive semidefinite.
         self.covariance =
             left * self.covariance * left.transpose() + gain * noise * gain.transpose();
     }
 }
 
 impl Row {
-    /// Covariance of errors of what was seen, and play, in these coordinates.
+    /// Returns the covariance of observation noise and play in joint coordinates.
     pub fn noise(&self, spread: &Matrix3<f64>) -> Matrix3<f64> {
         let play = |k: usize| match (self.held[k], k) {
             (false, _) => 0.0,
@@ -225,13 +228,13 @@ impl Row {
     }
 }
 
-/// A turn by an angle.
+/// Returns the rotation matrix of an angle.
 pub(super) fn turn(angle: f64) -> nalgebra::Matrix2<f64> {
     let (sin, cos) = angle.sin_cos();
     nalgebra::Matrix2::new(cos, -sin, sin, cos)
 }
 
-/// Axis and normal at an angle.
+/// Returns the axis and the normal at an angle.
 fn frame(angle: f64) -> (Vector, Vector) {
     let axis = Vector::new(angle.cos(), angle.sin());
     (axis, perpendicular(axis))

@@ -1,4 +1,4 @@
-//! Physics from what is believed of pairs.
+//! Construction of physics from pair beliefs.
 
 use pushplan::{
     geometry::{Pose, Vector},
@@ -7,15 +7,18 @@ use pushplan::{
 
 use super::pair::{JointType, PairBelief};
 
-/// The likeliest physics, with anchors and axes where they are in `state`. Joints close no loop;
-/// where they would, the likelier ones stay.
+/// Returns the most probable physics, with anchors and axes for the poses of `state`.
+///
+/// Joints close no loop; of the joints in a loop, the more probable ones are kept.
 pub(super) fn likeliest(scene: &Scene, pairs: &[PairBelief], state: &State) -> Physics {
     let types: Vec<JointType> = pairs.iter().map(PairBelief::likeliest).collect();
     of_types(scene, pairs, state, &types)
 }
 
-/// Physics in which pairs are joined as `types` say, where their joints would most likely be. Joints
-/// close no loop; where they would, the likelier ones stay.
+/// Returns the physics in which pairs have joints of these `types`, at their most probable
+/// geometry.
+///
+/// Joints close no loop; of the joints in a loop, the more probable ones are kept.
 pub(super) fn of_types(
     scene: &Scene,
     pairs: &[PairBelief],
@@ -36,8 +39,9 @@ pub(super) fn of_types(
     physics
 }
 
-/// `physics` with one of `pairs` joined in another way; where that closed a loop, the joint in it
-/// that is least likely gives way.
+/// Returns `physics` with the joint of one pair changed.
+///
+/// If this closes a loop, the least probable joint in the loop is removed.
 pub(super) fn with(
     physics: &Physics,
     pairs: &[PairBelief],
@@ -63,7 +67,7 @@ pub(super) fn with(
     physics
 }
 
-/// `joints` that are known at the poses that `scene` states, where its objects stand as in `state`.
+/// Moves known joints from the poses stated in `scene` to the poses in `state`.
 pub fn carried(joints: &[Joint], scene: &Scene, state: &State) -> Vec<Joint> {
     let now = |joint: &Joint| {
         if joint.between.iter().all(|&k| state.poses[k] == scene.objects[k].pose) {
@@ -72,7 +76,7 @@ pub fn carried(joints: &[Joint], scene: &Scene, state: &State) -> Vec<Joint> {
         let frames = joint.frames(&scene.objects);
         let [first, second] = [0, 1].map(|k| state.poses[joint.between[k]] * frames[k]);
         let left = |limits: Option<Span>, gone: f64| {
-            // What was seen may be a little beyond a limit; the start never is.
+            // An observed pose may exceed a limit slightly; the initial pose never does.
             limits.map(|span| Span::new((span.low - gone).min(0.0), (span.high - gone).max(0.0)))
         };
         let kind = match joint.kind {
@@ -96,8 +100,8 @@ fn poses(state: &State, between: [usize; 2]) -> [&Pose; 2] {
     between.map(|k| &state.poses[k])
 }
 
-/// Indices of the joints, which close no loop, on the way between two objects; none if there is no
-/// way.
+/// Returns the indices of the joints on the path between two objects, which is unique because
+/// joints close no loop. The result is empty without a path.
 fn path(joints: &[Joint], [from, to]: [usize; 2]) -> Vec<usize> {
     let mut ways: Vec<(usize, Vec<usize>)> = vec![(from, Vec::new())];
     while let Some((at, way)) = ways.pop() {
@@ -128,7 +132,7 @@ mod tests {
             .with_joint([0, 1], JointKind::Revolute { at, limits })
             .with_joint([1, 2], JointKind::Prismatic { axis, limits });
         assert_eq!(carried(&scene.joints, &scene, &scene.start()), scene.joints);
-        // The first turned left, which carried the others along; the second turned on by 0.2.
+        // The first object turned left and carried the others; the second turned a further 0.2 rad.
         let turned = Pose::new(0.3, 0.1, 0.4);
         let hinge = Pose { position: turned.point(at), heading: 0.6 };
         let mut state = scene.start();

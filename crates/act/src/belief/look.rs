@@ -1,4 +1,4 @@
-//! What a window tells of every pair: hypotheses rolled out beside what was seen.
+//! Evidence of a window about every pair, from rollouts of the hypotheses.
 
 use std::sync::Arc;
 
@@ -23,34 +23,35 @@ use super::{
     window::{Doubt, Instant, drift, evidence, whitened},
 };
 
-/// How much the places of all objects count beside those of a pair against each other: where headings
-/// of the pair are seen, and where they are not and more must come from how all objects move.
+/// Weight of the positions of all objects relative to the relative pose of a pair. The first value
+/// applies if the headings of the pair are observed, the second otherwise, because the group's
+/// motion is then more informative.
 const PLACES: [f64; 2] = [0.3, 0.6];
 
-/// A window, looked at.
+/// Evaluated window.
 pub(super) struct Looked {
-    /// Rolled out with the joints that were taken for true.
+    /// Rollout with the assumed joints.
     pub base: Rolled,
-    /// What it tells of every pair.
+    /// Evidence about every pair.
     pub told: Vec<Told>,
-    /// How far every object moved, metres; zero where that may be noise.
+    /// Displacement of every object, metres; zero if it may be noise.
     pub moved: Vec<f64>,
 }
 
-/// What a window tells of a pair.
+/// Evidence of a window about a pair.
 pub(super) struct Told {
-    /// `None` where nothing of the pair moved.
+    /// Result for the hypotheses; `None` if neither object moved.
     pub judged: Option<Judged>,
-    /// By type of joint: the instants of the window, and the headings of the two that were rolled
-    /// out to its end; `None` for those that were seen then.
+    /// Instants of the window by joint type, and rolled-out headings at its end. Headings that were
+    /// observed then are `None`.
     pub instants: [Vec<Instant>; 4],
     pub ends: [[Option<f64>; 2]; 4],
-    /// By type, what is not known of the rollout; `None` where nothing of the pair was seen or moved.
+    /// Uncertainty of the rollout by type; `None` if the pair was not observed or did not move.
     pub doubts: [Option<Doubt>; 4],
 }
 
 impl Belief {
-    /// What a window tells of every pair, the others joined as in `map`, which is rolled out too.
+    /// Evaluates a window for every pair, with the other pairs joined as in `map`.
     pub(super) fn look(
         &self,
         model: &dyn EffectModel,
@@ -64,7 +65,7 @@ impl Belief {
             .map(|object| self.track.motion(object, &base, window))
             .collect();
         let tells = |pair: &PairBelief| pair.between.iter().any(|&k| moved[k] > 0.0);
-        // Every other type of joint of every pair that moved.
+        // All other joint types of every pair that moved.
         let mut asked: Vec<(usize, JointType)> = Vec::new();
         for (p, _) in self.pairs.iter().enumerate().filter(|(_, pair)| tells(pair)) {
             let others = JointType::ALL.into_iter().filter(|kind| *kind != known[p]);
@@ -95,8 +96,8 @@ impl Belief {
         Some(Looked { base, told, moved })
     }
 
-    /// What a window tells of all pairs, joined as in `map`, where no other type is asked and places of
-    /// objects do not count; and how likely these are.
+    /// Evaluates a window with the joints of `map` only and returns the log-likelihood of the
+    /// object positions. The positions do not enter the evidence of the pairs.
     pub(super) fn look_at(
         &self,
         model: &dyn EffectModel,
@@ -120,7 +121,7 @@ impl Belief {
         Some((Looked { base, told, moved }, places))
     }
 
-    /// What the tool did in a window, rolled out under every one of `physics`.
+    /// Rolls out the tool's motion in a window under every element of `physics`.
     fn roll(
         &self,
         model: &dyn EffectModel,
@@ -133,14 +134,14 @@ impl Belief {
         rolled.iter().map(|trajectory| Rolled::new(trajectory, window, start)).collect()
     }
 
-    /// What the tool did in a window, as a rollout under `physics`.
+    /// Returns the job for the tool's motion in a window under `physics`.
     pub(super) fn job(&self, window: &[Observation], physics: Physics) -> Job {
         let strokes: Vec<Stroke> = window.iter().flat_map(|seen| seen.strokes.clone()).collect();
         let motion = ToolMotion { tool: Arc::clone(&self.tool), lift: self.lift, strokes };
         Job { start: self.track.state.clone(), motion: motion.into(), physics: Arc::new(physics) }
     }
 
-    /// A pair at the observations of a window, as it was seen and as it was rolled out.
+    /// Returns the observed and the rolled-out poses of a pair at every observation of a window.
     fn instants(
         &self,
         between: [usize; 2],
@@ -175,7 +176,7 @@ impl Belief {
         instants
     }
 
-    /// What is not known of how a pair was rolled out, by type; `None` where it was not seen.
+    /// Returns the uncertainty of a pair's rollout by type; `None` if the pair was not observed.
     fn doubts(
         &self,
         pair: &PairBelief,
@@ -188,7 +189,7 @@ impl Belief {
         JointType::ALL.map(|kind| {
             let last = instants[kind as usize].last()?;
             let variance = |which: usize| {
-                // Errors of headings that are not seen turn all of a pair's frame alike.
+                // Errors of unobserved headings rotate the whole frame of a pair.
                 let known = |k: usize| which == 0 || last.headings[k];
                 let of = |k: usize| self.track.variance[pair.between[k]][which];
                 [0, 1].map(|k| if known(k) { of(k) } else { 0.0 })
@@ -201,8 +202,10 @@ impl Belief {
         })
     }
 
-    /// What a window says of every hypothesis about a pair, rolled out by type with these `doubts`; by
-    /// type too, how likely the `places` of all objects are.
+    /// Returns the evidence of a window for every hypothesis about a pair.
+    ///
+    /// `doubts` are the uncertainties of the rollouts and `places` the log-likelihoods of all
+    /// positions, both by type.
     fn judge(
         &self,
         pair: &PairBelief,

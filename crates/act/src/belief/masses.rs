@@ -1,10 +1,11 @@
-//! Which of a few ranges every object's mass is in, from pushes in which objects touch each other.
+//! Belief about the mass range of every object, from contacts between pushed objects.
 //!
-//! Where no force is measured everything scales with mass, so a push tells ratios of masses in a group of
-//! objects that touch, never the scale. Ranges that lie far apart tell the scale now and then, too, as
-//! not every ratio fits all of them (thesis, section 8.3). So whole assignments of ranges to objects are
-//! weighed, not objects one by one: that one is heavier than another is known long before either mass is.
-//! Of what no other object has touched nothing is known.
+//! Without force measurements all dynamics scale with mass, so a push identifies only mass ratios
+//! in a group of touching objects. Ranges that are far apart sometimes also identify the scale
+//! because not every ratio fits all of them (thesis, section 8.3).
+//!
+//! Whole assignments of ranges to objects are therefore weighed: the ratio of two masses is known
+//! long before either mass. The mass of an object without contact to others stays undetermined.
 
 use rand::Rng;
 use serde::{Deserialize, Serialize};
@@ -19,55 +20,55 @@ use super::{
     density::log_sum,
 };
 
-/// Most assignments that are kept: all of those of four objects and three ranges.
+/// Maximum number of assignments kept: all assignments of four objects and three ranges.
 const KEPT: usize = 81;
 
-/// Of so many objects that touch in a push all evidence counts, of more a share: one wrong turn of a
-/// rollout leads all after it astray.
+/// Maximum number of touching objects for which all evidence counts. With more objects the evidence
+/// is scaled down because one wrong contact misleads the rest of a rollout.
 const FEW: f64 = 4.0;
 
-/// Where not all assignments are kept, the probability that the right one is lost, so that any range is as
-/// likely as another. Of rows and wedges of seed 5 (`pushplan-lab masses --touching --controlled rows wedges
-/// --count 20 --seed 5`) 62 to 71 % of the masses were right and nearly all taken for certain; of 0 to 0.3 in steps
-/// of 0.05 this was nearest to calibrated over these and 225 masses in crowds of nine.
+/// Probability that the true assignment was discarded when not all are kept; all ranges are then
+/// equally probable.
+///
+/// Measured with `pushplan-lab masses --touching --controlled rows wedges --count 20 --seed 5`:
+/// without it, nearly all masses were certain but only 62 to 71 % were correct. Of the values 0 to
+/// 0.3 in steps of 0.05, this was best calibrated over these and 225 masses in crowds of nine.
 const LOST: f64 = 0.2;
 
-/// What is believed of masses that are in one of some ranges.
+/// Belief about masses with discrete ranges.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MassShares {
-    /// Of every object the probability of each range; `None` where it touched no other object, so
-    /// that its mass cannot be told.
+    /// Probabilities of the ranges for every object; `None` if the object touched no other object.
     pub objects: Vec<Option<Vec<f64>>>,
-    /// Of pairs that touched each other, in the order of their indices.
+    /// Pairs that touched each other, in the order of their indices.
     pub ratios: Vec<MassRatio>,
 }
 
-/// How heavy the first of two objects is beside the second, if any of the assignments that are kept is
-/// right.
+/// Belief about the mass ratio of two objects, assuming that a kept assignment is true.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MassRatio {
-    /// The two, the lower index first.
+    /// Indices of the objects, the lower one first.
     pub between: [usize; 2],
-    /// Mean and standard deviation of the natural logarithm of their masses' ratio.
+    /// Mean and standard deviation of the natural logarithm of the mass ratio.
     pub log: [f64; 2],
 }
 
-/// A range for every object that has touched another.
+/// Assignment of a range to every object that has touched another.
 #[derive(Clone, Debug, PartialEq)]
 struct Assignment {
     ranges: Vec<usize>,
-    /// Logarithms of how likely it is: before the push that is looked at, and now.
+    /// Log-probabilities before the current push and now.
     before: f64,
     now: f64,
 }
 
-/// A push that was seen and can be played again, from several states that may have been its start.
+/// Observed push that can be replayed from several possible initial states.
 pub(super) struct Replay<'a> {
-    /// How many these are.
+    /// Number of initial states.
     pub starts: usize,
-    /// Where it goes from each of them with these physics.
+    /// Rolls out the push from each initial state with these physics.
     pub play: &'a dyn Fn(Physics) -> Vec<Trajectory>,
-    /// Logarithms of how likely what was seen is with each of these: physics for the first starts.
+    /// Returns the log-likelihoods of the observations, given physics for the first initial states.
     pub score: &'a dyn Fn(Vec<Vec<Physics>>) -> Vec<f64>,
 }
 
@@ -76,20 +77,20 @@ pub(super) struct Replay<'a> {
 pub(super) struct Masses {
     /// Geometric means of the ranges, kg.
     middles: Vec<f64>,
-    /// Their widths, as differences of logarithms, which are as likely anywhere in them.
+    /// Logarithmic widths of the ranges; masses are log-uniform within a range.
     widths: Vec<f64>,
     /// Number of objects in the scene.
     count: usize,
-    /// Those that have touched another, in the order in which they did.
+    /// Objects that have touched another, in the order of first contact.
     objects: Vec<usize>,
     /// Pairs that touched each other, the lower index first.
     met: Vec<[usize; 2]>,
-    /// The likeliest first.
+    /// Assignments in descending order of probability.
     all: Vec<Assignment>,
 }
 
 impl Masses {
-    /// Of `count` objects that have not moved yet.
+    /// Creates the prior for `count` objects.
     pub fn new(count: usize, ranges: &[Span]) -> Self {
         Self {
             middles: ranges.iter().map(|range| (range.low * range.high).sqrt()).collect(),
@@ -101,7 +102,7 @@ impl Masses {
         }
     }
 
-    /// Takes a push in which everything else is as in `physics`.
+    /// Updates the assignments with a push; all parameters except masses are taken from `physics`.
     pub fn weigh(&mut self, physics: &Physics, replay: &Replay<'_>) {
         let met = met(&(replay.play)(self.likeliest(physics.clone())));
         if met.is_empty() {
@@ -111,7 +112,7 @@ impl Masses {
             if self.objects.contains(object) {
                 continue;
             }
-            // What the likeliest start comes to with each range decides which assignments are kept.
+            // The most probable initial state decides which assignments are kept.
             self.objects.push(*object);
             let each = std::mem::take(&mut self.all);
             let middles = 0..self.middles.len();
@@ -136,10 +137,10 @@ impl Masses {
         self.met.dedup();
     }
 
-    /// Plays a push, in which these objects `met`, from the first `starts` under all assignments; keeps
-    /// the likeliest.
+    /// Replays a push with the contacts `met` from the first `starts` initial states under all
+    /// assignments, and keeps the most probable ones.
     fn play(&mut self, physics: &Physics, met: &[[usize; 2]], replay: &Replay<'_>, starts: usize) {
-        // Where assignments differ in objects that have no part in the push, it goes the same way.
+        // Assignments that differ only in uninvolved objects yield equal replays.
         let part = |k: &usize| met.as_flattened().contains(k);
         let key = |one: &Assignment| -> Vec<usize> {
             let both = self.objects.iter().zip(&one.ranges);
@@ -163,7 +164,7 @@ impl Masses {
         let among = self.objects.iter().filter(|k| part(k)).count();
         let trust = (FEW / among.max(1) as f64).min(1.0);
         for (one, key) in self.all.iter_mut().zip(&keys) {
-            // A rollout that broke off is no evidence for its assignment.
+            // A failed rollout has zero likelihood.
             let score = scores.get(place(key)).copied().filter(|score| !score.is_nan());
             one.now = one.before + trust * score.unwrap_or(f64::NEG_INFINITY);
         }
@@ -174,12 +175,13 @@ impl Masses {
         self.all.truncate(KEPT);
     }
 
-    /// `physics` with the likeliest masses; those of what touched no other object are the middle ones.
+    /// Returns `physics` with the most probable masses; objects without contact get the middle
+    /// range.
     pub fn likeliest(&self, physics: Physics) -> Physics {
         self.assigned(physics, self.all.first().map_or(&[][..], |best| &best.ranges))
     }
 
-    /// `physics` with masses that are drawn.
+    /// Returns `physics` with sampled masses.
     pub fn sample(&self, physics: Physics, rng: &mut impl Rng) -> Physics {
         let drawn = self.all.get(weighted(rng, &self.weights()));
         let mut physics = self.assigned(physics, drawn.map_or(&[][..], |one| &one.ranges));
@@ -192,7 +194,7 @@ impl Masses {
         physics
     }
 
-    /// What is believed.
+    /// Returns the probabilities of the ranges and the mass ratios.
     pub fn shares(&self) -> MassShares {
         let (weights, lost) = (self.weights(), self.lost());
         let place = |object: usize| self.objects.iter().position(|k| *k == object);
@@ -223,7 +225,7 @@ impl Masses {
         MassShares { objects: objects.collect(), ratios: ratios.collect() }
     }
 
-    /// How likely it is that the right assignment is not among those that are kept.
+    /// Returns the probability that the true assignment is not among the kept ones.
     fn lost(&self) -> f64 {
         let every = self.middles.len().checked_pow(self.objects.len() as u32);
         if every.is_some_and(|every| every <= self.all.len()) { 0.0 } else { LOST }
@@ -234,8 +236,8 @@ impl Masses {
         self.all.iter().map(|one| (one.now - all).exp()).collect()
     }
 
-    /// `physics` with masses anywhere in the ranges of an assignment, by the number of a start: in the
-    /// middle for the first.
+    /// Returns `physics` with masses sampled within the ranges of an assignment. Start 0 uses the
+    /// middles of the ranges.
     fn within(&self, mut physics: Physics, one: &Assignment, start: usize) -> Physics {
         if start > 0 {
             let mut rng = generator(start as u64, 0);
@@ -247,8 +249,8 @@ impl Masses {
         physics
     }
 
-    /// `physics` with masses in the middle of these ranges, and of the middle one for what touched no
-    /// other object.
+    /// Returns `physics` with masses in the middle of these ranges. Objects without contact get the
+    /// middle range.
     fn assigned(&self, mut physics: Physics, ranges: &[usize]) -> Physics {
         physics.masses.fill(self.middles[self.middles.len() / 2]);
         for (object, range) in self.objects.iter().zip(ranges) {
@@ -258,7 +260,7 @@ impl Masses {
     }
 }
 
-/// Pairs that touched each other in at least half of these, in the order of the first.
+/// Returns the pairs in contact in at least half of the rollouts, in the order of the first.
 fn met(played: &[Trajectory]) -> Vec<[usize; 2]> {
     let each: Vec<Vec<[usize; 2]>> = played.iter().map(|one| pairs(one).collect()).collect();
     let mut met: Vec<[usize; 2]> = Vec::new();
@@ -271,7 +273,7 @@ fn met(played: &[Trajectory]) -> Vec<[usize; 2]> {
     met
 }
 
-/// Pairs of objects that touched each other, the lower index first, in order of time.
+/// Returns the pairs of objects in contact, the lower index first, in chronological order.
 fn pairs(trajectory: &Trajectory) -> impl Iterator<Item = [usize; 2]> {
     trajectory.contacts.iter().filter_map(|contact| match contact.with {
         Body::Object(other) => Some([contact.object.min(other), contact.object.max(other)]),

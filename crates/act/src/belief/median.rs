@@ -2,15 +2,17 @@
 
 use pushplan::geometry::Vector;
 
-/// Steps of the iteration: its error is then below a thousandth of how far the points are apart.
+/// Number of iterations; the error is then below 0.001 of the extent of the points.
 const STEPS: usize = 64;
 
-/// The point from which the weighted sum of distances to `points` is least, by Weiszfeld's iteration, and
-/// by Vardi and Zhang's test where that is one of the points (doi:10.1073/pnas.97.4.1423).
+/// Returns the point with the minimum weighted sum of distances to `points`.
+///
+/// Computed with Weiszfeld's iteration, and with the test of Vardi and Zhang
+/// (doi:10.1073/pnas.97.4.1423) if the minimum is one of the points.
 ///
 /// # Panics
 ///
-/// Without points.
+/// If `points` is empty.
 pub(super) fn geometric_median(points: &[(f64, Vector)]) -> Vector {
     let cost = |at: Vector| points.iter().map(|(weight, p)| weight * (p - at).norm()).sum::<f64>();
     let nearest = points.iter().map(|(_, point)| (cost(*point), *point));
@@ -36,11 +38,11 @@ pub(super) fn geometric_median(points: &[(f64, Vector)]) -> Vector {
     at
 }
 
-/// The number that half of the weight is not above.
+/// Returns the weighted median.
 ///
 /// # Panics
 ///
-/// Without numbers.
+/// If `numbers` is empty.
 pub(super) fn weighted_median(mut numbers: Vec<(f64, f64)>) -> f64 {
     numbers.sort_by(|a, b| a.1.total_cmp(&b.1));
     let half = 0.5 * numbers.iter().map(|(weight, _)| weight).sum::<f64>();
@@ -71,7 +73,7 @@ mod tests {
         let points = [(2.0, [0.0, 0.0]), (1.0, [1.0, 0.0]), (1.0, [0.0, 3.0])];
         let points = points.map(|(weight, [x, y])| (weight, Vector::new(x, y)));
         assert_eq!(geometric_median(&points), Vector::zeros());
-        // A corner with more than 120 degrees.
+        // Triangle with an angle of more than 120 degrees.
         let flat = [[-1.0, 0.2], [0.0, 0.0], [1.0, 0.2]].map(|[x, y]| (1.0, Vector::new(x, y)));
         assert_eq!(geometric_median(&flat), Vector::zeros());
         assert_eq!(geometric_median(&[(1.0, Vector::new(0.4, 0.1)); 3]), Vector::new(0.4, 0.1));

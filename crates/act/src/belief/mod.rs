@@ -1,25 +1,24 @@
-//! What is believed about the objects of a scene, from how they were seen to move: which of them
-//! hang together by which joints, and where these are.
+//! Belief about the objects of a scene: joints between them and their geometry, from observed
+//! motion.
 //!
-//! A filter over hypotheses, pair by pair: [`Belief::update`] has the effect model roll out what
-//! the tool did under every type of joint of every pair of near objects that moved, and compares
-//! what was seen with each in that joint's own coordinates (`fit`): what the joint holds against
-//! where it held it so far, what it leaves free against the rollout.
+//! The filter keeps hypotheses for every pair of near objects. [`Belief::update`] rolls out the
+//! tool's motion under every joint type of every pair that moved. It compares the observations with
+//! each rollout in joint coordinates (`fit`): held coordinates with their estimate, free ones with
+//! the rollout.
 //!
-//! A heading that is not seen is the one rolled out plus an error that every hypothesis estimates for
-//! itself, together with its geometry. What a hypothesis says then rests on how all of a group moves,
-//! so a window is looked at twice, the second time with the joints that it spoke for, and after a push
-//! whole assignments of joints are played again and compared (`group`).
+//! An unobserved heading is the rolled-out heading plus an error that every hypothesis estimates
+//! with its geometry. The evidence then depends on the motion of the whole group. A window is
+//! therefore evaluated twice, the second time with the joints that it supports. After a push, whole
+//! assignments of joints are replayed and compared (`group`).
 //!
-//! A joint that stays where it is though a rollout goes on has come to a stop, which is learned (`stops`).
-//! What is foreseen is the middle of what drawn physics lead to (`foreseen`).
+//! A joint that stays in place although a rollout continues has reached a limit, which is learnt
+//! (`stops`). Predictions are medians over sampled physics (`foreseen`).
 //!
-//! A [`BeliefRegulator`] may correct what the filter finds: a recurrent network that reads what every
-//! window told of a pair (`testimony`).
+//! A [`BeliefRegulator`] may correct the filter: a recurrent network on features of every window
+//! and pair (`testimony`).
 //!
-//! Beside it, where these are unknown, particles of masses, frictions and supports, weighed after
-//! every push under the joints that are likeliest then; and masses that are in one of a few ranges far
-//! apart (`masses`).
+//! Unknown masses, frictions and supports are represented by particles, weighed after every push
+//! under the most probable joints. Masses in a few separate ranges are handled by `masses`.
 
 mod about;
 mod chance;

@@ -1,4 +1,4 @@
-//! What is believed about one pair of objects.
+//! Belief about one pair of objects.
 
 use std::fmt;
 
@@ -20,25 +20,25 @@ use super::{
     window::{Doubt, Instant},
 };
 
-/// Types of joints, *none* among them.
+/// Joint type of a pair, including *none*.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum JointType {
-    /// The two are not joined.
+    /// No joint.
     None,
-    /// They move as one body.
+    /// Fixed joint: both objects move as one body.
     Fixed,
-    /// One turns about a point of the other.
+    /// Revolute joint: one object rotates about a point of the other.
     Revolute,
-    /// One slides along a line of the other.
+    /// Prismatic joint: one object slides along a line of the other.
     Prismatic,
 }
 
 impl JointType {
-    /// All of them, in the order of probabilities.
+    /// Array of all types, in the order of probabilities.
     pub const ALL: [Self; 4] = [Self::None, Self::Fixed, Self::Revolute, Self::Prismatic];
 
-    /// What a joint is; without one, none.
+    /// Returns the type of a joint; [`JointType::None`] without one.
     pub fn of(joint: Option<&Joint>) -> Self {
         match joint.map(|joint| joint.kind) {
             None => Self::None,
@@ -60,35 +60,33 @@ impl fmt::Display for JointType {
     }
 }
 
-/// What is thought of near pairs before anything has moved: half of them are joined, and all types of
-/// joints are as frequent.
+/// Prior probabilities of near pairs: half are joined, with equally frequent joint types.
 const PRIOR: [f64; 4] = [0.5, 1.0 / 6.0, 1.0 / 6.0, 1.0 / 6.0];
 
-/// Share of anchors midway between two objects and of axes along their line of centres; how exactly,
-/// and where the others are: standard deviations of anchors, metres, and axes, radians.
+/// Share of regular anchors (midway) and axes (along the line of centres), and standard
+/// deviations of regular and other anchors, metres, and axes, radians.
 const REGULAR: f64 = 0.6;
 const MIDWAY: [f64; 2] = [3e-3, 25e-3];
 const ALONG: [f64; 2] = [0.05, 0.35];
 
-/// Axes in other directions are looked for around so many, evenly spaced over half a turn.
+/// Number of evenly spaced directions around which irregular axes are searched for.
 const DIRECTIONS: usize = 4;
 
-/// No hypothesis falls further behind the best than this, as a logarithm, so that it can come back.
+/// Lower bound of a hypothesis's log-weight relative to the best, so that it can recover.
 const FLOOR: f64 = -25.0;
 
-/// What a single window can say for or against a hypothesis, as a logarithm.
+/// Maximum log-evidence of a single window for or against a hypothesis.
 const MOST: f64 = 8.0;
 
-/// From here on a joint is taken for sure when several are ranked, and by how much fixed ones come
-/// first: logarithms.
+/// Log-odds above which a joint counts as certain for ranking, and bonus of fixed joints.
 const SURE: f64 = 6.0;
 const FIRST: f64 = 10.0;
 
-/// Share of pairs that are joined themselves among those that move as if they were and whose motion
-/// also follows from likelier joints: 19 of 88 in dense sets of 9 objects.
+/// Probability that a pair is itself joined if it moves so but its motion also follows from more
+/// probable joints: 19 of 88 in dense sets of 9 objects.
 const FOLLOWS: f64 = 0.2;
 
-/// A joint of some type somewhere, and how likely it is.
+/// Joint of some type and geometry, with its log-weight.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Hypothesis {
     pub log: f64,
@@ -102,25 +100,27 @@ impl Hypothesis {
     }
 }
 
-/// What is believed about a pair of objects.
+/// Belief about a pair of objects.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct PairBelief {
-    /// Indices of the two in the scene, the lower first.
+    /// Indices of the objects in the scene, the lower one first.
     pub between: [usize; 2],
     pub hypotheses: Vec<Hypothesis>,
-    /// The second in the frame of the first, at the start.
+    /// Initial pose of the second object in the frame of the first.
     start: Vector3<f64>,
-    /// The point midway between their closest points, and the direction of their line of centres, both
-    /// in the frame of the first, at the start.
+    /// Midpoint between the closest points, and direction of the line of centres, both in the
+    /// initial frame of the first object.
     midway: Vector,
     line: f64,
-    /// Probabilities of [`JointType::ALL`] as the regulator has them, if it told of the pair.
+    /// Regulator's probabilities of [`JointType::ALL`], if it corrects the pair.
     pub regulated: Option<[f64; 4]>,
 }
 
 impl PairBelief {
-    /// Before anything has moved: the pair was seen so, with this spread, `midway` lies between its
-    /// closest points, in the frame of the first, and so likely it is `near` enough to be joined.
+    /// Creates the prior for a pair observed at the relative pose `seen` with covariance `spread`.
+    ///
+    /// `midway` is the midpoint between the closest points, in the frame of the first object.
+    /// `near` is the probability that the objects are close enough to be joined.
     pub fn new(
         between: [usize; 2],
         seen: Vector3<f64>,
@@ -152,13 +152,15 @@ impl PairBelief {
         Self { between, hypotheses, start: seen, midway, line, regulated: None }
     }
 
-    /// Probabilities of [`JointType::ALL`]: the regulator's, or else the filter's.
+    /// Returns the probabilities of [`JointType::ALL`]: the regulator's, otherwise the filter's.
     pub fn probabilities(&self, follows: bool) -> [f64; 4] {
         self.regulated.unwrap_or_else(|| self.filtered(follows))
     }
 
-    /// Probabilities of [`JointType::ALL`] by the filter alone; where its motion also `follows` from
-    /// other joints, it is joined itself with a fifth of what its motion says.
+    /// Returns the filter's probabilities of [`JointType::ALL`].
+    ///
+    /// If the motion also `follows` from other joints, the joint probabilities are multiplied by
+    /// [`FOLLOWS`].
     pub fn filtered(&self, follows: bool) -> [f64; 4] {
         let logs = JointType::ALL.map(|kind| self.log(kind));
         let all = log_sum(logs.into_iter());
@@ -172,7 +174,7 @@ impl PairBelief {
         ]
     }
 
-    /// The type that one window alone, whose evidence is `by_type`, would make it.
+    /// Returns the most probable type given the evidence of one window alone, by type.
     pub fn by_window(by_type: &[f64; 4]) -> JointType {
         let logs =
             JointType::ALL.map(|kind| (by_type[kind as usize] + PRIOR[kind as usize].ln(), kind));
@@ -180,16 +182,17 @@ impl PairBelief {
         most.map_or(JointType::None, |(_, kind)| kind)
     }
 
-    /// The type that the regulator finds likeliest, or else the one that its motion is likest to.
+    /// Returns the regulator's most probable type, otherwise the filter's.
     pub fn likeliest(&self) -> JointType {
         let shares = self.regulated.unwrap_or(JointType::ALL.map(|kind| self.log(kind)));
         let most = JointType::ALL.into_iter().zip(shares).max_by(|a, b| a.1.total_cmp(&b.1));
         most.map_or(JointType::None, |(kind, _)| kind)
     }
 
-    /// The type to predict with: one of the joints as soon as these are likelier than none all together,
-    /// though no single one may be. Two that are joined somehow go with each other, whatever holds them
-    /// together.
+    /// Returns the type for predictions.
+    ///
+    /// A joint type is used as soon as all joint types together are more probable than none. Joined
+    /// objects move together, whatever the joint type is.
     pub fn supposed(&self) -> JointType {
         match self.regulated {
             Some([none, joints @ ..]) if none < 0.5 => {
@@ -201,7 +204,7 @@ impl PairBelief {
         }
     }
 
-    /// How much likelier the likeliest joint is than none, as a logarithm.
+    /// Returns the log-odds of the most probable joint against none.
     pub fn joined(&self) -> f64 {
         let logs = match self.regulated {
             Some(shares) => shares.map(|share| share.max(LEAST).ln()),
@@ -210,10 +213,11 @@ impl PairBelief {
         logs[1..].iter().copied().fold(f64::NEG_INFINITY, f64::max) - logs[0]
     }
 
-    /// Which of several pairs is likelier joined itself where each follows from the others: what one
-    /// object of a rigid group does against a third, all of the group do. So fixed joints come first,
-    /// then those whose anchor or axis is where one would put it between this pair. The regulator has taken
-    /// that into account.
+    /// Returns the rank of a pair among pairs whose joints would close a loop.
+    ///
+    /// All objects of a rigid group move alike relative to a third, so fixed joints rank first.
+    /// Then come joints whose anchor or axis is regular for the pair. The regulator already
+    /// accounts for this.
     pub fn rank(&self) -> f64 {
         if self.regulated.is_some() {
             return self.joined();
@@ -238,14 +242,14 @@ impl PairBelief {
         self.joined().min(SURE) + place
     }
 
-    /// The joint of that type where it most likely is, while the two objects stand at these poses; its
-    /// `limits` are not known. `None` for no joint.
+    /// Returns the most probable joint of a type while the objects have these poses; `None` for no
+    /// joint.
     pub fn joint(&self, kind: JointType, poses: [&Pose; 2]) -> Option<Joint> {
         let best = self.best(kind)?;
         Some(Joint::new(self.between, self.stopped(best, best.fit.joint(poses)?, poses)))
     }
 
-    /// A joint of a hypothesis, with its stops, while the two objects stand at these poses.
+    /// Returns the joint of a hypothesis, with its limits, while the objects have these poses.
     pub fn stopped(&self, of: &Hypothesis, kind: JointKind, [one, other]: [&Pose; 2]) -> JointKind {
         let now = relative(one, other);
         let limits = of.stops.limits(&of.fit, &self.start, &now);
@@ -256,9 +260,11 @@ impl PairBelief {
         }
     }
 
-    /// How far the likeliest anchor is from the point midway between the two, metres, and the sine of
-    /// how far the likeliest axis is turned from their line of centres; and how surely either is known:
-    /// standard deviations, metres and radians.
+    /// Returns how irregular the most probable anchor and axis are.
+    ///
+    /// The first two values are the distance of the anchor from the midpoint, metres, and the sine
+    /// of the angle between axis and line of centres. The others are the standard deviations of
+    /// anchor and axis, metres and radians.
     pub fn places(&self) -> [f64; 4] {
         let [mut anchor, mut axis, mut anchor_sd, mut axis_sd] = [0.0; 4];
         if let Some(best) = self.best(JointType::Revolute) {
@@ -272,12 +278,12 @@ impl PairBelief {
         [anchor, axis, anchor_sd, axis_sd]
     }
 
-    /// The likeliest hypothesis of a type.
+    /// Returns the most probable hypothesis of a type.
     pub fn best(&self, kind: JointType) -> Option<&Hypothesis> {
         self.of(kind).max_by(|a, b| a.log.total_cmp(&b.log))
     }
 
-    /// Takes what a window says of every hypothesis, as logarithms, and `share` of it for true.
+    /// Adds a `share` of the log-evidence of a window to every hypothesis.
     pub fn weigh(&mut self, evidence: &[f64], share: f64) {
         let most = evidence.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         if most == f64::NEG_INFINITY {
@@ -293,14 +299,14 @@ impl PairBelief {
         }
     }
 
-    /// Takes what was seen in a window, rolled out by type, into the geometry of every hypothesis.
+    /// Updates the geometry of every hypothesis with a window, rolled out by type.
     pub fn learn(&mut self, instants: &[Vec<Instant>; 4]) {
         for Hypothesis { fit, .. } in &mut self.hypotheses {
             fit.learn(&instants[fit.kind as usize]);
         }
     }
 
-    /// Takes it into where joints stop; `doubts` are those of the rollouts.
+    /// Updates the joint limits with a window; `doubts` are the uncertainties of the rollouts.
     pub fn learn_stops(&mut self, instants: &[Vec<Instant>; 4], doubts: &[Option<Doubt>; 4]) {
         for Hypothesis { fit, stops, .. } in &mut self.hypotheses {
             if let Some(doubt) = &doubts[fit.kind as usize] {
@@ -309,15 +315,17 @@ impl PairBelief {
         }
     }
 
-    /// Takes over where joints stop.
+    /// Copies the joint limits of another belief.
     pub fn keep_stops(&mut self, of: &Self) {
         for (mine, theirs) in self.hypotheses.iter_mut().zip(&of.hypotheses) {
             mine.stops = theirs.stops;
         }
     }
 
-    /// Counts the errors of unseen headings from other ones, by type and object: what those rolled
-    /// out are above the new ones, or `None` for a heading that was seen in the end.
+    /// Measures the errors of unobserved headings from new tracked headings, by type and object.
+    ///
+    /// `above` is the rolled-out heading minus the new one, or `None` if the final heading was
+    /// observed.
     pub fn recount(&mut self, above: &[[Option<f64>; 2]; 4]) {
         for Hypothesis { fit, .. } in &mut self.hypotheses {
             for (k, above) in above[fit.kind as usize].iter().enumerate() {
@@ -329,7 +337,7 @@ impl PairBelief {
         }
     }
 
-    /// The best evidence of each type, against the best of all.
+    /// Returns the best evidence of each type, relative to the best of all.
     pub fn by_type(&self, evidence: &[f64]) -> [f64; 4] {
         let most = evidence.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         JointType::ALL.map(|kind| {
@@ -348,7 +356,7 @@ impl PairBelief {
 }
 
 impl Fit {
-    /// The joint while its two objects are tracked at these poses.
+    /// Returns the joint while its two objects are tracked at these poses.
     pub(super) fn joint(&self, poses: [&Pose; 2]) -> Option<JointKind> {
         let m = &self.mean;
         let [first, second] =

@@ -1,10 +1,11 @@
-//! What is believed of masses, frictions and supports: particles, each a whole set of them.
+//! Particle belief about masses, frictions and supports.
 //!
-//! In a particle every unknown number is a place on a scale on which it is standard normal before
-//! anything has moved: of masses and friction values the logarithm over the stated one, of supports
-//! the logit of where they lie between even pressure and the corners. Particles are weighed by how
-//! well a rollout under them fits what was seen; when few are left that count, they are resampled
-//! around those, with the mean and the variance that they have (Liu and West 2001,
+//! Each particle is a complete set of unknown parameters. Every parameter has a coordinate with a
+//! standard normal prior. For masses and frictions it is the logarithm of the ratio to the stated
+//! value. For supports it is the logit of the position between uniform pressure and corner support.
+//!
+//! Particles are weighed by the likelihood of the observations in a rollout. When few have
+//! significant weight, they are resampled with equal mean and variance (Liu and West 2001,
 //! doi:10.1007/978-1-4757-3437-9_10).
 
 use rand::Rng;
@@ -15,59 +16,60 @@ use pushplan::scene::{Physics, Scene, Support, Unknowns};
 use super::chance::{LOGISTIC, generator, normal};
 use super::density::log_sum;
 
-/// How many there are: means over them are then as good as the effect model.
+/// Number of particles; the sampling error of means is then below the error of the effect model.
 const COUNT: usize = 48;
 
-/// Share of a new particle's variance that is drawn and not inherited.
+/// Share of a new particle's variance that is sampled instead of inherited.
 const JITTER: f64 = 0.1;
 
-/// Nine in ten normal numbers lie within so many standard deviations.
+/// Number of standard deviations that contain 90 % of normal numbers.
 const NINE_IN_TEN: f64 = 1.645;
 
-/// Friction values that files may hold.
+/// Range of friction values in files.
 const FRICTIONS: [f64; 2] = [0.05, 2.0];
 
-/// Means and standard deviations of what is believed.
+/// Means and standard deviations of the parameters.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Numbers {
-    /// Of every object's mass, kg.
+    /// Mass of every object, kg.
     pub masses: Vec<[f64; 2]>,
-    /// Of every object's friction value.
+    /// Friction value of every object.
     pub frictions: Vec<[f64; 2]>,
-    /// Of the table's friction value.
+    /// Friction value of the table.
     pub table_friction: [f64; 2],
-    /// Of what every object rests on, as a share of its corners' distance.
+    /// Support radius of every object, as a share of its corners' distance.
     pub spreads: Vec<[f64; 2]>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
 struct Particle {
-    /// Logarithm of its weight.
+    /// Logarithm of the weight.
     log: f64,
-    /// Masses, friction values and supports of all objects, then the table's friction value.
+    /// Coordinates of masses, friction values and supports of all objects, then of the table's
+    /// friction.
     place: Vec<f64>,
 }
 
-/// What is believed of masses, frictions and supports.
+/// Belief about masses, frictions and supports.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Particles {
     unknown: Unknowns,
     seed: u64,
     objects: usize,
-    /// How often they were weighed.
+    /// Number of updates.
     weighed: u64,
     all: Vec<Particle>,
 }
 
 impl Particles {
-    /// Before anything has moved; without particles where no number is unknown.
+    /// Samples the prior; without unknown parameters there are no particles.
     pub fn new(objects: usize, unknown: Unknowns, seed: u64) -> Self {
         let mut rng = generator(seed, 0);
         let count = if unknown.numbers() { COUNT } else { 0 };
         let mut all: Vec<Particle> = Vec::with_capacity(count);
         for k in 0..count {
             let place = match k % 2 {
-                // Each with its mirror image, so that their mean is what is stated.
+                // Antithetic pairs keep the mean at the stated values.
                 1 => all[k - 1].place.iter().map(|x| -x).collect(),
                 _ => (0..=3 * objects).map(|_| normal(&mut rng)).collect(),
             };
@@ -76,32 +78,32 @@ impl Particles {
         Self { unknown, seed, objects, weighed: 0, all }
     }
 
-    /// Whether there are none.
+    /// Returns `true` if there are no particles.
     pub fn is_empty(&self) -> bool {
         self.all.is_empty()
     }
 
-    /// Whether what objects rest on is drawn.
+    /// Returns `true` if supports are sampled.
     pub fn draws_support(&self) -> bool {
         self.unknown.support
     }
 
-    /// `physics` under every particle, where all that is unknown in it is what `scene` states.
+    /// Returns `physics` under every particle; unknown parameters must be at the values of `scene`.
     pub fn each(&self, scene: &Scene, physics: &Physics) -> Vec<Physics> {
         let of = |particle: &Particle| self.put(scene, physics.clone(), &particle.place, true);
         self.all.iter().map(of).collect()
     }
 
-    /// The same under their mean.
+    /// Returns `physics` with the mean parameters.
     pub fn mean(&self, scene: &Scene, physics: Physics) -> Physics {
         if self.is_empty() {
             return physics;
         }
-        // What an object rests on is as it is stated until something was seen of it.
+        // Supports stay as stated until the first update.
         self.put(scene, physics, &self.moments().0, self.weighed > 0)
     }
 
-    /// The same under one that is drawn.
+    /// Returns `physics` with the parameters of a sampled particle.
     pub fn sample(&self, scene: &Scene, physics: Physics, rng: &mut impl Rng) -> Physics {
         match self.all.get(super::chance::weighted(rng, &self.weights())) {
             Some(particle) => self.put(scene, physics, &particle.place, true),
@@ -109,11 +111,11 @@ impl Particles {
         }
     }
 
-    /// Takes how likely what was seen is under every particle, as logarithms.
+    /// Updates the weights with the log-likelihood of the observations under every particle.
     pub fn weigh(&mut self, logs: &[f64]) {
         self.weighed += 1;
         for (particle, log) in self.all.iter_mut().zip(logs) {
-            // A rollout that broke off is no evidence for its particle.
+            // A failed rollout has zero likelihood.
             particle.log += if log.is_nan() { f64::NEG_INFINITY } else { *log };
         }
         let all = log_sum(self.all.iter().map(|particle| particle.log));
@@ -128,7 +130,7 @@ impl Particles {
         }
     }
 
-    /// Means and standard deviations; masses are those of things with all their parts.
+    /// Returns means and standard deviations; the mass of a compound object includes all its parts.
     pub fn numbers(&self, scene: &Scene, stated: &Physics) -> Numbers {
         let physics = match self.is_empty() {
             true => vec![stated.clone()],
@@ -164,7 +166,7 @@ impl Particles {
         self.all.iter().map(|particle| (particle.log - all).exp()).collect()
     }
 
-    /// Mean and variance of all places.
+    /// Returns mean and variance of all coordinates.
     fn moments(&self) -> (Vec<f64>, Vec<f64>) {
         let weights = self.weights();
         let over = |value: &dyn Fn(&Particle, usize) -> f64| -> Vec<f64> {
@@ -179,11 +181,11 @@ impl Particles {
         (mean, variance)
     }
 
-    /// As many particles where those stand that count, all as likely.
+    /// Resamples equally weighted particles from the current ones.
     fn draw_anew(&mut self) {
         let mut rng = generator(self.seed, self.weighed);
         let ((mean, variance), weights) = (self.moments(), self.weights());
-        // Evenly spaced arrows into the weights laid end to end.
+        // Systematic resampling: evenly spaced positions in the cumulative weights.
         let (first, step) = (rng.random::<f64>(), 1.0 / COUNT as f64);
         let (mut at, mut below) = (0, weights[0]);
         let (kept, sd) = ((1.0 - JITTER).sqrt(), JITTER.sqrt());
@@ -205,14 +207,14 @@ impl Particles {
         self.all = all;
     }
 
-    /// `physics` with what is unknown at a place.
+    /// Returns `physics` with the unknown parameters at the coordinates `place`.
     fn put(&self, scene: &Scene, mut physics: Physics, place: &[f64], support: bool) -> Physics {
         let factor = |most: f64, place: f64| (most.ln() / NINE_IN_TEN * place).exp();
         let friction = |value: f64, place: f64| {
             (value * factor(Unknowns::FRICTION_FACTOR, place)).clamp(FRICTIONS[0], FRICTIONS[1])
         };
         for k in 0..scene.objects.len() {
-            // All solids of a thing are of one kind.
+            // All parts of a compound object share their parameters.
             let thing = scene.thing(k);
             let [mass, rubs, rests] = [0, 1, 2].map(|which| place[which * self.objects + thing]);
             if self.unknown.masses {

@@ -1,4 +1,5 @@
-//! The belief regulator beside the filter: the same windows, and what propagation says of them.
+//! Belief regulator as part of a belief: it receives the filter's windows and their propagation
+//! effects.
 
 use std::fmt;
 use std::sync::Arc;
@@ -16,36 +17,38 @@ use crate::regulator::{Memory, Regulator, RegulatorWeights};
 
 use super::testimony::{Draft, EVIDENCE, Testimony};
 
-/// Why a regulator cannot be made.
+/// Error of creating a regulator.
 #[derive(Debug, Error)]
 pub enum RegulatorError {
-    /// Its weights cannot be used.
+    /// The weights of the regulator are unusable.
     #[error(transparent)]
     Weights(#[from] WeightsError),
-    /// The propagation network cannot be used.
+    /// The propagation network is unusable.
     #[error(transparent)]
     Network(#[from] ModelError),
-    /// They were trained on other features.
+    /// The weights were trained on other features.
     #[error("the regulator was trained on {found} features of a pair, here there are {expected}")]
     Features {
-        /// Those of the weights.
+        /// Number of features of the weights.
         found: usize,
-        /// Those of this version.
+        /// Number of features of this version.
         expected: usize,
     },
 }
 
-/// The belief regulator: a recurrent network on the evidence of every pair and on the effects of a
-/// frozen propagation network, whose weights it shares with the physics predictor (thesis 7.2.3).
+/// Belief regulator: a recurrent network on the evidence of every pair and the effects of a frozen
+/// propagation network.
+///
+/// The propagation network shares its weights with the physics predictor (thesis 7.2.3).
 #[derive(Clone)]
 pub struct BeliefRegulator {
     network: Arc<Network>,
-    /// `None` only listens, to make training data.
+    /// Recurrent cell; `None` only records features for training.
     cell: Option<Arc<Regulator>>,
 }
 
 impl BeliefRegulator {
-    /// Of this propagation network and these weights.
+    /// Creates a regulator from a propagation network and regulator weights.
     ///
     /// # Errors
     /// [`RegulatorError::Features`] if the weights are for other features.
@@ -57,44 +60,44 @@ impl BeliefRegulator {
         Ok(Self { network, cell: Some(Arc::new(Regulator::new(weights))) })
     }
 
-    /// The shipped one, on the shipped propagation network.
+    /// Returns the shipped regulator on the shipped propagation network.
     ///
     /// # Errors
-    /// [`RegulatorError`] if the library was built around damaged weights files.
+    /// [`RegulatorError`] if the library was built with damaged weights files.
     pub fn shipped() -> Result<Self, RegulatorError> {
         Self::on_shipped_network(&Self::shipped_weights()?)
     }
 
-    /// These weights on the shipped propagation network.
+    /// Creates a regulator from these weights and the shipped propagation network.
     ///
     /// # Errors
-    /// [`RegulatorError`] if they do not fit it.
+    /// [`RegulatorError`] if the weights do not fit the network.
     pub fn on_shipped_network(weights: &RegulatorWeights) -> Result<Self, RegulatorError> {
         Self::new(Arc::new(Network::new(EffectModels::weights()?)), weights)
     }
 
-    /// The shipped weights with their card.
+    /// Returns the shipped weights with their card.
     ///
     /// # Errors
-    /// If the library was built around a damaged weights file.
+    /// If the library was built with a damaged weights file.
     pub fn shipped_weights() -> Result<RegulatorWeights, WeightsError> {
         RegulatorWeights::from_bytes(pushplan_models::REGULATOR)
     }
 
-    /// One that leaves the belief alone and only keeps what windows tell, for training.
+    /// Creates a regulator that only records the features of windows, for training.
     pub fn listening(network: Arc<Network>) -> Self {
         Self { network, cell: None }
     }
 }
 
-/// A regulator at work in a belief.
+/// State of a regulator in a belief.
 #[derive(Clone)]
 pub(super) struct Regulation {
     by: BeliefRegulator,
     memory: Memory,
-    /// Of every pair the probabilities of [`JointType::ALL`]; `None` of what it did not tell of.
+    /// Probabilities of [`JointType::ALL`] for every pair; `None` if not corrected.
     pub shares: Vec<Option<[f64; 4]>>,
-    /// What windows told, if it only listens; and of pushes that were taken again, the first time.
+    /// Recorded windows of a listening regulator, and first versions of repeated pushes.
     pub heard: Vec<Testimony>,
     pub drafts: Vec<Draft>,
 }
@@ -110,8 +113,8 @@ impl Regulation {
         }
     }
 
-    /// Keeps what `first` heard since this one, where all of that is taken again from here on, and what it
-    /// had kept when the same push was taken again before.
+    /// Keeps what `first` recorded since this state as a draft, because these windows are processed
+    /// again. Earlier drafts are kept too.
     pub fn keep(&mut self, first: &Self) {
         self.drafts.clone_from(&first.drafts);
         let after = self.heard.len();
@@ -121,8 +124,9 @@ impl Regulation {
         }
     }
 
-    /// Takes a window: the evidence of every pair of which anything was told, the `job` that was played,
-    /// and the filter's probabilities, which are corrected.
+    /// Processes a window and corrects the filter's probabilities.
+    ///
+    /// `evidence` is `None` for pairs without information; `job` is the rollout of the window.
     pub fn take(
         &mut self,
         (scene, job): (&Scene, &Job),

@@ -1,23 +1,24 @@
-//! Where one object is as seen from another, and how errors of what is seen show in it.
+//! Relative poses of two objects and propagation of observation errors to them.
 
 use nalgebra::{Matrix2, Matrix2x3, Matrix3, Matrix3x2, Vector3};
 
 use pushplan::geometry::{Pose, Vector, perpendicular};
 
-/// Pose of a second object in the frame of a first: position (metres) and heading (radians).
+/// Returns the pose of a second object in the frame of a first: position (metres), heading
+/// (radians).
 pub(super) fn relative(first: &Pose, second: &Pose) -> Vector3<f64> {
     let position = first.local_point(second.position);
     Vector3::new(position.x, position.y, second.heading - first.heading)
 }
 
-/// How it changes as the heading of the first, or the second, object grows.
+/// Returns the derivative of the relative pose with respect to the headings of both objects.
 pub(super) fn by_headings(relative: &Vector3<f64>) -> Matrix3x2<f64> {
     let arm = perpendicular(Vector::new(relative.x, relative.y));
     Matrix3x2::new(-arm.x, 0.0, -arm.y, 0.0, -1.0, 1.0)
 }
 
-/// Covariance of a relative pose when the variances of both objects' positions (either coordinate)
-/// and headings are these.
+/// Returns the covariance of a relative pose for these variances of the objects' positions (per
+/// coordinate) and headings.
 pub(super) fn spread(
     relative: &Vector3<f64>,
     position: [f64; 2],

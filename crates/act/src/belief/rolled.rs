@@ -1,15 +1,15 @@
-//! A rollout of a window, at its observations.
+//! Rollout of a window, sampled at its observations.
 
 use pushplan::{outcome::Trajectory, scene::State, task::Observation};
 
-/// Where everything is at the observations of a window.
+/// States at the observations of a window.
 pub(super) struct Rolled {
     pub states: Vec<State>,
 }
 
 impl Rolled {
-    /// The states of a trajectory at the observations of a window; where it stopped early it stays
-    /// where it was.
+    /// Samples a trajectory at the observations of a window. After an early stop, the last state is
+    /// repeated.
     pub fn new(trajectory: &Trajectory, window: &[Observation], start: &State) -> Self {
         let mut strokes = 0;
         let states = window

@@ -1,4 +1,4 @@
-//! What a scene may be like, as far as is believed: drawn physics.
+//! Sampling of physics from a belief.
 
 use nalgebra::Vector6;
 use rand::Rng;
@@ -17,15 +17,17 @@ use super::{
 };
 
 impl Belief {
-    /// Physics drawn from what is believed: the type of every near pair by its probability, anchors
-    /// and axes from their Gaussians, masses, frictions and supports from the particles. Anchors and
-    /// axes are where they are with the objects as in [`Self::situation`]. Joints close no loop;
-    /// where they would, the likelier ones stay, as in [`Self::map`].
+    /// Samples physics from the belief.
+    ///
+    /// Joint types are drawn by their probabilities, anchors and axes from their Gaussians, and
+    /// masses, frictions and supports from the particles. Anchors and axes are at the poses of
+    /// [`Self::situation`]. Joints close no loop; the more probable ones are kept, as in
+    /// [`Self::map`].
     pub fn sample(&self, rng: &mut impl Rng) -> Physics {
         self.sample_of(&self.regulated_pairs(), rng)
     }
 
-    /// The same with joints of these pairs.
+    /// Samples physics with the joints of these pairs.
     pub(super) fn sample_of(&self, pairs: &[PairBelief], rng: &mut impl Rng) -> Physics {
         let state = &self.track.state;
         let mut physics = Physics::stated(&self.scene);
@@ -49,7 +51,7 @@ impl Belief {
         }
     }
 
-    /// The scene as [`Self::sample`] draws it, its objects where they are thought to be now.
+    /// Returns a scene with physics from [`Self::sample`] and the objects at their estimated poses.
     pub fn sample_scene(&self, rng: &mut impl Rng) -> Scene {
         let physics = self.sample(rng);
         let mut scene = self.scene_at(&self.track.state);
@@ -71,7 +73,7 @@ impl Belief {
     }
 }
 
-/// The joint of a pair at these poses, or none, as likely as it is.
+/// Samples the joint of a pair at these poses; `None` for no joint.
 fn draw(pair: &PairBelief, poses: [&Pose; 2], rng: &mut impl Rng) -> Option<Joint> {
     let kind = JointType::ALL[weighted(rng, &pair.probabilities(false))];
     let of: Vec<_> = pair.hypotheses.iter().filter(|one| one.fit.kind == kind).collect();
@@ -82,7 +84,7 @@ fn draw(pair: &PairBelief, poses: [&Pose; 2], rng: &mut impl Rng) -> Option<Join
     Some(Joint::new(pair.between, pair.stopped(drawn_one, fit.joint(poses)?, poses)))
 }
 
-/// The geometry, and the errors of unseen headings, drawn from their Gaussian.
+/// Samples the geometry and the errors of unobserved headings.
 fn drawn(fit: &Fit, rng: &mut impl Rng) -> Fit {
     let eigen = fit.covariance.symmetric_eigen();
     let along = Vector6::from_fn(|k, _| eigen.eigenvalues[k].max(0.0).sqrt() * normal(rng));

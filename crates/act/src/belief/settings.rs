@@ -1,21 +1,21 @@
-//! What a belief assumes.
+//! Assumptions of a belief.
 
 use serde::{Deserialize, Serialize};
 
 use pushplan::task::Noise;
 
-/// What a belief assumes of what it sees, and how much it trusts the effect model.
+/// Assumptions about observations and about the accuracy of the effect model.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BeliefSettings {
-    /// Errors of what is seen.
+    /// Noise of the observations.
     pub noise: Noise,
-    /// Share of the evidence that counts. Windows that follow each other share the model's errors, so
-    /// that all of it would make the belief surer than it is right.
+    /// Exponent of the likelihoods. Successive windows share the model's errors, so full weight
+    /// would make the belief overconfident.
     pub tempering: f64,
 }
 
 impl BeliefSettings {
-    /// For observations with such errors.
+    /// Creates the settings for observations with this noise.
     pub fn new(noise: Noise) -> Self {
         Self { noise, tempering: 0.2 }
     }

@@ -1,8 +1,8 @@
-//! How far a joint goes: where it was seen to stop though a rollout would have gone on.
+//! Joint limits, estimated from joints that stop although the rollout continues.
 //!
-//! A stop that was never reached cannot be known, and one that was shows only in that the joint stays
-//! where it is while the tool would have it go on. So either side of a joint has a *reach*, how far it
-//! was seen to go, and the odds that it stops there against going on.
+//! A limit is identifiable only after the joint reached it, from the joint staying in place while
+//! the tool pushes it further. Each side of a joint therefore has a *reach*, its maximum observed
+//! displacement, and the odds that the joint is limited there.
 
 use nalgebra::Vector3;
 
@@ -16,57 +16,58 @@ use super::{
     window::{Doubt, Instant, UNEVEN},
 };
 
-/// Share of joints that stop somewhere.
+/// Prior share of joints with limits.
 const LIMITED: f64 = 0.3;
 
-/// How far they go to either side: radians and metres.
+/// Prior range of limits on either side: radians and metres.
 const TURN: Span = Span::new(0.1, 1.0);
 const SLIDE: Span = Span::new(0.02, 0.15);
 
-/// How exactly a joint stops, as standard deviations: radians and metres.
+/// Standard deviations of the play at a limit: radians and metres.
 const PLAY: [f64; 2] = [5e-3, 5e-4];
 
-/// Further than so many standard deviations beyond its reach a joint went on.
+/// Number of standard deviations beyond the reach at which the joint is known to have moved on.
 const BEYOND: f64 = 2.0;
 
-/// What a window can say for or against a stop, as a logarithm.
+/// Maximum log-evidence of a window for or against a limit.
 const MOST: f64 = 8.0;
 
-/// How far a joint is believed to go to a side on which no stop was found, while one was on the other:
-/// radians, as far as engines take them, and metres.
+/// Assumed limit of a side without a known limit if the other side has one.
+///
+/// The values are radians, within the range that engines accept, and metres.
 pub const NO_STOP: [f64; 2] = [3.0, 10.0];
 
-/// Where a joint stops to either side of where it started, as far as was seen.
+/// Estimated limits on both sides of the initial joint position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stops([Side; 2]);
 
-/// One side of a joint.
+/// Side of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Side {
-    /// How far it was seen to go, radians or metres, and the variance of that.
+    /// Maximum observed displacement, radians or metres, and its variance.
     reach: f64,
     variance: f64,
-    /// Logarithm of the odds that it stops there.
+    /// Log-odds that the joint is limited at `reach`.
     odds: f64,
 }
 
-/// How far a joint has gone by the end of a window, from where it started: radians or metres.
+/// Displacement of a joint at the end of a window from its initial position: radians or metres.
 struct Travel {
     seen: f64,
     variance: f64,
-    /// As it was rolled out, and the variance of that.
+    /// Predicted displacement and its variance.
     rolled: f64,
     doubt: f64,
 }
 
 impl Stops {
-    /// Before anything has moved.
+    /// Creates the prior.
     pub fn new() -> Self {
         Self([Side { reach: 0.0, variance: 0.0, odds: prior() }; 2])
     }
 
-    /// Takes a window in which two objects that began at `start` were seen, and rolled out under
-    /// the joint.
+    /// Updates the limits with a window in which two objects, initially at the relative pose
+    /// `start`, were observed and rolled out.
     pub fn learn(&mut self, fit: &Fit, start: &Vector3<f64>, instants: &[Instant], doubt: &Doubt) {
         let Some(which) = coordinate(fit.kind) else { return };
         let Some(travel) = travel(fit, start, instants, doubt) else { return };
@@ -75,7 +76,7 @@ impl Stops {
         }
     }
 
-    /// How far a joint goes on from where it is `now`, if it stops anywhere.
+    /// Returns the remaining range of a joint from its position `now`, if it has a limit.
     pub fn limits(&self, fit: &Fit, start: &Vector3<f64>, now: &Vector3<f64>) -> Option<Span> {
         let which = coordinate(fit.kind)?;
         let gone = gone(fit, start, now);
@@ -90,16 +91,19 @@ impl Stops {
 }
 
 impl Side {
-    /// Without a stop what is seen is spread around what was rolled out. A stop takes all of that which
-    /// lies beyond it to itself. Where the joint has gone further than ever, the stop may be anywhere in the
-    /// rest of the range; where it is back at its reach, it is there; elsewhere either says the same.
+    /// Updates the odds with a displacement.
+    ///
+    /// Without a limit, the observation is distributed around the rollout. A limit concentrates all
+    /// probability beyond it at the limit. If the joint exceeds its reach, the limit may be
+    /// anywhere in the rest of the range. If the joint returns to its reach, the limit is there.
+    /// Other positions are uninformative.
     fn learn(&mut self, travel: &Travel, sign: f64, which: usize) {
         let range = [TURN, SLIDE][which];
         let (seen, rolled) = (sign * travel.seen, sign * travel.rolled);
         let play = PLAY[which].powi(2);
         let free = travel.variance + travel.doubt + play;
         let going_on = student_of_one(seen - rolled, free);
-        // Without a stop it would have come at least that far, so likely.
+        // Log-probability of reaching at least this displacement without a limit.
         let beyond = |far: f64| -(-LOGISTIC * (rolled - far) / free.sqrt()).exp().ln_1p();
         let sd = (travel.variance + self.variance + play).sqrt();
         if seen > self.reach + BEYOND * sd {
@@ -126,7 +130,7 @@ fn prior() -> f64 {
     (LIMITED / (1.0 - LIMITED)).ln()
 }
 
-/// Which of angles and lengths a joint moves along, if it moves.
+/// Returns the index of the free coordinate, angle or length, if the joint moves.
 fn coordinate(kind: JointType) -> Option<usize> {
     match kind {
         JointType::Revolute => Some(0),
@@ -135,8 +139,7 @@ fn coordinate(kind: JointType) -> Option<usize> {
     }
 }
 
-/// How far a joint has gone from `start`, when the second object stands like this in the frame of the
-/// first.
+/// Returns the displacement of a joint from `start` for the relative pose `now`.
 fn gone(fit: &Fit, start: &Vector3<f64>, now: &Vector3<f64>) -> f64 {
     match fit.kind {
         JointType::Revolute => now.z - start.z,
@@ -148,7 +151,7 @@ fn axis(fit: &Fit) -> Vector {
     Vector::new(fit.mean.x.cos(), fit.mean.x.sin())
 }
 
-/// How far a joint has gone by the last of these instants; `None` where a heading was not seen.
+/// Returns the displacement at the last instant; `None` if a heading was not observed.
 fn travel(fit: &Fit, start: &Vector3<f64>, instants: &[Instant], doubt: &Doubt) -> Option<Travel> {
     let last = instants.last().filter(|last| last.headings == [true; 2])?;
     let (mut weight, mut off, mut noise) = (0.0, 0.0, 0.0);
@@ -172,7 +175,7 @@ fn travel(fit: &Fit, start: &Vector3<f64>, instants: &[Instant], doubt: &Doubt) 
         return None;
     }
     let which = coordinate(fit.kind)?;
-    // What a rollout is off by grows evenly, unless a stop is reached meanwhile.
+    // The error of a rollout grows linearly unless a limit is reached.
     let even = last.share * off / weight;
     let uneven = (UNEVEN * even).powi(2) + noise / weight;
     let share = noise / (noise + uneven).max(1e-12);
@@ -188,7 +191,8 @@ fn travel(fit: &Fit, start: &Vector3<f64>, instants: &[Instant], doubt: &Doubt) 
 mod tests {
     use super::*;
 
-    /// A slide of which windows see it at these places, metres, where it was rolled out to those.
+    /// Side of a prismatic joint after windows with these observed and predicted displacements,
+    /// metres.
     fn slid(windows: &[[f64; 2]]) -> Side {
         let mut side = Side { reach: 0.0, variance: 0.0, odds: prior() };
         for [seen, rolled] in windows {
@@ -206,10 +210,10 @@ mod tests {
         let stayed = [&on[..], &[[0.0352, 0.04], [0.0349, 0.045]]].concat();
         let side = slid(&stayed);
         assert!(side.odds > 2.0 && (side.reach - 0.035).abs() < 3e-4, "{side:?}");
-        // What is still at a stop, comes back from it or stops short of it says nothing of it.
+        // Resting at a limit, returning from it or stopping short of it is uninformative.
         let after = [&stayed[..], &[[0.035, 0.035], [0.02, 0.022], [0.025, 0.034]]].concat();
         assert!(slid(&after).odds > 2.0);
-        // It was none where it goes on later.
+        // A joint that later moves further was not at a limit.
         let beyond = [&after[..], &[[0.045, 0.044]]].concat();
         assert!(slid(&beyond).odds < 0.0);
     }

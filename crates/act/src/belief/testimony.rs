@@ -1,4 +1,4 @@
-//! What a window tells of every pair, as numbers for the regulator.
+//! Features of every window and pair for the regulator.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,74 +6,74 @@ use pushplan::task::Noise;
 
 use super::pair::{JointType, PairBelief};
 
-/// Number of features of a pair without the effects of propagation.
+/// Number of features of a pair without propagation effects.
 pub const EVIDENCE: usize = 51;
 
-/// What one window told of every pair.
+/// Features of all pairs in one window.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Testimony {
-    /// [P, F], [`EVIDENCE`] numbers and then the effects of propagation; zeros of a pair of which
-    /// nothing was told.
+    /// Features [P, F]: [`EVIDENCE`] numbers, then the propagation effects; zeros for uninformative
+    /// pairs.
     pub features: Vec<f32>,
-    /// Of which pairs anything was told.
+    /// Whether the window was informative, per pair.
     pub told: Vec<bool>,
-    /// The filter's probabilities of [`JointType::ALL`] after the window.
+    /// Filter's probabilities of [`JointType::ALL`] after the window.
     pub filtered: Vec<[f64; 4]>,
 }
 
-/// What windows told of all pairs before they were looked at together, in a push whose windows were
-/// taken again after that.
+/// First version of the windows of a push, recorded before joint inference replaced them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Draft {
-    /// How many of the windows that count in the end came before the push.
+    /// Number of final windows before the push.
     pub after: usize,
-    /// Those of the push.
+    /// Windows of the push.
     pub windows: Vec<Testimony>,
 }
 
-/// What was found of a pair when whole assignments of joints were compared.
+/// Result of the joint inference for a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Together {
-    /// By type, how likely the best assignment is in which the pair is joined so, as a logarithm against
-    /// the best of all.
+    /// Log-likelihood of the best assignment with each joint type, relative to the best of all.
     pub best: [f64; 4],
-    /// Probabilities by the filter before that.
+    /// Filter's probabilities before the inference.
     pub before: [f64; 4],
 }
 
-/// What the filter found of a pair in a window.
+/// Result of the filter for a pair and window.
 pub(super) struct Judged {
-    /// Of every hypothesis, as logarithms.
+    /// Log-evidence of every hypothesis.
     pub evidence: Vec<f64>,
-    /// Of the likeliest hypothesis of every type, how far the window's end is off in its three
-    /// coordinates, in standard deviations.
+    /// Final residual of the window in the three joint coordinates, in standard deviations, for the
+    /// most probable hypothesis of every type.
     pub off: [[f64; 3]; 4],
-    /// How far the two were seen to move against each other in the window: metres, radians.
+    /// Observed relative displacement in the window: metres, radians.
     pub change: [f64; 2],
 }
 
-/// What of a window is the same for all of its pairs, or of the two objects of one.
+/// Circumstances of a window that all hypotheses about a pair share.
 pub(super) struct Circumstances {
     pub noise: Noise,
-    /// Windows so far.
+    /// Number of windows so far.
     pub windows: usize,
-    /// How far the two moved over the table, metres.
+    /// Displacement of each object over the table, metres.
     pub moved: [f64; 2],
-    /// How far they have moved against each other since the start: metres, radians.
+    /// Relative displacement since the start: metres, radians.
     pub worked: [f64; 2],
-    /// Whether their headings were seen.
+    /// Whether each heading was observed.
     pub headings: [bool; 2],
-    /// Whether they are cylinders.
+    /// Whether each object is a cylinder.
     pub cylinders: [bool; 2],
-    /// What the likeliest physics takes them for.
+    /// Type in the most probable physics.
     pub taken: JointType,
-    /// Whether their motion also follows from likelier joints.
+    /// Whether the motion also follows from more probable joints.
     pub follows: bool,
 }
 
-/// The features of a pair, all of the order of one: lengths are logarithms against 1 mm, angles
-/// against 0.01 rad, so that noise and motion of any size stay apart. The last are zero where nothing was
-/// compared `together`.
+/// Returns the features of a pair, all of order one.
+///
+/// Lengths are logarithms relative to 1 mm and angles relative to 0.01 rad, which separates noise
+/// from motion of any size. The last features are zero without a result `together` of the joint
+/// inference.
 pub(super) fn features(
     pair: &PairBelief,
     judged: &Judged,

@@ -1,4 +1,4 @@
-//! Where every object is thought to be, from where it was rolled out to and where it was seen.
+//! Estimated poses of all objects, from rollouts and observations.
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -14,36 +14,37 @@ use super::{
     window::UNEVEN,
 };
 
-/// What moves by less in a window says nothing, metres.
+/// Displacement in a window below which an object counts as resting, metres.
 const STILL: f64 = 2e-4;
 
-/// Error of a rollout over a window for an object by itself: metres, and a share of its motion.
+/// Standard deviation of a rollout over a window for a single object: metres, and share of its
+/// motion.
 const ASTRAY: [f64; 2] = [2e-4, 0.05];
 
-/// Draws of which the one counts in which objects overlap least.
+/// Number of samples among which the one with the least overlap is chosen.
 const TRIES: usize = 16;
 
-/// Headings count like positions at this arm, metres.
+/// Lever arm that converts headings to lengths, metres.
 pub(super) const ARM: f64 = 0.04;
 
-/// Where every object is thought to be and how it moves.
+/// Estimated poses and velocities of all objects.
 #[derive(Clone, Debug)]
 pub(super) struct Track {
     noise: Noise,
     pub state: State,
-    /// Variance of every object's position (either coordinate) and heading.
+    /// Variance of every object's position (per coordinate) and heading.
     pub variance: Vec<[f64; 2]>,
 }
 
 impl Track {
-    /// Of objects that were seen at rest like this.
+    /// Creates the estimate for objects observed at rest in `state`.
     pub fn new(state: State, noise: Noise) -> Self {
         let variance = [noise.position.powi(2), noise.heading.powi(2)];
         Self { variance: vec![variance; state.poses.len()], state, noise }
     }
 
-    /// How far an object moved in a window, as it was seen or rolled out, metres; zero where that may
-    /// be noise.
+    /// Returns the observed or predicted displacement of an object in a window, metres; zero if it
+    /// may be noise.
     pub fn motion(&self, object: usize, rolled: &Rolled, window: &[Observation]) -> f64 {
         let start = &self.state.poses[object];
         let far = |pose: &Pose| {
@@ -61,9 +62,10 @@ impl Track {
         if most > STILL { most } else { 0.0 }
     }
 
-    /// Where an object was seen, with a heading near the one rolled out, and the variances of both;
-    /// an unseen heading is the one rolled out, without variance. `None` where the object was not
-    /// seen.
+    /// Returns the observed pose of an object and its variances; `None` if not observed.
+    ///
+    /// The heading is unwrapped to be near the rolled-out one. An unobserved heading is the
+    /// rolled-out one, without variance.
     pub fn sight(&self, sight: Option<Sight>, rolled: &Pose) -> Option<(Pose, [f64; 2])> {
         let sight = sight?;
         let (heading, variance) = match sight.heading {
@@ -76,8 +78,8 @@ impl Track {
         Some((pose, [self.noise.position.powi(2), variance]))
     }
 
-    /// The heading of an object that was rolled out to the end of a window; `None` where it was seen
-    /// then.
+    /// Returns the rolled-out heading of an object at the end of a window; `None` if it was
+    /// observed then.
     pub fn unseen_end(object: usize, rolled: &Rolled, window: &[Observation]) -> Option<f64> {
         let sight = window.last().and_then(|now| now.seen[object]);
         let seen = sight.is_some_and(|sight| sight.heading.is_some());
@@ -85,7 +87,7 @@ impl Track {
         Some(end.poses[object].heading)
     }
 
-    /// Logarithm of the density of where all objects that `moved` so far, metres, were last seen.
+    /// Returns the log-density of the last observed poses of all objects that `moved`, metres.
     pub fn places(&self, rolled: &Rolled, window: &[Observation], moved: &[f64]) -> f64 {
         let (Some(now), Some(state)) = (window.last(), rolled.states.last()) else { return 0.0 };
         let mut log = 0.0;
@@ -97,14 +99,14 @@ impl Track {
                 / (model + variance[0] + self.variance[k][0]);
             let turn = (pose.heading - rolled.heading).powi(2)
                 / (model / (ARM * ARM) + variance[1] + self.variance[k][1]);
-            // Student's law of three numbers with four degrees of freedom.
+            // Student's t distribution in three dimensions with four degrees of freedom.
             log -= 3.5 * ((off + turn) / 4.0).ln_1p();
         }
         log
     }
 
-    /// `count` states that this may be, the likeliest first. Those drawn beside it are the ones of a few
-    /// in which objects overlap least, as things do not.
+    /// Returns `count` possible states, the most probable first. Each other state is the one with
+    /// the least overlap of a few samples, because real objects do not overlap.
     pub fn starts(&self, scene: &Scene, count: usize) -> Vec<State> {
         let mut rng = generator(scene.objects.len() as u64, count as u64);
         let mut draw = || {
@@ -130,8 +132,8 @@ impl Track {
         std::iter::once(self.state.clone()).chain(others).collect()
     }
 
-    /// Goes to the end of a window: where things were rolled out to, corrected by where they were
-    /// seen all through it, as far as that is surer.
+    /// Advances to the end of a window: the rollout, corrected by all observations according to
+    /// their precision.
     pub fn follow(&mut self, rolled: &Rolled, window: &[Observation]) {
         let Some(end) = rolled.states.last() else { return };
         for k in 0..self.state.poses.len() {
@@ -161,13 +163,13 @@ impl Track {
                 heading: last.heading + turned.0,
             };
             self.state.velocities[k] = end.velocities[k];
-            // What either coordinate has seen is the same but for how far it was off.
+            // Both coordinates have equal observations and differ only in their residuals.
             self.variance[k] = [x.1.max(y.1), turned.1];
         }
     }
 }
 
-/// How deep objects overlap, summed over pairs, metres.
+/// Returns the sum of the overlap depths of all pairs of objects, metres.
 fn overlap(scene: &Scene, state: &State) -> f64 {
     let prints: Vec<_> = scene.objects.iter().map(|object| object.shape.footprint()).collect();
     let mut sum = 0.0;
@@ -181,30 +183,33 @@ fn overlap(scene: &Scene, state: &State) -> f64 {
     sum
 }
 
-/// What is known of how far a rollout is off in one coordinate all through a window: it begins somewhere,
-/// goes astray evenly, and is uneven beside that from instant to instant.
+/// Estimated error of a rollout in one coordinate over a window: an initial error, linear growth,
+/// and independent deviations at each instant.
 #[derive(Clone, Copy, Debug)]
 struct Error {
-    /// At the start, and by how much it grows to the end.
+    /// Error at the start and its growth to the end.
     mean: Vector2<f64>,
     covariance: Matrix2<f64>,
-    /// Standard deviation of the growth before anything was seen.
+    /// Prior standard deviation of the growth.
     astray: f64,
-    /// At the end, with its variance, if it was seen then.
+    /// Error at the end with its variance, if observed.
     end: Option<(f64, f64)>,
 }
 
 impl Error {
-    /// Of this variance at the start, and this standard deviation of what it grows by.
+    /// Creates an error with this variance at the start and standard deviation of its growth.
     fn new(variance: f64, astray: f64) -> Self {
         let covariance = Matrix2::from_diagonal(&Vector2::new(variance, astray * astray));
         Self { mean: Vector2::zeros(), covariance, astray, end: None }
     }
 
-    /// Takes what was seen after a `share` of the window: with this variance the rollout is `off` in this
-    /// coordinate, and `far` in all of them.
+    /// Updates the error with an observation after a `share` of the window.
+    ///
+    /// The residual is `off` in this coordinate and `far` over all coordinates; `noise` is the
+    /// variance.
     fn see(&mut self, share: f64, off: f64, far: f64, noise: f64) {
-        // A rollout that was wrong is no reason not to believe one's eyes.
+        // A large residual increases the model's uncertainty, so that the observation is not
+        // rejected.
         let known = self.covariance[(0, 0)] + (share * self.astray).powi(2);
         let more = (far * far / 9.0 - noise - known).max(0.0) / (share * share);
         self.covariance[(1, 1)] += more;
@@ -222,7 +227,7 @@ impl Error {
         }
     }
 
-    /// At the end, with its variance.
+    /// Returns the error at the end with its variance.
     fn end(&self) -> (f64, f64) {
         self.end.unwrap_or_else(|| {
             let by = Vector2::new(1.0, 1.0);
@@ -232,7 +237,7 @@ impl Error {
     }
 }
 
-/// By how much an observation moves an estimate of this variance.
+/// Returns the Kalman gain for an estimate of this variance.
 fn gain(variance: f64, noise: f64) -> f64 {
     if variance + noise > 0.0 { variance / (variance + noise) } else { 1.0 }
 }
@@ -241,7 +246,7 @@ fn gain(variance: f64, noise: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// What was seen after each fifth of a window, with this variance.
+    /// Estimates the final error from residuals after each fifth of a window, with this variance.
     fn seen(mut error: Error, off: [f64; 5], noise: f64) -> (f64, f64) {
         for (k, off) in off.into_iter().enumerate() {
             error.see((k + 1) as f64 / 5.0, off, off, noise);
@@ -252,7 +257,7 @@ mod tests {
     #[test]
     fn what_stands_still_is_where_it_was_seen_on_average() {
         let (mean, variance) = seen(Error::new(4.0, 0.0), [1.0, -1.0, 2.0, 0.0, 1.0], 1.0);
-        // Of Gaussians precisions add up: 1/4 before, and 1 of each observation.
+        // For Gaussians the precisions add up: 1/4 of the prior and 1 of each observation.
         assert!((mean - 3.0 / 5.25).abs() < 1e-12, "{mean}");
         assert!((variance - 1.0 / 5.25).abs() < 1e-12, "{variance}");
     }
@@ -268,7 +273,7 @@ mod tests {
         let line = [0.2, 0.4, 0.6, 0.8, 1.0].map(off);
         let (mean, variance) = seen(Error::new(0.01, 4.0), line, 1.0);
         assert!((mean - 4.0).abs() < 0.2, "{mean}");
-        // The last one alone would have left 0.94 of its variance.
+        // The last observation alone would leave a variance of 0.94.
         assert!(variance < 0.7, "{variance}");
     }
 }

@@ -1,4 +1,4 @@
-//! How what was seen of a whole push weighs particles and masses.
+//! Weighing of particles and masses with the observations of a whole push.
 
 use std::sync::Arc;
 
@@ -18,39 +18,43 @@ use super::{
     track::{ARM, Track},
 };
 
-/// Most observations that are rolled out in one go.
+/// Maximum number of observations per rollout.
 const LONGEST: usize = 40;
 
-/// Instants of a push that count, the last among them: the model goes astray nearly evenly, so that
-/// more would say the same again.
+/// Number of evaluated instants of a push, including the last. Further instants are redundant
+/// because the model's error grows almost linearly.
 const INSTANTS: usize = 3;
 
-/// Error of a rollout: metres, and a share of the motion.
+/// Standard deviation of a rollout: metres, and share of the motion.
 const ASTRAY: [f64; 2] = [4e-4, 0.03];
 
-/// Share of the evidence that counts: errors of the model are the same for all objects and instants
-/// of a push.
+/// Exponent of the likelihoods, because the model's errors are correlated over all objects and
+/// instants of a push.
 const TEMPERING: f64 = 0.5;
 
-/// Share of that which counts for masses, whose evidence comes at a few instants of a push and stays
-/// with everything after them: nearest to calibrated on 300 pushes of seed 5, `pushplan-lab masses`.
+/// Additional exponent for masses, whose evidence comes from a few instants and affects all later
+/// ones.
+///
+/// Best calibrated on 300 pushes of seed 5, `pushplan-lab masses`.
 const OF_MASSES: f64 = 0.6;
 
-/// States that the start of a push may have been when masses are weighed. With 16 and masses
-/// anywhere in their ranges 66 % of seed 5 are right with true poses, with one and masses in the
-/// middle 61 %; 24 bring nothing more.
+/// Number of initial states for weighing masses.
+///
+/// Measured for seed 5 and true poses. With 16 states and masses anywhere in their ranges, 66 % of
+/// the masses are correct, and 61 % with one state and masses in the middle. There is no
+/// improvement with 24 states.
 const STARTS: usize = 16;
 
 /// Observations since the tool was set down.
 #[derive(Clone, Debug)]
 pub(super) struct Stretch {
-    /// Where everything was thought to be then.
+    /// Estimated poses at that time.
     before: Track,
     seen: Vec<Observation>,
 }
 
 impl Belief {
-    /// Takes a window into what is believed of numbers; that is weighed once the tool is lifted.
+    /// Adds a window; parameters are weighed once the tool is lifted.
     pub(super) fn weigh_numbers(&mut self, model: &dyn EffectModel, window: &[Observation]) {
         if self.particles.is_empty() && self.masses.is_none() {
             return;
@@ -66,7 +70,7 @@ impl Belief {
         self.weigh_stretch(model, &stretch);
     }
 
-    /// Looks at all that was seen, that of a push that has not ended, too.
+    /// Processes all pending observations, including observations of an unfinished push.
     pub fn finish(&mut self, model: &dyn EffectModel) {
         self.settle(model);
         if let Some(stretch) = self.stretch.take() {
@@ -77,7 +81,7 @@ impl Belief {
     fn weigh_stretch(&mut self, model: &dyn EffectModel, stretch: &Stretch) {
         let Stretch { before, seen } = stretch;
         let start = &before.state;
-        // With the joints as they are believed by now, where they were then.
+        // The current joint estimates are used, at the initial poses of the push.
         let mut physics = likeliest(&self.scene, &self.regulated_pairs(), start);
         physics.joints.extend(carried(&self.known, &self.scene, start));
         let strokes: Vec<Stroke> = seen.iter().flat_map(|seen| seen.strokes.clone()).collect();
@@ -123,7 +127,7 @@ impl Belief {
                     likelihood(before, &Rolled::new(trajectory, seen, &job.start), seen)
                 };
                 let logs: Vec<f64> = rolled.iter().zip(&jobs).map(log).collect();
-                // The mean over the starts.
+                // Likelihood averaged over the initial states.
                 let mean = |logs: &[f64]| log_sum(logs.iter().copied().filter(|log| !log.is_nan()));
                 logs.chunks(played).map(|logs| OF_MASSES * mean(logs)).collect()
             };
@@ -134,7 +138,7 @@ impl Belief {
     }
 }
 
-/// Logarithm of the density of what was seen, where it was rolled out so.
+/// Returns the log-density of the observations given a rollout.
 fn likelihood(before: &Track, rolled: &Rolled, seen: &[Observation]) -> f64 {
     let mut log = 0.0;
     for instant in 1..=INSTANTS.min(seen.len()) {
@@ -159,7 +163,7 @@ fn of_object(before: &Track, object: usize, state: &State, now: &Observation) ->
     ];
     let square = (pose.position - rolled.position).norm_squared() / place
         + (pose.heading - rolled.heading).powi(2) / turn;
-    // Student's law of three numbers with four degrees of freedom; what stays where it is has the
-    // same variances under all particles.
+    // Student's t distribution in three dimensions with four degrees of freedom. Resting objects
+    // have equal variances under all particles.
     -place.ln() - 0.5 * turn.ln() - 3.5 * (square / 4.0).ln_1p()
 }

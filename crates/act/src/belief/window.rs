@@ -1,4 +1,4 @@
-//! What a few observations in a row say of a hypothesis.
+//! Evidence of a few consecutive observations about a hypothesis.
 
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, Matrix3x2, Vector2, Vector3};
 
@@ -10,55 +10,56 @@ use super::{
     relative::{by_headings, relative, spread},
 };
 
-/// Error of a rollout over a window, as standard deviations: metres, and shares of how far two
-/// objects move against each other (where headings are seen, and where they are not and the
-/// rollout is most of what tells types apart) and over the table.
+/// Standard deviations of a rollout over a window: metres, shares of the relative displacement, and
+/// share of the displacement over the table.
+///
+/// The first relative share applies with observed headings, the second without, because the rollout
+/// is then the main evidence for the joint type.
 const MODEL: (f64, [f64; 2], f64) = (4e-4, [0.2, 0.1], 0.01);
 
-/// How unevenly that grows: the error of a single instant as a share of that at the end.
+/// Standard deviation of the error at a single instant, as a share of the error at the end.
 pub(super) const UNEVEN: f64 = 0.2;
 
-/// Standard deviation of what the rollout of a window adds to the error of a heading that is not
-/// seen: radians, and a share of the turn.
+/// Standard deviation that the rollout of a window adds to the error of an unobserved heading:
+/// radians, and share of the rotation.
 const DRIFT: [f64; 2] = [0.02, 0.1];
 
-/// Where a pair was seen at one instant of a window, and where a rollout under some type of joint had
-/// it.
+/// Observed and rolled-out poses of a pair at one instant of a window.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Instant {
-    /// Share of the window that has passed.
+    /// Elapsed share of the window.
     pub share: f64,
-    /// Positions as they were seen; headings too, or else as they were rolled out.
+    /// Observed poses; unobserved headings are the rolled-out ones.
     pub seen: [Pose; 2],
-    /// Which headings were seen.
+    /// Whether each heading was observed.
     pub headings: [bool; 2],
-    /// Variances of positions and headings that were seen.
+    /// Variances of observed positions and headings.
     pub variance: [[f64; 2]; 2],
     pub rolled: [Pose; 2],
-    /// Standard deviations of what the rollout until then added to the errors of the headings.
+    /// Standard deviations that the rollout has added to the errors of the headings.
     pub drift: [f64; 2],
 }
 
-/// A pair at an instant, its unseen headings corrected by their errors.
+/// Pair at an instant, with unobserved headings corrected by their errors.
 pub(super) struct Look {
-    /// Relative poses.
+    /// Observed and predicted relative poses.
     pub seen: Vector3<f64>,
     pub predicted: Vector3<f64>,
-    /// Covariance of what was seen.
+    /// Covariance of the observation.
     pub spread: Matrix3<f64>,
-    /// How both change with the errors of unseen headings.
+    /// Jacobians of both with respect to the errors of unobserved headings.
     pub seen_by_errors: Matrix3x2<f64>,
     pub predicted_by_errors: Matrix3x2<f64>,
 }
 
-/// Standard deviation of what the rollout of a window adds to an unseen heading's error as it turns
-/// by `turn`.
+/// Returns the standard deviation that a rollout with rotation `turn` adds to an unobserved
+/// heading's error.
 pub(super) fn drift(turn: f64) -> f64 {
     DRIFT[0] + DRIFT[1] * turn.abs()
 }
 
 impl Instant {
-    /// What is to be seen where the unseen headings are those rolled out and these errors.
+    /// Returns the relative poses if the unobserved headings have these errors.
     pub fn look(&self, errors: &Vector2<f64>) -> Look {
         let turned = |poses: &[Pose; 2]| {
             let by = |k: usize| if self.headings[k] { 0.0 } else { errors[k] };
@@ -85,33 +86,35 @@ impl Instant {
         }
     }
 
-    /// How many of the joint's coordinates were seen: not the last one, a relative heading, where
+    /// Returns the number of observed joint coordinates. The last one, a relative heading, is
+    /// missing if neither heading was observed.
     /// neither heading was.
     fn rows(&self) -> usize {
         if self.headings == [false; 2] { 2 } else { 3 }
     }
 }
 
-/// What is not known of the rollout of a window.
+/// Uncertainty of the rollout of a window.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Doubt {
-    /// Covariance of the relative pose that it began with.
+    /// Covariance of the initial relative pose.
     pub start: Matrix3<f64>,
-    /// Standard deviation of what it adds by its end: metres, radians.
+    /// Standard deviations that the rollout adds by its end: metres, radians.
     pub model: [f64; 2],
 }
 
 impl Doubt {
-    /// Of a rollout in which a pair, its headings `unseen` or not, moves against each other by
-    /// `relative` metres (turns at `arm` metres counted in), either over the table by at most `whole`.
+    /// Creates the uncertainty of a rollout in which a pair moves by `relative` metres (including
+    /// rotations at `arm` metres) and each object by at most `whole` metres. `unseen` states
+    /// whether headings are unobserved.
     pub fn new(start: Matrix3<f64>, relative: f64, whole: f64, arm: f64, unseen: bool) -> Self {
         let far = MODEL.0 + MODEL.1[usize::from(unseen)] * relative + MODEL.2 * whole;
         Self { start, model: [far, far / arm] }
     }
 }
 
-/// How far the last instant of a window is off under a hypothesis in each of its coordinates, in
-/// standard deviations; zero in those that were not seen.
+/// Returns the final residual of a window in joint coordinates, in standard deviations; zero for
+/// unobserved coordinates.
 pub(super) fn whitened(fit: &Fit, instants: &[Instant], doubt: &Doubt) -> [f64; 3] {
     let Some(now) = instants.last() else { return [0.0; 3] };
     let look = now.look(&fit.errors);
@@ -134,7 +137,7 @@ pub(super) fn whitened(fit: &Fit, instants: &[Instant], doubt: &Doubt) -> [f64; 
     })
 }
 
-/// Logarithm of the density of a window under a hypothesis, up to what is the same for all.
+/// Returns the log-density of a window under a hypothesis, up to a common constant.
 pub(super) fn evidence(fit: &Fit, instants: &[Instant], doubt: &Doubt) -> f64 {
     let n = instants.iter().map(Instant::rows).sum();
     let mut off = DVector::zeros(n);
@@ -163,7 +166,7 @@ pub(super) fn evidence(fit: &Fit, instants: &[Instant], doubt: &Doubt) -> f64 {
                     }
                     both[(i, j)] += start[(i, j)];
                     if i == j {
-                        // The model goes astray nearly evenly over the window.
+                        // The model's error grows almost linearly over the window.
                         let model = doubt.model[usize::from(i == 2)];
                         let even = now.share * then.share;
                         let own = if k == l { UNEVEN * UNEVEN } else { 0.0 };

@@ -1,41 +1,43 @@
-//! How likely a set of distances is under a law of noise of unknown width.
+//! Likelihood of distances under a noise law of unknown width.
 
 use serde::{Deserialize, Serialize};
 
-/// Degrees of freedom of Student's law: pushes that fork are no rarer than it says (Lange, Little
-/// and Taylor 1989, doi:10.2307/2290063, take 4).
+/// Degrees of freedom of Student's t distribution, whose tails cover pushes with bifurcating
+/// outcomes (Lange, Little and Taylor 1989, doi:10.2307/2290063, use 4).
 pub(super) const FREEDOM: f64 = 4.0;
 
-/// Noise is never taken as smaller than this share of the mean motion: even good models of the same
-/// physics end this far apart, and a posterior that trusts them more is narrower than it should be.
+/// Minimum width of the noise as a share of the mean motion.
+///
+/// Good models of equal physics differ by this much; a smaller width would make the posterior too
+/// narrow.
 pub(super) const DISAGREEMENT: f64 = 0.02;
 
-/// Widths that are tried where none is stated: how many, and the largest in metres; they are
-/// evenly spaced in their logarithm.
+/// Number of candidate widths, logarithmically spaced, and the largest in metres, if no width is
+/// stated.
 const WIDTHS: (usize, f64) = (64, 0.2);
 
-/// The law of the part of a recorded end that a model cannot know.
+/// Distribution of the part of a recorded end that a model cannot predict.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NoiseLaw {
-    /// Student's with four degrees of freedom: a few pushes may end far off.
+    /// Student's t distribution with four degrees of freedom, which allows outliers.
     #[default]
     Student,
-    /// The normal law.
+    /// Normal distribution.
     Gaussian,
 }
 
-/// How far an object ends from where it was recorded.
+/// Final residual of an object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Residual {
-    /// Distance, with the turn at the object's radius of gyration if its heading is known, metres.
+    /// Distance, including the rotation at the radius of gyration if the heading is known, metres.
     pub distance: f64,
-    /// Numbers behind it: 2, or 3 with a heading.
+    /// Number of components: 2, or 3 with a heading.
     pub numbers: f64,
 }
 
 impl NoiseLaw {
-    /// Logarithm of the density of `residuals` at a `width` in metres, up to a constant.
+    /// Returns the log-density of `residuals` at a `width` in metres, up to a constant.
     fn log_density(self, residuals: &[Residual], width: f64) -> f64 {
         let one = |residual: &Residual| {
             let square = (residual.distance / width).powi(2);
@@ -51,12 +53,12 @@ impl NoiseLaw {
     }
 }
 
-/// Widths of the noise that are thought possible, each as likely as the others.
+/// Candidate widths of the noise with equal prior probabilities.
 #[derive(Clone, Debug)]
 pub(super) struct Widths(Vec<f64>);
 
 impl Widths {
-    /// The stated one alone, metres, or whatever the residuals of objects show that move so far.
+    /// Returns the stated width alone, metres, otherwise a range for objects with this mean motion.
     pub fn of(stated: Option<f64>, motion: f64) -> Self {
         let (count, high) = WIDTHS;
         let low = (DISAGREEMENT * motion).min(high);
@@ -64,7 +66,7 @@ impl Widths {
         Self(stated.map_or_else(|| (0..count).map(width).collect(), |width| vec![width]))
     }
 
-    /// Logarithm of the density of `residuals` over all widths, and the mean width behind it.
+    /// Returns the log-density of `residuals` over all widths and the posterior mean width.
     pub fn log_density(&self, law: NoiseLaw, residuals: &[Residual]) -> (f64, f64) {
         let logs: Vec<f64> =
             self.0.iter().map(|&width| law.log_density(residuals, width)).collect();
@@ -82,7 +84,7 @@ mod tests {
 
     #[test]
     fn the_width_found_is_that_of_the_residuals() {
-        // Squares of three normal numbers of width s have the mean 3 s^2.
+        // The mean of the sum of three squared normal numbers of width s is 3 s^2.
         let far = 3f64.sqrt() * 2e-3;
         let residuals = vec![Residual { distance: far, numbers: 3.0 }; 400];
         let (_, width) = Widths::of(None, 0.01).log_density(NoiseLaw::Gaussian, &residuals);

@@ -1,9 +1,10 @@
-//! What recorded pushes say about what caused them.
+//! Parameters of a table, estimated from recorded pushes.
 //!
-//! How far out an object rests, and how it rubs on the pusher. For every cell of a grid of two
-//! numbers, the *spread* of the support and the coefficient of friction of pusher and object, it is
-//! measured how far from the recording an effect model that is told them ends; with a model of the
-//! noise, that gives a posterior. What those numbers leave a linear head on the network's last hidden
+//! The parameters are the *spread* of the support and the friction coefficient between pusher and
+//! object. For every cell of a grid over both, an effect model with these values is rolled out and
+//! compared with the recordings. A noise model turns the errors into a posterior. A linear head on
+//! the network's last hidden row can be fitted to the remaining error. This module draws nothing
+//! and reads no files.
 //! row can learn. It draws nothing and reads no files.
 
 mod grid;

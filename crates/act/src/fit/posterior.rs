@@ -1,4 +1,4 @@
-//! A posterior on a grid, and what it says of each of the two numbers.
+//! Posterior on a grid and its marginal estimates.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,41 +6,41 @@ use pushplan::scene::Span;
 
 use super::grid::{Axis, Grid};
 
-/// A posterior that is not narrower than this share of the prior says nothing.
+/// Width of a posterior, relative to the prior, from which on a parameter counts as unidentified.
 const AS_WIDE: f64 = 0.6;
 
 /// Probability of an interval.
 const INTERVAL: f64 = 0.9;
 
-/// What is known of one number.
+/// Estimate of one parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
-    /// Where the posterior is highest.
+    /// Value with the maximum posterior probability.
     pub best: f64,
-    /// Its mean.
+    /// Posterior mean.
     pub mean: f64,
-    /// Its standard deviation.
+    /// Posterior standard deviation.
     pub deviation: f64,
-    /// It lies in here with a probability of 0.9, and below and above with 0.05 each.
+    /// Central interval with a probability of 0.9.
     pub interval: Span,
-    /// Whether the recordings say anything: whether the standard deviation is less than 0.6 times
-    /// that of the prior, which is even over its range.
+    /// Whether the recordings identify the parameter: the posterior standard deviation is less than
+    /// 0.6 times the deviation of the uniform prior.
     pub told: bool,
-    /// Whether the best value is the end of the range that was looked at.
+    /// Whether the best value is at the end of the prior range.
     pub at_the_end: bool,
 }
 
 /// Probabilities of the cells of a grid.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Posterior {
-    /// The cells.
+    /// Grid of the cells.
     pub grid: Grid,
-    /// Of every cell; they add up to one.
+    /// Probability of every cell; the sum is one.
     pub probabilities: Vec<f64>,
 }
 
 impl Posterior {
-    /// From logarithms of densities, up to a constant.
+    /// Creates a posterior from log-densities up to a constant.
     pub(super) fn of(grid: Grid, logs: &[f64]) -> Self {
         let most = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let weights: Vec<f64> = logs.iter().map(|log| (log - most).exp()).collect();
@@ -48,26 +48,26 @@ impl Posterior {
         Self { grid, probabilities: weights.iter().map(|weight| weight / sum).collect() }
     }
 
-    /// Index of the likeliest cell.
+    /// Returns the index of the most probable cell.
     pub fn best(&self) -> usize {
         let cells = self.probabilities.iter().enumerate();
         cells.max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(index, _)| index)
     }
 
-    /// Spread and friction of the likeliest cell.
+    /// Returns spread and friction of the most probable cell.
     pub fn best_cell(&self) -> [f64; 2] {
         let (best, columns) = (self.best(), self.grid.friction.count);
         [self.grid.spread.at(best / columns), self.grid.friction.at(best % columns)]
     }
 
-    /// What is known of the spread, whose prior is even over `prior`.
+    /// Returns the estimate of the spread, whose prior is uniform over `prior`.
     pub(super) fn spread(&self, prior: Span) -> Estimate {
         let Grid { spread, friction } = self.grid;
         let of = |s| (0..friction.count).map(|f| self.probabilities[self.grid.index(s, f)]).sum();
         estimate(spread, (0..spread.count).map(of).collect(), self.best_cell()[0], prior)
     }
 
-    /// The same of the friction.
+    /// Returns the estimate of the friction, whose prior is uniform over `prior`.
     pub(super) fn friction(&self, prior: Span) -> Estimate {
         let Grid { spread, friction } = self.grid;
         let of = |f| (0..spread.count).map(|s| self.probabilities[self.grid.index(s, f)]).sum();
@@ -79,7 +79,7 @@ fn estimate(axis: Axis, shares: Vec<f64>, best: f64, prior: Span) -> Estimate {
     let mean: f64 = axis.values().zip(&shares).map(|(value, share)| value * share).sum();
     let variance: f64 =
         axis.values().zip(&shares).map(|(value, share)| share * (value - mean).powi(2)).sum();
-    // A value stands for what is nearer to it than to its neighbours.
+    // Each value represents the interval of points nearest to it.
     let deviation = (variance + axis.step().powi(2) / 12.0).sqrt();
     let flat = (prior.high - prior.low) / 12f64.sqrt();
     let end = |end: f64| (best - end).abs() < 0.5 * axis.step();
@@ -96,7 +96,7 @@ fn estimate(axis: Axis, shares: Vec<f64>, best: f64, prior: Span) -> Estimate {
     }
 }
 
-/// The value below which this probability lies, each value's share spread evenly around it.
+/// Returns the quantile of a probability; each value's share is uniform around it.
 fn quantile(axis: Axis, shares: &[f64], probability: f64) -> f64 {
     let mut below = 0.0;
     for (value, share) in axis.values().zip(shares) {

@@ -1,4 +1,4 @@
-//! The fit: a rough grid over everything possible, then a fine one over what is left.
+//! Fit on a rough grid over the whole range, then on a fine grid over its probable part.
 
 use std::sync::Arc;
 
@@ -18,25 +18,25 @@ use super::grid::{Axis, Grid};
 use super::likelihood::{NoiseLaw, Residual, Widths};
 use super::posterior::{Estimate, Posterior};
 
-/// Objects that move less, in truth and in every prediction, say nothing, metres.
+/// Displacement below which an object is ignored, if all predictions agree, metres.
 const STILL: f64 = 5e-4;
 
-/// Cells less likely than the best by this factor are left out of the fine grid.
+/// Probability relative to the best below which cells are excluded from the fine grid.
 const UNLIKELY: f64 = 1e-4;
 
-/// What is looked for, and under which assumptions.
+/// Search ranges and assumptions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FitSettings {
-    /// Spreads that are possible, each as likely as the others: shares of the corners' distance.
+    /// Range of the spread with a uniform prior: shares of the corners' distance.
     pub spread: Span,
-    /// Coefficients of friction of pusher and object that are possible, the same.
+    /// Range of the friction coefficient between pusher and object, with a uniform prior.
     pub friction: Span,
-    /// Values on either axis of a grid.
+    /// Number of values per axis of a grid.
     pub values: usize,
-    /// The law of the noise.
+    /// Noise law.
     pub law: NoiseLaw,
-    /// Its width, metres: in each of x, y and the turn at the object's radius of gyration; `None`
-    /// to find it as well.
+    /// Width of the noise in x, y and the rotation at the radius of gyration, metres; `None` to
+    /// estimate it.
     pub noise: Option<f64>,
 }
 
@@ -52,13 +52,13 @@ impl Default for FitSettings {
     }
 }
 
-/// Final position errors over all objects that move, metres, with objects resting in one way and
-/// the pusher's friction that suits this best.
+/// Final position errors over all objects that move, with one support and the pusher friction that
+/// fits it best, metres.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SupportError {
-    /// How the objects rest.
+    /// Support of all objects.
     pub support: Support,
-    /// The pusher's friction.
+    /// Friction coefficient of the pusher.
     pub friction: f64,
     /// Mean error.
     pub mean: f64,
@@ -66,75 +66,79 @@ pub struct SupportError {
     pub median: f64,
 }
 
-/// The same with every object resting as its scene states it.
+/// Final position errors with the supports stated in the scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AsStated {
-    /// The pusher's friction that suits this best.
+    /// Friction coefficient of the pusher that fits these supports best.
     pub friction: f64,
     /// Mean error, metres.
     pub mean: f64,
     /// Median error, metres.
     pub median: f64,
-    /// Whether the recordings are likelier so than with any one spread for all objects, taken over
-    /// all that was thought possible.
+    /// Whether the recordings are more probable with these supports than with a common spread,
+    /// averaged over the prior.
     pub likelier: bool,
 }
 
-/// What recordings say.
+/// Result of a fit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fit {
-    /// The model that was told the numbers.
+    /// Model that was fitted.
     pub by: ModelSpec,
-    /// Under which assumptions.
+    /// Search ranges and assumptions.
     pub settings: FitSettings,
     /// Number of recordings.
     pub recordings: usize,
-    /// Objects in them that move.
+    /// Number of objects that move.
     pub moved: usize,
-    /// How far these move on average, metres.
+    /// Mean displacement of these objects, metres.
     pub motion: f64,
-    /// Width of the noise, metres: as stated or, where the posterior is highest, as found.
+    /// Width of the noise, metres: the stated one, otherwise the estimate at the maximum of the
+    /// posterior.
     pub noise: f64,
-    /// Share of the corners' distance at which the objects rest.
+    /// Support radius as a share of the corners' distance.
     pub spread: Estimate,
-    /// Coefficient of friction of pusher and objects.
+    /// Friction coefficient of pusher and objects.
     pub friction: Estimate,
-    /// The posterior over all that was thought possible.
+    /// Posterior over the whole range.
     pub rough: Posterior,
-    /// The same, finer, where it is not negligible; the estimates come from it.
+    /// Posterior on a finer grid over the probable part, from which the estimates are computed.
     pub fine: Posterior,
-    /// With the likeliest numbers.
+    /// Errors with the most probable parameters.
     pub best: SupportError,
-    /// With even pressure.
+    /// Errors with uniform pressure.
     pub even: SupportError,
-    /// On the corners.
+    /// Errors with corner support.
     pub corners: SupportError,
-    /// As stated.
+    /// Errors with the stated supports.
     pub stated: AsStated,
 }
 
 impl Fit {
-    /// The spread that recordings tell, better than what was stated of each object.
+    /// Returns the spread if the recordings identify it better than the stated supports do.
     pub fn told_spread(&self) -> Option<f64> {
         (self.spread.told && !self.stated.likelier).then_some(self.spread.best)
     }
 
-    /// The friction that goes with [`Self::told_spread`], or with supports as stated.
+    /// Returns the friction for [`Self::told_spread`], otherwise for the supports as stated.
     pub fn told_friction(&self) -> f64 {
         if self.told_spread().is_some() { self.friction.best } else { self.stated.friction }
     }
 }
 
-/// Fits spread and the pusher's friction to what was recorded, the same for all objects; `watch`
-/// is told the recordings done, first roughly, then finely. Masses and the table's friction are
-/// taken as they are stated: slow pushes do not feel them. `None` if nothing moves.
+/// Fits a common spread and pusher friction to recordings.
 ///
-/// The noise is at least 2 % of the mean motion, as models of the same physics differ by so much.
-/// From slow pushes (0.01 m/s) of either engine the prior finds the spread to 0.05; of pushes at
-/// 0.04 m/s it makes 0.8 of 0.9, where the planar engine finds its own to 0.01.
+/// `watch` receives the number of finished recordings, first for the rough grid and then for the
+/// fine one. Masses and the table's friction are as stated because they do not affect slow pushes.
+/// Returns `None` if no object moves.
 ///
-/// Only the last instant of a recording is compared, so a recording of several pushes says as much
-/// as one.
+/// The noise is at least 2 % of the mean motion because models of equal physics differ by this
+/// much. From slow pushes (0.01 m/s) in either engine, the analytic model recovers the spread to
+/// 0.05. From pushes at 0.04 m/s it estimates 0.8 instead of 0.9, while the 2-D engine recovers its
+/// own spread to 0.01.
+///
+/// Only the last instant of a recording is compared, so a recording of several pushes has no more
+/// weight than a recording of one.
 pub fn fit(
     model: &dyn EffectModel,
     trials: &[Trial],
@@ -228,14 +232,14 @@ pub fn fit(
     })
 }
 
-/// How far one object ends from where it was recorded.
+/// Final error of one object.
 #[derive(Clone, Copy)]
 struct Ended {
     position: f64,
     residual: Residual,
 }
 
-/// Which objects move by more than [`STILL`], in truth or as the model has them rest as stated.
+/// Returns whether each object moves by more than [`STILL`], in the recording or the prediction.
 pub(super) fn moving(model: &dyn EffectModel, trial: &Trial) -> Vec<bool> {
     let start = trial.scene.start();
     let predicted = model.rollout(&trial.scene, &[trial.job()], Record::Outcome);
@@ -251,7 +255,7 @@ pub(super) fn moving(model: &dyn EffectModel, trial: &Trial) -> Vec<bool> {
         .collect()
 }
 
-/// Where the moving objects end, for each way of resting and each friction that the model is told.
+/// Returns the final errors of the moving objects for each support and friction.
 fn ends(
     model: &dyn EffectModel,
     trial: &Trial,
@@ -282,7 +286,7 @@ fn ends(
                 .filter(|(_, moves)| **moves)
                 .map(|((error, object), _)| {
                     let arm = object.shape.footprint().gyration_radius();
-                    // No answer counts as the worst one.
+                    // A missing prediction counts as an error of 1 m or 1 rad.
                     let far = |value: f64| if value.is_finite() { value } else { 1.0 };
                     let position = far(error.position);
                     let residual = match error.heading {
@@ -298,7 +302,7 @@ fn ends(
         .collect()
 }
 
-/// Logarithm of the mean of what `logs` are the logarithms of.
+/// Returns the logarithm of the mean of the exponentials of `logs`.
 fn mean_log(logs: &[f64]) -> f64 {
     let most = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     most + mean(&logs.iter().map(|log| (log - most).exp()).collect::<Vec<f64>>()).ln()

@@ -1,16 +1,16 @@
-//! Models that a model is compared with where its errors are measured, such as the planar engine with
-//! wrong assumptions about a scene.
+//! Baselines for measured model errors, such as the 2-D engine with wrong assumptions about a
+//! scene.
 
 use pushplan::scene::{Assumptions, JointBelief, ModelKind, ModelSpec};
 
-/// Percentages of the true friction that the planar engine is told.
+/// Assumed friction of the 2-D engine in percent of the true one.
 const FRICTION: [u16; 2] = [70, 130];
 
-/// The start that the planar engine is told is off by 0.1 mm: the engine's own spread.
+/// Assumption of a start that is off by 0.1 mm, which measures the spread of the 2-D engine itself.
 pub const SHIFTED_START: Assumptions =
     Assumptions { joints: None, friction: None, start: Some(100) };
 
-/// The planar engine, told too little friction, and too much.
+/// Returns the 2-D engine with too little and with too much friction.
 pub fn mistaken_frictions() -> [ModelSpec; 2] {
     FRICTION.map(|percent| {
         let told = Assumptions { friction: Some(percent), ..Assumptions::default() };
@@ -18,15 +18,17 @@ pub fn mistaken_frictions() -> [ModelSpec; 2] {
     })
 }
 
-/// `spec` under other assumptions about joints, for scenes that have some.
+/// Returns `spec` with three other assumptions about joints, for scenes with joints.
 pub fn assumed(spec: &ModelSpec) -> [ModelSpec; 3] {
     [JointBelief::Guessed, JointBelief::None, JointBelief::Fixed].map(|joints| {
         spec.clone().assuming(Assumptions { joints: Some(joints), ..Assumptions::default() })
     })
 }
 
-/// What `spec` is compared with on recordings. There the planar engine is not the truth, so it is
-/// there as itself, and its own spread is no error that could stand in a row.
+/// Returns the baselines for `spec` on recordings.
+///
+/// The 2-D engine is a baseline because it is not the ground truth there. Its own spread is left
+/// out because it is no error.
 pub fn recorded_baselines(spec: &ModelSpec) -> Vec<ModelSpec> {
     let others = [ModelKind::PRIOR, ModelKind::Still, ModelKind::PLANAR].map(ModelSpec::of);
     let others = others.into_iter().filter(|other| other != spec);

@@ -1,4 +1,4 @@
-//! A prediction compared with the truth of a trial.
+//! Comparison of a prediction with the ground truth of a trial.
 
 use pushplan::{
     effect::EffectModel,
@@ -13,7 +13,7 @@ use super::{
     trial::Trial,
 };
 
-/// A model's rollout and the truth of a trial.
+/// Rollout of a model and the ground truth of a trial.
 #[derive(Clone, Debug)]
 pub struct Comparison<'a> {
     trial: &'a Trial,
@@ -22,12 +22,13 @@ pub struct Comparison<'a> {
 }
 
 impl<'a> Comparison<'a> {
-    /// What was `predicted` for the trial, with its truth. Without frames there is no answer.
+    /// Compares `predicted` with the ground truth of a trial. Without frames there is no
+    /// prediction.
     pub fn new(trial: &'a Trial, predicted: Trajectory) -> Self {
         Self { trial, start: trial.scene.start(), predicted }
     }
 
-    /// Rolls `model` out on the trial: frame by frame, unless only the end is known.
+    /// Rolls out `model` on the trial: frame by frame, unless only the end is known.
     pub fn of(model: &dyn EffectModel, trial: &'a Trial) -> Self {
         let record = if trial.is_of_the_end() { Record::Outcome } else { Record::Frames };
         let rolled = model.rollout(&trial.scene, &[trial.job()], record);
@@ -35,41 +36,41 @@ impl<'a> Comparison<'a> {
         Self::new(trial, rolled.into_iter().next().unwrap_or_else(nothing))
     }
 
-    /// What the model predicts.
+    /// Returns the prediction.
     pub fn predicted(&self) -> &Trajectory {
         &self.predicted
     }
 
-    /// Whether the model gave an answer and did not refuse.
+    /// Returns `true` if the model returned a prediction and did not refuse the job.
     pub fn is_answered(&self) -> bool {
         !self.predicted.frames.is_empty() && !self.predicted.warnings.contains(&Warning::Refused)
     }
 
-    /// Whether it gave a finite answer.
+    /// Returns `true` if the prediction is finite.
     pub fn is_finite(&self) -> bool {
         self.is_answered() && !self.predicted.warnings.contains(&Warning::NotFinite)
     }
 
-    /// Errors of the predicted end against these poses; undefined without an answer.
+    /// Returns the final errors against these poses; undefined without a prediction.
     pub fn end_against(&self, truth: &[Pose]) -> Vec<ObjectError> {
         let end = self.predicted.frames.last().filter(|_| self.is_answered());
         self.errors(end.map(|frame| &frame.state), truth)
     }
 
-    /// Errors at the last moment at which the truth is known; undefined without an answer.
+    /// Returns the errors at the last moment with ground truth; undefined without a prediction.
     pub fn end(&self) -> Vec<ObjectError> {
         let last = self.trial.truth.last();
         last.map_or_else(Vec::new, |moment| self.end_against(&moment.poses))
     }
 
-    /// Errors at every moment at which the truth is known. No answer counts as predicting that
-    /// nothing moves.
+    /// Returns the errors at every moment with ground truth. Without a prediction all objects stay
+    /// in place.
     pub fn moments(&self) -> Vec<Vec<ObjectError>> {
         let pairs = self.states().into_iter().zip(&self.trial.truth);
         pairs.map(|(state, moment)| self.errors(Some(state), &moment.poses)).collect()
     }
 
-    /// Deepest overlap of two predicted objects, or of one with an obstacle, at any moment,
+    /// Returns the maximum overlap of two predicted objects, or of an object with an obstacle,
     /// metres.
     pub fn overlap(&self) -> f64 {
         let overlaps = Overlaps::new(&self.trial.scene);
@@ -77,12 +78,12 @@ impl<'a> Comparison<'a> {
         depths.fold(0.0, f64::max)
     }
 
-    /// How far predicted joints drift at all moments.
+    /// Returns the drift of the predicted joints over all moments.
     pub fn drift(&self) -> DriftSums {
         Joints::new(&self.trial.scene).drift(&self.states())
     }
 
-    /// The trial as if the prediction had really happened.
+    /// Returns the trial with the prediction as its ground truth.
     pub fn as_truth(&self) -> Trial {
         let poses = self.states().into_iter().map(|state| state.poses.clone());
         let mut trial = self.trial.clone();
@@ -92,7 +93,7 @@ impl<'a> Comparison<'a> {
         trial
     }
 
-    /// Predicted states at every moment at which the truth is known.
+    /// Returns the predicted states at every moment with ground truth.
     pub fn states(&self) -> Vec<&State> {
         match self.predicted.frames.is_empty() {
             true => vec![&self.start; self.trial.truth.len()],

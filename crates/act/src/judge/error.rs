@@ -1,44 +1,44 @@
-//! How far objects are from where they should be.
+//! Pose errors of objects.
 
 use pushplan::{
     geometry::{Pose, wrap_angle},
     scene::Scene,
 };
 
-/// An object moved if its true position ends farther than this from its start, metres.
+/// Minimum true displacement of an object that counts as moved, metres.
 pub const MOVED: f64 = 0.01;
 
-/// How far one object is from where it should be.
+/// Pose error of one object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ObjectError {
     /// Distance of the true position from the start, metres.
     pub motion: f64,
-    /// Distance of the predicted from the true position, metres; undefined without an answer.
+    /// Distance from the true to the predicted position, metres; undefined without a prediction.
     pub position: f64,
-    /// Turn between true and predicted heading, radians, 0 to pi; `None` for cylinders and where
-    /// the true heading is not known.
+    /// Absolute heading error, radians, 0 to pi; `None` for cylinders and if the true heading is
+    /// unknown.
     pub heading: Option<f64>,
 }
 
 impl ObjectError {
-    /// Whether the object truly moved, by more than [`MOVED`].
+    /// Returns `true` if the true displacement exceeds [`MOVED`].
     pub fn moved(&self) -> bool {
         self.motion > MOVED
     }
 
-    /// The heading error in degrees.
+    /// Returns the heading error in degrees.
     pub fn heading_deg(&self) -> Option<f64> {
         self.heading.map(f64::to_degrees)
     }
 
-    /// Whether there is a finite answer.
+    /// Returns `true` if the errors are finite.
     pub fn is_known(&self) -> bool {
         self.position.is_finite() && self.heading.is_none_or(f64::is_finite)
     }
 }
 
-/// Errors of all objects of `scene`, in their order, from their poses at the start, as predicted
-/// and in truth; undefined where nothing was predicted.
+/// Returns the errors of all objects of `scene`, in their order; undefined without a prediction.
+/// The arguments are the poses at the start, as predicted, and in truth.
 pub fn object_errors(
     scene: &Scene,
     start: &[Pose],

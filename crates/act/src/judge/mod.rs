@@ -1,10 +1,11 @@
-//! Judges predictions against the truth: every published error comes from here.
+//! Errors of predictions against the ground truth; all published errors are computed here.
 //!
-//! A [`Trial`] is a scene, a tool motion and what really happened; a [`Comparison`] puts a model's
-//! rollout to it and says how far each object is off, how far joints drift and how deep bodies
-//! overlap; [`Summary`] and [`RelativeErrors`] turn many of these into numbers with intervals.
-//! Training's held-out criterion, benchmarks and robustness tests all judge here, which is why the
-//! module comes right after `effect`. It draws no scenes, makes no truth and prints nothing.
+//! A [`Trial`] is a scene, a tool motion and its true outcome. A [`Comparison`] evaluates a model's
+//! rollout on it: pose errors, joint drift and overlap. [`Summary`] and [`RelativeErrors`]
+//! aggregate these with confidence intervals.
+//!
+//! Held-out evaluation in training, benchmarks and robustness tests all use this module. It draws
+//! no scenes, creates no ground truth and prints nothing.
 
 mod baselines;
 mod comparison;

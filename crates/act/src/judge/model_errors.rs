@@ -1,7 +1,7 @@
-//! Errors of models on trials that are judged together: a test set, or the user's recordings.
+//! Errors of models on a group of trials: a test set, or recordings of the user.
 //!
-//! The tool's motion is given; everything else is rolled out from the first frame alone and
-//! compared with the truth at every frame of it.
+//! The tool's motion is given. All else is rolled out from the first frame and compared with the
+//! ground truth at every frame of it.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -17,24 +17,25 @@ use super::physical::{Drift, DriftSums};
 use super::statistics::{RelativeErrors, mean};
 use super::trial::Trial;
 
-/// Steps of the curve of error by horizon: about every ten frames of a sparse trajectory.
+/// Number of steps of the curve of error by horizon, about every ten frames of a sparse trajectory.
 const CURVE_STEPS: usize = 20;
 
-/// Errors of several models on trials that are judged together.
+/// Errors of several models on a group of trials.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrialErrors {
-    /// A line for tables.
+    /// Title for tables.
     pub title: String,
     /// Number of trajectories.
     pub trajectories: usize,
-    /// Mean number of compared frames in one of them.
+    /// Mean number of compared frames per trajectory.
     pub frames: f64,
-    /// One entry a model, in the order in which they were given.
+    /// Errors per model, in the given order.
     pub models: Vec<ModelErrors>,
 }
 
 impl TrialErrors {
-    /// Errors of `models` on `trials`; `watch` is told the rollouts of each that are done.
+    /// Computes the errors of `models` on `trials`; `watch` receives the number of finished
+    /// rollouts.
     pub fn of(
         title: String,
         trials: &[Trial],
@@ -51,75 +52,76 @@ impl TrialErrors {
     }
 }
 
-/// Errors of several models on recordings that are judged together.
+/// Errors of several models on a group of recordings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RecordedErrors {
     /// Names of the recordings.
     pub names: Vec<String>,
-    /// How far the planar engine ends from itself when it starts 0.1 mm off, mean over all
-    /// objects, metres; `None` if it was not asked for.
+    /// Mean final difference of the 2-D engine to itself with a start that is off by 0.1 mm,
+    /// metres. `None` if it was not computed.
     pub own_spread: Option<f64>,
-    /// What was measured.
+    /// Measured errors.
     #[serde(flatten)]
     pub errors: TrialErrors,
 }
 
-/// Errors of one model on trials that are judged together.
+/// Errors of one model on a group of trials.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModelErrors {
     /// Name of the model.
     pub model: String,
-    /// Over all objects.
+    /// Errors over all objects.
     pub all: Phases,
-    /// Over the objects whose true motion exceeds 1 cm in the end.
+    /// Errors over the objects with a final true displacement above 1 cm.
     pub moved: Phases,
-    /// Mean heading error at the final frame, moved cuboids of known heading, degrees.
+    /// Mean final heading error of moved cuboids with known heading, degrees.
     pub heading_deg: Option<f64>,
-    /// The same of all cuboids of known heading, degrees.
+    /// Mean final heading error of all cuboids with known heading, degrees.
     #[serde(default)]
     pub any_heading_deg: Option<f64>,
-    /// Trajectory by trajectory.
+    /// Errors per trajectory.
     #[serde(default)]
     pub each: Vec<OneError>,
     /// Mean error of all objects by horizon.
     pub curve: Vec<CurvePoint>,
-    /// Deepest overlap of two objects, or of one with an obstacle, at any compared frame, metres.
+    /// Maximum overlap of two objects, or of an object with an obstacle, over compared frames,
+    /// metres.
     pub overlap: f64,
-    /// The same, averaged over trajectories, metres.
+    /// Mean of the maximum overlap over trajectories, metres.
     pub overlap_mean: f64,
     /// Drift of fixed, revolute and prismatic joints.
     pub drift: [Drift; 3],
-    /// Trajectories in which the prediction became NaN or infinite; judged by where it stopped.
+    /// Number of trajectories with NaN or infinite predictions; the last finite state is used.
     pub failed: usize,
 }
 
-/// Errors at the final frame of one trajectory, means over its objects.
+/// Final errors of one trajectory, averaged over its objects.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OneError {
-    /// Distance of the predicted from the true positions, metres.
+    /// Distance from the true to the predicted positions, metres.
     pub error: f64,
     /// Distance of the true positions from the start, metres.
     pub motion: f64,
     /// Heading error, degrees; `None` without a known heading.
     pub heading_deg: Option<f64>,
-    /// How far the model itself says that positions will be off, metres; `None` where it says nothing.
+    /// Position error predicted by the model itself, metres; `None` if it predicts none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expected: Option<f64>,
 }
 
-/// Errors at the final frame and over all frames; `None` where there are no objects.
+/// Errors at the final frame and over all frames; `None` without objects.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Phases {
-    /// At the final frame, when everything rests.
+    /// Errors at the final frame, when all objects rest.
     pub end: Option<RelativeErrors>,
-    /// Averaged over the frames of each object.
+    /// Errors averaged over the frames of each object.
     pub averaged: Option<RelativeErrors>,
 }
 
-/// A point of the curve of error by horizon.
+/// Point of the curve of error by horizon.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CurvePoint {
-    /// Share of the trajectory's frames that have passed, 0 to 1.
+    /// Elapsed share of the trajectory's frames, 0 to 1.
     pub horizon: f64,
     /// Mean error, metres.
     pub error: f64,
@@ -127,8 +129,8 @@ pub struct CurvePoint {
     pub motion: f64,
 }
 
-/// Errors of `model` on `trials`, rolled out on all threads of the current rayon pool;
-/// `watch` is told the trajectories done.
+/// Computes the errors of `model` on `trials` on all threads of the current rayon pool; `watch`
+/// receives the number of finished trajectories.
 fn model_errors(model: &dyn EffectModel, trials: &[Trial], watch: &dyn Watch) -> ModelErrors {
     watch.stage(&model.spec().to_string());
     let count = Count::new(watch, 0, trials.len());
@@ -163,8 +165,8 @@ fn model_errors(model: &dyn EffectModel, trials: &[Trial], watch: &dyn Watch) ->
     }
 }
 
-/// How far the planar engine ends from itself when every object starts a little off, metres:
-/// errors that no model can be expected to undercut. `None` without objects.
+/// Returns the mean final difference of the 2-D engine to itself with slightly shifted starts,
+/// metres. No model can be expected to have smaller errors. Returns `None` without objects.
 pub fn own_spread(trials: &[Trial], watch: &dyn Watch) -> Option<f64> {
     let planar = Simulated::new(Simulator::planar());
     let shifted = Assuming::new(planar.clone(), SHIFTED_START);
@@ -183,14 +185,14 @@ pub fn own_spread(trials: &[Trial], watch: &dyn Watch) -> Option<f64> {
     (!apart.is_empty()).then(|| mean(&apart))
 }
 
-/// One trajectory, judged.
+/// Evaluated trajectory.
 struct Judged {
     /// Errors of all objects, moment by moment.
     moments: Vec<Vec<ObjectError>>,
     overlap: f64,
     drift: DriftSums,
     failed: bool,
-    /// How far the model says that it is off on average, metres.
+    /// Mean position error predicted by the model itself, metres.
     expected: Option<f64>,
 }
 
@@ -207,12 +209,12 @@ impl Judged {
         }
     }
 
-    /// Errors of all objects at the last moment.
+    /// Returns the errors of all objects at the last moment.
     fn end(&self) -> &[ObjectError] {
         self.moments.last().map_or(&[], Vec::as_slice)
     }
 
-    /// Means over the objects at the last moment.
+    /// Returns the means over the objects at the last moment.
     fn one(&self) -> OneError {
         let of = |value: &dyn Fn(&ObjectError) -> f64| {
             mean(&self.end().iter().map(value).collect::<Vec<_>>())
@@ -226,7 +228,7 @@ impl Judged {
         }
     }
 
-    /// Error and motion of an object, averaged over moments, metres.
+    /// Returns error and displacement of an object, averaged over moments, metres.
     fn averaged(&self, object: usize) -> [f64; 2] {
         let of = |value: &dyn Fn(&ObjectError) -> f64| {
             let sum: f64 = self.moments.iter().map(|objects| value(&objects[object])).sum();
@@ -263,7 +265,7 @@ fn curve(judged: &[Judged]) -> Vec<CurvePoint> {
     (0..=CURVE_STEPS)
         .map(|step| CurvePoint {
             horizon: step as f64 / CURVE_STEPS as f64,
-            // At the start nothing has moved and nothing is wrong.
+            // At the start all displacements and errors are zero.
             error: sum(step, &|error| error.position) / objects,
             motion: sum(step, &|error| error.motion) / objects,
         })

@@ -1,4 +1,4 @@
-//! What no real table does: bodies inside each other, joints that come apart.
+//! Physically impossible predictions: overlapping bodies and joints that come apart.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,22 +7,23 @@ use pushplan::{
     scene::{Joint, JointKind, Physics, Scene, Separation, State},
 };
 
-/// How far the joints of one kind drift in a prediction, over all joints and frames.
+/// Drift of the joints of one kind in predictions, over all joints and frames.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Drift {
     /// Number of joints.
     pub joints: usize,
-    /// Mean distance from where the joint would hold, metres: of a fixed joint the second object's
-    /// distance from its place relative to the first, of a revolute one the distance of the two
-    /// anchors, of a prismatic one the offset across the axis.
+    /// Mean violation of the joint, metres.
+    ///
+    /// Fixed joint: distance of the second object from its place relative to the first. Revolute
+    /// joint: distance between both anchors. Prismatic joint: offset across the axis.
     pub mean: f64,
-    /// The largest, metres.
+    /// Maximum violation, metres.
     pub max: f64,
-    /// Mean turn against each other, degrees (none for revolute joints).
+    /// Mean relative rotation, degrees (zero for revolute joints).
     pub turn_deg: f64,
 }
 
-/// Sums of drifts, by kind: fixed, revolute, prismatic.
+/// Sums of drifts by kind: fixed, revolute, prismatic.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DriftSums {
     joints: [usize; 3],
@@ -32,7 +33,7 @@ pub struct DriftSums {
     turn: [f64; 3],
 }
 
-/// The joints of a scene, ready to be looked at in every frame.
+/// Joints of a scene, prepared for evaluation in every frame.
 pub(super) struct Joints(Vec<(JointKind, [usize; 2], [Pose; 2])>);
 
 impl Joints {
@@ -41,7 +42,7 @@ impl Joints {
         Self(scene.joints.iter().map(frames).collect())
     }
 
-    /// Adds the drifts in all of `states`.
+    /// Returns the summed drifts over all `states`.
     pub(super) fn drift(&self, states: &[&State]) -> DriftSums {
         let mut sums = DriftSums::default();
         for (kind, between, frames) in &self.0 {
@@ -62,7 +63,7 @@ impl Joints {
 }
 
 impl DriftSums {
-    /// Adds those of another trial.
+    /// Adds the drifts of another trial.
     pub fn add(&mut self, other: &Self) {
         for k in 0..3 {
             self.joints[k] += other.joints[k];
@@ -73,7 +74,7 @@ impl DriftSums {
         }
     }
 
-    /// Means and maxima of fixed, revolute and prismatic joints.
+    /// Returns means and maxima of fixed, revolute and prismatic joints.
     pub fn by_kind(&self) -> [Drift; 3] {
         [0, 1, 2].map(|k| Drift {
             joints: self.joints[k],
@@ -92,11 +93,12 @@ fn index(kind: &JointKind) -> usize {
     }
 }
 
-/// Looks for bodies inside each other.
+/// Detector of overlapping bodies.
 pub(super) struct Overlaps<'a> {
     scene: &'a Scene,
     footprints: Vec<Footprint>,
-    /// Objects with the same number are one body by fixed joints and cannot meet.
+    /// Rigid body index of every object; objects joined by fixed joints share one and cannot
+    /// collide.
     bodies: Vec<usize>,
 }
 
@@ -107,8 +109,10 @@ impl<'a> Overlaps<'a> {
         Self { scene, footprints, bodies }
     }
 
-    /// The deepest overlap of two objects, or of an object with an obstacle, metres. Not with
-    /// the tool: where the truth sets it down, a prediction may have left an object.
+    /// Returns the maximum overlap of two objects, or of an object with an obstacle, metres.
+    ///
+    /// The tool is left out because a prediction may have left an object where the tool is set
+    /// down.
     pub(super) fn deepest(&self, state: &State) -> f64 {
         let mut deepest: f64 = 0.0;
         let mut meet = |a: (&Footprint, &Pose), b: (&Footprint, &Pose)| {

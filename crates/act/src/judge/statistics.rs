@@ -1,4 +1,4 @@
-//! Means, percentiles and how sure they are.
+//! Means and percentiles with confidence intervals.
 
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
@@ -6,17 +6,17 @@ use serde::{Deserialize, Serialize};
 
 use pushplan::scene::Span;
 
-/// Resamples of a bootstrap: the ends of a 95 % interval are then the 25th of a thousand.
+/// Number of bootstrap resamples; the ends of a 95 % interval are then the 25th of a thousand.
 const RESAMPLES: usize = 1000;
 
-/// The summary of a list of numbers, in their unit.
+/// Summary of a list of numbers, in their unit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
-    /// How many numbers.
+    /// Number of values.
     pub count: usize,
     /// Arithmetic mean.
     pub mean: f64,
-    /// 95 % interval of the mean, by bootstrap.
+    /// 95 % bootstrap interval of the mean.
     pub mean_interval: Span,
     /// Median.
     pub median: f64,
@@ -24,12 +24,12 @@ pub struct Summary {
     pub p90: f64,
     /// 95th percentile.
     pub p95: f64,
-    /// Largest.
+    /// Maximum.
     pub max: f64,
 }
 
 impl Summary {
-    /// The summary of `values`; `None` for an empty list or one with an undefined number.
+    /// Summarises `values`; `None` for an empty list or one with a non-finite value.
     pub fn of(values: &[f64]) -> Option<Self> {
         if values.is_empty() || values.iter().any(|value| !value.is_finite()) {
             return None;
@@ -47,7 +47,7 @@ impl Summary {
         })
     }
 
-    /// The same numbers in another unit, each multiplied by a positive `factor`.
+    /// Returns the summary in another unit, with each value multiplied by a positive `factor`.
     pub fn scaled(&self, factor: f64) -> Self {
         let interval = Span::new(self.mean_interval.low * factor, self.mean_interval.high * factor);
         Self {
@@ -62,30 +62,31 @@ impl Summary {
     }
 }
 
-/// Position errors of objects, and how far they truly moved.
+/// Position errors of objects relative to their true displacement.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RelativeErrors {
     /// Number of objects.
     pub objects: usize,
-    /// Mean distance of the true positions from the start, metres.
+    /// Mean distance from the start to the true positions, metres.
     pub motion: f64,
-    /// Mean distance of the predicted from the true positions, metres.
+    /// Mean distance from the true to the predicted positions, metres.
     pub mean: f64,
-    /// Median over objects, metres.
+    /// Median error over objects, metres.
     pub median: f64,
-    /// 90th percentile over objects, metres.
+    /// 90th percentile of the error over objects, metres.
     pub p90: f64,
-    /// 95th percentile over objects, metres.
+    /// 95th percentile of the error over objects, metres.
     pub p95: f64,
     /// Mean error as a share of the mean motion.
     pub relative: f64,
-    /// 95 % interval of that share, by bootstrap over trials, whose objects are not independent
-    /// of each other.
+    /// 95 % interval of `relative`, by bootstrap over trials because the objects of a trial are
+    /// correlated.
     pub relative_interval: Span,
 }
 
 impl RelativeErrors {
-    /// From pairs of error and motion, trial by trial; `None` without any.
+    /// Computes the errors from pairs of error and displacement, trial by trial; `None` without
+    /// pairs.
     pub fn of(trials: &[Vec<[f64; 2]>]) -> Option<Self> {
         let mut sorted: Vec<f64> = trials.iter().flatten().map(|pair| pair[0]).collect();
         if sorted.is_empty() {
@@ -111,20 +112,21 @@ impl RelativeErrors {
         })
     }
 
-    /// A length in metres as a share of the mean motion.
+    /// Returns a length in metres as a share of the mean displacement.
     pub fn share(&self, metres: f64) -> f64 {
         metres / self.motion.max(f64::MIN_POSITIVE)
     }
 }
 
-/// Arithmetic mean; 0 for an empty list.
+/// Returns the arithmetic mean; 0 for an empty list.
 pub fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len().max(1) as f64
 }
 
-/// The `p`-th percentile, 0 to 100, of an ascending list, interpolated linearly between order
-/// statistics at ranks 0 to n - 1 (type 7 of Hyndman and Fan 1996, doi:10.2307/2684934); 0 for
-/// an empty list.
+/// Returns the `p`-th percentile, 0 to 100, of an ascending list; 0 for an empty list.
+///
+/// The result is interpolated linearly between order statistics at ranks 0 to n - 1 (type 7 of
+/// Hyndman and Fan 1996, doi:10.2307/2684934).
 pub fn percentile(sorted: &[f64], p: f64) -> f64 {
     let Some(last) = sorted.len().checked_sub(1) else { return 0.0 };
     let rank = (p / 100.0).clamp(0.0, 1.0) * last as f64;
@@ -133,14 +135,15 @@ pub fn percentile(sorted: &[f64], p: f64) -> f64 {
     sorted[below] + (sorted[above] - sorted[below]) * (rank - below as f64)
 }
 
-/// 95 % interval of the mean.
+/// Returns the 95 % interval of the mean.
 fn mean_interval(values: &[f64]) -> Span {
     interval(values.len(), |draw| draw.map(|k| values[k]).sum::<f64>() / values.len() as f64)
 }
 
-/// 95 % interval of a statistic of `count` independent things by the percentile bootstrap (Efron
-/// 1979, doi:10.1214/aos/1176344552), with a fixed seed so that a table is the same every time.
-/// `statistic` is given which of them are drawn.
+/// Returns the 95 % interval of a statistic of `count` independent items.
+///
+/// Computed by the percentile bootstrap (Efron 1979, doi:10.1214/aos/1176344552) with a fixed seed
+/// for reproducible tables. `statistic` receives the indices drawn.
 fn interval(count: usize, statistic: impl Fn(&mut dyn Iterator<Item = usize>) -> f64) -> Span {
     let mut rng = Pcg64::seed_from_u64(count as u64);
     let mut values: Vec<f64> = (0..RESAMPLES)
@@ -150,7 +153,7 @@ fn interval(count: usize, statistic: impl Fn(&mut dyn Iterator<Item = usize>) ->
     Span::new(percentile(&values, 2.5), percentile(&values, 97.5))
 }
 
-/// `error / motion`; 0 where nothing moved, so that no infinity spreads.
+/// Returns `error / motion`; 0 without motion, to avoid infinities.
 fn ratio([error, motion]: [f64; 2]) -> f64 {
     if motion > 0.0 { error / motion } else { 0.0 }
 }
@@ -170,7 +173,8 @@ mod tests {
 
     #[test]
     fn the_interval_of_the_mean_is_that_of_the_normal_law() {
-        // 0 to 999 evenly: standard deviation 288.7, standard error 9.13 over a thousand.
+        // For 0 to 999 the standard deviation is 288.7, and the standard error of a thousand values
+        // 9.13.
         let values: Vec<f64> = (0..1000).map(f64::from).collect();
         let summary = Summary::of(&values).expect("finite values");
         assert!((summary.mean - 499.5).abs() < 1e-9 && (summary.median - 499.5).abs() < 1e-9);

@@ -1,4 +1,4 @@
-//! One trajectory to predict, with the truth, and how the two are brought side by side.
+//! Trajectory to predict, with its ground truth, and the alignment of predictions with it.
 
 use pushplan::recording::Recording;
 use pushplan::{
@@ -8,43 +8,43 @@ use pushplan::{
     task::{Job, ToolMotion},
 };
 
-/// A scene, a tool motion, and what really happened.
+/// Scene, tool motion and true outcome.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
-    /// What stands on the table at the start.
+    /// Scene at the start.
     pub scene: Scene,
-    /// How each of its objects moves there.
+    /// Initial velocity of each object.
     pub velocities: Vec<Velocity>,
-    /// What the tool does.
+    /// Motion of the tool.
     pub motion: ToolMotion,
-    /// In order of time, the start left out.
+    /// Ground truth in chronological order, without the start.
     pub truth: Vec<Moment>,
     /// Whether the true heading of each object is known.
     pub headings: Vec<bool>,
 }
 
-/// An instant at which the truth is known.
+/// Instant with known ground truth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moment {
     /// Index of the stroke.
     pub stroke: usize,
-    /// When during or after it.
+    /// Instant during or after the stroke.
     pub when: When,
     /// True poses of all objects.
     pub poses: Vec<Pose>,
 }
 
-/// An instant of a stroke.
+/// Instant of a stroke.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum When {
-    /// After this many of its frames, those of coming to rest included.
+    /// Instant after this many frames of the stroke, including its coasting frames.
     Frame(usize),
-    /// When everything rests after it.
+    /// Instant when all objects rest after the stroke.
     Rest,
 }
 
 impl Trial {
-    /// A motion of which only the end is known: the poses at rest after all of it.
+    /// Creates a trial whose ground truth is the final poses at rest.
     pub fn to_rest(scene: Scene, motion: ToolMotion, poses: Vec<Pose>) -> Self {
         let stroke = motion.strokes.len().saturating_sub(1);
         let headings = vec![true; scene.objects.len()];
@@ -53,7 +53,7 @@ impl Trial {
         Self { scene, velocities, motion, truth, headings }
     }
 
-    /// A motion that was followed frame by frame, the start first.
+    /// Creates a trial with ground truth in every frame; the first frame is the start.
     pub fn of_frames(scene: Scene, motion: ToolMotion, frames: &[Frame]) -> Self {
         let mut truth = Vec::new();
         let (mut stroke, mut count) = (0, 0);
@@ -69,7 +69,7 @@ impl Trial {
         Self { scene, velocities, motion, truth, headings }
     }
 
-    /// What was recorded, at the ends of strokes.
+    /// Creates a trial from a recording, with ground truth at the ends of strokes.
     pub fn of_recording(recording: &Recording) -> Self {
         let replay = recording.replay();
         let truth = replay
@@ -94,29 +94,30 @@ impl Trial {
         }
     }
 
-    /// What a model is asked.
+    /// Returns the job for a model.
     pub fn job(&self) -> Job {
         let start = State { velocities: self.velocities.clone(), ..self.scene.start() };
         Job { start, ..Job::stated(&self.scene, self.motion.clone()) }
     }
 
-    /// Distances of the last true positions from the start, metres.
+    /// Returns the distances from the start to the last true positions, metres.
     pub fn motions(&self) -> Vec<f64> {
         let last = self.truth.last().map_or(&[][..], |moment| &moment.poses);
         let pairs = last.iter().zip(&self.scene.objects);
         pairs.map(|(pose, object)| (pose.position - object.pose.position).norm()).collect()
     }
 
-    /// Whether only the end is known, at rest.
+    /// Returns `true` if the ground truth is known only at rest after the last stroke.
     pub(super) fn is_of_the_end(&self) -> bool {
         let last = self.motion.strokes.len().saturating_sub(1);
         let end = |moment: &Moment| moment.when == When::Rest && moment.stroke == last;
         self.truth.iter().all(end)
     }
 
-    /// The predicted state at every moment of the truth. Models and truth come to rest after
-    /// different numbers of frames; from then on the state stays what it is. The prediction must
-    /// have a frame.
+    /// Returns the predicted state at every moment of the ground truth.
+    ///
+    /// Prediction and ground truth may come to rest after different numbers of frames; later states
+    /// are constant. The prediction must have at least one frame.
     pub(super) fn aligned<'a>(&'a self, predicted: &'a Trajectory) -> Vec<&'a State> {
         let frames = &predicted.frames;
         let mut ends = Vec::new();
@@ -134,7 +135,7 @@ impl Trial {
                     When::Frame(index) => index.min(count),
                     When::Rest => count,
                 };
-                // A rollout that stopped early stays where it was.
+                // A rollout that stopped early keeps its last state.
                 let index = (from + within).saturating_sub(1).min(frames.len().saturating_sub(1));
                 &frames[index].state
             })

@@ -1,4 +1,4 @@
-//! What the weights of the belief regulator are.
+//! Card of the belief regulator's weights.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,23 +8,23 @@ use pushplan::network::{
 
 use super::layout::regulator_layout;
 
-/// The weights of the belief regulator.
+/// Weights of the belief regulator.
 pub type RegulatorWeights = Weights<RegulatorCard>;
 
-/// What the weights are and how they came about.
+/// Dimensions and origin of the weights.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RegulatorCard {
     /// Number of features of a pair, F.
     pub features: usize,
     /// Width of the hidden state, H.
     pub width: usize,
-    /// Feature scales.
+    /// Means and deviations of the features.
     pub scales: Statistics,
     /// Seed of the training data.
     pub data_seed: u64,
-    /// Training episodes.
+    /// Number of training episodes.
     pub episodes: u64,
-    /// Optimiser steps taken.
+    /// Number of optimiser steps.
     pub steps: u64,
 }
 

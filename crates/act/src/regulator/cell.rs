@@ -1,4 +1,4 @@
-//! The regulator's step on plain numbers: what `infer` and `run` use, without candle.
+//! Inference of the regulator on plain numbers, without candle.
 
 use pushplan::network::{Parameters, Statistics};
 
@@ -7,11 +7,11 @@ use super::{
     layout::{OUTPUTS, TYPES},
 };
 
-/// Normalised features beyond this are cut off, in standard deviations, so that a scene unlike any
-/// in training cannot drive it astray.
+/// Bound of the normalised features, in standard deviations, which limits extrapolation to scenes
+/// unlike the training data.
 const BOUND: f32 = 10.0;
 
-/// The regulator with its weights; shared between beliefs.
+/// Regulator with its weights, shared between beliefs.
 #[derive(Clone, Debug)]
 pub struct Regulator {
     features: usize,
@@ -20,22 +20,23 @@ pub struct Regulator {
     parameters: Parameters,
 }
 
-/// What a regulator remembers of every pair: [P, H].
+/// Hidden state of every pair: [P, H].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Memory {
     hidden: Vec<f32>,
 }
 
-/// What a regulator says of a pair: the filter's logarithms count `trust` times, and `logits` are added.
+/// Correction for a pair: logarithms of the filter are multiplied by `trust`, then `logits` are
+/// added.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Correction {
-    /// Of every type.
+    /// Logit of every type.
     pub logits: [f64; TYPES],
-    /// Between 0 and 2, untrained 1.
+    /// Factor between 0 and 2; 1 if untrained.
     pub trust: f64,
 }
 
-/// Probabilities of the filter below this count as this.
+/// Lower bound of the filter's probabilities.
 pub const LEAST: f64 = 1e-12;
 
 impl Correction {
@@ -44,7 +45,7 @@ impl Correction {
         Self { logits: logits.map(f64::from), trust: f64::from(2.0 * sigmoid(*trust)) }
     }
 
-    /// The filter's probabilities, corrected.
+    /// Returns the corrected probabilities of the filter.
     pub fn of_filtered(&self, filtered: &[f64; TYPES]) -> [f64; TYPES] {
         let mut logs = self.logits;
         for (log, share) in logs.iter_mut().zip(filtered) {
@@ -58,7 +59,7 @@ impl Correction {
 }
 
 impl Regulator {
-    /// Of these weights.
+    /// Creates a regulator with these weights.
     pub fn new(weights: &RegulatorWeights) -> Self {
         Self {
             features: weights.card.features,
@@ -68,9 +69,10 @@ impl Regulator {
         }
     }
 
-    /// Takes a window into the memory of the pairs that it `told` something of: `features` [P, F] of
-    /// `pairs` of this many `objects`. Returns what to correct of these pairs, `None` for the
-    /// others.
+    /// Updates the hidden state with a window and returns the corrections.
+    ///
+    /// `features` are [P, F] for `pairs` of this many `objects`. Pairs for which `told` is `false`
+    /// are neither updated nor corrected (`None`).
     pub fn step(
         &self,
         features: &[f32],
@@ -117,13 +119,13 @@ impl Regulator {
         (0..pairs.len()).map(|p| told[p].then(|| correction(p))).collect()
     }
 
-    /// A parameter that reading the weights checked.
+    /// Returns a parameter whose presence was checked when the weights were read.
     fn get(&self, name: &str) -> &[f32] {
         &self.parameters.values[name]
     }
 }
 
-/// Of every pair the sum of the hidden rows of pairs that share an object with it.
+/// Returns for every pair the sum of the hidden rows of pairs that share an object with it.
 fn messages(hidden: &[f32], (pairs, objects): (&[[usize; 2]], usize), h: usize) -> Vec<f32> {
     let mut sums = vec![0.0; objects * h];
     for (pair, row) in pairs.iter().zip(hidden.chunks_exact(h)) {

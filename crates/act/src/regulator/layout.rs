@@ -1,18 +1,18 @@
-//! Parameters of the belief regulator by name and shape, and their first values.
+//! Names and shapes of the belief regulator's parameters, and their initial values.
 
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
 use pushplan::network::{Layout, Parameters};
 
-/// Types of joints, *none* among them.
+/// Number of joint types, including *none*.
 pub const TYPES: usize = 4;
 
-/// What the network says of a pair: a logit for every type, and how far the filter is to be trusted.
+/// Number of outputs per pair: a logit for every type, and the trust in the filter.
 pub const OUTPUTS: usize = TYPES + 1;
 
-/// Names and shapes of all parameters for F `features` and H `width`. Of every row of three gates the
-/// order is reset, update, candidate.
+/// Returns names and shapes of all parameters for F `features` and H `width`. Rows of three gates
+/// have the order reset, update, candidate.
 pub fn regulator_layout(features: usize, width: usize) -> Layout {
     vec![
         ("gates.input", vec![features, 3 * width]),
@@ -28,13 +28,14 @@ pub fn regulator_layout(features: usize, width: usize) -> Layout {
     ]
 }
 
-/// Random first values from `seed`: uniform with the variance 1 / fan-in; biases and what gives the
-/// outputs are zero, so that an untrained regulator leaves the filter as it is.
+/// Returns random initial values from `seed`: uniform with variance 1 / fan-in.
+///
+/// Biases and the output layer are zero, so an untrained regulator leaves the filter unchanged.
 pub fn fresh_regulator(features: usize, width: usize, seed: u64) -> Parameters {
     let mut random = Pcg64::seed_from_u64(seed);
     let values = regulator_layout(features, width).into_iter().map(|(name, shape)| {
         let zero = shape.len() == 1 || name == "head.logits";
-        // Of matrices whose products add up every one has its share.
+        // Matrices whose products are added share the variance.
         let bound = (3.0 / (2.0 * shape[0] as f32)).sqrt();
         let count: usize = shape.iter().product();
         let value = |_| if zero { 0.0 } else { random.random_range(-bound..bound) };

@@ -1,10 +1,11 @@
-//! The belief regulator's recurrent cell: its parameters, its step and its weights file.
+//! Recurrent cell of the belief regulator: parameters, inference and weights file.
 //!
-//! A gated recurrent unit per pair of objects (Cho et al., EMNLP 2014) on evidence about that pair and
-//! on the effects of the frozen propagation network, with messages between pairs that share an object
-//! (Tekden et al., ICRA 2020, section III-C; thesis 7.2.3 and 8.1.1). With features x_p `[F]`, hidden
-//! states h_p `[H]` and the message m_p = the sum of h_q over pairs q != p that share an object with p,
-//! counted once for each shared object:
+//! The cell is a gated recurrent unit per pair of objects (Cho et al., EMNLP 2014). Its input is
+//! evidence about the pair and the effects of the frozen propagation network. Pairs that share an
+//! object exchange messages (Tekden et al., ICRA 2020, section III-C; thesis 7.2.3 and 8.1.1).
+//!
+//! Each pair p has features x_p `[F]`, a hidden state h_p `[H]` and a message m_p. The message is
+//! the sum of h_q over pairs q != p, counted once for each object shared with p:
 //!
 //! ```text
 //! r, z, c = x W_x + m W_m + b,  with h W_h
@@ -12,9 +13,9 @@
 //! h' = (1 - z) c + z h     l, t = relu(h' V_h + m' V_m + b_v) V + b_l
 //! ```
 //!
-//! The logits l of the four types of joints, which start at zero, are added to the filter's
-//! logarithms times 2 sigmoid(t), which starts at one: a filter that is too sure of itself should
-//! not be outweighed, but believed less.
+//! The logits l of the four joint types start at zero. They are added to the filter's logarithms
+//! times 2 sigmoid(t), which starts at one. An overconfident filter is thus scaled down instead of
+//! outweighed.
 
 mod card;
 mod cell;

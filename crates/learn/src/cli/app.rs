@@ -1,4 +1,4 @@
-//! From the command line of `pushplan-learn` to an exit code.
+//! Entry point of `pushplan-learn`, from the command line to an exit code.
 
 use std::ffi::OsString;
 
@@ -30,10 +30,11 @@ enum Command {
     Train(train::TrainArgs),
 }
 
-/// What the commands are for, in the order of `--help`.
+/// Groups of commands, in the order of `--help`.
 const GROUPS: Groups = &[("Data", &["generate", "merge", "status"]), ("Weights", &["train"])];
 
-/// Runs the command with the given arguments, the program's name first, and gives its exit code.
+/// Runs the command with the given arguments, starting with the program name, and returns its exit
+/// code.
 pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
     start(args, GROUPS, |cli: &Cli| &cli.global, execute)
 }

@@ -1,4 +1,4 @@
-//! `pushplan-learn generate`: training data in a folder.
+//! `pushplan-learn generate`: writes training data into a folder.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -104,12 +104,12 @@ impl GenerateArgs {
         }
     }
 
-    /// Which of the episodes are made.
+    /// Returns the shard of episodes to generate.
     fn shard(&self) -> Shard {
         self.shard.unwrap_or(Shard::WHOLE)
     }
 
-    /// Makes the data; the number of episodes and their size in bytes.
+    /// Generates the data and returns the number of episodes and their size in bytes.
     fn make(&self, following: &Following) -> Result<(usize, u64), DatasetError> {
         let &Self { seed, episodes, truth, .. } = self;
         let shard = self.shard();
@@ -153,8 +153,8 @@ impl GenerateArgs {
     }
 }
 
-/// Writes a scene of every lever-up, the script that plays them, and `ours.jsonl`, what comes of them
-/// here, as the script says it; how many, and their size in bytes.
+/// Writes a scene of every lever-up, the MuJoCo script that plays them, and `ours.jsonl` with our
+/// results in the script's format. Returns their number and size in bytes.
 fn twins(
     config: &LeverConfig,
     folder: &Path,
@@ -209,7 +209,7 @@ pub fn run(args: &GenerateArgs, session: &Session) -> Result<u8, CliError> {
     Ok(exit_code::DONE)
 }
 
-/// What a failure to make or read data means for the exit code.
+/// Maps an error of making or reading data to an exit code.
 pub fn data_error(error: DatasetError) -> CliError {
     match error {
         DatasetError::Cancelled => CliError::Interrupted(error.to_string()),

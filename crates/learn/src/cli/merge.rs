@@ -1,4 +1,4 @@
-//! `pushplan-learn merge`: shards of training data put together.
+//! `pushplan-learn merge`: merges shards of training data.
 
 use std::path::PathBuf;
 

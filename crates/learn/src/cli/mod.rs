@@ -1,4 +1,4 @@
-//! The command `pushplan-learn`: one file per subcommand.
+//! Command `pushplan-learn`: one file per subcommand.
 
 mod app;
 pub mod generate;

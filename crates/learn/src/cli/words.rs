@@ -1,4 +1,4 @@
-//! Words for data and networks, each with its line in `--help`.
+//! Names of data and networks, each with its line in `--help`.
 
 use crate::dataset::{JointRule, LeverPreset, Preset, Solids, Truth};
 use crate::train::Exposure;
@@ -12,7 +12,7 @@ pub static PRESETS: [(&str, Preset, &str); 5] = [
     ("crowds", Preset::Crowds, "Crowds of all three kinds"),
 ];
 
-/// Who says what is true of pushes with tools.
+/// Sources of the ground truth for pushes with tools.
 pub static TRUTHS: [(&str, Truth, &str); 4] = [
     ("both", Truth::Both, "The 3-D engine in four of five episodes, else the planar one"),
     ("planar", Truth::Planar, "The planar engine"),
@@ -30,16 +30,16 @@ pub static LEVER_PRESETS: [(&str, LeverPreset, &str); 6] = [
     ("lying", LeverPreset::Lying, "Boxes and lying cylinders, alike from above"),
 ];
 
-/// What data can be made of.
+/// Kinds of training data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Data {
-    /// Pushes.
+    /// Pushes with the hand or tools.
     Pushes(Preset),
-    /// Lever-ups.
+    /// Lever-ups of plates.
     Levers(LeverPreset),
 }
 
-/// All of them.
+/// Names of all data.
 pub static DATA: [(&str, Data, &str); 11] = data();
 
 /// Joints between near neighbours of a crowd.
@@ -71,7 +71,7 @@ pub static SOLIDS: [(&str, Solids, &str); 2] = [
     ("any", Solids::Any, "Cylinders and cuboids"),
 ];
 
-/// How far the network's own rollout leads up to an example.
+/// Distributions of the number of rollout frames before an example.
 pub static EXPOSURES: [(&str, Exposure, &str); 3] = [
     ("pushforward", Exposure::Pushforward, "Any number of frames, each equally often"),
     (

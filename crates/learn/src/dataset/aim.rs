@@ -1,4 +1,4 @@
-//! Aiming a push: where the tool starts so that it meets an object after a short gap.
+//! Aiming of a push: start poses from which the tool meets an object after a short gap.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -14,18 +14,17 @@ use rand_pcg::Pcg64;
 
 use super::chance::{heading, uniform, weighted};
 
-/// The tool is set down at least this far from everything, metres.
+/// Minimum distance to all other bodies when the tool is set down, metres.
 pub const SET_DOWN: f64 = 1e-4;
 
-/// How often the object is met by the face of a part; anywhere over the tool's outline, edges
-/// and near misses included; beside an edge, where inner corners and grazing contacts are.
+/// Probabilities of the lateral aim: at the face of a part, anywhere over the tool's outline
+/// (including edges and near misses), and beside an edge (inner corners and grazing contacts).
 const LATERAL: [f64; 3] = [0.5, 0.2, 0.3];
 
-/// Share of the tries that pass just beside the object which are kept: a model must know a miss
-/// when it sees one, but there is little to learn from it.
+/// Share of near misses that are kept: a model must recognise a miss but learns little from it.
 const NEAR_MISSES: f64 = 0.15;
 
-/// How a push goes, besides where it starts.
+/// Parameters of a push except its start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aim {
     /// Heading of the motion, radians.
@@ -40,8 +39,9 @@ pub struct Aim {
     pub speed: f64,
 }
 
-/// A stroke that meets a random object of `state` with a random piece of the tool, its start
-/// free of every object and obstacle; `None` if this try is not free.
+/// Returns a stroke that meets a random object of `state` with a random piece of the tool.
+///
+/// The start is free of all objects and obstacles. Returns `None` if the attempt is not free.
 pub fn aimed_stroke(
     rng: &mut Pcg64,
     tool: &Tool,
@@ -56,7 +56,7 @@ pub fn aimed_stroke(
     let pose = state.poses[target];
     let reach = |direction: Vector| footprint.extent(pose.local_vector(direction));
 
-    // The tool's outline at its heading, its frame at the origin.
+    // Outline of the tool at its heading, with its frame at the origin.
     let turned = Pose::new(0.0, 0.0, aim.heading);
     let span = |index: usize, direction: Vector| {
         let part = tool.part_pose(index, &turned);
@@ -104,8 +104,8 @@ pub fn aimed_stroke(
     })
 }
 
-/// A push direction: along a line through two objects, square to an object's face, or any;
-/// radians.
+/// Draws a push direction, radians: along a line through two objects, perpendicular to an object's
+/// face, or uniform.
 pub fn random_direction(rng: &mut Pcg64, objects: &[Object], state: &State) -> f64 {
     let object = rng.random_range(0..objects.len());
     match weighted(rng, &[0.35, 0.25, 0.40]) {
@@ -121,8 +121,8 @@ pub fn random_direction(rng: &mut Pcg64, objects: &[Object], state: &State) -> f
     }
 }
 
-/// A heading of the tool for a push in `direction`, radians: square to it in two thirds of the
-/// cases, as principal directions and grips make it.
+/// Draws a heading of the tool for a push in `direction`, radians: perpendicular or parallel to it
+/// in two thirds of the cases, as with principal directions and grips.
 pub fn random_heading(rng: &mut Pcg64, direction: f64) -> f64 {
     if rng.random_bool(0.65) {
         direction + FRAC_PI_2 * f64::from(rng.random_range(0..4u8))
@@ -131,7 +131,7 @@ pub fn random_heading(rng: &mut Pcg64, direction: f64) -> f64 {
     }
 }
 
-/// Travel of the tool along the unit vector `direction` until one of its parts touches, metres.
+/// Returns the travel of the tool along the unit vector `direction` until a part touches, metres.
 pub(super) fn tool_travel(
     tool: &Tool,
     pose: &Pose,
@@ -145,8 +145,7 @@ pub(super) fn tool_travel(
     travels.reduce(f64::min)
 }
 
-/// Smallest distance between any part of the tool at `pose` and a footprint, metres, capped at
-/// a centimetre.
+/// Returns the minimum distance between the tool at `pose` and a footprint, metres, capped at 1 cm.
 pub(super) fn tool_clearance(tool: &Tool, pose: &Pose, other: (&Footprint, &Pose)) -> f64 {
     let gaps = (0..tool.parts().len()).map(|index| {
         clearance((&tool.parts()[index].footprint(), &tool.part_pose(index, pose)), other, 0.01)

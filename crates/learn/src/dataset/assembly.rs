@@ -1,4 +1,4 @@
-//! Random tools: cuboids glued face to face.
+//! Random tools of cuboids glued face to face.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -10,26 +10,28 @@ use rand_pcg::Pcg64;
 use super::chance::{log_uniform, sign, uniform, weighted};
 use super::tabletop::random_friction;
 
-/// How often a tool has one to five parts.
+/// Probabilities of one to five parts.
 const PART_COUNTS: [f64; 5] = [0.20, 0.25, 0.20, 0.20, 0.15];
 
-/// Share of parts that repeat the size of the part they are glued to, as long handles do.
+/// Share of parts with the size of their parent part, as in long handles.
 const SAME_SIZE: f64 = 0.35;
 
-/// Share of parts turned by 45 degrees against the part they are glued to.
+/// Share of parts rotated by 45 degrees relative to their parent part.
 const DIAGONAL: f64 = 0.2;
 
-/// At least this share of the narrower of two glued faces lies against the other.
+/// Minimum contact width of two glued faces, as a share of the narrower face.
 const LEAST_OVERLAP: f64 = 0.4;
 
 /// Vertical extent of the parts, metres.
 const THICKNESS: (f64, f64) = (0.01, 0.06);
 
-/// Tries to add a part before the tool is left as it is.
+/// Maximum number of attempts to add a part.
 const TRIES: usize = 20;
 
-/// A tool of one to five cuboids, each next one glued flush to a face of an earlier one
-/// (or, turned by 45 degrees, sunk into it by a corner). The grip is the tool frame's origin.
+/// Draws a tool of one to five cuboids, each glued flush to a face of an earlier one.
+///
+/// Parts rotated by 45 degrees are sunk into their parent by a corner. The grip is the origin of
+/// the tool frame.
 pub fn random_tool(rng: &mut Pcg64, ranges: &Ranges) -> Tool {
     let count = 1 + weighted(rng, &PART_COUNTS);
     let thickness = uniform(rng, THICKNESS.0, THICKNESS.1);
@@ -57,7 +59,7 @@ fn random_size(rng: &mut Pcg64, ranges: &Ranges, thickness: f64) -> [f64; 3] {
     if rng.random::<bool>() { [length, width, thickness] } else { [width, length, thickness] }
 }
 
-/// One try at a further part: its parent, size and pose; `None` if it would run into another.
+/// Draws a further part: its parent, size and pose; `None` if it would overlap another part.
 fn glue(
     rng: &mut Pcg64,
     ranges: &Ranges,
@@ -71,7 +73,7 @@ fn glue(
         Shape::Cuboid { size } if rng.random_bool(SAME_SIZE) => size,
         _ => random_size(rng, ranges, thickness),
     };
-    // Everything below is in the parent's frame; `outward` is the chosen face's normal.
+    // All vectors below are in the parent's frame; `outward` is the normal of the chosen face.
     let face = Pose::new(0.0, 0.0, FRAC_PI_2 * f64::from(rng.random_range(0..4u8)));
     let outward = face.vector(Vector::x());
     let along = face.vector(Vector::y());
@@ -80,7 +82,7 @@ fn glue(
     let child = Footprint::Rectangle { half };
     let centre = if rng.random_bool(DIAGONAL) {
         let turned = Pose::new(0.0, 0.0, face.heading + sign(rng) * FRAC_PI_4);
-        // The corner that points into the parent, sunk until it is cut wide enough to hold.
+        // The corner that points into the parent is sunk until its cross-section is wide enough.
         let corner = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)]
             .map(|(x, y)| turned.vector(Vector::new(x * half.x, y * half.y)))
             .into_iter()

@@ -1,4 +1,4 @@
-//! The few draws that sampling needs.
+//! Distributions used for sampling.
 
 use std::f64::consts::TAU;
 
@@ -6,27 +6,27 @@ use pushplan::internals::scene::Span;
 use rand::Rng;
 use rand_pcg::Pcg64;
 
-/// Uniform in the interval.
+/// Draws a number uniformly from an interval.
 pub(super) fn uniform(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
     low + (high - low) * rng.random::<f64>()
 }
 
-/// Uniform in the logarithm, so that every decade is drawn equally often.
+/// Draws a log-uniform number, so that every decade is equally probable.
 pub fn log_uniform(rng: &mut Pcg64, span: Span) -> f64 {
     uniform(rng, span.low.ln(), span.high.ln()).exp().clamp(span.low, span.high)
 }
 
-/// A heading, uniform over the full turn, radians.
+/// Draws a heading uniformly over the full turn, radians.
 pub(super) fn heading(rng: &mut Pcg64) -> f64 {
     uniform(rng, 0.0, TAU)
 }
 
-/// -1 or 1.
+/// Draws -1 or 1.
 pub(super) fn sign(rng: &mut Pcg64) -> f64 {
     if rng.random::<bool>() { 1.0 } else { -1.0 }
 }
 
-/// An index drawn with the given weights.
+/// Draws an index with the given weights.
 pub(super) fn weighted(rng: &mut Pcg64, weights: &[f64]) -> usize {
     let mut left = rng.random::<f64>() * weights.iter().sum::<f64>();
     for (index, weight) in weights.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! What a data set is made of: everything that decides its bits.
+//! Configuration of a data set, which determines its bits.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -20,20 +20,20 @@ use super::preset::Preset;
 use super::set::Sampler;
 use super::truth::Truth;
 
-/// The suite of a folder of episodes.
+/// Suite name of a folder of episodes.
 pub const SUITE: &str = "episodes";
 
-/// The suite of a folder of `.npz` files.
+/// Suite name of a folder of `.npz` files.
 const SUITE_OF_FILES: &str = "episodes as npz";
 
-/// Version of the sampler: another one draws other episodes for the same settings.
+/// Version of the sampler; other versions draw other episodes for equal settings.
 const SAMPLER: u32 = 8;
 
-/// An episode as a record: index, scene, tool, lift, strokes, frames. `postcard` keeps every bit of
-/// a number.
+/// Episode as a record: index, scene, tool, lift, strokes, frames. `postcard` preserves every bit
+/// of a number.
 type Fields = (u64, Scene, Tool, f64, Vec<Stroke>, Vec<Frame>);
 
-/// The settings in a manifest.
+/// Settings in a manifest.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Sampled {
@@ -44,20 +44,20 @@ struct Sampled {
     truth: Truth,
 }
 
-/// Everything that decides the bits of a data set.
+/// Configuration that determines the bits of a data set.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DatasetConfig {
-    /// Episode `index` depends on this, the preset, the constraints and `index` alone.
+    /// Seed; episode `index` depends only on it, the preset, the constraints and `index`.
     pub seed: u64,
     /// Number of episodes.
     pub episodes: u64,
-    /// What is sampled.
+    /// Family of sampled scenes.
     pub preset: Preset,
-    /// What is fixed rather than sampled.
+    /// Properties that are fixed instead of sampled.
     #[serde(default)]
     pub constraints: Constraints,
-    /// Who says what is true of pushes with tools.
+    /// Source of the ground truth for pushes with tools.
     #[serde(default)]
     pub truth: Truth,
 }
@@ -75,17 +75,17 @@ impl Default for DatasetConfig {
 }
 
 impl DatasetConfig {
-    /// What the data cover.
+    /// Returns the ranges covered by the data.
     pub fn ranges(&self) -> Ranges {
         self.constraints.narrow(self.preset.ranges())
     }
 
-    /// The same data for another seed and size: a validation split.
+    /// Returns the configuration with another seed and size, for example for a validation split.
     pub fn split(&self, seed: u64, episodes: u64) -> Self {
         Self { seed, episodes, ..self.clone() }
     }
 
-    /// The same as what a folder of files with so many episodes each holds.
+    /// Returns the manifest of a folder of files with so many episodes each.
     pub(super) fn manifest_of_files(&self, files: usize, episodes_a_file: u64) -> RunManifest {
         let mut settings = json!(self.sampled());
         settings["episodes"] = json!(self.episodes);
@@ -99,7 +99,7 @@ impl DatasetConfig {
         Sampled { sampler: SAMPLER, preset, constraints, truth }
     }
 
-    /// What the episodes show, with the version of what is not ours.
+    /// Returns the names of the engines, with the version of external ones.
     pub fn played_by(&self) -> String {
         match self.truth {
             Truth::Both => "planar and 3d".to_owned(),

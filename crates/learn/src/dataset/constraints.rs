@@ -1,4 +1,4 @@
-//! What a test set fixes that training leaves to chance.
+//! Properties that a test set fixes and training samples.
 
 use pushplan::internals::scene::{Ranges, Span};
 use serde::{Deserialize, Serialize};
@@ -10,19 +10,19 @@ use super::tabletop::Solids;
 /// Speed of the hand in the published test sets: 10.5 mm in a frame of 50 ms, m/s.
 pub const TEST_SPEED: f64 = 0.21;
 
-/// Which joints stand between near neighbours.
+/// Rule for joints between near neighbours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum JointRule {
-    /// None at all.
+    /// No joints.
     None,
-    /// Some neighbours joined, all of them rigidly.
+    /// Fixed joints between some neighbours.
     Fixed,
-    /// Some neighbours joined by fixed, revolute and prismatic joints alike.
+    /// Fixed, revolute and prismatic joints between some neighbours, in equal shares.
     Mixed,
 }
 
-/// What the scenes of a crowd must be; whatever is left open is drawn as for training.
+/// Constraints on the scenes of a crowd; open properties are sampled as for training.
 ///
 /// ```
 /// use pushplan_learn::dataset::{
@@ -45,14 +45,14 @@ pub struct Constraints {
     pub objects: Option<usize>,
     /// Joints between near neighbours.
     pub joints: Option<JointRule>,
-    /// Which solids the objects are.
+    /// Kind of solids.
     pub solids: Option<Solids>,
     /// Speed of the hand, m/s.
     pub speed: Option<f64>,
 }
 
 impl Constraints {
-    /// A test set as published: everything given, the hand at [`TEST_SPEED`].
+    /// Returns the constraints of a published test set, with the hand at [`TEST_SPEED`].
     pub fn test(objects: usize, joints: JointRule, solids: Solids) -> Self {
         Self {
             objects: Some(objects),
@@ -62,7 +62,7 @@ impl Constraints {
         }
     }
 
-    /// Narrows what a family covers.
+    /// Narrows the ranges of a family.
     pub(super) fn narrow(&self, mut ranges: Ranges) -> Ranges {
         if let Some(count) = self.objects {
             ranges.objects = Span::new(count as f64, count as f64);
@@ -73,7 +73,7 @@ impl Constraints {
         ranges
     }
 
-    /// Whether `preset` can fulfil them.
+    /// Checks that `preset` can satisfy the constraints.
     ///
     /// # Errors
     /// [`DatasetError::Constraint`] for constraints on scenes that are no crowds, and for a

@@ -1,7 +1,9 @@
-//! Two set-ups in which nothing but masses changes from one trajectory to the next and the hand's strokes
-//! have every cylinder pushed by another one, as in section 8.3 of the thesis. It shows its own in a
-//! picture without sizes; these follow its words: a cylinder that is pushed against another one goes on
-//! pushing it if it is the heavier of the two, and else slips off to either side.
+//! Controlled set-ups in which only masses vary between trajectories and every cylinder is pushed
+//! by another one, as in section 8.3 of the thesis.
+//!
+//! The thesis shows its set-ups in a picture without sizes; these follow its description. A
+//! cylinder pushed against another one continues to push it if it is the heavier one, otherwise it
+//! slips off to either side.
 
 use pushplan::internals::geometry::Vector;
 use pushplan::internals::scene::{Object, Scene, Span};
@@ -9,37 +11,39 @@ use serde::{Deserialize, Serialize};
 
 use super::constraints::TEST_SPEED;
 
-/// How cylinders stand, three by three: nine in all, as in the thesis, and a stroke for every three.
+/// Arrangement of nine cylinders in groups of three, as in the thesis; each group gets one stroke.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Controlled {
-    /// One behind the other, every second one somewhat aside.
+    /// Row with every second cylinder shifted sideways.
     Rows,
-    /// One before the gap between two.
+    /// Single cylinder before the gap between two.
     Wedges,
 }
 
 /// Radius and height of all cylinders, metres.
 const SOLID: [f64; 2] = [0.05, 0.10];
 
-/// Friction value of everything but the table, whose value is a scene's usual one: what the planner takes
-/// where a task says nothing.
+/// Friction value of all bodies except the table: the planner's default. The table has the usual
+/// value of a scene.
 pub(super) const FRICTION: Span = Span::new(0.4, 0.4);
 
-/// Distance between one three and the next, metres: they never meet.
+/// Distance between adjacent groups, metres; groups never touch.
 const APART: f64 = 1.0;
 
-/// Where the three stand, metres, the stroke along the first axis; gaps are a millimetre.
+/// Positions within a group, metres, with the stroke along the first axis; gaps are a millimetre.
 const ROW: [[f64; 2]; 3] = [[0.0, 0.0], [0.099, 0.02], [0.198, 0.0]];
 const WEDGE: [[f64; 2]; 3] = [[0.0, 0.0], [0.087, 0.051], [0.087, -0.051]];
 
-/// Where the hand begins, metres, and how far it goes: the row is met a little aside, so that it does
-/// not matter how exactly; the wedge in the middle.
+/// Start of the hand and its travel, metres.
+///
+/// The row is met off-centre, so that the result is insensitive to the exact position; the wedge is
+/// met in the middle.
 const FROM: [[f64; 2]; 2] = [[-0.12, -0.004], [-0.12, 0.0]];
 const TRAVEL: f64 = 0.5;
 
 impl Controlled {
-    /// The scene; its masses are still to be drawn.
+    /// Returns the scene before its masses are drawn.
     pub(super) fn scene(self) -> Scene {
         let places = match self {
             Self::Rows => ROW,
@@ -56,7 +60,7 @@ impl Controlled {
         Scene::new(objects)
     }
 
-    /// From where to where the hand goes, a stroke for every three, and how fast, m/s.
+    /// Returns start, displacement and speed (m/s) of the hand for the stroke of every group.
     pub(super) fn strokes(self) -> [([Vector; 2], f64); 3] {
         let [x, y] = FROM[self as usize];
         [0, 1, 2].map(|three| {

@@ -1,4 +1,4 @@
-//! The objects of a crowd: up to twelve, put down one after another.
+//! Objects of a crowd: up to twelve, placed one after another.
 
 use pushplan::internals::geometry::{Footprint, Pose};
 use pushplan::internals::scene::{Object, Ranges, Scene};
@@ -10,12 +10,13 @@ use super::curriculum::Block;
 use super::tabletop::{Solids, mass_span, random_shape};
 use super::unseen::{draw_supports, push_height};
 
-/// How many objects there are.
+/// Draws the number of objects.
 pub(super) fn object_count(rng: &mut Pcg64, ranges: &Ranges) -> usize {
     rng.random_range(ranges.objects.low as usize..=ranges.objects.high as usize)
 }
 
-/// A table with `count` objects, each where `place` puts it beside those before it.
+/// Draws a table with `count` objects; `place` returns the pose of each, given the objects before
+/// it.
 pub(super) fn crowd(
     rng: &mut Pcg64,
     ranges: &Ranges,

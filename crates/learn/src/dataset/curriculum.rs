@@ -1,6 +1,7 @@
-//! Blocks of the curriculum: what is likely changes every 25 episodes, so that rare dynamics
-//! (a table full of sliding joints, say) occur in concentration and can be learned
-//! (Tekden et al. 2021, arXiv 2102.02100).
+//! Blocks of the curriculum.
+//!
+//! Distributions change every 25 episodes, so that rare dynamics (for example a table full of
+//! sliding joints) occur in concentration and can be learnt (Tekden et al. 2021, arXiv 2102.02100).
 
 use pushplan::internals::seeded::generator;
 use rand::Rng;
@@ -10,29 +11,29 @@ use super::config::DatasetConfig;
 use super::constraints::JointRule;
 use super::tabletop::Solids;
 
-/// Episodes in a block.
+/// Number of episodes in a block.
 const BLOCK: u64 = 25;
 
-/// Keeps the random numbers of blocks apart from those of episodes.
+/// Constant that separates the random numbers of blocks and episodes.
 const SALT: u64 = 0x6375_7272_6963_756C;
 
-/// Share of near neighbours that are joined in a constrained set, as far as no loop closes.
+/// Probability that near neighbours are joined in a constrained set, unless a loop would close.
 const TEST_JOINED: f64 = 0.5;
 
-/// What is likely in a block of crowds.
+/// Distributions in a block of crowds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Block {
     /// Probability that an object is a cylinder.
     pub cylinders: f64,
-    /// Probability that two near neighbours are joined, as far as no loop closes.
+    /// Probability that two near neighbours are joined, unless a loop would close.
     pub joined: f64,
-    /// How often a joint is fixed, revolute, prismatic.
+    /// Weights of fixed, revolute and prismatic joints.
     pub kinds: [f64; 3],
 }
 
 impl Block {
-    /// The block that episode `index` lies in: a pure function of the seed and `index / 25`,
-    /// except for what the constraints fix.
+    /// Returns the block of episode `index`. Its distributions depend only on the seed, `index /
+    /// 25` and the constraints.
     pub fn of(config: &DatasetConfig, index: u64) -> Self {
         let mut rng = generator(config.seed ^ SALT, index / BLOCK);
         let mixed = uniform(&mut rng, 0.3, 0.7);

@@ -1,4 +1,4 @@
-//! Objects in a grid, almost touching, and one stroke of the hand into it.
+//! Nearly touching objects in a grid, with one stroke of the hand into it.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -20,20 +20,20 @@ use super::joints::join_neighbours;
 use super::sparse::span;
 use super::tabletop::anywhere;
 
-/// Gap between neighbours, metres; mostly small, because the share of the way from the smaller
-/// to the larger is a product of two draws.
+/// Range of the gap between neighbours, metres. Most gaps are small because the position within the
+/// range is a product of two draws.
 const GAP: (f64, f64) = (1e-4, 0.010);
 
-/// Share of cells put down less neatly: up to a centimetre farther out and somewhat turned.
+/// Share of cells placed less neatly: up to a centimetre further out and rotated.
 const JITTERED: f64 = 0.25;
 
-/// How much neat and jittered cells are turned against the grid at most, radians.
+/// Maximum rotation of neat and jittered cells relative to the grid, radians.
 const TURN: (f64, f64) = (0.05, 0.25);
 
-/// Gap between hand and grid at the start, metres.
+/// Range of the gap between hand and grid at the start, metres.
 const STAND_OFF: (f64, f64) = (0.005, 0.05);
 
-/// A grid of objects and one stroke into it from one of its four sides.
+/// Draws a grid of objects and one stroke into it from one of its four sides.
 pub(super) fn dense(
     rng: &mut Pcg64,
     ranges: &Ranges,
@@ -46,13 +46,13 @@ pub(super) fn dense(
     let start = scene.start();
     let (near, _) = span(&scene, &start, along);
     let (low, high) = span(&scene, &start, aside);
-    // Over the whole face, down to grazing an outer object.
+    // Strokes cover the whole face, down to grazing contacts with an outer object.
     let margin = 0.5 * HAND_RADIUS;
     let lateral = uniform(rng, low - margin, high + margin);
     let behind = near - HAND_RADIUS - uniform(rng, STAND_OFF.0, STAND_OFF.1);
     let from = along * behind + aside * lateral;
 
-    // The stroke follows to wherever the scene is put.
+    // The stroke is moved with the scene.
     let before = scene.objects[0].pose;
     scene = anywhere(rng, scene);
     let motion = scene.objects[0].pose * before.inverse();
@@ -65,8 +65,10 @@ pub(super) fn dense(
     Some((scene, motion, frames))
 }
 
-/// Objects in the cells of a grid along x and y: the middle one first, the others brought in
-/// towards it, each straight along the line of its cell until it almost touches.
+/// Places objects in the cells of a grid along x and y.
+///
+/// The middle object is first. Each other object approaches it along the line of its cell until it
+/// almost touches.
 pub(super) fn grid(rng: &mut Pcg64, ranges: &Ranges, block: &Block) -> Scene {
     let count = object_count(rng, ranges);
     let mut cells = cells(rng, count).into_iter();
@@ -83,7 +85,7 @@ pub(super) fn grid(rng: &mut Pcg64, ranges: &Ranges, block: &Block) -> Scene {
         }
         let aim = if jittered { uniform(rng, -0.15, 0.15) } else { 0.0 };
         let out = Pose::new(0.0, 0.0, aim).vector(cell.normalize());
-        // From far enough out to be clear of all, straight in until the first is touched.
+        // The object starts clear of all others and moves straight in to the first contact.
         let far = Pose { position: out * (cell.norm() + 1.0), heading: turn };
         let travels = objects.iter().filter_map(|object| {
             let still = (&object.shape.footprint(), &object.pose);
@@ -94,8 +96,8 @@ pub(super) fn grid(rng: &mut Pcg64, ranges: &Ranges, block: &Block) -> Scene {
     })
 }
 
-/// Cells of a grid as square as `count` allows, without some of the last row, nearest to the
-/// middle one first and relative to it.
+/// Returns the cells of a grid that is as square as `count` allows, relative to the middle cell and
+/// nearest to it first. The last row may be incomplete.
 fn cells(rng: &mut Pcg64, count: usize) -> Vec<Vector> {
     let columns = (count as f64).sqrt().ceil() as usize;
     let rows = count.div_ceil(columns);

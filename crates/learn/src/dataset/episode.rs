@@ -1,4 +1,4 @@
-//! One episode: a random scene, a random tool motion and what it does.
+//! Episode: a random scene, a random tool motion and its effect.
 
 use pushplan::internals::seeded::generator;
 use pushplan::internals::{outcome::Frame, scene::Scene, task::ToolMotion};
@@ -11,33 +11,35 @@ use super::preset::Preset;
 use super::sparse::{sparse, sparse_line};
 use super::tools::pushed_by_tool;
 
-/// A scene, a tool motion, and the truth of what it does: where the scene states how high the tool
-/// presses, that of the planar engine, else that of the 3-D engine or of MuJoCo, as the data set says.
+/// Scene, tool motion and ground truth.
+///
+/// The ground truth is from the 2-D engine if the scene states the height at which the tool
+/// presses. Otherwise it is from the 3-D engine or MuJoCo, depending on the configuration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Episode {
-    /// Which draw of its data set this is.
+    /// Index of the episode in its data set.
     pub index: u64,
-    /// What stands on the table.
+    /// Scene at the start.
     pub scene: Scene,
-    /// What the tool does.
+    /// Motion of the tool.
     pub motion: ToolMotion,
-    /// The engine's frames, the start first.
+    /// Frames of the engine, starting with the initial one.
     pub frames: Vec<Frame>,
 }
 
 impl Episode {
-    /// Draws and simulates episode `index`: a pure function of the configuration's seed, its
-    /// preset, constraints and truth, and the index.
+    /// Draws and simulates episode `index`, which depends only on `index` and the configuration's
+    /// seed, preset, constraints and truth.
     ///
     /// # Errors
-    /// [`DatasetError::Player`] if MuJoCo is to say what is true and cannot be asked.
+    /// [`DatasetError::Player`] if the ground truth is from MuJoCo and MuJoCo is unavailable.
     pub fn draw(config: &DatasetConfig, index: u64) -> Result<Self, DatasetError> {
         let mut rng = generator(config.seed, index);
         if config.preset.is_crowd() {
             return Ok(Self::of_crowd(config, index));
         }
         let ranges = config.constraints.narrow(config.preset.ranges());
-        // Almost every attempt succeeds; one fails when no push could be aimed or something
+        // Almost every attempt succeeds; an attempt fails if no push could be aimed or an object
         // did not come to rest.
         loop {
             if let Some((scene, motion, frames)) = pushed_by_tool(&mut rng, &ranges, config.truth)?
@@ -47,10 +49,12 @@ impl Episode {
         }
     }
 
-    /// [`Episode::draw`] of crowds, which nobody else is asked about: of tools, a dense one.
+    /// Draws an episode of a crowd, which needs no external engine. For the preset of tools it
+    /// draws a dense crowd.
     pub fn of_crowd(config: &DatasetConfig, index: u64) -> Self {
         let mut rng = generator(config.seed, index);
-        // Before the first attempt, so that families that fail more often are no rarer.
+        // The family is drawn before the first attempt, so that families with more failures are not
+        // rarer.
         let family = config.preset.member(&mut rng);
         let ranges = config.constraints.narrow(family.ranges());
         let block = Block::of(config, index);

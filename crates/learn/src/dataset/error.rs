@@ -1,43 +1,43 @@
-//! What can go wrong with a data set.
+//! Errors of data sets.
 
 use std::path::PathBuf;
 
 use pushplan_bench::store::{Shard, StoreError};
 use thiserror::Error;
 
-/// Why a data set could not be made or read.
+/// Error of making or reading a data set.
 #[derive(Debug, Error)]
 pub enum DatasetError {
-    /// The configuration asks for nothing.
+    /// The configuration requests no data.
     #[error("{0} must be at least 1")]
     Empty(&'static str),
-    /// The configuration asks for scenes that the family does not have.
+    /// The configuration requests scenes outside the family.
     #[error("{0}")]
     Constraint(String),
-    /// The caller asked to stop.
+    /// The caller cancelled.
     #[error("stopped; what was finished is kept, run the same command again to go on")]
     Cancelled,
-    /// The folder cannot be read or written, or holds something else.
+    /// The folder cannot be read or written, or holds other data.
     #[error(transparent)]
     Store(#[from] StoreError),
-    /// Another engine cannot be asked.
+    /// An external engine is unavailable.
     #[error("{0}; PUSHPLAN_PYTHON names a Python with the package `mujoco`")]
     Player(String),
-    /// The folder holds something else than episodes, or those of another version.
+    /// The folder holds no episodes of this version.
     #[error("{} does not hold data of this version of pushplan", path.display())]
     Foreign {
-        /// The folder.
+        /// Path of the folder.
         path: PathBuf,
     },
-    /// The folder holds a part of a data set.
+    /// The folder holds one shard of a data set.
     #[error(
         "{} is shard {shard} of a data set; `pushplan-learn merge OUT SHARD...` puts shards together",
         path.display()
     )]
     Shard {
-        /// The folder.
+        /// Path of the folder.
         path: PathBuf,
-        /// Which part.
+        /// Shard in the folder.
         shard: Shard,
     },
 }

@@ -1,4 +1,4 @@
-//! Data sets on disk: runs whose records are episodes, see [`pushplan_bench::store`].
+//! Data sets on disk: runs with episodes as records, see [`pushplan_bench::store`].
 
 use std::path::{Path, PathBuf};
 
@@ -12,15 +12,15 @@ use super::error::DatasetError;
 use super::lever::{LEVER_SUITE, LeverConfig};
 use super::set::{Sampler, Set, draw};
 
-/// Makes a data set in the folder `dir`, or finishes one that was interrupted: what is there and
-/// whole is kept. The files are the same bits for any number of threads and interruptions. Of a
-/// `shard` only its episodes are made; [`merge_data`] puts shards together. Gives how many episodes
-/// the folder holds, and their size in bytes.
+/// Makes a data set in the folder `dir`, or completes an interrupted one.
+///
+/// Intact files are kept. The files are bit-identical for any number of threads and interruptions.
+/// Only the episodes of `shard` are made; [`merge_data`] merges shards. Returns the number of
+/// episodes in the folder and their size in bytes.
 ///
 /// # Errors
-/// If the configuration asks for nothing, the folder holds a data set of other settings or another
-/// process writes to it, a file cannot be written, or `watch` says to stop. Finished episodes are
-/// kept in every case.
+/// If the configuration requests no data, the folder holds other settings or is locked, a file
+/// cannot be written, or `watch` cancels. Finished episodes are always kept.
 pub fn generate<S: Sampler>(
     config: &S,
     shard: Shard,
@@ -36,7 +36,7 @@ pub fn generate<S: Sampler>(
     while journal.done() < indices.len() {
         let end = (journal.done() + S::AT_ONCE).min(indices.len());
         let drawn = draw(config, &indices[journal.done()..end], &count, watch);
-        // Of what is stopped, the beginning without a hole can be kept.
+        // After a cancellation, the gapless beginning can be kept.
         let whole = drawn.iter().map_while(|episode| episode.as_ref().ok());
         let records: Vec<Vec<u8>> = whole.map(S::encode).collect::<Result<_, _>>()?;
         journal.append(records.iter().map(Vec::as_slice))?;
@@ -45,11 +45,12 @@ pub fn generate<S: Sampler>(
     Ok((journal.done(), journal.bytes()))
 }
 
-/// Merges the finished shards of a data set, given in any order, into one in the folder `out`: the
-/// same bytes as making it in one go. Gives the number of episodes and their seed.
+/// Merges the finished shards of a data set, in any order, into the folder `out`.
+///
+/// The result is bit-identical to an unsharded run. Returns the number of episodes and their seed.
 ///
 /// # Errors
-/// Those of [`merge_runs`]; folders of something else than episodes.
+/// Errors of [`merge_runs`], and an error for folders without episodes.
 pub fn merge_data(out: &Path, shards: &[PathBuf]) -> Result<(usize, u64), DatasetError> {
     for dir in shards {
         let manifest = RunManifest::expect(dir)?;
@@ -66,7 +67,7 @@ impl<S: Sampler> Set<S> {
     /// Reads a finished data set from a folder.
     ///
     /// # Errors
-    /// If there is none, it is unfinished, or a file is damaged.
+    /// If the folder holds no data set, the data set is unfinished, or a file is damaged.
     pub fn open(dir: &Path) -> Result<Self, DatasetError> {
         let manifest = RunManifest::expect(dir)?;
         let config = S::of(&manifest, dir)?;
@@ -86,7 +87,7 @@ impl<S: Sampler> Set<S> {
     }
 }
 
-/// The index of the episode that a record holds: its first number.
+/// Returns the index of a record's episode, which is its first number.
 fn index(record: &[u8]) -> Result<usize, String> {
     match postcard::take_from_bytes::<u64>(record) {
         Ok((index, _)) => Ok(index as usize),

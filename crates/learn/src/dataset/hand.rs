@@ -1,4 +1,4 @@
-//! The round hand that pushes crowds, and the play of its strokes one by one.
+//! Round hand that pushes crowds, and the simulation of its strokes one by one.
 
 use std::sync::Arc;
 
@@ -23,7 +23,7 @@ const HAND_HEIGHT: f64 = 0.10;
 /// Height of the hand's underside above the table, metres.
 const LIFT: f64 = 0.002;
 
-/// A scene being pushed, stroke after stroke, by a hand of random friction.
+/// Scene pushed stroke after stroke by a hand of random friction.
 pub(super) struct HandPlay<'a> {
     scene: &'a Scene,
     motion: ToolMotion,
@@ -32,7 +32,7 @@ pub(super) struct HandPlay<'a> {
 }
 
 impl<'a> HandPlay<'a> {
-    /// Before the first stroke.
+    /// Creates the play before the first stroke.
     pub(super) fn new(rng: &mut Pcg64, scene: &'a Scene, ranges: &Ranges) -> Self {
         let shape = Shape::Cylinder { radius: HAND_RADIUS, height: HAND_HEIGHT };
         let hand =
@@ -47,17 +47,17 @@ impl<'a> HandPlay<'a> {
         }
     }
 
-    /// Where everything is now.
+    /// Returns the current state.
     pub(super) fn state(&self) -> State {
         self.frames.last().map_or_else(|| self.scene.start(), |frame| frame.state.clone())
     }
 
-    /// Which objects the hand has touched.
+    /// Returns whether the hand has touched each object.
     pub(super) fn touched(&self) -> &[bool] {
         &self.touched
     }
 
-    /// The straight stroke from `from`, until everything rests; `None` if the hand cannot be
+    /// Returns the straight stroke from `from` until all objects rest; `None` if the hand cannot be
     /// set down there.
     pub(super) fn stroke(
         &self,
@@ -79,10 +79,10 @@ impl<'a> HandPlay<'a> {
         })
     }
 
-    /// Plays one more stroke; `None` if something went wrong, which ends the play.
+    /// Simulates one more stroke; `None` if the simulation has a warning, which ends the play.
     ///
-    /// The simulator begins a fresh world after a settled stroke, so playing strokes one by one
-    /// gives the bits that playing them all at once does.
+    /// The simulator starts a fresh world after a settled stroke, so strokes simulated one by one
+    /// and together yield identical bits.
     pub(super) fn play(mut self, stroke: Stroke) -> Option<Self> {
         let one = ToolMotion { strokes: vec![stroke], ..self.motion.clone() };
         let job = Job { start: self.state(), ..Job::stated(self.scene, one) };
@@ -100,7 +100,7 @@ impl<'a> HandPlay<'a> {
         let known = usize::from(number > 0);
         for (k, frame) in trajectory.frames.into_iter().enumerate().skip(known) {
             if k > 0 {
-                // Summed up as the simulator does, to the same rounding.
+                // Times are summed in the simulator's order for identical rounding.
                 let moving = k <= stroke.frames();
                 time += if moving { stroke.frame(k - 1).duration } else { COAST_FRAME };
             }
@@ -110,7 +110,7 @@ impl<'a> HandPlay<'a> {
         Some(self)
     }
 
-    /// What was done and what came of it.
+    /// Returns the motion and its frames.
     pub(super) fn finish(self) -> (ToolMotion, Vec<Frame>) {
         (self.motion, self.frames)
     }

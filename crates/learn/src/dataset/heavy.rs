@@ -1,5 +1,5 @@
-//! Cylinders that are light, middling or heavy, pushed by the hand: what is there to tell masses from
-//! (thesis, section 8.3).
+//! Cylinders of three mass ranges pushed by the hand, as data for estimating masses (thesis,
+//! section 8.3).
 
 use pushplan::internals::seeded::generator;
 use pushplan::internals::sim::Simulator;
@@ -23,54 +23,54 @@ use super::preset::Preset;
 use super::sparse::aimed;
 use super::tabletop::{Crowd, Solids, anywhere, random_scene};
 
-/// The ranges of masses, kg.
+/// Mass ranges, kg.
 pub const MASS_RANGES: [Span; 3] = [Span::new(0.2, 0.5), Span::new(1.0, 2.0), Span::new(8.0, 10.0)];
 
-/// Strokes into a crowd.
+/// Number of strokes into a crowd.
 const STROKES: usize = 3;
 
 /// Length of a stroke, metres.
 const TRAVEL: f64 = 0.5;
 
-/// No other object, and no joint.
+/// Cylinders without joints.
 const CYLINDERS: Block = Block { cylinders: 1.0, joined: 0.0, kinds: [1.0; 3] };
 
-/// What stands on the table.
+/// Arrangement of objects on the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MassSetup {
-    /// So many that touch each other, and one stroke.
+    /// Given number of touching objects, and one stroke.
     Touching(usize),
-    /// So many in a grid, almost touching, and three strokes.
+    /// Given number of objects in a nearly touching grid, and three strokes.
     Crowd(usize),
-    /// Always the same, but for the masses.
+    /// Fixed arrangement in which only masses vary.
     Controlled(Controlled),
 }
 
-/// A scene with masses from [`MASS_RANGES`], what the hand did to it and what came of it.
+/// Scene with masses from [`MASS_RANGES`], the hand's motion and its effect.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MassEpisode {
-    /// What stands on the table.
+    /// Scene at the start.
     pub scene: Scene,
-    /// What the hand did.
+    /// Motion of the hand.
     pub motion: ToolMotion,
-    /// The planar engine's frames, the start first.
+    /// Frames of the 2-D engine, starting with the initial one.
     pub frames: Vec<Frame>,
-    /// Which range the mass of every object is in.
+    /// Index of the mass range of every object.
     pub ranges: Vec<usize>,
-    /// Which object was touched by another one, which only by the hand.
+    /// Contacts of every object.
     pub touched: Vec<Touched>,
 }
 
-/// What touched an object.
+/// Kind of contact that an object had.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Touched {
-    /// Nothing.
+    /// No contact.
     Nothing,
-    /// The hand alone.
+    /// Contact with the hand only.
     Hand,
-    /// Another object.
+    /// Contact with another object.
     Object,
 }
 
@@ -87,7 +87,8 @@ impl MassEpisode {
     }
 }
 
-/// One attempt; `None` if no stroke could be aimed or something did not come to rest.
+/// Draws and simulates an episode; `None` if no stroke could be aimed or an object did not come to
+/// rest.
 fn attempt(rng: &mut Pcg64, ranges: &Ranges, setup: MassSetup) -> Option<MassEpisode> {
     let (mut scene, strokes) = match setup {
         MassSetup::Touching(count) => {

@@ -1,5 +1,7 @@
-//! Jams: an object squeezed between the tool and an obstacle, which no rigid-body engine answers
-//! and which planners avoid. Strokes end before it.
+//! Detection of jams.
+//!
+//! A jam is an object squeezed between the tool and an obstacle. Rigid-body engines have no
+//! solution for it and planners avoid it, so strokes end before it.
 
 use pushplan::internals::geometry::{Footprint, Pose, contact_points, swept_clearance};
 use pushplan::internals::{
@@ -8,11 +10,11 @@ use pushplan::internals::{
     task::{Stroke, ToolMotion},
 };
 
-/// Bodies that overlap by more than this are jammed, metres; contacts under ordinary load sink
-/// in by a tenth of it.
+/// Overlap above which bodies are jammed, metres. Contacts under ordinary load overlap by a tenth
+/// of it.
 const JAMMED: f64 = 1e-3;
 
-/// The last stroke, ended one frame before anything is jammed; `None` if nothing ever is.
+/// Returns the last stroke, ended one frame before a jam; `None` without a jam.
 pub(super) fn shortened_before_jam(
     scene: &Scene,
     motion: &ToolMotion,
@@ -23,7 +25,7 @@ pub(super) fn shortened_before_jam(
     let first = frames.iter().position(|frame| frame.stroke == index)?;
     let jammed =
         frames.iter().skip(first).position(|frame| is_jammed(scene, &motion.tool, frame))?;
-    // Frame 0 of a recording is the start; that of a later stroke is its first frame's end.
+    // Frame 0 of a recording is the start; frame 0 of a later stroke is the end of its first frame.
     let done = if index == 0 { jammed } else { jammed + 1 };
     let kept = done.min(stroke.frames()).saturating_sub(1) as f64 / stroke.frames() as f64;
     Some(Stroke {
@@ -33,7 +35,7 @@ pub(super) fn shortened_before_jam(
     })
 }
 
-/// Whether the tool's path meets an obstacle.
+/// Returns `true` if the tool's path meets an obstacle.
 pub(super) fn crosses_obstacle(scene: &Scene, tool: &Tool, stroke: &Stroke) -> bool {
     scene.obstacles.iter().any(|obstacle| {
         let still = (&obstacle.shape().footprint(), &obstacle.pose);

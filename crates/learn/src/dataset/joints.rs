@@ -9,21 +9,22 @@ use rand_pcg::Pcg64;
 use super::chance::{heading, uniform, weighted};
 use super::curriculum::Block;
 
-/// Share of revolute anchors midway between the closest points of the two objects, and of
-/// prismatic axes along their line of centres.
+/// Share of revolute anchors midway between the closest points of the objects, and of prismatic
+/// axes along the line of centres.
 const REGULAR: f64 = 0.7;
 
 /// Share of revolute and prismatic joints with limits.
 const LIMITED: f64 = 0.3;
 
-/// How far a limited revolute joint turns to either side, radians.
+/// Range of a revolute joint's limits on either side, radians.
 const TURN: Span = Span::new(0.1, 1.0);
 
-/// How far a limited prismatic joint slides to either side, metres.
+/// Range of a prismatic joint's limits on either side, metres.
 const SHIFT: Span = Span::new(0.02, 0.15);
 
-/// Joins near neighbours of a scene without closing a loop: the joints are a forest, and since
-/// a scene holds at most twelve objects, so does every group.
+/// Joins near neighbours of a scene without closing a loop.
+///
+/// The joints form a forest; a group has at most twelve objects because a scene has at most twelve.
 pub(super) fn join_neighbours(rng: &mut Pcg64, scene: &mut Scene, block: &Block) {
     let mut pairs = near_pairs(scene);
     pairs.shuffle(rng);
@@ -73,7 +74,7 @@ fn random_kind(
     }
 }
 
-/// Mostly none; else from somewhere below zero to somewhere above.
+/// Draws limits around zero, or none in most cases.
 fn limits(rng: &mut Pcg64, span: Span) -> Option<Span> {
     let (low, high) = (uniform(rng, span.low, span.high), uniform(rng, span.low, span.high));
     rng.random_bool(LIMITED).then_some(Span::new(-low, high))

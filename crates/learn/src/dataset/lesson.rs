@@ -1,5 +1,5 @@
-//! What the belief regulator learns from: what windows of observed trajectories told of pairs of
-//! objects, and how these really hang together.
+//! Training data of the belief regulator: features of pairs in windows of observed trajectories,
+//! and the true joint types.
 
 use std::sync::Arc;
 
@@ -23,52 +23,53 @@ use super::observed::Seeing;
 use super::preset::Preset;
 use super::tabletop::Solids;
 
-/// Keeps the random numbers of noise apart from those of episodes.
+/// Constant that separates the random numbers of noise and episodes.
 const SALT: u64 = 0x6E6F_6973_7900_0000;
 
-/// Share of lessons in dense scenes, in which pairs are harder to tell apart; the rest are sparse.
+/// Share of lessons in dense scenes, in which pairs are harder to distinguish; the others are
+/// sparse.
 const DENSE: f64 = 0.75;
 
-/// Share of lessons with all types of joints alike, as in the test sets; the others follow the
-/// curriculum of training.
+/// Share of lessons with equally frequent joint types, as in the test sets; the others follow the
+/// training curriculum.
 const MIXED: f64 = 0.7;
 
-/// Share of lessons without any noise, and noise of the others: metres, radians.
+/// Share of lessons without noise, and ranges of the noise of the others: metres, radians.
 const EXACT: f64 = 0.25;
 const POSITION: Span = Span::new(1e-4, 5e-3);
 const HEADING: Span = Span::new(8.7e-4, 5.2e-2);
 
-/// Share of lessons in which the headings of cylinders are not seen.
+/// Share of lessons in which the headings of cylinders are not observed.
 const UNMARKED: f64 = 0.33;
 
-/// Share of these in which all objects are cylinders, so that no heading is seen.
+/// Share of these lessons in which all objects are cylinders, so that no heading is observed.
 const CYLINDERS: f64 = 0.6;
 
-/// Objects that moved by less are none of a test's business, metres.
+/// Minimum displacement of objects that are evaluated in tests, metres.
 const MOVED: f64 = 0.01;
 
-/// A trajectory as the belief heard of it.
+/// Trajectory as recorded by a listening regulator.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lesson {
-    /// Which draw of its set this is.
+    /// Index of the lesson in its set.
     pub index: u64,
     /// Number of objects.
     pub objects: usize,
     /// Pairs that may be joined.
     pub pairs: Vec<[usize; 2]>,
-    /// How they are joined.
+    /// True joint types of the pairs.
     pub types: Vec<JointType>,
-    /// Whether either of the two moved in the end.
+    /// Whether either object of each pair moved.
     pub moved: Vec<bool>,
-    /// Window by window; of pushes whose joints were inferred together, as they were taken after that.
+    /// Features window by window; for pushes with joint inference, the windows processed after it.
     pub windows: Vec<Testimony>,
-    /// Evidence of these pushes during their motion.
+    /// Features of these pushes before the joint inference.
     pub drafts: Vec<Draft>,
 }
 
 impl Lesson {
-    /// Draws and hears lesson `index` under `seed`: a pure function of these, the propagation
-    /// `network` and the `model` that rolls hypotheses out.
+    /// Draws and records lesson `index`. The result depends only on `seed`, `index`, the
+    /// propagation `network` and the `model` that rolls out hypotheses.
     pub fn draw(seed: u64, index: u64, network: &Arc<Network>, model: &dyn EffectModel) -> Self {
         let mut rng = generator(seed ^ SALT, index);
         let preset = if rng.random_bool(DENSE) { Preset::Dense } else { Preset::Sparse };
@@ -77,7 +78,8 @@ impl Lesson {
         let alone = !seeing.round_headings && rng.random_bool(CYLINDERS);
         let solids = alone.then_some(Solids::Cylinders);
         let constraints = Constraints { joints, solids, ..Constraints::default() };
-        // Numbered by themselves: scenes must not follow from which presets came before.
+        // Lessons are numbered independently of the presets, so that scenes do not depend on
+        // earlier presets.
         let config = DatasetConfig {
             seed,
             episodes: u64::MAX,
@@ -107,7 +109,8 @@ impl Lesson {
         }
     }
 
-    /// Windows as a belief takes them at the end of one of its `drafts`, or else in the end.
+    /// Returns the windows as recorded at the end of one of the `drafts`, otherwise the final
+    /// windows.
     pub fn windows(&self, draft: Option<usize>) -> Vec<&Testimony> {
         match draft.and_then(|draft| self.drafts.get(draft)) {
             Some(Draft { after, windows }) => {
@@ -127,7 +130,7 @@ fn seeing(rng: &mut Pcg64) -> Seeing {
     }
 }
 
-/// How a scene says that a pair, the lower index first, is joined.
+/// Returns the joint type of a pair in a scene, with the lower index first.
 pub fn true_type(scene: &Scene, pair: [usize; 2]) -> JointType {
     let of = |joint: &&Joint| {
         let [a, b] = joint.between;
@@ -136,7 +139,7 @@ pub fn true_type(scene: &Scene, pair: [usize; 2]) -> JointType {
     JointType::of(scene.joints.iter().find(of))
 }
 
-/// Whether an object was ever farther than a centimetre from its start.
+/// Returns `true` if an object was ever more than a centimetre from its start.
 pub fn moved(recording: &Recording, object: usize) -> bool {
     let start = recording.scene.objects[object].pose.position;
     recording.frames.iter().any(|frame| (frame.poses[object].position - start).norm() > MOVED)

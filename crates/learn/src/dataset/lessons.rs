@@ -1,4 +1,4 @@
-//! Lessons on disk: runs whose records are lessons, see [`pushplan_bench::store`].
+//! Lessons on disk: runs with lessons as records, see [`pushplan_bench::store`].
 
 use std::path::Path;
 use std::sync::Arc;
@@ -11,23 +11,25 @@ use rayon::prelude::*;
 use super::error::DatasetError;
 use super::lesson::Lesson;
 
-/// The suite of a folder of lessons.
+/// Suite name of a folder of lessons.
 const SUITE: &str = "lessons";
 
-/// So many lessons are drawn, on all threads, and then kept: a crash loses at most these, some ten
-/// seconds of work.
+/// Number of lessons drawn in parallel before they are stored. A crash loses at most these, about
+/// ten seconds of work.
 const AT_ONCE: u64 = 32;
 
-/// Version of what lessons hold; another one gives others for the same seed.
+/// Version of the lessons; other versions yield other lessons for equal seeds.
 const VERSION: u64 = 2;
 
-/// Makes `count` lessons under `seed` in the folder `dir`, or finishes those that were interrupted,
-/// and reads them: the same bits for any number of threads and interruptions. `digest` is that of the
-/// propagation network's weights.
+/// Makes `count` lessons under `seed` in the folder `dir`, or completes interrupted ones, and reads
+/// them.
+///
+/// The result is bit-identical for any number of threads and interruptions. `digest` is the digest
+/// of the propagation network's weights.
 ///
 /// # Errors
-/// If none are asked for, the folder holds other ones, another process writes to it, a file cannot be
-/// written, or `watch` says to stop. Finished lessons are kept in every case.
+/// If `count` is zero, the folder holds other lessons or is locked, a file cannot be written, or
+/// `watch` cancels. Finished lessons are always kept.
 pub fn lessons(
     (seed, count): (u64, u64),
     (network, digest): (&Arc<Network>, String),

@@ -1,11 +1,15 @@
-//! Training data: random scenes and pushes with what an engine says they do: the 3-D one for most
-//! of those with tools, the planar one for the others, or MuJoCo where it is asked for.
+//! Training data: random scenes and motions with their simulated effects.
 //!
-//! Every episode is a pure function of the configuration's seed and its own index, so data are
-//! never committed but made again, in memory or in a folder, resumable, with the same
-//! bits for any number of threads. Either tools on tables with few objects (`tools`), or crowds of
-//! objects, some joined, pushed by a round hand (`sparse`, `dense`). The shipped tools never occur
-//! in it. Lever-ups are sets of their own (`lever`). Trains nothing.
+//! The ground truth of pushes with tools is from the 3-D engine in most episodes and from the 2-D
+//! engine in the others, or from MuJoCo on request.
+//!
+//! Every episode depends only on the configuration's seed and its own index. Data are therefore
+//! never committed but made again, in memory or in a resumable folder, bit-identical for any number
+//! of threads.
+//!
+//! Scenes are tables with few objects pushed by tools (`tools`), or crowds of objects, some joined,
+//! pushed by a round hand (`sparse`, `dense`). The shipped tools never occur. Lever-ups form
+//! separate sets (`lever`). This module trains nothing.
 
 mod aim;
 mod assembly;

@@ -1,8 +1,8 @@
-//! What MuJoCo, an engine that shares no code with ours, says that a motion does.
+//! Ground truth from MuJoCo, an engine that shares no code with ours.
 //!
-//! Scenes go through our own export to a Python process for each thread, which plays one after
-//! another. The same wheel on the same kind of processor gives the same bits; elsewhere compare
-//! statistics.
+//! Scenes are exported to a Python process per thread, which plays them one after another. Equal
+//! versions on equal processor types yield identical bits; otherwise only statistics are
+//! comparable.
 
 use std::cell::RefCell;
 use std::env;
@@ -25,20 +25,20 @@ use tempfile::TempDir;
 
 use super::error::DatasetError;
 
-/// What names the Python that has MuJoCo; `python3` if it is not set.
+/// Environment variable with the path of a Python that has MuJoCo; default `python3`.
 const NAMED: &str = "PUSHPLAN_PYTHON";
 
-/// Plays scenes in MuJoCo.
+/// Python process that plays scenes in MuJoCo.
 struct Player {
     child: Child,
     requests: ChildStdin,
     answers: BufReader<ChildStdout>,
     version: String,
-    /// Holds the scripts.
+    /// Temporary folder with the scripts.
     _folder: TempDir,
 }
 
-/// What a player answers.
+/// Answer of a player.
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum Answer {
@@ -46,12 +46,12 @@ enum Answer {
     Failed(#[allow(dead_code)] String),
 }
 
-/// The end of a frame.
+/// State at the end of a frame.
 #[derive(Deserialize)]
 struct Instant {
     time: f64,
     stroke: usize,
-    /// Of every object x, y, heading and their velocities.
+    /// Values x, y, heading and their velocities for every object.
     objects: Vec<[f64; 6]>,
 }
 
@@ -59,10 +59,10 @@ thread_local! {
     static PLAYER: RefCell<Option<Player>> = const { RefCell::new(None) };
 }
 
-/// Which MuJoCo there is.
+/// Returns the version of the installed MuJoCo.
 ///
 /// # Errors
-/// [`DatasetError::Player`] if there is none.
+/// [`DatasetError::Player`] if MuJoCo is not installed.
 pub(super) fn version() -> Result<&'static str, DatasetError> {
     static VERSION: OnceLock<String> = OnceLock::new();
     if let Some(version) = VERSION.get() {
@@ -72,11 +72,13 @@ pub(super) fn version() -> Result<&'static str, DatasetError> {
     Ok(VERSION.get_or_init(|| version))
 }
 
-/// The frames of a motion, the start first; nothing where something topples, jams, is set down on
-/// or never comes to rest.
+/// Returns the frames of a motion, starting with the initial one.
+///
+/// Returns `None` if an object topples, jams, is under the tool when it is set down, or never comes
+/// to rest.
 ///
 /// # Errors
-/// [`DatasetError::Player`] if there is no MuJoCo, or it ends.
+/// [`DatasetError::Player`] if MuJoCo is not installed or its process ends.
 pub(super) fn play(scene: &Scene, motion: &ToolMotion) -> Result<Option<Vec<Frame>>, DatasetError> {
     let mjcf = motion_mjcf("episode", scene, motion)
         .map_err(|error| DatasetError::Player(error.to_string()))?;
@@ -95,7 +97,7 @@ pub(super) fn play(scene: &Scene, motion: &ToolMotion) -> Result<Option<Vec<Fram
         time: instant.time,
         stroke: instant.stroke,
         tool: Pose::default(),
-        // As it is stated, not as it has sunk in.
+        // The initial state is as stated, before bodies sink into contacts.
         state: if index == 0 { start.clone() } else { state(&instant.objects) },
         blade: None,
     });
@@ -114,7 +116,7 @@ fn state(objects: &[[f64; 6]]) -> State {
     state
 }
 
-/// The frames with the poses of the tool.
+/// Inserts the poses of the tool into the frames.
 fn with_tools(mut frames: Vec<Frame>, motion: &ToolMotion) -> Vec<Frame> {
     let (mut stroke, mut done) = (0, 0);
     for (index, frame) in frames.iter_mut().enumerate() {
@@ -174,7 +176,7 @@ impl Player {
 }
 
 impl Drop for Player {
-    /// It ends where nothing is asked any more; nobody needs to know how.
+    /// Ends the process, ignoring errors.
     fn drop(&mut self) {
         let _ = self.child.kill();
         let _ = self.child.wait();

@@ -1,4 +1,5 @@
-//! Telling a sampled tool from the shipped ones, which are the unseen test.
+//! Detection of sampled tools that equal a shipped one. Shipped tools are reserved for the unseen
+//! test.
 
 use std::f64::consts::FRAC_PI_2;
 use std::sync::LazyLock;
@@ -7,20 +8,20 @@ use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::geometry::{Pose, Shape, Vector};
 use pushplan::internals::scene::{Part, Tool};
 
-/// Part centres and half sides that differ by less than this are the same, metres.
+/// Tolerance of part centres and half sides, metres.
 const SAME: f64 = 2e-3;
 
-/// Whether `tool` has the parts of a tool that is shipped with the program.
+/// Returns `true` if `tool` has the parts of a shipped tool.
 pub fn is_shipped(tool: &Tool) -> bool {
-    // The embedded files are read in a test; a program in which they are broken has no tools
-    // that could be left out of training.
+    // A test reads the embedded files. With broken files there are no shipped tools to exclude from
+    // training.
     static SHIPPED: LazyLock<ToolLibrary> =
         LazyLock::new(|| ToolLibrary::embedded().unwrap_or_default());
     SHIPPED.iter().any(|shipped| same_parts(shipped, tool))
 }
 
-/// Whether two tools have the same parts, wherever their frames lie, in whatever order the
-/// parts are written, and also if one is the mirror image of the other.
+/// Returns `true` if two tools have equal parts, independent of their frames, the order of parts
+/// and reflection.
 fn same_parts(a: &Tool, b: &Tool) -> bool {
     if a.parts().len() != b.parts().len() {
         return false;
@@ -28,8 +29,8 @@ fn same_parts(a: &Tool, b: &Tool) -> bool {
     let Some(first) = a.parts().first() else { return true };
     [false, true].into_iter().any(|mirrored| {
         let target: Vec<Part> = b.parts().iter().map(|p| mirror(p, mirrored)).collect();
-        // The motion that carries the first part of `a` onto some part of `b`, in any of the
-        // quarter turns under which a rectangle may look the same.
+        // Motion of the first part of `a` onto a part of `b`, for each quarter turn under which a
+        // rectangle may be symmetric.
         target.iter().any(|onto| {
             (0..4).any(|quarter| {
                 let turn = Pose::new(0.0, 0.0, FRAC_PI_2 * f64::from(quarter));
@@ -57,7 +58,7 @@ fn matches_all(a: &Tool, motion: &Pose, target: &[Part]) -> bool {
     })
 }
 
-/// Whether `part` put at `pose` covers the same ground as `other`.
+/// Returns `true` if `part` at `pose` covers the area of `other`.
 fn same_place(part: &Part, pose: &Pose, other: &Part) -> bool {
     let together = (pose.position - other.pose.position).norm() < SAME;
     let (size, other_size) = match (part.shape, other.shape) {

@@ -1,4 +1,5 @@
-//! A trajectory as a camera sees it: with noise, and perhaps without the headings of what is round.
+//! Simulated camera observations of a trajectory: with noise, and optionally without the headings
+//! of cylinders.
 
 use pushplan::internals::geometry::Vector;
 use pushplan::internals::recording::Recording;
@@ -10,18 +11,18 @@ use pushplan_act::belief::normal;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
-/// How well a trajectory is seen.
+/// Quality of the observations.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Seeing {
-    /// Errors of positions and headings.
+    /// Noise of positions and headings.
     pub noise: Noise,
-    /// Whether the headings of cylinders are seen: those of an unmarked one are not.
+    /// Whether the headings of cylinders are observed, as on marked cylinders.
     pub round_headings: bool,
 }
 
 impl Seeing {
-    /// The scene as it is seen at the start, and all observations of a recording. Truth stays where
-    /// nothing is seen: joints, masses and frictions of the scene are those of the recording.
+    /// Returns the scene as observed at the start, and all observations of a recording. Joints,
+    /// masses and frictions of the scene stay the true ones of the recording.
     pub fn observe(&self, recording: &Recording, rng: &mut Pcg64) -> (Scene, Vec<Observation>) {
         let Noise { position, heading } = self.noise;
         let mut error = |sd: f64| if sd > 0.0 { sd * normal(rng) } else { 0.0 };

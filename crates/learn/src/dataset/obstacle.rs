@@ -1,4 +1,4 @@
-//! Obstacles in the way of a pushed object, but not of the tool.
+//! Obstacles in the path of a pushed object, but not of the tool.
 
 use pushplan::internals::geometry::{
     Footprint, Pose, Vector, clearance, perpendicular, swept_clearance,
@@ -13,17 +13,19 @@ use rand_pcg::Pcg64;
 
 use super::chance::{heading, log_uniform, sign, uniform};
 
-/// Horizontal sides of an obstacle, metres.
+/// Range of an obstacle's horizontal sides, metres.
 const SIDE: Span = Span::new(0.03, 0.30);
 
-/// Obstacles keep this far from everything at the start and from the tool's path, metres.
+/// Minimum distance of obstacles from all bodies at the start and from the tool's path, metres.
 const FREE: f64 = 2e-3;
 
-/// Tries before the scene is left without.
+/// Maximum number of attempts to place an obstacle.
 const TRIES: usize = 20;
 
-/// A fixed cuboid beside the path of an object that moves in `frames` (recorded without it),
-/// mostly reaching into the path, clear of the tool's whole motion and of every object's start.
+/// Draws a fixed cuboid beside the path of an object that moves in `frames` (recorded without it).
+///
+/// The cuboid usually reaches into the path. It is clear of the tool's whole motion and of every
+/// object's start.
 pub(super) fn place_obstacle(
     rng: &mut Pcg64,
     scene: &Scene,

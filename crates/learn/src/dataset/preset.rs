@@ -1,4 +1,4 @@
-//! Families of scenes and what each of them covers.
+//! Families of scenes and their ranges.
 
 use pushplan::internals::scene::{Ranges, Span, TRAINED_SLIDE, TRAINED_TURN};
 use rand_pcg::Pcg64;
@@ -8,15 +8,14 @@ use super::chance::weighted;
 use super::hand::HAND_RADIUS;
 use super::tabletop::USUAL_HEIGHT;
 
-/// The family of scenes to sample.
+/// Family of scenes to sample.
 ///
-/// The three crowds (sparse, sparse line and dense) are the scenes of Tekden et al. 2021
-/// ("Object and relation centric representations for push effect prediction",
-/// arXiv 2102.02100): up to twelve objects, some joined to near neighbours, pushed by a round
-/// hand of 10 cm diameter.
+/// The three crowds (sparse, sparse line and dense) follow Tekden et al. 2021 ("Object and relation
+/// centric representations for push effect prediction", arXiv 2102.02100). They have up to twelve
+/// objects, some joined to near neighbours, pushed by a round hand of 10 cm diameter.
 ///
-/// Measured, each with 200 episodes or more (episodes per second of CPU time, on a virtual core
-/// whose twin was busy):
+/// Measured with at least 200 episodes each (episodes per second of CPU time, on a virtual core
+/// whose sibling was busy):
 ///
 /// | | episodes / s | frames an episode | objects | joints | objects moved over 1 cm |
 /// |---|---|---|---|---|---|
@@ -24,35 +23,37 @@ use super::tabletop::USUAL_HEIGHT;
 /// | sparse | 13 | 232 | 6.8 | 2 | 99 % |
 /// | sparse line | 31 | 93 | 6.8 | 2 | 57 % |
 /// | dense | 42 | 52 | 6.8 | 3 | 84 % |
-/// ///
-/// Scenes that do not come to rest within three seconds are drawn again: 4 to 6 % of those with
-/// mixed joints, almost none of the others.
+///
+/// Scenes that do not come to rest within three seconds are drawn again. This affects 4 to 6 % of
+/// the scenes with mixed joints and almost no others.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Preset {
-    /// One to three objects, sometimes obstacles, pushed by random tools of cuboids, now and
-    /// then by a round one.
+    /// Tables with one to three objects, sometimes with obstacles, pushed by random tools of
+    /// cuboids and occasionally by a round tool.
     #[default]
     Tools,
-    /// Scattered objects; the hand makes seven or eight straight 30 cm strokes, each set down
-    /// afresh and aimed at an object that it has not touched yet.
+    /// Scattered objects. The hand makes seven or eight straight 30 cm strokes, each aimed at an
+    /// untouched object.
     Sparse,
-    /// Scattered objects; the hand makes one long straight stroke through them.
+    /// Scattered objects. The hand makes one long straight stroke through them.
     SparseLine,
-    /// Objects almost touching, in a grid; the hand makes one straight 50 cm stroke into it from
-    /// one of its four sides.
+    /// Nearly touching objects in a grid. The hand makes one straight 50 cm stroke into it from one
+    /// of its four sides.
     Dense,
-    /// Crowds of all three kinds: what the shipped weights are trained on, besides tools.
+    /// Crowds of all three kinds: with tools, the training data of the shipped weights.
     Crowds,
 }
 
-/// How often an episode of [`Preset::Crowds`] is of each family: a sparse one has four times the
-/// frames of a dense one. Frames come out as 42, 16 and 42 %.
+/// Families of [`Preset::Crowds`] with their probabilities.
+///
+/// A sparse episode has four times the frames of a dense one, so the shares of frames are 42, 16
+/// and 42 %.
 const CROWDS: [(Preset, f64); 3] =
     [(Preset::Sparse, 0.15), (Preset::SparseLine, 0.15), (Preset::Dense, 0.70)];
 
 impl Preset {
-    /// What the family covers.
+    /// Returns the ranges of the family.
     pub fn ranges(self) -> Ranges {
         match self {
             Preset::Tools => tools(),
@@ -67,12 +68,12 @@ impl Preset {
         }
     }
 
-    /// Whether scenes are crowds pushed by the hand, which alone can be constrained.
+    /// Returns `true` if scenes are crowds pushed by the hand, which can be constrained.
     pub fn is_crowd(self) -> bool {
         self != Preset::Tools
     }
 
-    /// The family of one episode.
+    /// Draws the family of one episode.
     pub(super) fn member(self, rng: &mut Pcg64) -> Self {
         match self {
             Preset::Crowds => CROWDS[weighted(rng, &CROWDS.map(|(_, share)| share))].0,
@@ -85,7 +86,7 @@ fn tools() -> Ranges {
     Ranges {
         objects: Span::new(1.0, 3.0),
         mass: Span::new(0.05, 3.0),
-        // Beyond this, touching bodies sink into each other in the simulator.
+        // Above this ratio, touching bodies penetrate each other in the simulator.
         mass_ratio: 10.0,
         friction: Span::new(0.1, 1.8),
         radius: Span::new(0.02, 0.08),

@@ -1,4 +1,4 @@
-//! Data sets in memory, and what is common to all that decides their bits.
+//! Data sets in memory and the interface of their configurations.
 
 use std::path::Path;
 
@@ -10,74 +10,74 @@ use super::config::DatasetConfig;
 use super::error::DatasetError;
 use super::lever::LeverConfig;
 
-/// Everything that decides the bits of a data set. Episode `index` is a pure function of it and the
-/// index.
+/// Configuration that determines the bits of a data set. Episode `index` depends only on the
+/// configuration and the index.
 pub trait Sampler: Clone + Sync {
-    /// What is sampled, and what an engine says of it.
+    /// Sampled episode with its simulated effect.
     type Episode: Clone + Send + Sync;
 
-    /// So many episodes are drawn, on all threads, and then kept: a crash loses at most these, about
-    /// ten seconds of work.
+    /// Number of episodes drawn in parallel before they are stored. A crash loses at most these,
+    /// about ten seconds of work.
     const AT_ONCE: usize;
 
-    /// Number of episodes.
+    /// Returns the number of episodes.
     fn count(&self) -> u64;
 
-    /// Whether it asks for anything, and for nothing impossible.
+    /// Checks that the configuration requests data and can be satisfied.
     ///
     /// # Errors
     /// [`DatasetError::Empty`] for zero episodes; [`DatasetError::Constraint`] for constraints that
-    /// cannot be fulfilled.
+    /// cannot be satisfied.
     fn check(&self) -> Result<(), DatasetError>;
 
-    /// The same as what a folder of episodes holds.
+    /// Returns the manifest of a folder of episodes.
     fn manifest(&self) -> RunManifest;
 
-    /// What the folder `dir` holds according to its manifest.
+    /// Reads the configuration of the folder `dir` from its manifest.
     ///
     /// # Errors
-    /// [`DatasetError::Foreign`] if that is something else, or of another version; those of
+    /// [`DatasetError::Foreign`] for other contents or another version, and the errors of
     /// [`Self::check`].
     fn of(manifest: &RunManifest, dir: &Path) -> Result<Self, DatasetError>;
 
     /// Draws and simulates an episode.
     ///
     /// # Errors
-    /// [`DatasetError::Player`] if another engine is asked, and ends.
+    /// [`DatasetError::Player`] if an external engine is required and fails.
     fn draw(&self, index: u64) -> Result<Self::Episode, DatasetError>;
 
-    /// An episode as a record: every bit of its numbers, its index first.
+    /// Encodes an episode as a record that starts with its index and preserves all bits.
     ///
     /// # Errors
-    /// [`StoreError::Record`] if it has no form.
+    /// [`StoreError::Record`] if the episode cannot be encoded.
     fn encode(episode: &Self::Episode) -> Result<Vec<u8>, StoreError>;
 
-    /// The episode that a record holds.
+    /// Decodes the episode of a record.
     ///
     /// # Errors
-    /// Why it holds none.
+    /// A text with the reason if the record holds no episode.
     fn decode(record: &[u8]) -> Result<Self::Episode, String>;
 }
 
-/// All episodes of a data set, in order of their index.
+/// Episodes of a data set, in order of their index.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Set<S: Sampler> {
     config: S,
     episodes: Vec<S::Episode>,
 }
 
-/// Pushes.
+/// Data set of pushes.
 pub type Dataset = Set<DatasetConfig>;
 
-/// Lever-ups.
+/// Data set of lever-ups.
 pub type LeverDataset = Set<LeverConfig>;
 
 impl<S: Sampler> Set<S> {
-    /// Draws and simulates every episode, on all threads of the current rayon pool; the same
-    /// bits for any number of them.
+    /// Draws and simulates every episode on all threads of the current rayon pool. The result is
+    /// bit-identical for any number of threads.
     ///
     /// # Errors
-    /// If the configuration asks for nothing, or `watch` says to stop.
+    /// If the configuration requests no data, or `watch` cancels.
     pub fn in_memory(config: &S, watch: &dyn Watch) -> Result<Self, DatasetError> {
         config.check()?;
         let count = Count::new(watch, 0, config.count() as usize);
@@ -91,25 +91,25 @@ impl<S: Sampler> Set<S> {
         Self { config, episodes }
     }
 
-    /// What the data set is made of.
+    /// Returns the configuration.
     pub fn config(&self) -> &S {
         &self.config
     }
 
-    /// Checksum over all episodes as records, hexadecimal.
+    /// Returns the hexadecimal checksum over all episodes as records.
     pub fn digest(&self) -> String {
         let records = self.episodes.iter().filter_map(|episode| S::encode(episode).ok());
         digest(&records.map(|record| digest(&record)).collect::<String>().into_bytes())
     }
 
-    /// All episodes, in order of their index.
+    /// Returns all episodes, in order of their index.
     pub fn episodes(&self) -> &[S::Episode] {
         &self.episodes
     }
 }
 
-/// Draws the episodes with these indices in parallel, counting them; [`DatasetError::Cancelled`]
-/// for those that were left when `watch` said to stop.
+/// Draws the episodes with these indices in parallel and counts them; [`DatasetError::Cancelled`]
+/// for episodes left after a cancellation.
 pub(super) fn draw<S: Sampler>(
     config: &S,
     indices: &[u64],

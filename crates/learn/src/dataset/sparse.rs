@@ -1,4 +1,4 @@
-//! Scattered objects, and the strokes of the hand through them.
+//! Scattered objects and the strokes of the hand through them.
 
 use pushplan::internals::geometry::{
     Footprint, Pose, Vector, clearance, perpendicular, travel_to_contact,
@@ -18,42 +18,41 @@ use super::hand::{HAND_RADIUS, HandPlay};
 use super::joints::join_neighbours;
 use super::tabletop::anywhere;
 
-/// Share of objects put near another one rather than by themselves: without neighbours there
-/// is nothing to join.
+/// Share of objects placed near another one instead of separately; without neighbours there are no
+/// joints.
 const NEIGHBOURS: f64 = 0.70;
 
-/// Gap between such neighbours, metres; drawn evenly over its decades.
+/// Range of the gap between such neighbours, metres, log-uniform.
 const NEIGHBOUR_GAP: Span = Span::new(2e-4, 0.03);
 
-/// Share of such cuboids turned like the object that they stand beside.
+/// Share of such cuboids that are parallel to their neighbour.
 const ALIGNED: f64 = 0.5;
 
-/// Tries to put an object near another before it is put by itself.
+/// Maximum number of attempts to place an object near another before it is placed separately.
 const NEIGHBOUR_TRIES: usize = 10;
 
-/// Objects by themselves keep this distance from those before them, metres.
+/// Minimum distance of separate objects from earlier ones, metres.
 const APART: f64 = 0.04;
 
-/// Side of the square that objects are scattered over, metres, for one object; its area grows
-/// with their number.
+/// Side of the square over which objects are scattered, metres, for one object. Its area grows with
+/// their number.
 const SIDE: f64 = 0.33;
 
-/// Gap between hand and target at the start of a stroke, metres.
+/// Range of the gap between hand and target at the start of a stroke, metres.
 const GAP: (f64, f64) = (0.004, 0.06);
 
-/// How far beside the middle of its target a stroke may pass, as a share of the farthest that
-/// still touches it.
+/// Maximum lateral offset of a stroke, as a share of the largest offset with contact.
 const OFF_CENTRE: f64 = 0.8;
 
-/// Tries to aim a stroke before the scene is given up; after most of them targets that were
-/// touched already are good enough.
+/// Maximum number of attempts to aim a stroke before the scene is rejected. After `TRIES_UNTOUCHED`
+/// of them, targets may have been touched before.
 const TRIES: usize = 60;
 const TRIES_UNTOUCHED: usize = 45;
 
 /// Length of a long line beyond the farthest object, metres.
 const BEYOND: f64 = 0.15;
 
-/// Scattered objects and seven or eight strokes, each aimed at an object not touched so far.
+/// Draws scattered objects and seven or eight strokes, each aimed at an untouched object.
 pub(super) fn sparse(
     rng: &mut Pcg64,
     ranges: &Ranges,
@@ -71,7 +70,7 @@ pub(super) fn sparse(
     Some((scene, motion, frames))
 }
 
-/// Scattered objects and one long line through them.
+/// Draws scattered objects and one long line through them.
 pub(super) fn sparse_line(
     rng: &mut Pcg64,
     ranges: &Ranges,
@@ -117,7 +116,7 @@ fn scattered(rng: &mut Pcg64, ranges: &Ranges, block: &Block) -> Scene {
             if free {
                 return pose;
             }
-            // A full table grows, so that this ends.
+            // The area grows, so that this loop ends.
             side *= 1.02;
         }
     });
@@ -126,7 +125,7 @@ fn scattered(rng: &mut Pcg64, ranges: &Ranges, block: &Block) -> Scene {
     scene
 }
 
-/// A pose near one of `objects`; `None` if it would run into another.
+/// Draws a pose near one of `objects`; `None` if it would overlap another.
 fn neighbour(rng: &mut Pcg64, objects: &[Object], footprint: &Footprint) -> Option<Pose> {
     let anchor = &objects[rng.random_range(0..objects.len())];
     let around = (&anchor.shape.footprint(), &anchor.pose);
@@ -144,7 +143,7 @@ fn neighbour(rng: &mut Pcg64, objects: &[Object], footprint: &Footprint) -> Opti
     free.then_some(pose)
 }
 
-/// A stroke that meets an object, one not touched so far if any can be aimed at.
+/// Draws a stroke that meets an object, preferably an untouched one.
 pub(super) fn aimed(
     rng: &mut Pcg64,
     scene: &Scene,
@@ -175,12 +174,12 @@ pub(super) fn aimed(
     })
 }
 
-/// Half width of object `index` along the unit vector `direction`, metres.
+/// Returns the half width of object `index` along the unit vector `direction`, metres.
 fn reach(object: &Object, state: &State, index: usize, direction: Vector) -> f64 {
     object.shape.footprint().extent(state.poses[index].local_vector(direction))
 }
 
-/// Where everything begins and ends along the unit vector `direction`, metres.
+/// Returns the extent of all objects along the unit vector `direction`, metres.
 pub(super) fn span(scene: &Scene, state: &State, direction: Vector) -> (f64, f64) {
     let ends = scene.objects.iter().enumerate().map(|(index, object)| {
         let (middle, half) =

@@ -1,4 +1,4 @@
-//! Random objects on a table, alone or near each other.
+//! Random objects on a table, separate or near each other.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -12,44 +12,44 @@ use serde::{Deserialize, Serialize};
 
 use super::chance::{heading, log_uniform, uniform};
 
-/// Vertical extents of usual objects, metres.
+/// Range of the heights of ordinary objects, metres.
 pub(super) const USUAL_HEIGHT: Span = Span::new(0.05, 0.15);
 
-/// Gaps of neighbours that do not touch, metres.
+/// Range of the gaps of neighbours that do not touch, metres.
 const GAP: Span = Span::new(1e-3, 0.06);
 
-/// Share of friction values above 1, where there are any.
+/// Probability of friction values above 1, if the range includes them.
 const STICKY: f64 = 0.15;
 
-/// From this ratio of its sides on a cuboid is long; this share of them is drawn so, if any may be.
+/// Aspect ratio above which a cuboid is long, and share of long cuboids if the range includes them.
 const LONG: (f64, f64) = (3.0, 0.2);
 
-/// Which solids are drawn.
+/// Kind of solids to draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Solids {
-    /// Cylinders and cuboids alike.
+    /// Cylinders and cuboids with equal probability.
     Any,
-    /// Cylinders alone.
+    /// Cylinders only.
     Cylinders,
-    /// Cuboids alone.
+    /// Cuboids only.
     Cuboids,
 }
 
-/// How objects are drawn.
+/// Parameters of a random group of objects.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crowd {
     /// Number of objects.
     pub count: usize,
-    /// Which solids.
+    /// Kind of solids.
     pub solids: Solids,
-    /// Probability that a further object touches (0 to 1 mm) the ones before it.
+    /// Probability that a further object touches (0 to 1 mm) the earlier ones.
     pub touching: f64,
-    /// Share of objects that are convex polygons instead.
+    /// Share of objects that are convex prisms instead.
     pub polygons: f64,
 }
 
-/// A table with `crowd` around the origin and no obstacles.
+/// Draws a table with `crowd` around the origin and no obstacles.
 pub fn random_scene(rng: &mut Pcg64, ranges: &Ranges, crowd: Crowd) -> Scene {
     let friction = |rng: &mut Pcg64| random_friction(rng, ranges);
     let (middle, masses) = mass_span(rng, ranges);
@@ -75,7 +75,7 @@ pub fn random_scene(rng: &mut Pcg64, ranges: &Ranges, crowd: Crowd) -> Scene {
     scene
 }
 
-/// A friction value within the ranges, above 1 in a few cases.
+/// Draws a friction value within the ranges, above 1 in a few cases.
 pub(super) fn random_friction(rng: &mut Pcg64, ranges: &Ranges) -> f64 {
     let Span { low, high } = ranges.friction;
     match high > 1.0 && rng.random_bool(STICKY) {
@@ -84,7 +84,7 @@ pub(super) fn random_friction(rng: &mut Pcg64, ranges: &Ranges) -> f64 {
     }
 }
 
-/// The scene turned by any angle and put anywhere on the table.
+/// Moves the scene by a random rotation and translation.
 pub fn anywhere(rng: &mut Pcg64, mut scene: Scene) -> Scene {
     let motion = Pose::new(uniform(rng, -0.5, 1.2), uniform(rng, -0.5, 1.2), heading(rng));
     for object in &mut scene.objects {
@@ -93,16 +93,17 @@ pub fn anywhere(rng: &mut Pcg64, mut scene: Scene) -> Scene {
     scene
 }
 
-/// A first mass, and the masses, kg, that may stand beside it.
+/// Draws a reference mass and the range of the other masses in its scene, kg.
 pub(super) fn mass_span(rng: &mut Pcg64, ranges: &Ranges) -> (f64, Span) {
     let middle = log_uniform(rng, ranges.mass);
-    // Around the first mass by the root of the ratio to either side, so that any two keep it.
+    // The range extends by the square root of the ratio on either side, so any two masses keep the
+    // ratio.
     let reach = ranges.mass_ratio.sqrt();
     let (low, high) = (middle / reach, middle * reach);
     (middle, Span::new(low.max(ranges.mass.low), high.min(ranges.mass.high)))
 }
 
-/// A solid within the ranges.
+/// Draws a solid within the ranges.
 pub(super) fn random_shape(rng: &mut Pcg64, ranges: &Ranges, solids: Solids) -> Shape {
     let height = uniform(rng, USUAL_HEIGHT.low, USUAL_HEIGHT.high);
     let cylinder = match solids {
@@ -130,7 +131,7 @@ pub(super) fn random_shape(rng: &mut Pcg64, ranges: &Ranges, solids: Solids) -> 
     Shape::Cuboid { size: [x, log_uniform(rng, others), height] }
 }
 
-/// An upright prism on a convex polygon of three to six corners, all of them on an ellipse.
+/// Draws an upright prism whose base has three to six corners on an ellipse.
 fn random_prism(rng: &mut Pcg64, ranges: &Ranges) -> Shape {
     let height = uniform(rng, USUAL_HEIGHT.low, USUAL_HEIGHT.high);
     loop {
@@ -140,7 +141,7 @@ fn random_prism(rng: &mut Pcg64, ranges: &Ranges) -> Shape {
         angles.sort_by(f64::total_cmp);
         let corner = |angle: &f64| Vector::new(size * angle.cos(), width * angle.sin()) / 2.0;
         let corners: Vec<Vector> = angles.iter().map(corner).collect();
-        // Slivers are as rare on tables as they are hard for engines.
+        // Slivers are rare on tables and difficult for engines.
         let Ok(base) = ConvexPolygon::new(&corners) else { continue };
         let across = |axis: Vector| base.extent(axis) + base.extent(-axis);
         let [x, y] = [Vector::x(), Vector::y()].map(across);
@@ -153,7 +154,7 @@ fn random_prism(rng: &mut Pcg64, ranges: &Ranges) -> Shape {
     }
 }
 
-/// A pose beside one of `objects`, found by bringing the new one in along a straight line.
+/// Draws a pose beside one of `objects` by moving the new object in along a straight line.
 fn beside(rng: &mut Pcg64, objects: &[Object], footprint: Footprint, touching: f64) -> Pose {
     let anchor = &objects[rng.random_range(0..objects.len())];
     let around = anchor.shape.footprint();
@@ -171,7 +172,7 @@ fn beside(rng: &mut Pcg64, objects: &[Object], footprint: Footprint, touching: f
     let wide = around.extent(anchor.pose.local_vector(perpendicular(away)))
         + footprint.extent(Pose::new(0.0, 0.0, turn).local_vector(perpendicular(away)));
     let aside = perpendicular(away) * uniform(rng, -0.7, 0.7) * wide;
-    // From far enough out to pass all the others, straight in until one is touched.
+    // The object starts beyond all others and moves straight in to the first contact.
     let mut pose =
         Pose { position: anchor.pose.position + away * (reach + 1.0) + aside, heading: turn };
     let travels = objects.iter().filter_map(|object| {

@@ -25,57 +25,59 @@ use super::tabletop::{Crowd, Solids, anywhere, random_friction, random_scene};
 use super::truth::Truth;
 use super::unseen::{draw_heights, draw_supports, push_height};
 
-/// How often there are one, two or three objects.
+/// Probabilities of one, two and three objects.
 const OBJECT_COUNTS: [f64; 3] = [0.55, 0.30, 0.15];
 
-/// How often there are one, two or three pushes.
+/// Probabilities of one, two and three pushes.
 const PUSH_COUNTS: [f64; 3] = [0.70, 0.20, 0.10];
 
-/// Share of objects that are convex polygons.
+/// Share of objects that are convex prisms.
 const POLYGONS: f64 = 0.2;
 
-/// Share of scenes with obstacles, where both of our engines, one of them, or MuJoCo say what is
-/// true.
+/// Share of scenes with obstacles, for ground truth from both of our engines, from one of them, and
+/// from MuJoCo.
 const OBSTACLES: [f64; 3] = [0.2, 0.0, 0.35];
 
-/// Share of tools that are a single round part, as a finger or a hand is.
+/// Share of tools that are a single round part, such as a finger or hand.
 const ROUND: f64 = 0.12;
 
 /// Height of the tool's underside above the table, metres.
 const LIFT: f64 = 0.002;
 
-/// Share of episodes in which the 3-D engine says what is true; it leaves open how high faces press
-/// on each other.
+/// Share of episodes with ground truth from the 3-D engine, in which the height of contact on faces
+/// is not stated.
 const SPATIAL: f64 = 0.8;
 
-/// Share of pushes at a tenth to a third of the usual speeds: they take as long to simulate as all
-/// others together.
+/// Share of pushes at a tenth to a third of the usual speeds. Their simulation takes as long as all
+/// other pushes together.
 const SLOW: f64 = 0.1;
 
-/// Share of strokes in which the tool turns on its way.
+/// Share of strokes in which the tool rotates while moving.
 const TURNING: f64 = 0.15;
 
-/// Half of these turn by no more than this, rad/m: 34 degrees in 20 cm.
+/// Maximum rotation of half of these strokes, rad/m: 34 degrees in 20 cm.
 const USUAL_TURN: f64 = 3.0;
 
-/// Most that a tool turns in a stroke, radians.
+/// Maximum rotation of a tool in a stroke, radians.
 const MOST_TURN: f64 = 1.2;
 
-/// Speeds that MuJoCo plays, m/s: slower ones take it minutes, at faster ones objects on many feet
-/// burst.
+/// Range of speeds for MuJoCo, m/s.
+///
+/// Slower pushes take minutes to simulate. At higher speeds, objects with many support points
+/// become unstable.
 const MUJOCO_SPEED: Span = Span::new(0.04, 0.2);
 
-/// Tries to aim a push before it is given up.
+/// Maximum number of attempts to aim a push.
 const TRIES: usize = 30;
 
-/// A stroke shorter than this after being cut short is left out, metres.
+/// Minimum length of a shortened stroke, metres.
 const SHORTEST: f64 = 0.02;
 
-/// A scene and one to three pushes; nothing when no push could be aimed or something did not
+/// Draws a scene with one to three pushes; `None` if no push could be aimed or an object did not
 /// come to rest.
 ///
 /// # Errors
-/// [`DatasetError::Player`](super::DatasetError::Player) if MuJoCo is to be asked and cannot.
+/// [`DatasetError::Player`](super::DatasetError::Player) if MuJoCo is required and unavailable.
 pub(super) fn pushed_by_tool(
     rng: &mut Pcg64,
     ranges: &Ranges,
@@ -100,7 +102,8 @@ pub(super) fn pushed_by_tool(
     Ok(play.warnings.is_empty().then_some((scene, motion, play.frames)))
 }
 
-/// A scene, one to three pushes that are aimed in the plane, which is faster, and what they do there.
+/// Draws a scene with one to three pushes, aimed by the faster 2-D engine, and returns its
+/// trajectory.
 fn planned(
     rng: &mut Pcg64,
     ranges: &Ranges,
@@ -166,9 +169,11 @@ fn simulate(scene: &Scene, motion: &ToolMotion) -> Trajectory {
     Simulator::planar().run(scene, &Job::stated(scene, motion.clone()), Record::Frames)
 }
 
-/// Plays the motion, its last stroke ended before the tool squeezes anything against an
-/// obstacle, which neither engine nor any real table answers well. `None` if too little of
-/// the stroke is left.
+/// Simulates the motion, with its last stroke ended before the tool squeezes an object against an
+/// obstacle.
+///
+/// Neither engine has a valid solution for such a jam. Returns `None` if the remaining stroke is
+/// too short.
 fn cut_short(scene: &Scene, motion: &mut ToolMotion) -> Option<Trajectory> {
     let trajectory = simulate(scene, motion);
     if scene.obstacles.is_empty() {
@@ -184,7 +189,7 @@ fn cut_short(scene: &Scene, motion: &mut ToolMotion) -> Option<Trajectory> {
     Some(simulate(scene, motion))
 }
 
-/// A random tool that is none of the shipped ones.
+/// Draws a random tool that differs from all shipped ones.
 fn new_tool(rng: &mut Pcg64, ranges: &Ranges) -> Tool {
     if rng.random_bool(ROUND) {
         return round_tool(rng, ranges);
@@ -211,20 +216,20 @@ fn round_tool(rng: &mut Pcg64, ranges: &Ranges) -> Tool {
 
 fn speed_travel(rng: &mut Pcg64, ranges: &Ranges) -> (f64, f64) {
     let Span { low, high } = ranges.speed;
-    // Of MuJoCo's, which are few, none are slow.
+    // MuJoCo episodes, which are few, have no slow pushes.
     let usual = Span::new((3.0 * low).min(MUJOCO_SPEED.low), high);
     let span =
         if low < usual.low && rng.random_bool(SLOW) { Span::new(low, 3.0 * low) } else { usual };
     (log_uniform(rng, span), uniform(rng, ranges.travel.low, ranges.travel.high))
 }
 
-/// Gap between tool and object at the start of a placed push, metres: planners stand off by
-/// 5 mm, so half of them lie around that.
+/// Draws the gap between tool and object at the start of a placed push, metres. Half of the gaps
+/// are near the planner's 5 mm.
 fn stand_off(rng: &mut Pcg64) -> f64 {
     if rng.random::<bool>() { uniform(rng, 0.004, 0.006) } else { uniform(rng, 2e-4, 0.02) }
 }
 
-/// The first push; it also decides how the tool is turned.
+/// Draws the first push, which determines the heading of the tool.
 fn aimed_first(
     rng: &mut Pcg64,
     ranges: &Ranges,
@@ -244,7 +249,7 @@ fn aimed_first(
     })
 }
 
-/// The stroke, in some cases with a tool that turns on its way.
+/// Returns the stroke, in some cases with a rotation of the tool.
 fn turning(rng: &mut Pcg64, ranges: &Ranges, mut stroke: Stroke) -> Stroke {
     let most = if rng.random::<bool>() { USUAL_TURN.min(ranges.turn) } else { ranges.turn };
     let rate = uniform(rng, -most, most);
@@ -254,7 +259,7 @@ fn turning(rng: &mut Pcg64, ranges: &Ranges, mut stroke: Stroke) -> Stroke {
     stroke
 }
 
-/// A further placed push, aimed at where the objects came to rest.
+/// Draws a further placed push, aimed at the objects at rest.
 fn aimed_next(
     rng: &mut Pcg64,
     ranges: &Ranges,
@@ -277,7 +282,7 @@ fn aimed_next(
     })
 }
 
-/// A further chained push: on from where the tool is, preferably to where something stands.
+/// Draws a further chained push from the current tool pose, preferably towards an object.
 fn continued(
     rng: &mut Pcg64,
     ranges: &Ranges,

@@ -1,4 +1,4 @@
-//! What nobody sees from above: what objects stand on, and how high tools press.
+//! Unobservable properties of a scene: supports of objects and contact heights of tools.
 
 use std::f64::consts::TAU;
 
@@ -9,17 +9,17 @@ use rand_pcg::Pcg64;
 
 use super::chance::{log_uniform, uniform, weighted};
 
-/// How often an object rests evenly; somewhere between there and its corners or a bit further in;
-/// on three points.
+/// Probabilities of uniform support, of a spread support (see [`SPREAD`]), and of three support
+/// points.
 const SUPPORTS: [f64; 3] = [0.35, 0.40, 0.25];
 
-/// Where the points of spread supports lie, as a share of the corners' distance.
+/// Radius of spread supports, as a share of the corners' distance.
 const SPREAD: Span = Span::new(0.4, 1.0);
 
-/// Smallest share of the weight on one of three points: with less, objects tip at every touch.
+/// Minimum share of the weight on one of three points; with less, objects tip at every contact.
 const LEAST_LOAD: f64 = 0.1;
 
-/// Stands every object of `scene` on something.
+/// Draws the support of every object of `scene`.
 pub(super) fn draw_supports(rng: &mut Pcg64, scene: &mut Scene) {
     for object in &mut scene.objects {
         object.support = match weighted(rng, &SUPPORTS) {
@@ -30,7 +30,8 @@ pub(super) fn draw_supports(rng: &mut Pcg64, scene: &mut Scene) {
     }
 }
 
-/// Gives half of the objects of `scene` any height within the ranges: plates as well as cans.
+/// Draws new heights within the ranges for half of the objects of `scene`, so that plates and cans
+/// occur.
 pub(super) fn draw_heights(rng: &mut Pcg64, ranges: &Ranges, scene: &mut Scene) {
     for object in &mut scene.objects {
         let drawn = log_uniform(rng, ranges.height);
@@ -43,12 +44,12 @@ pub(super) fn draw_heights(rng: &mut Pcg64, ranges: &Ranges, scene: &mut Scene) 
     }
 }
 
-/// A share of the mean height of faces at which the tool presses.
+/// Draws the contact height of the tool as a share of the mean height of faces.
 pub(super) fn push_height(rng: &mut Pcg64) -> f64 {
     uniform(rng, 0.0, 1.0)
 }
 
-/// Three points that carry the object, none of them next to nothing.
+/// Draws three points that carry the object, each with sufficient load.
 fn three_points(rng: &mut Pcg64, footprint: &Footprint) -> Support {
     loop {
         let points = [(); 3].map(|()| {
@@ -57,7 +58,7 @@ fn three_points(rng: &mut Pcg64, footprint: &Footprint) -> Support {
             match *footprint {
                 Footprint::Disc { radius } => far * radius * Vector::new(cos, sin),
                 Footprint::Rectangle { half } => {
-                    // On a smaller rectangle of the same shape.
+                    // The point is on a scaled rectangle of equal shape.
                     far * Vector::new(cos * half.x, sin * half.y) / cos.abs().max(sin.abs())
                 }
                 Footprint::Polygon(polygon) => {

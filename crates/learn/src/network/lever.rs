@@ -1,4 +1,4 @@
-//! The network as a candle graph: what training differentiates.
+//! Lever-up network as a candle graph for training.
 
 use std::collections::BTreeMap;
 
@@ -7,41 +7,42 @@ use pushplan::internals::network::{LeverSizes, Parameters, lever_layout};
 
 use crate::network::variables::variables;
 
-/// Lever-ups side by side.
+/// Batch of lever-ups.
 pub struct LeverTensors {
     /// Normalised features [B, S].
     pub still: Tensor,
-    /// Of every frame normalised features [B, M].
+    /// Normalised features [B, M] of every frame.
     pub moving: Vec<Tensor>,
-    /// Of every frame the pose before it [B, 9], if that is told.
+    /// Previous pose [B, 9] of every frame, if it is an input.
     pub before: Vec<Tensor>,
 }
 
-/// The network with its variables.
+/// Lever-up network with its variables.
 pub struct LeverGraph {
     sizes: LeverSizes,
     variables: BTreeMap<String, Var>,
 }
 
 impl LeverGraph {
-    /// A network of these sizes with the given parameters.
+    /// Creates a network of these sizes with the given parameters.
     ///
     /// # Errors
-    /// If a parameter is missing or has another shape than [`lever_layout`] says.
+    /// If a parameter is missing or its shape differs from [`lever_layout`].
     pub fn new(sizes: &LeverSizes, parameters: &Parameters) -> Result<Self> {
         Ok(Self { sizes: *sizes, variables: variables(lever_layout(sizes), parameters)? })
     }
 
-    /// The variables by name.
+    /// Returns the variables by name.
     pub fn variables(&self) -> &BTreeMap<String, Var> {
         &self.variables
     }
 
-    /// Poses [B, 9] of every frame, and the ends [B, 13]. The gates may be told something `beside`
-    /// features, [B, 4 H].
+    /// Returns the poses [B, 9] of every frame and the ends [B, 13].
+    ///
+    /// `beside` is an optional additional input of the gates, [B, 4 H].
     ///
     /// # Errors
-    /// Those of candle.
+    /// Errors of candle.
     pub fn forward(
         &self,
         of: &LeverTensors,
@@ -78,7 +79,7 @@ impl LeverGraph {
         Ok((poses, end))
     }
 
-    /// A variable that the constructor put there.
+    /// Returns a variable inserted by the constructor.
     fn get(&self, name: &str) -> &Tensor {
         self.variables[name].as_tensor()
     }

@@ -1,7 +1,7 @@
-//! The networks as candle graphs: what training differentiates, and the reference that the fused
-//! forward passes of `pushplan` are held to.
+//! Networks as candle graphs, for training and as the reference for the fused forward passes of
+//! `pushplan`.
 //!
-//! The physics predictor and the belief regulator are those of the Belief Regulated Dual Propagation
+//! The physics predictor and the belief regulator follow the Belief Regulated Dual Propagation
 //! Network (Tekden, Erdem, Erdem, Imre, Seker and Ugur, ICRA 2020).
 
 mod lever;

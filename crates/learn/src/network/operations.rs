@@ -1,11 +1,11 @@
-//! The parity layers as candle operations, with the gradients that training needs.
+//! Parity layers as candle operations, with their gradients.
 
 use std::sync::Arc;
 
 use candle_core::{CpuStorage, CustomOp2, CustomOp3, DType, Layout, Result, Shape, Tensor, bail};
 use pushplan::internals::network::{Sum, rectify_rows};
 
-/// `rectify(x + bias)`, the bias added to the even half: x [2, M, h], bias [h].
+/// Operation `rectify(x + bias)` with the bias added to the even half: x [2, M, h], bias [h].
 pub(super) struct BiasRectify;
 
 impl CustomOp2 for BiasRectify {
@@ -66,9 +66,11 @@ impl CustomOp2 for BiasRectify {
     }
 }
 
-/// Messages summed at their receivers: for every relation k from s to r,
-/// `rectify(a_k + b_r + c_s)`; a [2, R, h], b [2, N, h], c [2, M, h], result [2, N, h].
-/// A sender past the last row of c sends nothing of its own.
+/// Messages summed at their receivers.
+///
+/// The message of every relation k from s to r is `rectify(a_k + b_r + c_s)`. Shapes: a [2, R, h],
+/// b [2, N, h], c [2, M, h], result [2, N, h]. A sender beyond the last row of c has no term of its
+/// own.
 pub(super) struct Messages {
     pub receivers: Arc<[u32]>,
     pub senders: Arc<[u32]>,
@@ -167,7 +169,7 @@ impl Messages {
     }
 }
 
-/// The gradients of [`rectify`]'s inputs from those of its outputs.
+/// Returns the gradients of [`rectify`]'s inputs, given the gradients of its outputs.
 #[inline(always)]
 fn rectify_gradient(even: f32, odd: f32, of_even: f32, of_odd: f32) -> (f32, f32) {
     let as_is = if even + odd > 0.0 { 0.5 * (of_even + of_odd) } else { 0.0 };
@@ -181,10 +183,10 @@ fn add(target: &mut [f32], value: &[f32]) {
     }
 }
 
-/// The numbers of a contiguous tensor on the processor.
+/// Returns the values of a contiguous tensor on the CPU.
 ///
 /// # Errors
-/// For other tensors.
+/// If the tensor is not contiguous `f32` on the CPU.
 pub fn floats<'a>(storage: &'a CpuStorage, layout: &Layout) -> Result<&'a [f32]> {
     match (storage, layout.contiguous_offsets()) {
         (CpuStorage::F32(values), Some((start, end))) => Ok(&values[start..end]),
@@ -192,10 +194,10 @@ pub fn floats<'a>(storage: &'a CpuStorage, layout: &Layout) -> Result<&'a [f32]>
     }
 }
 
-/// Lends a tensor's numbers, copied only if they are not contiguous.
+/// Calls `f` with a tensor's values, which are copied only if they are not contiguous.
 ///
 /// # Errors
-/// Those of candle and of `f`.
+/// Errors of candle and of `f`.
 pub fn with_floats<R>(tensor: &Tensor, f: impl FnOnce(&[f32]) -> Result<R>) -> Result<R> {
     let tensor = tensor.to_dtype(DType::F32)?.contiguous()?;
     let (storage, layout) = tensor.storage_and_layout();

@@ -1,4 +1,4 @@
-//! The physics predictor as a candle graph: the reference, and what training differentiates.
+//! Physics predictor as a candle graph, for training and as the reference.
 //!
 //! Propagation networks (Li et al., ICRA 2019, eq. 3-5; Tekden et al., ICRA 2020): relations
 //! are encoded as c_k, objects as h_i, and for L steps
@@ -7,10 +7,10 @@
 //! e_k = f_R(c_k, p_r, p_s)        p_i <- f_O(h_i, sum_k e_k, p_i)
 //! ```
 //!
-//! with p_i starting at h_i, and the motion read from p_i after the last step. f_R is one
-//! layer of three matrices, whose p parts are computed per node before gathering; the matrix
-//! behind its rectifier is merged with f_O's, since a sum commutes with it. B graphs are laid
-//! side by side as N nodes and R relations.
+//! where p_i starts at h_i and the motion is read from p_i after the last step. f_R is one layer of
+//! three matrices, whose p parts are computed per node before gathering. The matrix after its
+//! rectifier is merged with the matrix of f_O because it commutes with the sum. B graphs are
+//! processed together as N nodes and R relations.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -23,7 +23,7 @@ use pushplan::internals::network::{
 use crate::network::operations::{BiasRectify, Messages};
 use crate::network::variables::variables;
 
-/// A batch as normalised tensors.
+/// Batch as normalised tensors.
 pub struct Inputs {
     node_even: Tensor,
     node_odd: Tensor,
@@ -38,7 +38,7 @@ impl Inputs {
     /// Normalises the feature tables of a batch.
     ///
     /// # Errors
-    /// Those of candle, which tables of whole rows do not cause.
+    /// Errors of candle; tables of complete rows cause none.
     pub fn new<'a>(batch: impl Into<Rows<'a>>, normaliser: &Normaliser) -> Result<Self> {
         let rows = batch.into();
         let table = |values: &[f32], scales: &Statistics| {
@@ -68,39 +68,39 @@ impl Inputs {
     }
 }
 
-/// The network with its variables.
+/// Network with its variables.
 pub struct Predictor {
     config: Config,
     variables: BTreeMap<String, Var>,
 }
 
 impl Predictor {
-    /// A network of pushes with the given parameters.
+    /// Creates a network for pushes with the given parameters.
     ///
     /// # Errors
-    /// As those of [`Predictor::of`].
+    /// Errors of [`Predictor::of`].
     pub fn new(config: Config, parameters: &Parameters) -> Result<Self> {
         Self::of(&Tables::PUSHES, config, parameters)
     }
 
-    /// A network on these tables with the given parameters.
+    /// Creates a network on these tables with the given parameters.
     ///
     /// # Errors
-    /// If a parameter is missing or has another shape than [`layout_of`] says.
+    /// If a parameter is missing or its shape differs from [`layout_of`].
     pub fn of(tables: &Tables, config: Config, parameters: &Parameters) -> Result<Self> {
         let variables = variables(layout_of(tables, &config), parameters)?;
         Ok(Self { config, variables })
     }
 
-    /// The variables by name.
+    /// Returns the variables by name.
     pub fn variables(&self) -> &BTreeMap<String, Var> {
         &self.variables
     }
 
-    /// Copies the present values out.
+    /// Returns a copy of the current values.
     ///
     /// # Errors
-    /// Those of candle.
+    /// Errors of candle.
     pub fn parameters(&self) -> Result<Parameters> {
         let values = self
             .variables
@@ -110,11 +110,13 @@ impl Predictor {
         Ok(Parameters { values })
     }
 
-    /// What is read from every node, even columns first: of pushes the correction of the prior in
-    /// output units, [N, 6] in the order of [`pushplan::internals::graph::Node::prior`].
+    /// Returns the outputs of every node, even columns first.
+    ///
+    /// The outputs for pushes are corrections of the analytic model in output units, [N, 6] in the
+    /// order of [`pushplan::internals::graph::Node::prior`].
     ///
     /// # Errors
-    /// Those of candle.
+    /// Errors of candle.
     pub fn forward(&self, inputs: &Inputs) -> Result<Tensor> {
         let h = self.object(inputs)?;
         let nodes = h.dims()[1];
@@ -146,7 +148,8 @@ impl Predictor {
         Tensor::cat(&[even, odd], 1)
     }
 
-    /// What bodies with a given motion send, [2, K, h], alike in every step.
+    /// Returns the messages of bodies with prescribed motion, [2, K, h], which are constant over
+    /// the steps.
     fn given(&self, inputs: &Inputs) -> Result<Option<Tensor>> {
         let Some([even, odd]) = &inputs.given else { return Ok(None) };
         let row = self.first(even, odd, "given")?;
@@ -173,7 +176,7 @@ impl Predictor {
         x.apply_op2(self.get(bias), BiasRectify)
     }
 
-    /// A variable that the constructor put there.
+    /// Returns a variable inserted by the constructor.
     fn get(&self, name: &str) -> &Tensor {
         self.variables[name].as_tensor()
     }

@@ -1,5 +1,4 @@
-//! The regulator as a candle graph, unrolled over the windows of episodes: what training
-//! differentiates.
+//! Belief regulator as a candle graph, unrolled over the windows of episodes for training.
 
 use std::collections::BTreeMap;
 
@@ -9,44 +8,46 @@ use pushplan_act::regulator::{TYPES, regulator_layout};
 
 use crate::network::variables::variables;
 
-/// Pairs of several episodes side by side, window by window.
+/// Batch of the pairs of several episodes, window by window.
 pub struct Unrolled {
     /// T tensors [P, F] of normalised features.
     pub features: Vec<Tensor>,
-    /// T tensors [P, 1]: 1 where a window told something of a pair, else 0.
+    /// T tensors [P, 1]: 1 if the window is informative about the pair, otherwise 0.
     pub told: Vec<Tensor>,
-    /// `[P]` each, the two objects of every pair, numbered through all episodes.
+    /// Indices `[P]` of the two objects of every pair, numbered over all episodes.
     pub ends: [Tensor; 2],
-    /// Number of objects of all episodes.
+    /// Total number of objects of all episodes.
     pub objects: usize,
 }
 
-/// The regulator with its variables.
+/// Regulator with its variables.
 pub struct RegulatorGraph {
     width: usize,
     variables: BTreeMap<String, Var>,
 }
 
 impl RegulatorGraph {
-    /// A regulator of F `features` and hidden `width` with the given parameters.
+    /// Creates a regulator of F `features` and hidden `width` with the given parameters.
     ///
     /// # Errors
-    /// If a parameter is missing or has another shape than [`regulator_layout`] says.
+    /// If a parameter is missing or its shape differs from [`regulator_layout`].
     pub fn new(features: usize, width: usize, parameters: &Parameters) -> Result<Self> {
         let variables = variables(regulator_layout(features, width), parameters)?;
         Ok(Self { width, variables })
     }
 
-    /// The variables by name.
+    /// Returns the variables by name.
     pub fn variables(&self) -> &BTreeMap<String, Var> {
         &self.variables
     }
 
-    /// Outputs [P, 5] after every window, the logits and then the trust before its sigmoid, and the sum of
-    /// squared changes of hidden states.
+    /// Returns the outputs [P, 5] after every window and the sum of squared changes of hidden
+    /// states.
+    ///
+    /// Outputs are the logits, then the trust before its sigmoid.
     ///
     /// # Errors
-    /// Those of candle.
+    /// Errors of candle.
     pub fn forward(&self, of: &Unrolled) -> Result<(Vec<Tensor>, Tensor)> {
         let pairs = of.ends[0].dims1()?;
         let h = self.width;
@@ -83,17 +84,19 @@ impl RegulatorGraph {
         Ok((all, changes))
     }
 
-    /// Logarithms [P, 4] of the filter's probabilities, corrected by `outputs` [P, 5], up to what is the same for
-    /// all four: what `Correction::of_filtered` makes shares of.
+    /// Returns the logarithms [P, 4] of the filter's probabilities, corrected by `outputs` [P, 5].
+    ///
+    /// A common constant is omitted. `Correction::of_filtered` computes the normalised
+    /// probabilities.
     ///
     /// # Errors
-    /// Those of candle.
+    /// Errors of candle.
     pub fn corrected(outputs: &Tensor, filtered: &Tensor) -> Result<Tensor> {
         let trust = (sigmoid(&outputs.narrow(1, TYPES, 1)?)? * 2.0)?;
         outputs.narrow(1, 0, TYPES)? + filtered.broadcast_mul(&trust)?
     }
 
-    /// A variable that the constructor put there.
+    /// Returns a variable inserted by the constructor.
     fn get(&self, name: &str) -> &Tensor {
         self.variables[name].as_tensor()
     }

@@ -1,14 +1,14 @@
-//! Parameters as what a candle graph differentiates by.
+//! Parameters as variables of a candle graph.
 
 use std::collections::BTreeMap;
 
 use candle_core::{Device, Result, Tensor, Var, bail};
 use pushplan::internals::network::{Layout, Parameters};
 
-/// A variable for every parameter of a layout, by name.
+/// Creates a variable for every parameter of a layout, by name.
 ///
 /// # Errors
-/// If a parameter is missing or has another shape than the layout says.
+/// If a parameter is missing or its shape differs from the layout.
 pub fn variables(layout: Layout, parameters: &Parameters) -> Result<BTreeMap<String, Var>> {
     let variable = |(name, shape): (&str, Vec<usize>)| {
         let Some(values) = parameters.values.get(name) else {

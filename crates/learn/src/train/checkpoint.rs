@@ -1,4 +1,4 @@
-//! Everything that a run needs to resume bit-exactly, in one safetensors file.
+//! Checkpoint of a run in one safetensors file, for bit-exact resumption.
 
 use pushplan::internals::network::{
     Card, Layout, ParameterError, Parameters, decode_parameters, encode_parameters, file_metadata,
@@ -9,41 +9,41 @@ use thiserror::Error;
 
 use super::{AdamW, Trainable};
 
-/// Why a checkpoint cannot be used.
+/// Error of reading or writing a checkpoint.
 #[derive(Debug, Error)]
 pub enum CheckpointError {
-    /// Not a safetensors file.
+    /// The file is no safetensors file.
     #[error("not a checkpoint: {0}")]
     Format(#[from] safetensors::SafeTensorError),
-    /// The header cannot be read.
+    /// The header is unreadable.
     #[error("the checkpoint's header is damaged: {0}")]
     Header(#[from] serde_json::Error),
-    /// No header.
+    /// The header is missing.
     #[error("a safetensors file, but not a checkpoint of this network")]
     Foreign,
-    /// A tensor is missing, of a wrong shape or not finite.
+    /// A tensor is missing, of a wrong shape, or not finite.
     #[error("the checkpoint is damaged: {0}")]
     Tensor(#[from] ParameterError),
-    /// Resuming would mix two runs. A longer schedule is another run, too: its learning rates would
-    /// have differed from the start.
+    /// The checkpoint belongs to another run. A longer schedule is also another run because its
+    /// learning rates differ from the start.
     #[error("the checkpoint belongs to a run with other settings or data; choose another folder")]
     Other,
 }
 
-/// The state of a run after some step. Batches and noise are functions of (seed, step), so
-/// there is no generator to save.
+/// State of a run after some step. Batches and noise depend only on (seed, step), so no generator
+/// is saved.
 pub struct Checkpoint<T: Trainable> {
     /// Feature scales.
     pub scales: T::Scales,
     /// Weights, moments and average.
     pub optimiser: AdamW,
-    /// The weights whose rollouts examples are taken from, if they are.
+    /// Weights for the rollouts from which examples are taken, if any.
     pub lead: Option<Parameters>,
-    /// The best held-out score so far.
+    /// Best held-out score so far.
     pub best: Option<T::Score>,
 }
 
-/// The text of the metadata.
+/// Header in the file's metadata.
 #[derive(Serialize, Deserialize)]
 struct Header<Settings, Scales, Score> {
     settings: Settings,
@@ -54,14 +54,14 @@ struct Header<Settings, Scales, Score> {
 }
 
 impl<T: Trainable> Checkpoint<T> {
-    /// That of a run that begins.
+    /// Returns the checkpoint of a new run.
     pub fn fresh(task: &T) -> Self {
         let scales = task.scales();
         let optimiser = AdamW::new(task.fresh(&scales));
         Self { scales, optimiser, lead: None, best: None }
     }
 
-    /// The file's bytes.
+    /// Encodes the checkpoint.
     ///
     /// # Errors
     /// If a tensor does not fit its shape.
@@ -80,10 +80,10 @@ impl<T: Trainable> Checkpoint<T> {
         Ok(encode_parameters(&layout(task, scales), &groups, (T::KEY, text))?)
     }
 
-    /// Reads a file's bytes.
+    /// Decodes a checkpoint.
     ///
     /// # Errors
-    /// [`CheckpointError`] if they are not a complete checkpoint, or that of another run.
+    /// [`CheckpointError`] if the bytes are no complete checkpoint or belong to another run.
     pub fn from_bytes(task: &T, bytes: &[u8]) -> Result<Self, CheckpointError> {
         let text = file_metadata(bytes, T::KEY)?.ok_or(CheckpointError::Foreign)?;
         let header: Header<T::Settings, T::Scales, T::Score> = serde_json::from_str(&text)?;

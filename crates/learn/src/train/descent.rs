@@ -1,43 +1,43 @@
-//! How weights follow gradients: the schedule of a run.
+//! Optimisation settings and learning rate schedule of a run.
 
 use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-/// Share of the highest rate at which the schedule ends.
+/// Final learning rate as a share of the maximum.
 const FLOOR: f64 = 0.005;
 
-/// Schedule and regularisation of a run, whatever it trains.
+/// Schedule and regularisation of a run, independent of the network.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Descent {
-    /// Optimiser steps of the whole schedule.
+    /// Number of optimiser steps of the whole schedule.
     pub steps: u64,
-    /// Examples a step, of both replicas: an even number.
+    /// Number of examples per step over both replicas, an even number.
     pub batch: usize,
-    /// Steps between held-out evaluations and checkpoints.
+    /// Number of steps between held-out evaluations and checkpoints.
     pub evaluate_every: u64,
-    /// Highest learning rate, reached after the warm-up.
+    /// Maximum learning rate, reached after the warm-up.
     pub learning_rate: f64,
-    /// Steps until the highest learning rate.
+    /// Number of warm-up steps.
     pub warm_up: u64,
     /// Decoupled weight decay per unit learning rate.
     pub weight_decay: f64,
-    /// Gradients are shortened to this norm.
+    /// Maximum norm of the gradient; larger gradients are scaled down.
     pub clip: f64,
-    /// Share of the old average kept per step in the averaged weights, which are the ones
-    /// evaluated and shipped.
+    /// Share of the old average kept per step in the averaged weights, which are evaluated and
+    /// shipped.
     pub average: f64,
 }
 
 impl Descent {
-    /// The same schedule in other `steps`; a short run must get past its warm-up as well.
+    /// Returns the schedule with other `steps`, and a warm-up of at most a tenth of them.
     #[must_use]
     pub fn in_steps(self, steps: u64) -> Self {
         Self { steps, warm_up: self.warm_up.min(steps / 10), ..self }
     }
 
-    /// The learning rate as a pure function of the step: linear warm-up, then half a cosine down to
-    /// `FLOOR` (Loshchilov and Hutter 2017).
+    /// Returns the learning rate of a step: linear warm-up, then half a cosine down to `FLOOR`
+    /// (Loshchilov and Hutter 2017).
     pub fn learning_rate(&self, step: u64) -> f64 {
         let peak = self.learning_rate;
         if step < self.warm_up {

@@ -1,12 +1,12 @@
-//! What a loss says of every variable.
+//! Gradients of a loss by all variables.
 
 use std::collections::BTreeMap;
 
 use candle_core::{Result, Tensor, Var};
 use pushplan::internals::network::Parameters;
 
-/// The value of a scalar `loss` and its gradient by `variables`, zero for those that it does not depend
-/// on.
+/// Returns the value of a scalar `loss` and its gradient by `variables`, zero for variables without
+/// influence.
 pub fn gradients_of(loss: &Tensor, variables: &BTreeMap<String, Var>) -> Result<(f64, Parameters)> {
     let store = loss.backward()?;
     let mut gradients = Parameters::default();

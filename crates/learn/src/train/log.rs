@@ -1,4 +1,4 @@
-//! What a run reports, one JSON line at a time: `metrics.jsonl`.
+//! Log of a run, one JSON line per evaluation: `metrics.jsonl`.
 
 use std::fmt::{self, Display};
 use std::fs;
@@ -11,10 +11,10 @@ use serde_json::Value as Json;
 
 use super::TrainError;
 
-/// One line of `metrics.jsonl`.
+/// Line of `metrics.jsonl`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Line<Score> {
-    /// Steps taken.
+    /// Number of steps taken.
     pub step: u64,
     /// Mean loss since the last line.
     pub loss: f64,
@@ -22,15 +22,15 @@ pub struct Line<Score> {
     pub gradient: f64,
     /// Learning rate.
     pub learning_rate: f64,
-    /// Examples learned from per second since the last line.
+    /// Number of examples per second since the last line.
     pub examples_per_second: f64,
     /// Wall time of this process so far, seconds.
     pub seconds: f64,
-    /// Of the averaged weights on what was not learned from.
+    /// Held-out score of the averaged weights.
     pub held_out: Score,
 }
 
-/// What a person wants to follow.
+/// Summary for the progress display.
 impl<Score: Display> Display for Line<Score> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { step, loss, examples_per_second, held_out, .. } = self;
@@ -41,14 +41,14 @@ impl<Score: Display> Display for Line<Score> {
     }
 }
 
-/// The open file, without lines past the checkpoint from which a run resumes.
+/// Open log file, without lines after the checkpoint from which a run resumes.
 pub(super) struct Log {
     path: PathBuf,
     file: fs::File,
 }
 
 impl Log {
-    /// Opens the log of a run that resumes at `step`; every line states its `step`.
+    /// Opens the log of a run that resumes at `step`. Every line contains its `step`.
     pub fn open(folder: &Path, step: u64) -> Result<Self, TrainError> {
         let path = folder.join("metrics.jsonl");
         let until = |line: &str| {
@@ -70,7 +70,7 @@ impl Log {
     }
 
     pub fn write(&mut self, line: &impl Serialize) -> Result<(), TrainError> {
-        // A line holds only finite numbers and text, which always encode.
+        // A line contains only finite numbers and text, so encoding never fails.
         let text = serde_json::to_string(line).unwrap_or_default();
         writeln!(self.file, "{text}").map_err(|e| TrainError::File(self.path.clone(), e))
     }

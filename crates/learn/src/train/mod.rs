@@ -1,10 +1,11 @@
-//! Training: one loop, optimiser, schedule, checkpoint and log for every network.
+//! Training loop, optimiser, schedule, checkpoints and log for all networks.
 //!
-//! A run is a folder: `checkpoint.safetensors` (everything needed to resume bit-exactly),
-//! `metrics.jsonl`, `best.safetensors`, the weights with the best held-out score, and
-//! `last.safetensors`, those of the last evaluation. A network is what [`Trainable`] asks: its
-//! examples, loss and score stand in a folder of its own. Data come from `dataset`; nothing is
-//! generated or drawn here.
+//! A run is a folder with `checkpoint.safetensors` (the state for bit-exact resumption),
+//! `metrics.jsonl`, `best.safetensors` (the weights with the best held-out score) and
+//! `last.safetensors` (the weights of the last evaluation).
+//!
+//! A network implements [`Trainable`]; its examples, loss and score are in a folder of its own.
+//! Data come from `dataset`. This module generates none.
 
 mod checkpoint;
 mod descent;

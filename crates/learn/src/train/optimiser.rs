@@ -1,34 +1,34 @@
 //! AdamW with gradient clipping and a running average of the weights.
 //!
-//! Adam (Kingma and Ba 2015) with decoupled weight decay (Loshchilov and Hutter 2019). Written
-//! here because candle's keeps its moments private, so that a run could not be resumed.
+//! Adam (Kingma and Ba 2015) with decoupled weight decay (Loshchilov and Hutter 2019). candle's
+//! implementation keeps its moments private, which prevents resumption.
 
 use pushplan::internals::network::Parameters;
 
 use super::Descent;
 
 const BETA1: f32 = 0.9;
-/// Shorter memory than the usual 0.999: runs are short, and gradients change quickly early on.
+/// Shorter memory than the usual 0.999 because runs are short and early gradients change quickly.
 const BETA2: f32 = 0.99;
 const EPSILON: f32 = 1e-8;
 
 /// Weights, their moments and their average.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdamW {
-    /// Present weights.
+    /// Current weights.
     pub weights: Parameters,
     /// First moments.
     pub first: Parameters,
     /// Second moments.
     pub second: Parameters,
-    /// Averaged weights: what is evaluated and shipped.
+    /// Averaged weights, which are evaluated and shipped.
     pub average: Parameters,
-    /// Steps taken.
+    /// Number of steps taken.
     pub step: u64,
 }
 
 impl AdamW {
-    /// Starts at `weights`.
+    /// Creates an optimiser at `weights`.
     pub fn new(weights: Parameters) -> Self {
         let mut zero = weights.clone();
         for values in zero.values.values_mut() {
@@ -37,8 +37,9 @@ impl AdamW {
         Self { average: weights.clone(), first: zero.clone(), second: zero, weights, step: 0 }
     }
 
-    /// One step along `gradients`, which must have the weights' names and lengths. Returns the
-    /// gradient's norm before clipping; a norm that is not finite changes nothing.
+    /// Takes one step along `gradients`, which must have the weights' names and lengths.
+    ///
+    /// Returns the gradient's norm before clipping. A non-finite norm leaves the weights unchanged.
     pub fn update(&mut self, descent: &Descent, gradients: &Parameters) -> f64 {
         let square: f64 =
             gradients.values.values().flatten().map(|&g| f64::from(g) * f64::from(g)).sum();
@@ -51,7 +52,7 @@ impl AdamW {
         self.step += 1;
         let t = self.step as i32;
         let (bias1, bias2) = (1.0 - BETA1.powi(t), 1.0 - BETA2.powi(t));
-        // A young average forgets faster, so that it does not remember the first weights.
+        // A young average forgets faster, so that the initial weights lose their influence.
         let keep = descent.average.min((1.0 + t as f64) / (10.0 + t as f64)) as f32;
         for (name, gradient) in &gradients.values {
             // Biases are not decayed.
@@ -88,7 +89,7 @@ mod tests {
 
     #[test]
     fn the_first_step_has_the_length_of_the_learning_rate() {
-        // With both moments corrected, Adam's first change is the sign of the gradient.
+        // With bias-corrected moments, Adam's first change is the sign of the gradient.
         let descent =
             Descent { weight_decay: 0.0, warm_up: 0, ..PredictorSettings::default().descent };
         let mut adam = AdamW::new(one(1.0));

@@ -1,4 +1,4 @@
-//! What a network has to say so that a [`Trainer`](super::Trainer) can train it.
+//! Interface of a network to its [`Trainer`](super::Trainer).
 
 use std::fmt::Display;
 
@@ -7,43 +7,45 @@ use serde::{Serialize, de::DeserializeOwned};
 
 use super::Descent;
 
-/// A network with the data that it learns from and those that it is judged on.
+/// Network with its training and held-out data.
 pub trait Trainable: Sync + Sized {
-    /// Key of the header in a checkpoint's metadata: which network it belongs to.
+    /// Key of the header in a checkpoint's metadata, which identifies the network.
     const KEY: &'static str;
 
-    /// Everything that decides a run; a checkpoint resumes only under the same.
+    /// Settings of a run; a checkpoint resumes only under equal settings.
     type Settings: Clone + PartialEq + Serialize + DeserializeOwned;
 
     /// Feature scales.
     type Scales: Sync + Serialize + DeserializeOwned;
 
-    /// What it is judged by.
+    /// Held-out score.
     type Score: Clone + Display + Serialize + DeserializeOwned;
 
-    /// What its weights are.
+    /// Card of the weights.
     type Card: Card;
 
-    /// Everything that decides this run.
+    /// Returns the settings of this run.
     fn settings(&self) -> Self::Settings;
 
-    /// How weights follow gradients.
+    /// Returns the optimisation settings.
     fn descent(&self) -> Descent;
 
-    /// Whether there is nothing to learn from.
+    /// Returns `true` if there are no examples.
     fn is_empty(&self) -> bool;
 
-    /// Feature scales, measured on the data.
+    /// Measures the feature scales on the data.
     fn scales(&self) -> Self::Scales;
 
-    /// First values of all parameters.
+    /// Returns the initial values of all parameters.
     fn fresh(&self, scales: &Self::Scales) -> Parameters;
 
-    /// The mean loss of one replica's examples and its gradient: a pure function of these weights
-    /// and scales, the step and the replica, and of what was last followed.
+    /// Returns the mean loss of one replica's examples and its gradient.
+    ///
+    /// The result depends only on the weights, the scales, the step, the replica, and the weights
+    /// of the last [`Self::follow`].
     ///
     /// # Errors
-    /// Those of candle.
+    /// Errors of candle.
     fn gradient(
         &self,
         weights: &Parameters,
@@ -51,21 +53,22 @@ pub trait Trainable: Sync + Sized {
         step_and_replica: (u64, usize),
     ) -> candle_core::Result<(f64, Parameters)>;
 
-    /// How good weights are on what was not learned from.
+    /// Evaluates weights on the held-out data.
     fn score(&self, weights: &Weights<Self::Card>) -> Self::Score;
 
-    /// Whether the one score is better than the other.
+    /// Returns `true` if `score` is better than `than`.
     fn is_better(score: &Self::Score, than: &Self::Score) -> bool;
 
-    /// The card of the weights after `step` steps, with their score, if they have one. The names and
-    /// shapes that it states depend on the scales alone.
+    /// Returns the card of the weights after `step` steps, with their score, if any. Its names and
+    /// shapes depend only on the scales.
     fn card(&self, scales: &Self::Scales, step: u64, score: Option<&Self::Score>) -> Self::Card;
 
-    /// Whether examples are taken from rollouts of the averaged weights of this step from here on.
+    /// Returns `true` if examples are to come from rollouts of this step's averaged weights from
+    /// now on.
     fn refreshes(&self, _step: u64) -> bool {
         false
     }
 
-    /// Takes examples from rollouts of these weights from here on.
+    /// Takes examples from rollouts of these weights from now on.
     fn follow(&mut self, _lead: &Parameters, _scales: &Self::Scales) {}
 }

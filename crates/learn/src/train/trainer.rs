@@ -1,4 +1,4 @@
-//! The training loop: differentiate on two replicas, step, evaluate, save.
+//! Training loop: gradients on two replicas, step, evaluation, checkpoint.
 
 use std::fs;
 use std::io::ErrorKind;
@@ -17,24 +17,25 @@ use crate::dataset::DatasetError;
 use super::log::Log;
 use super::{Checkpoint, CheckpointError, Line, Trainable};
 
-/// A step's examples are split into this many parts, differentiated in parallel and added in
-/// order. Fixed, so that the bits do not depend on the number of threads; two, because the
-/// machines this is made for have two cores.
+/// Number of parts of a step's examples, which are differentiated in parallel and added in order.
+///
+/// The number is fixed so that results do not depend on the number of threads. It is two because
+/// the target machines have two cores.
 pub const REPLICAS: usize = 2;
 
-/// Steps after which a run looks whether it is to stop.
+/// Number of steps between checks for cancellation.
 const LOOK: u64 = 20;
 
-/// The file in a run's folder from which it resumes.
+/// File in a run's folder from which the run resumes.
 const CHECKPOINT: &str = "checkpoint.safetensors";
 
 /// File of the weights with the best held-out score.
 pub const BEST: &str = "best.safetensors";
 
-/// File of those of the last evaluation.
+/// File of the weights of the last evaluation.
 pub const LAST: &str = "last.safetensors";
 
-/// Why training stopped short.
+/// Error that ends training.
 #[derive(Debug, Error)]
 pub enum TrainError {
     /// A file could not be read or written.
@@ -43,7 +44,7 @@ pub enum TrainError {
     /// A file could not be written.
     #[error(transparent)]
     Write(#[from] Faults),
-    /// The folder's checkpoint is no use.
+    /// The folder's checkpoint is unusable.
     #[error("{0}: {1}")]
     Checkpoint(PathBuf, CheckpointError),
     /// The weights could not be encoded.
@@ -52,22 +53,24 @@ pub enum TrainError {
     /// The data could not be made or read.
     #[error(transparent)]
     Data(#[from] DatasetError),
-    /// candle failed.
+    /// An operation of candle failed.
     #[error("the network failed: {0}")]
     Candle(#[from] candle_core::Error),
-    /// The data have nothing to learn from.
+    /// The data contain no examples.
     #[error("no example: in none of the episodes is there anything to learn")]
     NoExamples,
-    /// Loss or gradient left the finite numbers.
+    /// Loss or gradient is no longer finite.
     #[error(
         "loss or gradient became infinite or undefined at step {0}; the checkpoint before it is kept"
     )]
     NotFinite(u64),
 }
 
-/// A run in its folder: `checkpoint.safetensors`, everything needed to resume to the same bits,
-/// `metrics.jsonl`, `best.safetensors`, the weights with the best held-out score, and
-/// `last.safetensors`, those of the last evaluation.
+/// Training run in its folder.
+///
+/// The folder contains `checkpoint.safetensors` (the state for bit-exact resumption),
+/// `metrics.jsonl`, `best.safetensors` (the weights with the best held-out score) and
+/// `last.safetensors` (the weights of the last evaluation).
 pub struct Trainer<'a, T: Trainable> {
     task: T,
     folder: &'a Path,
@@ -77,7 +80,7 @@ pub struct Trainer<'a, T: Trainable> {
     since: Since,
 }
 
-/// What has happened since the last line.
+/// Sums since the last line.
 struct Since {
     at: Instant,
     steps: f64,
@@ -86,15 +89,16 @@ struct Since {
 }
 
 impl<'a, T: Trainable> Trainer<'a, T> {
-    /// Starts from scratch, or from the folder's checkpoint if there is one.
+    /// Starts a new run, or resumes from the folder's checkpoint if there is one.
     ///
     /// # Errors
-    /// [`TrainError`] if there are no examples, or if the checkpoint is damaged or of another run.
+    /// [`TrainError`] if there are no examples, or if the checkpoint is damaged or belongs to
+    /// another run.
     pub fn open(task: T, folder: &'a FolderLock) -> Result<Self, TrainError> {
         if task.is_empty() {
             return Err(TrainError::NoExamples);
         }
-        // Parallel matrix products inside parallel replicas only wait for each other.
+        // Parallel matrix products inside parallel replicas would wait for each other.
         gemm::set_threading_threshold(usize::MAX);
         let folder = folder.path();
         let path = folder.join(CHECKPOINT);
@@ -108,11 +112,12 @@ impl<'a, T: Trainable> Trainer<'a, T> {
         Ok(Self { task, folder, run, log, started: Instant::now(), since: Since::now() })
     }
 
-    /// Trains until the schedule ends or `watch` says to stop. Returns the file of the best weights,
-    /// or `None` if stopped before the first evaluation.
+    /// Trains until the schedule ends or `watch` cancels.
+    ///
+    /// Returns the file of the best weights, or `None` if stopped before the first evaluation.
     ///
     /// # Errors
-    /// [`TrainError`]; whatever was saved before stays.
+    /// [`TrainError`]; files saved before are kept.
     pub fn run(mut self, watch: &dyn Watch) -> Result<Option<PathBuf>, TrainError> {
         let descent = self.task.descent();
         let mut followed = false;
@@ -146,7 +151,7 @@ impl<'a, T: Trainable> Trainer<'a, T> {
         Ok(self.run.best.is_some().then(|| self.folder.join(BEST)))
     }
 
-    /// Mean loss and gradient of the next step.
+    /// Returns the mean loss and gradient of the next step.
     fn gradient(&self) -> Result<(f64, Parameters), TrainError> {
         let (task, Checkpoint { scales, optimiser, .. }) = (&self.task, &self.run);
         let replica = |k| task.gradient(&optimiser.weights, scales, (optimiser.step, k));
@@ -166,7 +171,8 @@ impl<'a, T: Trainable> Trainer<'a, T> {
         Ok((total, sum))
     }
 
-    /// Judges the averaged weights and saves everything; the line that says so.
+    /// Evaluates the averaged weights, saves all files and returns the line for the progress
+    /// display.
     fn evaluate(&mut self) -> Result<String, TrainError> {
         let (step, descent) = (self.run.optimiser.step, self.task.descent());
         let score = self.task.score(&self.weights(None));
@@ -191,7 +197,7 @@ impl<'a, T: Trainable> Trainer<'a, T> {
         Ok(line.to_string())
     }
 
-    /// The averaged weights with their card.
+    /// Returns the averaged weights with their card.
     fn weights(&self, score: Option<&T::Score>) -> Weights<T::Card> {
         let Checkpoint { scales, optimiser, .. } = &self.run;
         Weights {

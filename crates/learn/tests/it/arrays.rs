@@ -1,4 +1,4 @@
-//! Data sets of arrays: the same bytes however they came about.
+//! Data sets of arrays: identical bytes for any number of threads and interruptions.
 
 use std::path::Path;
 use std::{fs, io::Read};
@@ -11,7 +11,7 @@ use tempfile::TempDir;
 
 use crate::until::Until;
 
-/// Every file of a folder but the lock, by its name.
+/// Returns all files of a folder except the lock, by name.
 fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let mut found: Vec<_> = fs::read_dir(folder)
         .unwrap()
@@ -24,7 +24,7 @@ fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     found
 }
 
-/// The numbers of an array of doubles, and its shape.
+/// Returns the header of an array of doubles, and its numbers.
 fn floats(path: &Path, name: &str) -> (String, Vec<f64>) {
     let mut archive = zip::ZipArchive::new(fs::File::open(path).unwrap()).unwrap();
     let mut bytes = Vec::new();
@@ -64,7 +64,7 @@ fn files_are_the_same_for_any_number_of_threads_and_interruptions() {
         .sum::<usize>();
     assert_eq!([bytes, again], [sizes as u64; 2]);
 
-    // What they hold is what the sampler draws.
+    // The arrays contain the sampler's episodes.
     let drawn = Dataset::in_memory(&config.split(5, 2), &Unwatched).unwrap();
     let first = whole.path().join("episodes-00000.npz");
     let (header, poses) = floats(&first, "pose");
@@ -82,7 +82,7 @@ fn files_are_the_same_for_any_number_of_threads_and_interruptions() {
         }
     }
 
-    // A file that was changed is not taken for what was written.
+    // A changed file is detected.
     fs::write(&first, "no zip").unwrap();
     let made = generate_npz(&config, whole.path(), &Unwatched);
     assert!(made.unwrap_err().to_string().contains("is not what was written"));

@@ -1,4 +1,4 @@
-//! Joints are found from how objects move, in drawn crowds.
+//! Joints are estimated from the motion of objects in random crowds.
 
 use pushplan::recording::Recording;
 use pushplan_act::belief::JointType;
@@ -6,8 +6,8 @@ use pushplan_learn::dataset::{Constraints, DatasetConfig, Episode, JointRule, Pr
 
 use crate::believing::{EXACT, believed};
 
-/// How many near pairs that moved are told right, of how many, in crowds of a seed that the filter's
-/// numbers were not chosen on.
+/// Returns the number of moved near pairs with correct type, and their total number. The seed
+/// differs from the seeds used for tuning the filter.
 fn told_apart(preset: Preset, count: u64, solids: Solids, headings: bool) -> (usize, usize) {
     let constraints = Constraints::test(9, JointRule::Mixed, solids);
     let config =

@@ -1,4 +1,4 @@
-//! `pushplan-learn` as a user sees it.
+//! Command `pushplan-learn` from a user's point of view.
 
 use std::fs;
 
@@ -9,7 +9,7 @@ use crate::interrupted::goes_on_after_an_interruption;
 use crate::pages;
 use crate::program::{run, stderr, succeed};
 
-/// The transcripts in `tests/cmd`, with what was printed and the exit codes.
+/// Runs the transcripts in `tests/cmd`, which contain outputs and exit codes.
 #[test]
 fn transcripts() {
     trycmd::TestCases::new().case("tests/cmd/*.md").default_bin_name("pushplan-learn");

@@ -1,5 +1,4 @@
-//! Crowds, scattered or in a grid: what they hold, that every draw is sound, and that joints
-//! and constraints are as stated.
+//! Scattered and dense crowds: contents, validity of every draw, joints and constraints.
 
 use pushplan::watch::Unwatched;
 use pushplan::{
@@ -107,7 +106,7 @@ fn joints_are_a_forest_of_near_neighbours() {
     let mut kinds = [0; 3];
     let mut limited = 0;
     for preset in CROWDS {
-        // Scenes alone differ between many blocks of the curriculum; draw a few of each.
+        // Scenes vary between blocks of the curriculum; a few of each are drawn.
         for seed in 0..12 {
             for episode in drawn(&DatasetConfig { seed, ..config(preset, 4) }) {
                 let all = bodies(&episode);

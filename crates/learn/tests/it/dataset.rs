@@ -1,5 +1,4 @@
-//! Sampled data: what it covers, that every draw is sound, and that its bits depend on the
-//! seed alone.
+//! Sampled data: ranges, validity of every draw, and bits that depend only on the seed.
 
 use std::{
     fs,
@@ -28,8 +27,8 @@ fn drawn(episodes: u64) -> Dataset {
     Dataset::in_memory(&config, &Unwatched).unwrap()
 }
 
-/// Indices of the frames at which the tool is set down: the start, and the first frame after
-/// each settled stroke, with the tool's pose there.
+/// Returns the frames at which the tool is set down, with the tool's pose there. These are the
+/// start and the first frame after each settled stroke.
 fn set_downs(episode: &Episode) -> Vec<(usize, Pose)> {
     let strokes = &episode.motion.strokes;
     let mut found = vec![(0, strokes[0].from)];
@@ -105,7 +104,7 @@ fn every_draw_is_finite_at_rest_and_within_the_stated_ranges() {
     for episode in data.episodes() {
         let Episode { scene, motion, frames, .. } = episode;
         let mut outside = ranges.warnings(scene, &Job::stated(scene, motion.clone()));
-        // The stated slide is that of nearly all draws, see `TRAINED_SLIDE`.
+        // The stated slide covers nearly all draws, see `TRAINED_SLIDE`.
         outside.retain(|warning| match warning {
             Warning::OutsideRange { quantity: Quantity::Slide, .. } => {
                 far += 1;
@@ -117,7 +116,7 @@ fn every_draw_is_finite_at_rest_and_within_the_stated_ranges() {
         assert!(!is_shipped(&motion.tool), "episode {}", episode.index);
         assert!(ranges.pushes.contains(motion.strokes.len() as f64));
         for stroke in &motion.strokes {
-            // Strokes cut short before an obstacle may be shorter than the range.
+            // Strokes shortened before an obstacle may be shorter than the range.
             assert!(stroke.travel() < ranges.travel.high + 1e-9 && stroke.travel() > 0.015);
         }
         let last = &frames[frames.len() - 1].state;
@@ -139,7 +138,7 @@ fn one_and_two_threads_draw_the_same_bits() {
     assert_eq!(one, two);
 }
 
-/// Stops after some episodes; keeps the notes.
+/// Cancels after some episodes and records the notes.
 #[derive(Default)]
 struct Script {
     stop_after: Option<u64>,
@@ -165,7 +164,7 @@ fn small() -> DatasetConfig {
     DatasetConfig { seed: 3, episodes: 44, ..DatasetConfig::default() }
 }
 
-/// Every file of a folder by name, with its bytes.
+/// Returns every file of a folder by name, with its bytes.
 fn files(dir: &Path) -> Vec<(String, Vec<u8>)> {
     let mut found: Vec<_> = fs::read_dir(dir)
         .unwrap()
@@ -176,7 +175,7 @@ fn files(dir: &Path) -> Vec<(String, Vec<u8>)> {
     found
 }
 
-/// Enough for two turns of keeping.
+/// Configuration large enough for two rounds of storing.
 fn large() -> DatasetConfig {
     DatasetConfig { episodes: 100, ..small() }
 }

@@ -1,4 +1,4 @@
-//! Training: resumable to the bit, the same on any number of threads, and it learns.
+//! Training: resumable bit-exactly, independent of the number of threads, and effective.
 
 use std::{
     fs,
@@ -25,20 +25,20 @@ fn settings(steps: u64) -> PredictorSettings {
             learning_rate: 5e-3,
             ..default.descent.in_steps(steps)
         },
-        // Nearly clean: what a network of this size can learn in 200 steps is small.
+        // Almost no noise, because a network of this size learns little in 200 steps.
         noise: Noise { shift: 1e-5, lead: 1, ..Noise::default() },
         ..default
     }
 }
 
-/// Pushes with tools, and a crowd.
+/// Returns pushes with tools, and a crowd.
 fn data(seed: u64, episodes: u64) -> Vec<Dataset> {
     let tools = DatasetConfig { seed, episodes, ..DatasetConfig::default() };
     let crowd = DatasetConfig { preset: Preset::Dense, episodes: 1, ..tools.clone() };
     [tools, crowd].map(|set| Dataset::in_memory(&set, &Unwatched).expect("data")).into()
 }
 
-/// Counts the lines, and stops at a step.
+/// Counts the lines, and cancels at a step.
 #[derive(Default)]
 struct Listener {
     stop_at: Option<u64>,
@@ -48,7 +48,7 @@ struct Listener {
 
 impl Watch for Listener {
     fn line(&self, text: &str) {
-        // What comes after the last says how much of the correction counts.
+        // The lines after the last step report the share of the correction.
         let step = text.starts_with("step ");
         assert!(step || text.contains("share") || text.contains("counts"), "{text}");
         self.lines.fetch_add(u64::from(step), Ordering::SeqCst);
@@ -67,14 +67,14 @@ fn lock(folder: &Path) -> FolderLock {
     FolderLock::take(folder, &Unwatched).expect("the folder is free")
 }
 
-/// Trains until a step, and gives the number of lines that were told.
+/// Trains until a step and returns the number of progress lines.
 fn run(folder: &Path, data: &[Dataset], held_out: &[Dataset], stop_at: Option<u64>) -> u64 {
     let listener = Listener { stop_at, ..Listener::default() };
     train_predictor(&settings(200), data, held_out, &lock(folder), &listener).expect("training");
     listener.lines.into_inner()
 }
 
-/// The lines of a run's `metrics.jsonl`.
+/// Returns the lines of a run's `metrics.jsonl`.
 fn metrics(folder: &Path) -> Vec<Line<HeldOutError>> {
     let written = fs::read_to_string(folder.join("metrics.jsonl")).expect("metrics");
     written.lines().map(|line| serde_json::from_str(line).expect("a metric line")).collect()
@@ -95,7 +95,7 @@ fn an_interrupted_run_goes_on_to_the_same_bits_on_any_number_of_threads() {
     assert_eq!(pool(2).install(|| run(&whole, &data, &held_out, None)), 4);
     pool(1).install(|| run(&parts, &data, &held_out, Some(70)));
     let stopped = fs::read(parts.join("checkpoint.safetensors")).expect("checkpoint");
-    // Between two refreshes of what leads up to examples, which is kept as well.
+    // The stop is between two updates of the preceding network, which is saved too.
     let header =
         file_metadata(&stopped, "pushplan-checkpoint").expect("readable").expect("a header");
     let header: serde_json::Value = serde_json::from_str(&header).expect("JSON");

@@ -1,4 +1,4 @@
-//! Networks of lever-ups: candle differentiates the cell that predicts, and training resumes exactly.
+//! Networks of lever-ups: equality of the candle graph and the cell, and bit-exact resumption.
 
 use std::fs;
 use std::path::Path;
@@ -22,7 +22,7 @@ use rand_pcg::Pcg64;
 
 use crate::until::Until;
 
-/// Scales that change nothing.
+/// Returns scales without effect.
 fn as_is(columns: usize) -> Statistics {
     Statistics { mean: vec![0.0; columns], deviation: vec![1.0; columns] }
 }
@@ -66,7 +66,7 @@ fn computes_what_training_differentiates(sizes: LeverSizes) {
     let tensors = LeverTensors {
         still: tensor(&still),
         moving: moving.chunks_exact(sizes.moving).map(tensor).collect(),
-        // What the cell feeds back to itself.
+        // Predictions that the cell feeds back to itself.
         before: if sizes.feedback {
             let poses = told.poses.chunks_exact(LEVER_POSE);
             std::iter::once(&[0.0; LEVER_POSE][..]).chain(poses).map(tensor).collect()
@@ -100,7 +100,7 @@ fn an_untrained_network_leaves_the_way_of_the_prior_as_it_is() {
     let network = network.expect("a network");
     for (a, b) in network.rollout(&jobs).iter().zip(LeverNetwork::PRIOR.rollout(&jobs)) {
         for (a, b) in a.lift.iter().zip(&b.lift) {
-            // Single precision.
+            // Tolerance of single precision.
             let apart = (a.position - b.position).norm();
             assert!(apart < 1e-6 && a.angle_to(b) < 1e-3, "{apart} m, {} rad", a.angle_to(b));
         }
@@ -135,7 +135,7 @@ fn training_learns_and_resumes_to_the_same_bits() {
     let [whole, parts] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
     let single = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool");
     let wanted = single.install(|| train(whole.path(), &settings, &Unwatched));
-    // Stopped between two evaluations and gone on with.
+    // Stopped between two evaluations and resumed.
     assert!(train(parts.path(), &settings, &Until::new(60)) != wanted);
     assert!(train(parts.path(), &settings, &Unwatched) == wanted);
 
@@ -151,16 +151,16 @@ fn training_learns_and_resumes_to_the_same_bits() {
     let mut fresh = weights(features, sizes, fresh_lever(&sizes, 1));
     fresh.card.prior = false;
     let fresh = LeverNetwork::new(&fresh).expect("a network");
-    // An untrained network without a prior moves nothing.
+    // An untrained network without the analytic model predicts no motion.
     assert!(error(&network) < 0.6 * error(&fresh), "{} {}", error(&network), error(&fresh));
 
-    // A run goes on under its own settings only.
+    // A run resumes only under its own settings.
     let other = LeverSettings { seed: 2, ..settings };
     let lock = FolderLock::take(whole.path(), &Unwatched).expect("a lock");
     assert!(train_lever(&other, &data, &held_out, &lock, &Unwatched).is_err());
 }
 
-/// As in the thesis: fed with its own predictions, up to the first slip.
+/// Tests feedback of predictions up to the first slip, as in the thesis.
 #[test]
 fn what_is_fed_back_resumes_to_the_same_bits() {
     let (data, held_out) = (episodes(1, 48), episodes(2, 12));

@@ -1,5 +1,4 @@
-//! Generated lever-ups: what they cover, that every draw is sound, and that their bits depend on the
-//! seed alone.
+//! Generated lever-ups: ranges, validity of every draw, and bits that depend only on the seed.
 
 use std::fs;
 
@@ -27,7 +26,7 @@ fn config(preset: LeverPreset, episodes: u64) -> LeverConfig {
     LeverConfig { seed: 5, episodes, preset }
 }
 
-/// Those of a drive stand at different heights, which once were lost on the way to the disk.
+/// Blocks of a drive have different heights, which a former binary form omitted.
 #[test]
 fn what_is_read_is_what_was_drawn() {
     for preset in FAMILIES {
@@ -59,7 +58,7 @@ fn any_number_of_threads_and_interruptions_gives_the_same_bits() {
     for index in [0, 131, 299] {
         assert_eq!(read.episodes()[index], LeverEpisode::draw(&config, index as u64));
     }
-    // Another kind of data is told apart.
+    // Another kind of data is rejected.
     assert!(matches!(Dataset::open(&whole), Err(DatasetError::Foreign { .. })));
     let pushes = DatasetConfig { episodes: 300, seed: 5, ..DatasetConfig::default() };
     assert!(generate(&pushes, Shard::WHOLE, &whole, &Unwatched).is_err());
@@ -77,7 +76,7 @@ fn every_family_plays_without_jams_and_almost_always_comes_to_rest() {
         let count = if preset == LeverPreset::Disc { 8 } else { 40 };
         let config = config(preset, count);
         let data = LeverDataset::in_memory(&config, &Unwatched).expect("data");
-        // A board on the wall of its drive may creep for longer than is waited.
+        // A board on the wall of its drive may creep beyond the time limit.
         let restless = data.episodes().iter().filter(|episode| !episode.is_sound()).count();
         assert!(restless <= data.episodes().len() / 20, "{preset}: {restless} never rest");
         for episode in data.episodes() {
@@ -85,7 +84,7 @@ fn every_family_plays_without_jams_and_almost_always_comes_to_rest() {
             let warnings = &episode.trajectory.warnings;
             assert!(!warnings.contains(&LeverWarning::Jammed), "{name}: {warnings:?}");
             let held = &episode.trajectory.held;
-            // Below what is round the blade has a way to go.
+            // Under round objects the blade moves some way before contact.
             let soon = if preset == LeverPreset::Lying { held.len() } else { 1 };
             assert!(held[..soon].contains(&true), "{name}: not on the blade at first: {held:?}");
             let rest = episode.trajectory.rest;
@@ -100,7 +99,7 @@ fn every_family_plays_without_jams_and_almost_always_comes_to_rest() {
 fn seeds_share_no_shape_and_neighbours_share_theirs() {
     let outline = |seed: u64, index: u64, preset: LeverPreset| {
         let job = lever_job(&LeverConfig { seed, episodes: 1000, preset }, index);
-        // Sizes of everything, as coordinates are about the centre of mass.
+        // Sizes are compared because coordinates are relative to the centre of mass.
         let slabs = &job.scene.plates[0].slabs;
         let size = |slab: &pushplan::scene::Slab| [slab.volume(), slab.height, slab.bottom];
         slabs.iter().map(size).collect::<Vec<_>>()
@@ -133,7 +132,7 @@ fn polygons_are_those_of_the_thesis() {
             (corners[lever.place.edge], corners[(lever.place.edge + 1) % corners.len()]);
         let along = (to - from).norm() * lever.place.fraction;
         assert!(along > 0.0119 && (to - from).norm() - along > 0.0119, "episode {index}");
-        // Any three corners lie on the circle.
+        // The circle through any three corners has the stated radius.
         let [a, b, c] = [0, 1, 2].map(|k| corners[k]);
         let area = 0.5 * ((b - a).x * (c - a).y - (b - a).y * (c - a).x);
         let radius = (b - a).norm() * (c - b).norm() * (a - c).norm() / (4.0 * area);
@@ -150,7 +149,7 @@ fn drives_are_a_floor_four_walls_with_a_notch_and_standoffs_around_a_board() {
         let board = &scene.plates[0];
         assert!((3..=5).contains(&board.slabs.len()), "{} slabs", board.slabs.len());
         assert!(!board.has_feet() && scene.blade.thickness < board.clearance);
-        // The blade lies in the notch, from before it until it has turned.
+        // The blade lies in the notch from the start until it has rotated.
         let blade = lever.blade(&scene, 0.0);
         for block in &scene.blocks {
             let local = |side: f64, along: f64| {
@@ -194,7 +193,8 @@ fn boxes_and_cylinders_look_alike_from_above() {
     assert!(kinds[0] > 15 && kinds[1] > 15, "{kinds:?}");
 }
 
-/// For MuJoCo: a scene of every lever-up, the script that plays them, and what comes of them here.
+/// Tests the export to MuJoCo: a scene of every lever-up, the script that plays them, and our
+/// results.
 #[test]
 fn lever_ups_are_written_as_scenes_with_what_comes_of_them() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -215,7 +215,7 @@ fn lever_ups_are_written_as_scenes_with_what_comes_of_them() {
         let line: serde_json::Value = serde_json::from_str(line).expect("JSON");
         let scene = read(line["scene"].as_str().expect("a name")).expect("a scene");
         assert_eq!(scene, pushplan_export::lever_mjcf(&episode.job()));
-        // The solver must not see the blade fall with the plate.
+        // The blade must not fall with the plate in the solver.
         assert!(scene.contains(r#"<body name="blade/0" gravcomp="1""#));
         let (rest, told) = (episode.trajectory.rest, &line["rest"]);
         let [x, y, z, w] = rest.quaternion();

@@ -1,6 +1,7 @@
-//! Lever-ups in MuJoCo against ours: medians, as slips and falls are decided by little.
+//! Comparison of lever-ups in MuJoCo and our engine by medians, because slips and falls are
+//! sensitive.
 //!
-//! Needs a Python with the package `mujoco`, as the tests of plans do.
+//! These tests need a Python with the package `mujoco`, like the tests of plans.
 
 use std::fs;
 use std::process::Command;
@@ -13,10 +14,11 @@ use serde_json::Value as Json;
 
 use crate::mujoco_python::python;
 
-/// Lever-ups of each family.
+/// Number of lever-ups of each family.
 const CASES: u64 = 24;
 
-/// Largest median distance at the end of the turn, metres; angle there, degrees; distance at rest.
+/// Maximum median distance and angle at the end of the turn, metres and degrees, and distance at
+/// rest, metres.
 const MARKS: [f64; 3] = [0.004, 2.5, 0.005];
 
 #[test]
@@ -59,7 +61,7 @@ fn lever_ups_end_where_they_do_in_mujoco() {
     }
 }
 
-/// x, y, z and the quaternion w, x, y, z.
+/// Parses x, y, z and the quaternion w, x, y, z.
 fn pose(value: &Json) -> Pose3 {
     let number = |k: usize| value[k].as_f64().expect("a number");
     let position = Vector3::new(number(0), number(1), number(2));

@@ -16,7 +16,7 @@ mod regulator;
 mod shards;
 mod until;
 
-// What these tests share with those of the product.
+// Modules shared with the tests of the product.
 #[path = "../../../../tests/it/believing.rs"]
 mod believing;
 #[cfg(unix)]
@@ -36,6 +36,6 @@ mod random_regulator;
 #[path = "../../../../tests/it/sharding.rs"]
 mod sharding;
 
-/// The repository, and the program.
+/// Paths of the repository and the program.
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 const PROGRAM: &str = env!("CARGO_BIN_EXE_pushplan-learn");

@@ -1,4 +1,4 @@
-//! The propagation network that candle differentiates is the one that plans use.
+//! Equality of the propagation network in candle and in planning.
 
 use pushplan::contact::{Bodies, FrameProblem};
 use pushplan::graph::Batch;

@@ -1,5 +1,5 @@
-//! Leaving out what a motion cannot reach, and frames in which nothing can touch, changes no
-//! bit of a prediction.
+//! Pruning of unreachable bodies and skipping of contact-free frames leave all predictions
+//! bit-identical.
 
 use std::sync::Arc;
 
@@ -19,9 +19,10 @@ use pushplan::{
 };
 use pushplan_learn::dataset::{Dataset, DatasetConfig, Preset};
 
-/// Rolls out with and without pruning; the trajectories must be the same in every bit. One job
-/// at a time: in a batch, a matrix product rounds a row differently according to what stands
-/// beside it, and that changes with the frames that are skipped.
+/// Rolls out with and without pruning and requires bit-identical trajectories.
+///
+/// Jobs run one at a time: in a batch, a matrix product rounds a row depending on the other rows,
+/// which change with the skipped frames.
 fn compare(forward: &Forward, scene: &Scene, job: &Job, stride: usize) -> (Work, Work) {
     let run = |pruned, record| {
         let settings = RollSettings { stride, pruned, ..RollSettings::default() };
@@ -55,7 +56,7 @@ fn shipped() -> PredictorWeights {
     EffectModels::weights().expect("the shipped weights")
 }
 
-/// Weights whose corrections are far too large: nothing here may rest on a good network.
+/// Returns weights with excessive corrections, because the test must not depend on a good network.
 fn wild() -> PredictorWeights {
     let mut weights = shipped();
     for name in ["motion.even", "motion.odd"] {
@@ -74,7 +75,7 @@ fn crowds_pushed_again_and_again() {
             let forward = Forward::new(&weights);
             for episode in data.episodes() {
                 let scene = &episode.scene;
-                // From the start, and from the middle of the motion, where things move.
+                // One job begins at the start and one during the motion.
                 let middle = &episode.frames[episode.frames.len() / 3];
                 for frame in [&episode.frames[0], middle] {
                     let job = Job {
@@ -88,8 +89,8 @@ fn crowds_pushed_again_and_again() {
     }
 }
 
-/// A table with a few objects near the tool's way, some of them touching, jointed or moving, and
-/// others far off; tools with parts that hang over everything.
+/// Returns a table with a few objects near the tool's path, some touching, jointed or moving, and
+/// others far away. Some tools have overhanging parts.
 fn random_job(rng: &mut Pcg64) -> (Scene, Job) {
     let mut objects: Vec<Object> = Vec::new();
     let mut scene = Scene::new([]).on_table(rng.random_range(0.2..0.8));
@@ -120,7 +121,7 @@ fn random_job(rng: &mut Pcg64) -> (Scene, Job) {
     }
     scene.objects = objects;
     if rng.random_bool(0.5) {
-        // What nearly touches is jointed: a wide reach makes chains.
+        // Nearly touching objects are joined, and a large tolerance yields chains.
         scene.joints = Physics::stated(&scene).with_contacts_fixed(&scene).joints;
         let kinds = [
             pushplan::scene::JointKind::Fixed,
@@ -198,7 +199,7 @@ fn random_tables_chained_and_placed_jointed_and_moving() {
         some.add(&work);
         every.add(&all);
     }
-    // What was left out must be a good part, or these tables show nothing.
+    // A substantial part must have been left out, otherwise the test is meaningless.
     assert!(some.skipped * 4 > some.moving, "{some:?}");
     assert!(some.listed * 3 < some.lists * 9 * 2, "{some:?}");
     assert!(some.graphs > 3000 && every.skipped == 0, "{some:?} {every:?}");
@@ -227,7 +228,7 @@ fn every_job_of_a_batch_has_its_own_tool_and_physics() {
                 None,
             )
         };
-        // Without a network nothing is shared, so a batch gives the same bits.
+        // Without a network, batching does not affect rounding.
         let together = roll(&jobs);
         for (job, trajectory) in jobs.iter().zip(&together) {
             assert_eq!(&roll(std::slice::from_ref(job))[0], trajectory);
@@ -238,7 +239,7 @@ fn every_job_of_a_batch_has_its_own_tool_and_physics() {
     assert!(tools > 3 && physics > 3, "{tools} {physics}");
 }
 
-/// Candidates of a search: frames of one object are solved side by side.
+/// Tests candidates of a search, for which frames of one object are solved together.
 #[test]
 fn candidates_end_alike_in_any_order_and_number() {
     let mut rng = Pcg64::seed_from_u64(10);
@@ -300,7 +301,7 @@ fn a_rollout_without_a_network_is_that_of_one_that_corrects_nothing() {
         let (without, with) = (roll(None), roll(Some(nothing)));
         assert_eq!(without.contacts, with.contacts);
         contacts += with.contacts.len();
-        // A graph keeps the prior in units of its own, which rounds.
+        // A graph stores the analytic prediction in its own units, which causes rounding.
         for (a, b) in without.outcome().poses.iter().zip(&with.outcome().poses) {
             assert!((a.position - b.position).norm() < 1e-6, "{a:?} {b:?}");
             assert!((a.heading - b.heading).abs() < 1e-5, "{a:?} {b:?}");

@@ -1,4 +1,5 @@
-//! What data cover: the shipped tasks, and all that the prior is measured on.
+//! Ranges of the data: they cover the shipped tasks and the scenes on which the analytic model is
+//! measured.
 
 use pushplan::asset::{ToolLibrary, load_task};
 use pushplan::effect::PRIOR_RANGES;
@@ -11,7 +12,7 @@ use pushplan_learn::dataset::Preset;
 
 use crate::ROOT;
 
-/// Pushes with tools and crowds.
+/// Returns the ranges of pushes with tools and of crowds.
 fn all() -> Ranges {
     Preset::Tools.ranges().hull(&Preset::Crowds.ranges())
 }
@@ -28,7 +29,7 @@ fn shipped_tasks_and_tools_lie_in_the_ranges_that_training_covers() {
     let files = files.map(|entry| entry.unwrap().path());
     for path in files.filter(|path| path.extension().is_some_and(|end| end == "yaml")) {
         let task = load_task(path, &library).unwrap();
-        // No data set holds things of several solids, or what is joined to the world.
+        // No data set contains compound objects or joints to the world.
         if task.scene.objects.iter().any(Object::is_part) || !task.scene.mounts.is_empty() {
             continue;
         }
@@ -41,11 +42,11 @@ fn shipped_tasks_and_tools_lie_in_the_ranges_that_training_covers() {
             let motion = ToolMotion::pushes(tool, task.pushes.lift, 0.0, &[push], true);
             let mut warnings = ranges.warnings(&task.scene, &Job::stated(&task.scene, motion));
             if task.name == "glide" {
-                // Its point is to slide farther than nearly all training pushes do.
+                // This task slides further than nearly all training pushes by design.
                 assert_eq!(warnings.len(), 1);
                 warnings.retain(|warning| !warning.to_string().contains("sliding on"));
             }
-            // Data sets hold no prisms.
+            // Data sets contain no prisms.
             warnings.retain(|warning| !warning.to_string().contains("corner off a right angle"));
             assert_eq!(warnings, [], "{}", task.name);
         }

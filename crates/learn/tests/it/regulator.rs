@@ -1,4 +1,4 @@
-//! The belief regulator: candle differentiates the cell that beliefs run, and learns from lessons.
+//! Belief regulator: equality of the candle graph and the cell, and learning from lessons.
 
 use std::fs;
 use std::path::Path;
@@ -93,7 +93,7 @@ fn training_learns_and_resumes_to_the_same_bits_from_lessons_that_are_the_same_b
         lessons((seed, count), (&network, "digest".to_owned()), &path, watch)
     };
     let data = draw("data", 1, 40, &Unwatched).expect("lessons");
-    // Stopped in the middle and gone on with.
+    // Stopped in the middle and resumed.
     assert!(draw("parts", 1, 40, &Until::new(5)).is_err());
     assert!(data == draw("parts", 1, 40, &Unwatched).expect("lessons"));
     assert!(data.iter().any(|lesson| !lesson.windows.is_empty()));
@@ -111,6 +111,6 @@ fn training_learns_and_resumes_to_the_same_bits_from_lessons_that_are_the_same_b
     let bytes = fs::read(whole.path().join("last.safetensors")).expect("weights");
     let weights = RegulatorWeights::from_bytes(&bytes).expect("sound weights");
     let learnt = score(&Regulator::new(&weights), &data);
-    // Even so few steps find that the filter is too sure.
+    // Even this few steps correct the overconfidence of the filter.
     assert!(learnt.nll[1] < learnt.nll[0], "{learnt:?}");
 }

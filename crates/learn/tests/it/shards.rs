@@ -1,4 +1,4 @@
-//! Data in shards, as array jobs make them: what is missing or wrong is named.
+//! Data in shards, as array jobs make them: missing or wrong parts are reported.
 
 use std::fs;
 use std::path::PathBuf;
@@ -14,10 +14,10 @@ use crate::sharding::{done, merge, of_runs, on, shards_make_the_same_bytes, stat
 #[test]
 fn of_training_data() {
     let home = shards_make_the_same_bytes("generate --preset tools --episodes 9 --seed 3", 4);
-    // A part is no data set.
+    // A shard alone is no data set.
     let error = Dataset::open(&home.path().join("part-2")).expect_err("a part");
     assert!(error.to_string().contains("is shard 2/4 of a data set"), "{error}");
-    // Empty shards are shards, too.
+    // Empty shards are valid.
     shards_make_the_same_bytes("generate --episodes 1", 2);
 }
 
@@ -39,7 +39,7 @@ fn what_is_missing_is_named_as_array_jobs_take_it() {
     assert!(stderr(&output).contains("all 9 shards are needed; missing: 3,7-9"));
     assert!(!home.path().join("merged").exists());
 
-    // One episode of two is torn.
+    // One episode of two is truncated.
     let records = folder(4).join("records.bin");
     let bytes = fs::read(&records).expect("records");
     fs::write(&records, &bytes[..bytes.len() - 5]).expect("records");
@@ -72,7 +72,7 @@ fn wrong_shards_are_refused() {
         assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
         assert!(stderr(&output).contains(words), "{}", stderr(&output));
     }
-    // Parts of different data, and the same part twice.
+    // Shards of different data, and two equal shards.
     let other = home.path().join("other");
     done(&on("generate --episodes 4 --seed 9", &other, Some((2, 2))));
     for (folders, words) in [

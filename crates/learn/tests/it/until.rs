@@ -1,17 +1,17 @@
-//! A watcher that says to stop.
+//! Progress observer that cancels.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use pushplan::watch::Watch;
 
-/// Says to stop once this much is done: steps, or episodes.
+/// Cancels once this many steps or episodes are done.
 pub struct Until {
     wanted: u64,
     done: AtomicU64,
 }
 
 impl Until {
-    /// Nothing is done yet.
+    /// Creates an observer without progress.
     pub fn new(wanted: u64) -> Self {
         Self { wanted, done: AtomicU64::new(0) }
     }

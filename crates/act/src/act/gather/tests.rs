@@ -27,7 +27,7 @@ fn look(time: f64, places: [[f64; 2]; 2]) -> Look {
 
 const STILL: [f64; 2] = [0.5, 0.3];
 
-/// The first object goes with the tool from 0.05 on, the second stays.
+/// Observations in which the first object moves with the tool from 0.05 m on and the second rests.
 fn looks() -> Vec<Look> {
     let at = |k: usize| look(0.1 * k as f64, [[0.05 + 0.01 * k as f64, 0.0], STILL]);
     (1..=21).map(at).collect()

@@ -1,18 +1,18 @@
-//! Which of several pushes is the most informative.
+//! Choice of the most informative of several pushes.
 //!
-//! Two samples s and t of a belief, in which a push is predicted to end the distance d apart, in
-//! standard deviations of what is seen, are still confused with a probability of at most exp(-d^2 /
-//! 8) afterwards (Bhattacharyya's bound). Of N samples the end of a push therefore tells, in nats,
-//! about
+//! Let a push be predicted to end a distance d apart in two samples s and t of a belief, with d in
+//! standard deviations of the observations. The probability of confusing s and t afterwards is at
+//! most exp(-d^2 / 8) (Bhattacharyya's bound). The information gain of a push over N samples is
+//! therefore about, in nats,
 //!
 //! ```text
 //! mean over s of  -ln (mean over t of exp(-d^2 / 8))
 //! ```
 //!
-//! (a lower bound, Kolchinsky and Tracey 2017, doi:10.3390/e19070361). Where it only matters which
-//! plan reaches the goal, a push is as good as it tells those samples apart in which different plans
-//! work: the sum over pairs of samples of the share of plans with R(p, s) != R(p, t), times
-//! 1 - exp(-d^2 / 8).
+//! (a lower bound, Kolchinsky and Tracey 2017, doi:10.3390/e19070361). If only the choice of a plan
+//! matters, the value of a push is how well it separates samples in which different plans work.
+//! This is the sum over pairs of samples of the number of plans with R(p, s) != R(p, t), times 1 -
+//! exp(-d^2 / 8).
 
 use serde::{Deserialize, Serialize};
 
@@ -26,43 +26,46 @@ use pushplan::{
 
 use super::super::judge::{Reach, Samples};
 
-/// How many probes are rolled out in a few samples, and how many of them in all.
+/// Number of probes evaluated in the first round and number of samples used there; then number of
+/// finalists, evaluated in all samples.
 const RACED: (usize, usize) = (32, 4);
 const FINAL: usize = 8;
 
-/// Error of a predicted end on top of the noise, metres.
+/// Standard deviation of the final position error of the model, added to the noise, metres.
 const MODEL: f64 = 2e-3;
 
-/// How a probe is chosen.
+/// Rule for choosing a probe.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ProbeRule {
-    /// By what it tells about the samples in which different plans work.
+    /// Separation of the samples in which different plans work.
     #[default]
     Task,
-    /// By what it tells about all samples, whatever the task.
+    /// Information about all samples, independent of the task.
     Information,
-    /// By chance.
+    /// Random choice.
     Random,
-    /// By chance among those at an object of the pair whose joint is least certain.
+    /// Random choice among the probes at objects of the pair with the least certain joint.
     Uncertain,
-    /// By how far things are predicted to move.
+    /// Predicted displacement of the objects.
     Motion,
 }
 
-/// A push that could be made to learn something.
+/// Candidate push for exploration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Probe {
-    /// The object that it is made at.
+    /// Index of the pushed object.
     pub object: usize,
-    /// What the tool does.
+    /// Motion of the tool.
     pub motion: ToolMotion,
 }
 
-/// The index of the push to make next to learn what is not known of a table, no task given; `None`
-/// if none of them can be made. The belief is drawn from `count` times with the numbers of draw
-/// `index`; `noise` is that of what will be seen. Where several are as good the first is taken, and by
-/// [`ProbeRule::Random`] always; [`ProbeRule::Task`], which asks what plans need, finds none.
+/// Returns the index of the next push for exploring a table without a task.
+///
+/// `count` samples are drawn from the belief with the generator of draw `index`; `noise` is the
+/// noise of the future observations. Returns `None` if no push is feasible. Of equally good pushes
+/// the first is returned, and always the first with [`ProbeRule::Random`]. [`ProbeRule::Task`]
+/// finds no push because it compares plans.
 pub fn choose_probe(
     model: &dyn EffectModel,
     (rule, noise): (ProbeRule, Noise),
@@ -76,7 +79,7 @@ pub fn choose_probe(
     choose(model, (rule, noise), (belief, &samples), probes, &[])
 }
 
-/// The index of the probe to make, with what comes of plans in every sample.
+/// Returns the index of the best probe, given the outcomes of plans in every sample.
 pub(super) fn choose(
     model: &dyn EffectModel,
     (rule, noise): (ProbeRule, Noise),
@@ -88,7 +91,7 @@ pub(super) fn choose(
     if rule == ProbeRule::Uncertain
         && let Some(pair) = least_certain(belief)
     {
-        // Stable, so those at its objects come first, in their order.
+        // The sort is stable: probes at objects of the pair come first, in their order.
         order.sort_by_key(|&k| !pair.contains(&probes[k].object));
     }
     order.truncate(RACED.0);
@@ -101,14 +104,14 @@ pub(super) fn choose(
         let rolled = model.rollout(&samples.now.scene, &jobs, Record::Outcome);
         let each = rolled.chunks(samples.physics.len().max(1));
         let valued = each.map(|ends| value((rule, noise), samples, ends, reach));
-        // A push that goes wrong in a sample is not a probe.
+        // A push that fails in a sample is no probe.
         valued.zip(order.iter().copied()).filter(|(value, _)| value.is_finite()).collect()
     };
     let mut raced = values(&order, &few);
     if matches!(rule, ProbeRule::Random | ProbeRule::Uncertain) {
         return raced.first().map(|(_, k)| *k);
     }
-    // Stable, so equal ones keep their order.
+    // The sort is stable, so equal probes keep their order.
     raced.sort_by(|a, b| b.0.total_cmp(&a.0));
     raced.truncate(FINAL);
     let last: Vec<usize> = raced.into_iter().map(|(_, k)| k).collect();
@@ -121,7 +124,7 @@ pub(super) fn choose(
     best.map(|(_, k)| k)
 }
 
-/// What a probe is worth that ends so in every sample; infinitely little if something goes wrong.
+/// Returns the value of a probe with these final states; minus infinity if it fails in a sample.
 fn value(
     (rule, noise): (ProbeRule, Noise),
     samples: &Samples,
@@ -156,8 +159,8 @@ fn value(
     }
 }
 
-/// What the end of a push tells of `count` samples, nats, of which two are confused with the
-/// probability `alike`.
+/// Returns the information about `count` samples from the final state of a push, nats. Samples s
+/// and t are confused with probability `alike(s, t)`.
 fn told(count: usize, alike: impl Fn(usize, usize) -> f64) -> f64 {
     let one = |s: usize| {
         let taken: f64 = (0..count).map(|t| alike(s, t)).sum();
@@ -166,13 +169,13 @@ fn told(count: usize, alike: impl Fn(usize, usize) -> f64) -> f64 {
     (0..count).map(one).sum::<f64>() / count.max(1) as f64
 }
 
-/// Sum of the squared distances of all objects, square metres.
+/// Returns the sum of the squared displacements of all objects, square metres.
 fn square(one: &State, other: &State) -> f64 {
     let pairs = one.poses.iter().zip(&other.poses);
     pairs.map(|(a, b)| (a.position - b.position).norm_squared()).sum()
 }
 
-/// The pair with the largest entropy of its types of joints.
+/// Returns the pair with the largest entropy over joint types.
 fn least_certain(belief: &Belief) -> Option<[usize; 2]> {
     let entropy = |shares: &[f64; 4]| -> f64 {
         shares.iter().filter(|share| **share > 0.0).map(|share| -share * share.ln()).sum()

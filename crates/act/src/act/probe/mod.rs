@@ -1,5 +1,5 @@
-//! Pushes that are made to learn something: for a task, whether that pays and which ones there are;
-//! and which of several is the most informative.
+//! Exploratory pushes: value of information for a task, candidates, and choice of the most
+//! informative one.
 
 mod choose;
 mod task;

@@ -1,13 +1,13 @@
-//! Pushes that are made to learn what a task depends on.
+//! Exploratory pushes for the unknowns that a task depends on.
 //!
-//! Learning pays where samples of the belief want different plans. With R(p, s) whether plan p reaches
-//! the goal in sample s, knowing which sample is true is worth
+//! Exploration pays if samples of the belief require different plans. Let R(p, s) be 1 if plan p
+//! reaches the goal in sample s, otherwise 0. The value of perfect information is
 //!
 //! ```text
 //! mean over s of max over p of R(p, s)  -  max over p of mean over s of R(p, s)
 //! ```
 //!
-//! (Howard 1966, doi:10.1109/TSSC.1966.300074). Which probe to make then `choose` says.
+//! (Howard 1966, doi:10.1109/TSSC.1966.300074). The module `choose` then selects the probe.
 
 use std::sync::Arc;
 
@@ -25,7 +25,7 @@ use super::super::judge::{Reach, Samples};
 use super::super::settings::RunSettings;
 use super::choose::{Probe, choose};
 
-/// Knowing everything must gain at least this share of samples.
+/// Minimum value of perfect information for which a probe is made, as a share of the samples.
 const WORTH: f64 = 0.1;
 
 /// Travel of a probe, metres.
@@ -34,7 +34,7 @@ const LENGTH: f64 = 0.10;
 /// Offsets of a probe, as shares of the object's inner radius.
 const OFFSETS: [f64; 3] = [0.0, 0.8, -0.8];
 
-/// Whether it pays to learn which sample is true, by what plans do in each.
+/// Returns `true` if the value of perfect information justifies a probe.
 pub(in crate::act) fn pays(reach: &[Vec<Reach>]) -> bool {
     let Some(samples) = reach.first().map(Vec::len).filter(|count| *count > 0) else {
         return false;
@@ -46,7 +46,7 @@ pub(in crate::act) fn pays(reach: &[Vec<Reach>]) -> bool {
     known - unknown > WORTH * samples as f64
 }
 
-/// The probe to make, chosen with the numbers of draw `index`; `None` if none can be made.
+/// Returns the chosen probe, drawn with the generator of `index`; `None` if there is none.
 pub(in crate::act) fn probe(
     model: &dyn EffectModel,
     task: &Task,
@@ -69,8 +69,8 @@ pub(in crate::act) fn probe(
     Some((plan, tool))
 }
 
-/// Every probe that a task allows at the object of its goal and those that may be joined to it,
-/// with the object that it is made at.
+/// Returns the probes that a task allows, each with the index of the pushed object. Probes are made
+/// at the goal's object and at objects that may be joined to it.
 fn candidates(
     task: &Task,
     samples: &Samples,
@@ -78,7 +78,7 @@ fn candidates(
 ) -> Vec<(usize, Plan, Arc<Tool>)> {
     let scene = &samples.now.scene;
     let mut sets = DisjointSets::new(scene.objects.len());
-    // As they are now; objects that were joined from the start are still near each other.
+    // Current poses are used; objects that were joined from the start are still close.
     for (between, _) in near_pairs(scene) {
         sets.join(between);
     }

@@ -56,7 +56,7 @@ fn a_joint_that_closes_a_loop_makes_each_other_one_in_it_give_way() {
     assert_eq!(belief.changed(&types, 1, Fixed), [[Fixed, Fixed, None, Fixed]]);
 }
 
-/// Three that touch each other, and one beside the second.
+/// Three mutually touching objects, and a fourth next to the second.
 fn four_cans() -> Belief {
     let can = |name: &str, x, y| Object::cylinder(name, 0.05, 0.1).at(x, y, 0.0);
     let scene = Scene::new([

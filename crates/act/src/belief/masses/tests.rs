@@ -8,7 +8,7 @@ use pushplan::{
 
 const RANGES: [Span; 3] = [Span::new(0.2, 0.5), Span::new(1.0, 2.0), Span::new(8.0, 10.0)];
 
-/// A trajectory in which these touch.
+/// Returns a trajectory with these contacts.
 fn touching(pairs: &[[usize; 2]]) -> Trajectory {
     let contact = |[object, other]: &[usize; 2]| Contact {
         frame: 1,
@@ -19,8 +19,8 @@ fn touching(pairs: &[[usize; 2]]) -> Trajectory {
     Trajectory { contacts, ..Trajectory::new(ModelKind::PRIOR.into()) }
 }
 
-/// Of three objects, after a push in which these touch and a ratio of the first two is as likely as
-/// `score` says.
+/// Returns the belief about three objects after a push with these contacts; `score` is the
+/// log-likelihood of the logarithmic ratio of the first two masses.
 fn told(pairs: &'static [[usize; 2]], score: fn(f64) -> f64) -> Masses {
     let object = |name: &str, x| Object::cylinder(name, 0.05, 0.1).at(x, 0.0, 0.0);
     let scene = Scene::new([object("a", 0.0), object("b", 0.11), object("c", 0.5)]);
@@ -37,7 +37,7 @@ fn told(pairs: &'static [[usize; 2]], score: fn(f64) -> f64) -> Masses {
 
 #[test]
 fn a_push_tells_the_ratio_before_it_tells_either_mass() {
-    // Twice as light to four times: only light beside middling, and middling beside heavy.
+    // With a ratio of 1/2 to 1/4, only light and medium or medium and heavy fit.
     let shares = told(&[[0, 1]], |log| -4.0 * (log + 1.6).powi(2)).shares();
     let [first, second] = [0, 1].map(|k| shares.objects[k].clone().expect("they touched"));
     assert!(first[0] > 0.3 && first[1] > 0.3 && first[2] < 0.01, "{first:?}");
@@ -101,7 +101,7 @@ fn what_is_drawn_is_as_frequent_as_it_is_believed_where_something_may_be_lost() 
     }
     for (drawn, believed) in drawn.iter().zip(masses.shares().objects) {
         for (drawn, believed) in drawn.iter().zip(believed.expect("all have touched")) {
-            // Five standard deviations at most.
+            // At most five standard deviations.
             assert!((drawn - believed).abs() < 0.018, "{drawn} {believed}");
         }
     }

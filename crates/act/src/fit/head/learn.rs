@@ -1,4 +1,4 @@
-//! From recordings to what is known of a table.
+//! Fitting of a linear head to recordings of a table.
 
 use rayon::prelude::*;
 
@@ -14,33 +14,37 @@ use crate::fit::{Fit, NoiseLaw};
 use super::observed::{Observed, observed};
 use super::regression::Regression;
 
-/// Deviations of a head's numbers that are tried. Hidden rows are about 1 long and an output is
-/// 10 mm, so the widest changes a frame by about a millimetre.
+/// Candidate prior standard deviations of the head parameters.
+///
+/// Hidden rows have a norm of about 1 and an output unit is 10 mm, so the widest prior changes a
+/// frame by about a millimetre.
 const PRIORS: [f64; 5] = [0.005, 0.01, 0.02, 0.04, 0.08];
 
-/// Times that pushes are rolled out anew around the last mean.
+/// Number of rounds in which pushes are rolled out again around the last mean.
 const ROUNDS: usize = 2;
 
-/// Parts of the recordings that are left out in turn, to choose a prior by rollouts of them.
+/// Number of folds of the cross-validation that chooses the prior.
 const FOLDS: usize = 5;
 
-/// A head must be better than none by so many standard errors. With one, a draw of 20 pushes in three
-/// learnt a head, and those were worse on new pushes.
+/// Number of standard errors by which a head must improve on no head.
+///
+/// A third of the draws of 20 pushes yielded a head with one standard error, and these heads were
+/// worse on new pushes.
 const SURE: f64 = 2.0;
 
-/// Directions that are kept of a posterior: a file of some 60 KB. The others count as unknown, which
-/// makes the stated spread wider, never narrower.
+/// Number of posterior directions kept: a file of about 60 KB. The other directions count as
+/// unknown, which never makes the stated spread narrower.
 const DIRECTIONS: usize = 16;
 
-/// Fewer pushes than this teach no head, whatever they say.
+/// Minimum number of pushes for fitting a head.
 const FEWEST: usize = 10;
 
-/// How a head is learnt.
+/// Settings of the head fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeadSettings {
-    /// The law of the noise.
+    /// Noise law.
     pub law: NoiseLaw,
-    /// Deviations of the prior to choose from; no head at all is always a choice.
+    /// Candidate standard deviations of the prior; no head is always a candidate.
     pub priors: Vec<f64>,
 }
 
@@ -50,18 +54,18 @@ impl Default for HeadSettings {
     }
 }
 
-/// What is known of a table besides the pushes that teach a head.
+/// Knowledge about a table other than the pushes that the head is fitted to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Basis {
     /// Width of the noise, metres.
     pub noise: f64,
-    /// How far objects move in a push on average, metres.
+    /// Mean displacement of the objects in a push, metres.
     pub motion: f64,
-    /// Coefficient of friction of tool and objects, where recordings tell it.
+    /// Friction coefficient of tool and objects, if the recordings identify it.
     pub friction: Option<f64>,
-    /// Share of the corners' distance at which the objects rest, where recordings tell it.
+    /// Support radius as a share of the corners' distance, if the recordings identify it.
     pub support: Option<f64>,
-    /// What was learnt of the table before; it stays as it is.
+    /// Earlier fit of the table, which stays unchanged.
     pub before: Option<TableFit>,
 }
 
@@ -78,8 +82,8 @@ impl From<&Fit> for Basis {
 }
 
 impl Basis {
-    /// Where nothing is fitted: objects are seen with errors of `noise` metres, and the rest is as
-    /// it was learnt before.
+    /// Returns a basis without fitted parameters: observation noise of `noise` metres, all else
+    /// from an earlier fit.
     pub fn seen(trials: &[Trial], noise: f64, before: Option<&TableFit>) -> Self {
         let motions: Vec<f64> = trials.iter().flat_map(Trial::motions).collect();
         let before = before.cloned();
@@ -88,7 +92,7 @@ impl Basis {
         Self { noise, motion: mean(&motions), friction, support, before }
     }
 
-    /// The fit before a push has told anything.
+    /// Returns the fit before any push is used.
     fn fit(
         &self,
         network: &Network,
@@ -113,12 +117,13 @@ impl Basis {
     }
 }
 
-/// What `trials` say of a table beyond the numbers in `basis`: the change of the last layer of
-/// `network`, its spread and the noise that is left. With too few pushes, or where those that are left
-/// out are not predicted better, that change is none, or as it was learnt before.
+/// Fits the last layer of `network` to `trials`, in addition to the parameters in `basis`.
+///
+/// The result contains the change, its spread and the remaining noise. With too few pushes, or if
+/// held-out pushes are not predicted better, the change is zero or the earlier one.
 ///
 /// # Errors
-/// If the checksum of the weights cannot be made.
+/// If the checksum of the weights cannot be computed.
 pub fn learn(
     network: &Network,
     trials: &[Trial],
@@ -130,7 +135,7 @@ pub fn learn(
     let before = basis.before.as_ref().filter(|before| before.spread.prior > 0.0);
     let told: Vec<Trial> = trials.iter().map(|trial| told(&fit, trial)).collect();
     let moves: Vec<Vec<bool>> = told.iter().map(|trial| moving(network, trial)).collect();
-    // A few pushes do not tell how far off pushes are.
+    // The noise width is bounded below because a few pushes do not determine it.
     let least = (DISAGREEMENT * basis.motion).max(before.map_or(0.0, |before| before.noise));
     let look = |head: &Head| -> Vec<Vec<Observed>> {
         let network = network.clone().adapted(head);
@@ -159,7 +164,7 @@ pub fn learn(
         let Some(solved) = regression.solve(prior) else { break };
         let Some(next) = Head::new(solved.mean.clone(), half) else { break };
         let ends = look(&next);
-        // A step that the rollouts do not confirm is not taken.
+        // A step that the rollouts do not confirm is rejected.
         if loss(&ends, solved.noise) > loss(&seen, solved.noise) {
             break;
         }
@@ -179,15 +184,16 @@ pub fn learn(
     Ok(fit)
 }
 
-/// The trial, told what the fit says of the physics.
+/// Returns the trial with the fitted physics.
 fn told(fit: &TableFit, trial: &Trial) -> Trial {
     let mut trial = trial.clone();
     fit.state(&mut trial.scene);
     trial
 }
 
-/// The prior whose heads predict best what they were not told, by rollouts; `None` unless that is
-/// better than no head by more than [`SURE`] standard errors.
+/// Returns the prior with the best predictions of held-out pushes.
+///
+/// Returns `None` unless it is better than no head by more than [`SURE`] standard errors.
 fn choose(
     network: &Network,
     trials: &[Trial],
@@ -223,7 +229,7 @@ fn choose(
     (gain > SURE * (square / (count - 1.0) / count).sqrt()).then_some(prior)
 }
 
-/// How far `network` ends from what was recorded, over the objects that move: position and turn at
+/// Returns the summed final error of `network` over the objects that move: position and rotation at
 /// the radius of gyration, metres.
 fn off(network: &Network, trial: &Trial, moves: &[bool]) -> f64 {
     let ends = Comparison::of(network, trial).end();
@@ -235,7 +241,7 @@ fn off(network: &Network, trial: &Trial, moves: &[bool]) -> f64 {
     pairs.filter(|(_, moves)| **moves).map(one).sum()
 }
 
-/// Minus the logarithm of Student's density at this width, up to a constant.
+/// Returns the negative logarithm of Student's density at this width, up to a constant.
 fn loss(ends: &[Vec<Observed>], width: f64) -> f64 {
     let one = |end: &Observed| {
         let square: f64 = end.residual.iter().map(|value| value * value).sum();
@@ -244,7 +250,7 @@ fn loss(ends: &[Vec<Observed>], width: f64) -> f64 {
     ends.iter().flatten().map(one).sum()
 }
 
-/// These objects and those of all trials, each once.
+/// Returns the given objects and the objects of all trials, without duplicates.
 fn objects(before: &[FittedObject], trials: &[Trial]) -> Vec<FittedObject> {
     let mut objects = before.to_vec();
     for object in trials.iter().flat_map(|trial| &trial.scene.objects) {

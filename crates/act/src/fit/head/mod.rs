@@ -1,11 +1,13 @@
-//! A Bayesian linear head on the hidden rows of a frozen network, from recorded pushes.
+//! Bayesian linear head on the hidden rows of a frozen network, from recorded pushes.
 //!
-//! θ, the change of the last layer, has the prior N(0, s² I). Where a recorded push ends, y = J θ +
-//! noise, with J from [`Sensitivity`] and noise by Student's law: a
-//! regression whose weights are found by reweighting (Lange, Little and Taylor 1989,
-//! doi:10.2307/2290063), taken anew around each mean (Gauss and Newton). s is chosen by rollouts of pushes
-//! that are left out; no head at all is among the choices, and is kept unless another one is
-//! better by more than two standard errors (Breiman et al. 1984, section 3.4.3, take one).
+//! The change θ of the last layer has the prior N(0, s² I). The final poses of a recorded push are
+//! y = J θ + noise, with J from [`Sensitivity`] and Student's noise. This regression is solved by
+//! iterative reweighting (Lange, Little and Taylor 1989, doi:10.2307/2290063) and linearised again
+//! around each mean (Gauss-Newton).
+//!
+//! The deviation s is chosen by rollouts of held-out pushes. No head is among the candidates and is
+//! kept unless another is better by more than two standard errors (Breiman et al. 1984, section
+//! 3.4.3, use one).
 
 mod learn;
 mod observed;

@@ -1,4 +1,4 @@
-//! Recorded ends as the numbers of a regression.
+//! Recorded final poses as regression data.
 
 use crate::judge::Trial;
 use pushplan::effect::Network;
@@ -6,17 +6,17 @@ use pushplan::geometry::wrap_angle;
 
 use super::Sensitivity;
 
-/// How one object ends, and how that follows the head.
+/// Final residual of one object with its Jacobian.
 #[derive(Clone, Debug)]
 pub(super) struct Observed {
-    /// From the predicted to the recorded end, metres: x, y and, if the heading is known, the turn
-    /// at the radius of gyration.
+    /// Residual from the predicted to the recorded pose, metres: x, y and, if the heading is known,
+    /// the rotation at the radius of gyration.
     pub residual: Vec<f64>,
-    /// How the predicted end follows each number of the head, one row for each of `residual`.
+    /// Derivatives of the predicted pose by the head parameters, one row per element of `residual`.
     pub rows: Vec<Vec<f64>>,
 }
 
-/// What `network` says of the ends of the objects of `trial` for which `moves` says so.
+/// Returns the final residuals of the objects of `trial` selected by `moves`.
 pub(super) fn observed(network: &Network, trial: &Trial, moves: &[bool]) -> Vec<Observed> {
     let Some(truth) = trial.truth.last() else { return Vec::new() };
     let found = Sensitivity::of(network, &trial.scene, &trial.job());

@@ -1,4 +1,4 @@
-//! The regression in its dual form: as large as there are recorded numbers, not parameters.
+//! Regression in its dual form, whose size is the number of recorded values instead of parameters.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -8,44 +8,44 @@ use pushplan::scene::TableFit;
 
 use super::observed::Observed;
 
-/// Rounds of reweighting: weights and width then stand still to a thousandth.
+/// Number of reweighting rounds, after which weights and width change by less than 0.001.
 const ROUNDS: usize = 8;
 
-/// All recorded numbers, and what they share.
+/// Regression problem over all recorded values.
 #[derive(Clone, Debug)]
 pub(super) struct Regression {
-    /// [n].
+    /// Recorded values, [n].
     targets: DVector<f64>,
-    /// [n, P].
+    /// Rows of the Jacobian, [n, P].
     rows: DMatrix<f64>,
-    /// Rows times rows, [n, n].
+    /// Gram matrix of the rows, [n, n].
     gram: DMatrix<f64>,
-    /// First number of each object's end, and how many.
+    /// First value and number of values of each object.
     blocks: Vec<(usize, usize)>,
-    /// The mean before anything was observed, [P].
+    /// Prior mean, [P].
     before: Vec<f64>,
-    /// Variance of each of the last numbers, which say what was known before, over that of the prior.
+    /// Variances of the trailing pseudo-observations from an earlier fit, relative to the prior.
     known: Vec<f64>,
     law: NoiseLaw,
-    /// The noise is never taken as narrower, metres.
+    /// Minimum width of the noise, metres.
     least: f64,
 }
 
-/// A posterior for one width of the prior.
+/// Posterior for one width of the prior.
 #[derive(Clone, Debug)]
 pub(super) struct Solved {
-    /// The prior's deviation.
+    /// Standard deviation of the prior.
     pub prior: f64,
-    /// The mean, [P].
+    /// Posterior mean, [P].
     pub mean: Vec<f64>,
     /// Width of the noise, metres.
     pub noise: f64,
-    /// Variance of every number's noise, [n].
+    /// Noise variance of every value, [n].
     variances: DVector<f64>,
 }
 
 impl Regression {
-    /// Of what was observed at a head of `mean`.
+    /// Creates the regression from observations linearised at a head of `mean`.
     pub fn new<'a>(
         observed: impl IntoIterator<Item = &'a Observed>,
         mean: &[f64],
@@ -72,13 +72,15 @@ impl Regression {
         Self { targets, rows, gram, blocks, before, known, law, least }
     }
 
-    /// The same after another posterior: along each direction in which that one is narrow, a number
-    /// is known as well as it says; across them its mean is the prior's.
+    /// Adds the posterior of an earlier fit as prior knowledge.
+    ///
+    /// Each direction in which that posterior is narrow becomes a pseudo-observation. Across these
+    /// directions its mean becomes the prior mean.
     pub fn after(mut self, TableFit { head, spread, .. }: &TableFit) -> Self {
         let dot = |direction: &[f32], values: &[f64]| -> f64 {
             direction.iter().zip(values).map(|(a, b)| f64::from(*a) * b).sum()
         };
-        // What is known to the last digit would leave nothing to divide by.
+        // A remaining variance of zero would cause a division by zero.
         let told = spread.directions.iter().filter(|one| one.left < 1.0 && one.left > 0.0);
         let told: Vec<_> = told.collect();
         let mut across = head.clone();
@@ -104,7 +106,7 @@ impl Regression {
         self
     }
 
-    /// The posterior with a prior of this deviation; `None` if the numbers allow none.
+    /// Returns the posterior for this prior standard deviation; `None` if it does not exist.
     pub fn solve(&self, prior: f64) -> Option<Solved> {
         let count = self.targets.len();
         let seen = count - self.known.len();
@@ -148,13 +150,14 @@ impl Regression {
         Some(Solved { prior, mean, noise: square.sqrt(), variances })
     }
 
-    /// The directions along which `solved` is narrowest, at most `most`, with the share of the
-    /// prior's variance that is left.
+    /// Returns at most `most` directions along which `solved` is narrowest, each with the remaining
+    /// share of the prior's variance.
     pub fn directions(&self, solved: &Solved, most: usize) -> Vec<(f64, Vec<f64>)> {
         if solved.prior == 0.0 {
             return Vec::new();
         }
-        // The left singular vectors of the weighted rows; the directions are the right ones.
+        // Left singular vectors of the weighted rows; the directions are the right singular
+        // vectors.
         let mut weighted = self.rows.clone();
         for (k, mut row) in weighted.row_iter_mut().enumerate() {
             row *= solved.prior / solved.variances[k].sqrt();
@@ -172,7 +175,7 @@ impl Regression {
     }
 }
 
-/// Directions of which the recordings say less than this share of what the prior does are left out.
+/// Minimum information of a direction kept, as a share of the prior's.
 const TOLD: f64 = 0.02;
 
 #[cfg(test)]

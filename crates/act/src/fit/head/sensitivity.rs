@@ -1,9 +1,9 @@
-//! How the end of a rollout follows a change of the network's last layer.
+//! Sensitivity of the end of a rollout to a change of the network's last layer.
 //!
-//! The output of a frame is linear in the last layer, so what a change of it does to the pose of
-//! an object in that frame is exact. What becomes of such a change until the end (an object that
-//! is moved away from the tool is met the later) is told by rollouts of the rest of the way from
-//! slightly moved poses. With z the hidden row, p the poses after frame t and e those at the end,
+//! The output of a frame is linear in the last layer, so its effect on the poses in that frame is
+//! exact. The propagation of such a change to the end, including changed contacts, is computed by
+//! rollouts of the remaining motion from slightly perturbed poses. With the hidden row z, the poses
+//! p after frame t and the final poses e,
 //!
 //! ```text
 //! de/dθ = Σ_t  de/dp_t · dp_t/do_t · z_t         o = z (W + θ), the outputs that a head changes
@@ -19,32 +19,32 @@ use pushplan::{
     task::{COAST_FRAME, Job, Stroke},
 };
 
-/// How far poses are moved to see what becomes of it, metres (turns at the radius of gyration):
-/// more than the width of a touch, less than what recordings show.
+/// Perturbation of the poses for finite differences, metres (rotations at the radius of gyration).
+///
+/// The value is above the width of a contact and below the accuracy of recordings.
 const NUDGE: f64 = 2e-4;
 
-/// Where a rollout ends, and how that follows a change of the last layer.
+/// Rollout with the sensitivity of its end to a change of the last layer.
 #[derive(Clone, Debug)]
 pub struct Sensitivity {
-    /// The rollout, frame by frame.
+    /// Rollout, frame by frame.
     pub trajectory: Trajectory,
-    /// Of x, y and heading at the end, of one object after another, [3 N, 6 h]: metres and radians
-    /// for each number of a [`Head`].
+    /// Jacobian of x, y and heading of all objects at the end, [3 N, 6 h]: metres and radians per
+    /// parameter of a [`Head`].
     pub rows: Vec<Vec<f64>>,
 }
 
-/// A node of a frame: its object, the change of x, y and heading for each output that a head
-/// changes, and its hidden row.
+/// Node of a frame: its object, the change of x, y and heading per head output, and its hidden row.
 struct Read {
     object: usize,
     change: [[f64; HEAD_OUTPUTS]; 3],
-    /// [2, h].
+    /// Hidden row, [2, h].
     hidden: Vec<f32>,
 }
 
 impl Sensitivity {
-    /// Computes how the end of `job` follows a change of the last layer of `network`. Frames are taken one
-    /// by one, whatever the model's stride.
+    /// Computes the sensitivity of the end of `job` to the last layer of `network`. The stride is
+    /// one frame, independent of the model's stride.
     pub fn of(network: &Network, scene: &Scene, job: &Job) -> Self {
         let job = without_guesses(job);
         let half = network.effect_width();
@@ -54,7 +54,7 @@ impl Sensitivity {
             network.forward().run(batch, &mut buffers, corrections);
             frames.push(nodes(batch, buffers.hidden(), half));
         };
-        // The numbers of nodes are those of the scene where nothing is left out.
+        // Without pruning, nodes have the indices of the scene.
         let settings = RollSettings { stride: 1, pruned: false, ..network.settings() };
         let mut roller = Roller::new(network.spec().clone(), settings);
         let rolled =
@@ -76,8 +76,8 @@ impl Sensitivity {
     }
 }
 
-/// For every node of every frame how the end of all objects, [3 N], follows its pose after
-/// that frame.
+/// Returns the Jacobian of all final poses, [3 N], with respect to the pose of every node in every
+/// frame.
 fn ends<'a>(
     network: &Network,
     (scene, job): (&Scene, &Job),
@@ -128,7 +128,7 @@ fn ends<'a>(
     nodes.into_iter().map(follows).collect()
 }
 
-/// What was read of the nodes of a frame, whose hidden rows are [2, N, h].
+/// Returns the nodes of a frame, whose hidden rows are [2, N, h].
 fn nodes(batch: &Batch, hidden: &[f32], half: usize) -> Vec<Read> {
     let count = batch.node_count();
     let read = |(k, node): (usize, &Node)| {
@@ -143,7 +143,7 @@ fn nodes(batch: &Batch, hidden: &[f32], half: usize) -> Vec<Read> {
     batch.nodes.iter().enumerate().map(read).collect()
 }
 
-/// What is left of `job` after a frame, the `count`th of its stroke; nothing where all is done.
+/// Returns the rest of `job` after frame `count` of the current stroke; `None` at its end.
 fn rest_of(job: &Job, after: &Frame, count: usize) -> Option<Job> {
     let mut rest = Job { start: after.state.clone(), ..job.clone() };
     let strokes = &mut rest.motion.slide_mut().strokes;
@@ -161,7 +161,7 @@ fn rest_of(job: &Job, after: &Frame, count: usize) -> Option<Job> {
     (!strokes.is_empty()).then_some(rest)
 }
 
-/// How far a node's object is moved along an axis of its pose, metres or radians.
+/// Returns the perturbation of a node's object along a pose axis, metres or radians.
 fn size(scene: &Scene, node: &Read, axis: usize) -> f64 {
     let arm = scene.objects[node.object].shape.footprint().gyration_radius();
     if axis < 2 { NUDGE } else { NUDGE / arm }

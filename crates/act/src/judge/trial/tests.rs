@@ -9,7 +9,7 @@ use pushplan::{
     task::Stroke,
 };
 
-/// A frame of stroke `stroke` in which the one object is at `x`.
+/// Returns a frame of stroke `stroke` with its single object at `x`.
 fn frame(stroke: usize, x: f64) -> Frame {
     let state = State::at_rest(vec![Pose::new(x, 0.0, 0.0)]);
     Frame { time: 0.0, stroke, tool: Pose::default(), state, blade: None }
@@ -32,12 +32,12 @@ fn frames_are_aligned_by_stroke_and_rest_goes_on() {
     let tool = Arc::new(tool.expect("one piece"));
     let scene = Scene { objects: vec![can], ..Scene::default() };
     let motion = ToolMotion { tool, lift: 0.0, strokes };
-    // Two moving frames a stroke; the truth then comes to rest in two and in one.
+    // Two moving frames per stroke; the ground truth then comes to rest in two frames and in one.
     let truth = [(0, 0.0), (0, 1.0), (0, 2.0), (0, 3.0), (0, 4.0), (1, 5.0), (1, 6.0), (1, 7.0)];
     let frames = trajectory(&truth).frames;
     let mut trial = Trial::of_frames(scene, motion, &frames);
     assert_eq!(trial.truth.len(), 7);
-    // The prediction takes one and three, and stops early in the last case.
+    // The prediction comes to rest in one frame and in three, and stops early in the last case.
     let predicted = trajectory(&[
         (0, 0.0),
         (0, 10.0),

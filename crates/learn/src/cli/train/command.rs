@@ -1,4 +1,4 @@
-//! Which network is trained, and what every training does.
+//! Choice of the network to train, and steps shared by all trainings.
 
 use std::path::{Path, PathBuf};
 
@@ -49,19 +49,19 @@ pub fn run(args: &TrainArgs, session: &Session) -> Result<u8, CliError> {
     }
 }
 
-/// Takes the folder of a run, which no other process may write to meanwhile.
+/// Locks the folder of a run against other processes.
 ///
 /// # Errors
-/// If another one does, or it cannot be made.
+/// If another process holds the lock, or the folder cannot be created.
 pub fn take(folder: &Path, session: &Session) -> Result<FolderLock, CliError> {
     interrupt::watch();
     Ok(FolderLock::take(folder, &Following::bar(session, "folder"))?)
 }
 
-/// Makes or reads data, as far as a bar called `name` tells.
+/// Makes or reads data, with a progress bar called `name`.
 ///
 /// # Errors
-/// If that fails or is interrupted.
+/// If `make` fails or is interrupted.
 pub fn data<D: Send>(
     session: &Session,
     name: &str,
@@ -73,10 +73,10 @@ pub fn data<D: Send>(
     made.map_err(data_error)
 }
 
-/// Trains, and says where the best weights are.
+/// Trains a network and prints the path of its best weights.
 ///
 /// # Errors
-/// If that fails or is interrupted.
+/// If training fails or is interrupted.
 pub fn weights(
     session: &Session,
     train: impl FnOnce(&dyn Watch) -> Result<Option<PathBuf>, TrainError> + Send,
@@ -87,7 +87,7 @@ pub fn weights(
     written(session, best)
 }
 
-/// Says where the best weights are.
+/// Prints the path of the best weights.
 pub(super) fn written(
     session: &Session,
     best: Result<Option<PathBuf>, TrainError>,

@@ -1,4 +1,4 @@
-//! `pushplan-learn train lever`: the network that corrects predicted lever-ups.
+//! `pushplan-learn train lever`: trains the network that corrects predicted lever-ups.
 
 use std::path::PathBuf;
 
@@ -13,7 +13,7 @@ use crate::dataset::{
 };
 use crate::train::{Descent, LeverSettings, train_lever};
 
-/// What the shipped weights have learned from.
+/// Training data of the shipped weights.
 const LEARNED: [LeverConfig; 4] = [
     LeverConfig { seed: 1, episodes: 14_000, preset: LeverPreset::Varied },
     LeverConfig { seed: 21, episodes: 16_000, preset: LeverPreset::Varied },
@@ -21,7 +21,7 @@ const LEARNED: [LeverConfig; 4] = [
     LeverConfig { seed: 21, episodes: 8000, preset: LeverPreset::Fixed },
 ];
 
-/// What they were chosen by.
+/// Held-out data for choosing the shipped weights.
 const HELD_OUT: [LeverConfig; 2] = [
     LeverConfig { seed: 3, episodes: 1500, preset: LeverPreset::Varied },
     LeverConfig { seed: 3, episodes: 1500, preset: LeverPreset::Fixed },
@@ -92,7 +92,7 @@ pub fn run(args: &LeverArgs, session: &Session) -> Result<u8, CliError> {
 }
 
 impl LeverArgs {
-    /// Lever-ups made in the folder of the run, or finished there.
+    /// Makes lever-ups in the folder of the run, or completes those present.
     fn made(
         &self,
         configs: &[LeverConfig],
@@ -113,16 +113,16 @@ impl LeverArgs {
 /// Reads folders of lever-ups.
 ///
 /// # Errors
-/// If one holds something else, or not all of them.
+/// If a folder holds other or incomplete data.
 pub fn opened(folders: &[PathBuf], session: &Session) -> Result<Vec<LeverDataset>, CliError> {
     let open = |folder: &PathBuf| LeverDataset::open(folder);
     data(session, "data", |_| folders.iter().map(open).collect::<Result<_, DatasetError>>())
 }
 
-/// Refuses held-out lever-ups of the same seeds as others: they have shapes in common.
+/// Rejects held-out lever-ups with a seed of the training data, because they share shapes.
 ///
 /// # Errors
-/// [`CliError::Usage`].
+/// [`CliError::Usage`] for a common seed.
 pub fn distinct(learned: &[LeverDataset], held_out: &[LeverDataset]) -> Result<(), CliError> {
     let seeds =
         |sets: &[LeverDataset]| sets.iter().map(|set| set.config().seed).collect::<Vec<_>>();

@@ -1,4 +1,4 @@
-//! `pushplan-learn train NETWORK DIR`: a network's data and weights, in a folder that holds the whole run.
+//! `pushplan-learn train NETWORK DIR`: makes a network's data and weights in the folder of a run.
 
 mod command;
 mod lever;

@@ -1,4 +1,4 @@
-//! `pushplan-learn train predictor`: the physics predictor.
+//! `pushplan-learn train predictor`: trains the physics predictor.
 
 use std::path::{Path, PathBuf};
 
@@ -18,8 +18,9 @@ use crate::dataset::{Dataset, DatasetConfig, Preset, Truth, generate};
 use crate::report::training_document;
 use crate::train::{Descent, Exposure, HeldOutError, Line, PredictorSettings, train_predictor};
 
-/// Episodes that the shipped weights have learned from: of each truth of pushes with tools, with the
-/// number that they were judged on, and of crowds. Those of MuJoCo take ten times as long.
+/// Data sets of the shipped weights: name, preset, engine, training episodes and held-out episodes.
+///
+/// MuJoCo episodes take ten times as long.
 const SETS: [(&str, Preset, Truth, u64, u64); 4] = [
     ("planar", Preset::Tools, Truth::Planar, 8000, 200),
     ("3d", Preset::Tools, Truth::Spatial, 8000, 200),
@@ -100,7 +101,7 @@ pub struct PredictorArgs {
     seed: u64,
 }
 
-/// Follows training, and draws its curves again with every line.
+/// Progress of training that redraws the curves with every line.
 struct Followed<'a> {
     folder: &'a Path,
     following: Following<'a>,
@@ -150,7 +151,8 @@ pub fn run(args: &PredictorArgs, session: &Session) -> Result<u8, CliError> {
 }
 
 impl PredictorArgs {
-    /// The data made in the folder: their name, what they are made of, and the number of held-out ones.
+    /// Returns the data sets made in the folder: name, configuration and number of held-out
+    /// episodes.
     fn sets(&self) -> impl Iterator<Item = (&'static str, DatasetConfig, u64)> {
         let asked = |set: &&(_, _, Truth, _, _)| !self.without_mujoco || set.2 != Truth::Mujoco;
         SETS.iter().filter(asked).map(|&(name, preset, truth, episodes, held_out)| {
@@ -159,7 +161,7 @@ impl PredictorArgs {
         })
     }
 
-    /// The share that is asked for of so many episodes, at least one.
+    /// Returns the requested share of a number of episodes, at least one.
     fn of(&self, episodes: u64) -> u64 {
         ((episodes as f64 * self.share).round() as u64).max(1)
     }
@@ -219,7 +221,7 @@ impl Watch for Followed<'_> {
 }
 
 impl Followed<'_> {
-    /// The curves of the whole run, also of the part before it was interrupted.
+    /// Draws the curves of the whole run, including the part before an interruption.
     fn draw(&self) -> Result<(), CliError> {
         let path = self.folder.join("metrics.jsonl");
         let text = std::fs::read_to_string(&path)

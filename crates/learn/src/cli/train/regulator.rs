@@ -1,4 +1,4 @@
-//! `pushplan-learn train regulator`: the belief regulator.
+//! `pushplan-learn train regulator`: trains the belief regulator.
 
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! What a set of lever-ups is made of: everything that decides its bits.
+//! Configuration of a set of lever-ups, which determines its bits.
 
 use std::path::Path;
 
@@ -11,16 +11,16 @@ use super::super::set::Sampler;
 use super::episode::LeverEpisode;
 use super::preset::LeverPreset;
 
-/// The suite of a folder of lever-ups.
+/// Suite name of a folder of lever-ups.
 pub const LEVER_SUITE: &str = "levers";
 
-/// What the episodes show.
+/// Source of the ground truth.
 const TRUTH: &str = "3d";
 
-/// Version of the sampler: another one draws other episodes for the same settings.
+/// Version of the sampler; other versions draw other episodes for equal settings.
 const SAMPLER: u32 = 2;
 
-/// The settings in a manifest.
+/// Settings in a manifest.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Sampled {
@@ -28,21 +28,23 @@ struct Sampled {
     preset: LeverPreset,
 }
 
-/// Everything that decides the bits of a set of lever-ups.
+/// Configuration that determines the bits of a set of lever-ups.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LeverConfig {
-    /// Episode `index` depends on this, the preset and `index` alone, its shape on this, the
-    /// preset and `index` divided by [`LEVERS_PER_SHAPE`](super::LEVERS_PER_SHAPE).
+    /// Seed of the data set.
+    ///
+    /// Episode `index` depends only on the seed, the preset and `index`. Its shape depends only on
+    /// the seed, the preset and `index` divided by [`LEVERS_PER_SHAPE`](super::LEVERS_PER_SHAPE).
     pub seed: u64,
     /// Number of episodes.
     pub episodes: u64,
-    /// What is sampled.
+    /// Family of lever-ups.
     pub preset: LeverPreset,
 }
 
 impl LeverConfig {
-    /// The same family under another seed, which shares no random shape, and of another size.
+    /// Returns the configuration with another seed, which shares no random shape, and another size.
     pub fn split(&self, seed: u64, episodes: u64) -> Self {
         Self { seed, episodes, ..*self }
     }
@@ -82,8 +84,8 @@ impl Sampler for LeverConfig {
         Ok(LeverEpisode::draw(self, index))
     }
 
-    /// An episode, and the heights of its blocks: obstacles keep theirs only in files that people
-    /// read.
+    /// Encodes an episode and the heights of its blocks, because the binary form of obstacles omits
+    /// their heights.
     fn encode(episode: &LeverEpisode) -> Result<Vec<u8>, StoreError> {
         let heights: Vec<f64> = episode.scene.blocks.iter().map(|block| block.z).collect();
         postcard::to_allocvec(&(episode, heights)).map_err(|error| StoreError::Record {

@@ -1,4 +1,4 @@
-//! Drives built of cuboids: a floor, walls around a pocket, standoffs, and the board with its chips.
+//! Drives built of cuboids: a floor, walls around a pocket, standoffs, and a board with chips.
 
 use pushplan::internals::geometry::{Pose, Vector};
 use pushplan::internals::{
@@ -11,10 +11,10 @@ use rand_pcg::Pcg64;
 use super::super::chance::uniform;
 use super::plates::{anywhere, lever, screwdriver};
 
-/// A 3.5-inch drive seen from above, metres.
+/// Size of a 3.5-inch drive seen from above, metres.
 const DRIVE: [f64; 2] = [0.147, 0.1016];
 
-/// Height of the floor's top above the table, metres.
+/// Height of the floor's upper surface above the table, metres.
 const FLOOR: f64 = 0.020;
 
 /// Thickness of a board, metres.
@@ -23,38 +23,40 @@ const BOARD: f64 = 0.0016;
 /// Density of a board with its parts, kg/m^3.
 const DENSITY: f64 = 1900.0;
 
-/// Side of a standoff, metres. Standoffs fill the pocket's corners: before a slot between them and the
-/// walls a board on edge would drop into it and stand.
+/// Side of a standoff, metres.
+///
+/// Standoffs fill the pocket's corners, because a tilted board could drop into a slot between
+/// standoff and wall and stay upright.
 const STANDOFF: f64 = 0.006;
 
-/// How far from a corner the board is levered, metres: beside the standoffs.
+/// Minimum distance of the levered place from a corner, metres, beside the standoffs.
 const FROM_CORNER: f64 = 0.014;
 
 /// Names of the walls, in the order of the board's edges.
 const WALLS: [&str; 4] = ["front", "right", "back", "left"];
 
-/// What drives of one shape have in common.
+/// Parameters shared by drives of one shape.
 struct Drive {
     board: [f64; 2],
     chips: Vec<Slab>,
-    /// Between board and wall, metres.
+    /// Gap between board and wall, metres.
     gap: f64,
     wall: f64,
     standoff: f64,
-    /// Height of the walls above the board's top, metres.
+    /// Height of the walls above the board's upper surface, metres.
     above: f64,
     /// Width of the notch, metres.
     notch: f64,
     friction: f64,
 }
 
-/// A drive and a lever-up through the notch in one of its walls.
+/// Draws a drive and a lever-up through the notch in one of its walls.
 pub(super) fn drive(shapes: &mut Pcg64, rng: &mut Pcg64) -> (LeverScene, LeverUp) {
     let drive = Drive::draw(shapes);
     let edge = rng.random_range(0..4);
     let along = drive.board[edge % 2];
     let middle = uniform(rng, FROM_CORNER, along - FROM_CORNER);
-    // The blade needs some play of its own.
+    // The blade needs clearance in the notch.
     let play = 0.5 * (drive.notch - 0.009);
     let at = uniform(rng, middle - play, middle + play).clamp(FROM_CORNER, along - FROM_CORNER);
     let pose = anywhere(rng);
@@ -119,7 +121,8 @@ impl Drive {
         .balanced()
     }
 
-    /// What is fixed, with the notch in the wall along `edge` at `middle` from its first corner.
+    /// Returns the fixed parts, with the notch in the wall along `edge` at `middle` from its first
+    /// corner.
     fn blocks(&self, pose: Pose, edge: usize, middle: f64) -> Vec<Obstacle> {
         let block =
             |name: String, at: Vector, heading: f64, [x, y]: [f64; 2], z: [f64; 2]| Obstacle {
@@ -143,7 +146,7 @@ impl Drive {
             let frame = Pose { position: Vector::zeros(), heading };
             let (half, across) = if k % 2 == 0 { (x, y) } else { (y, x) };
             let out = -(across + self.gap + 0.5 * self.wall);
-            // Walls along x reach over the corners.
+            // Walls along x include the corners.
             let end = half + self.gap + if k % 2 == 0 { self.wall } else { 0.0 };
             let pieces = if k == edge {
                 let (from, to) =
@@ -162,7 +165,7 @@ impl Drive {
     }
 }
 
-/// A chip somewhere on the board.
+/// Draws a chip on the board.
 fn chip(rng: &mut Pcg64, [x, y]: [f64; 2]) -> Slab {
     let size = [uniform(rng, 0.008, 0.020), uniform(rng, 0.008, 0.020)];
     let free = [0.5 * (x - size[0]) - 0.002, 0.5 * (y - size[1]) - 0.002];

@@ -1,4 +1,4 @@
-//! One episode: a random scene, a random lever-up and what it does.
+//! Episode: a random scene, a random lever-up and its effect.
 
 use std::sync::Arc;
 
@@ -15,22 +15,22 @@ use super::config::LeverConfig;
 use super::preset::{DISC_PLACES, LeverPreset};
 use super::{drive, lying, plates};
 
-/// So many neighbouring episodes lever the same shape.
+/// Number of consecutive episodes with the same shape.
 pub const LEVERS_PER_SHAPE: u64 = 4;
 
-/// Shapes are drawn under another seed than actions.
+/// Constant that separates the seeds of shapes and actions.
 const SHAPES: u64 = 0x5348_4150;
 
-/// A lever-up and the truth of what it does.
+/// Lever-up with its ground truth.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeverEpisode {
-    /// Which draw of its data set this is.
+    /// Index of the episode in its data set.
     pub index: u64,
-    /// What stands on the table.
+    /// Scene at the start.
     pub scene: LeverScene,
-    /// What the blade does.
+    /// Motion of the blade.
     pub lever: LeverUp,
-    /// What comes of it.
+    /// Effect of the lever-up.
     pub trajectory: LeverTrajectory,
 }
 
@@ -43,23 +43,23 @@ impl LeverEpisode {
         Self { index, scene: LeverScene::clone(&job.scene), lever, trajectory }
     }
 
-    /// Which shape of its data set this is.
+    /// Returns the index of the shape in its data set.
     pub fn shape(&self) -> u64 {
         self.index / LEVERS_PER_SHAPE
     }
 
-    /// Scene and lever-up.
+    /// Returns scene and lever-up.
     pub fn job(&self) -> LeverJob {
         LeverJob { scene: Arc::new(self.scene.clone()), lever: self.lever }
     }
 
-    /// Everything that moves, after every step of the engine: simulated again.
+    /// Simulates the episode again and returns the states after every step of the engine.
     pub fn motion(&self) -> Vec<(Frame, f64)> {
         LeverSimulator::FINE.record(&self.job(), 0.0).1
     }
 
-    /// The same with a trajectory that ends where the plate slips off the blade; none if it does at
-    /// once.
+    /// Returns the episode with its trajectory ended where the plate slips off the blade; `None` if
+    /// it slips at once.
     pub fn before_slip(&self) -> Option<Self> {
         let mut cut = self.clone();
         let frames = cut.trajectory.before_slip();
@@ -68,14 +68,15 @@ impl LeverEpisode {
         (frames > 0).then_some(cut)
     }
 
-    /// Whether the engine came to rest and nothing was jammed.
+    /// Returns `true` if the simulation came to rest without a jam.
     pub fn is_sound(&self) -> bool {
         let unsound = [LeverWarning::Jammed, LeverWarning::Moving];
         !self.trajectory.warnings.iter().any(|warning| unsound.contains(warning))
     }
 }
 
-/// Scene and lever-up of episode `index`, without what happens: a pure function of both.
+/// Returns scene and lever-up of episode `index` without simulation. The result depends only on the
+/// arguments.
 pub fn lever_job(config: &LeverConfig, index: u64) -> LeverJob {
     let shape = index / LEVERS_PER_SHAPE;
     let shapes = &mut generator(config.seed ^ SHAPES, shape);

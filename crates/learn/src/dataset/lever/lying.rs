@@ -1,4 +1,4 @@
-//! Boxes and lying cylinders: rectangles from above, which only their depth tells apart.
+//! Boxes and lying cylinders, which are equal rectangles from above and differ only in depth.
 
 use pushplan::internals::geometry::{Pose, Vector};
 use pushplan::internals::{
@@ -11,13 +11,13 @@ use rand_pcg::Pcg64;
 use super::super::chance::uniform;
 use super::plates::{CLEARANCE, DENSITY, FRICTION, alone, lever, plate};
 
-/// A lying cylinder is a prism of twice so many sides.
+/// Half the number of sides of the prism that represents a lying cylinder.
 const SIDES: usize = 10;
 
-/// Angle between two of them, radians.
+/// Angle between adjacent sides, radians.
 const STEP: f64 = std::f64::consts::PI / SIDES as f64;
 
-/// A box or a cylinder of the same extents, levered at a long side near its middle.
+/// Draws a box or a cylinder of equal extents, levered at a long side near its middle.
 pub(super) fn lying(shapes: &mut Pcg64, rng: &mut Pcg64) -> (LeverScene, LeverUp) {
     let radius = uniform(shapes, 0.025, 0.045);
     let length = uniform(shapes, 0.10, 0.18);
@@ -29,19 +29,20 @@ pub(super) fn lying(shapes: &mut Pcg64, rng: &mut Pcg64) -> (LeverScene, LeverUp
     };
     let edge = 2 * rng.random_range(0..2);
     let place = Place { edge, fraction: uniform(rng, 0.3, 0.7) };
-    // Under the narrowest cylinder the blade finds 8.7 mm.
+    // The blade has 8.7 mm of space under the narrowest cylinder.
     (alone(plate, rng), lever(place, 0.008, 2.0 * radius, 60.0))
 }
 
-/// A cylinder that lies along x. Its widest layer is what the blade goes under, its frame as high
-/// as that of a box on feet.
+/// Returns a cylinder that lies along x.
+///
+/// The blade goes under its widest layer. Its frame is as high as the frame of a box on feet.
 fn cylinder(length: f64, radius: f64, friction: f64) -> Plate {
-    // Corners of the prism lie on the circle, at half steps from its lowest point.
+    // The corners of the prism lie on the circle, at half steps from its lowest point.
     let at = |k: usize| {
         let (sin, cos) = (STEP * (k as f64 + 0.5)).sin_cos();
         (radius * sin, -radius * cos)
     };
-    // The prism stands on its lowest side, not on the circle.
+    // The prism stands on its lowest side, below which the circle extends.
     let ground = at(0).1;
     let layers = (0..SIDES - 1).map(|k| {
         let ((narrow, low), (wide, high)) = (at(k), at(k + 1));
@@ -59,7 +60,7 @@ fn cylinder(length: f64, radius: f64, friction: f64) -> Plate {
         slabs,
         mass: DENSITY * volume,
         friction,
-        // Just less than where it is, as it has no feet.
+        // Slightly less than the true height because the cylinder has no feet.
         clearance: CLEARANCE - 1e-3,
         pose: Pose::default(),
         z: CLEARANCE,

@@ -1,7 +1,7 @@
-//! Random lever-ups with what the 3-D engine says they do.
+//! Random lever-ups simulated in the 3-D engine.
 //!
-//! Every episode is a pure function of seed, family and index. Neighbouring episodes lever the same
-//! shape at other places; shapes depend on the seed, so data of another seed hold none of them.
+//! Every episode depends only on seed, family and index. Consecutive episodes lever the same shape
+//! at different places. Shapes depend on the seed, so data sets of different seeds share none.
 
 mod config;
 mod drive;

@@ -1,4 +1,4 @@
-//! Single plates on the table: polygons, the disc, the outline of a circuit board.
+//! Single plates on the table: polygons, the disc, and the outline of a circuit board.
 
 use std::f64::consts::{PI, TAU};
 
@@ -13,35 +13,37 @@ use rand_pcg::Pcg64;
 use super::super::chance::{heading, uniform};
 use super::preset::DISC_PLACES;
 
-/// Radius of the circle on which corners lie, and of the disc, metres.
+/// Radius of the circle through the corners, and of the disc, metres.
 const RADIUS: f64 = 0.10;
 
-/// Free height below plates, metres.
+/// Free height under plates, metres.
 pub(super) const CLEARANCE: f64 = 0.006;
 
-/// Density of plates, kg/m^3: a hard plastic.
+/// Density of plates, kg/m^3 (hard plastic).
 pub(super) const DENSITY: f64 = 1200.0;
 
-/// Smallest angle between neighbouring corners as seen from the circle's centre, radians: sides of
-/// 3 cm, which leave room for a place.
+/// Minimum angle between adjacent corners as seen from the circle's centre, radians. The sides are
+/// then at least 3 cm long and have room for a place.
 const SHORTEST: f64 = 0.3;
 
-/// Largest such angle: beyond half a turn the circle's centre lies outside, and before it polygons
-/// become slivers.
+/// Maximum angle between adjacent corners. Polygons become slivers near half a turn, and the
+/// circle's centre is outside beyond it.
 const LONGEST: f64 = 0.9 * PI;
 
-/// How far from a corner plates are levered, metres.
+/// Minimum distance of a levered place from a corner, metres.
 const FROM_CORNER: f64 = 0.012;
 
-/// The friction value of plates where it is not drawn.
+/// Default friction value of plates.
 pub(super) const FRICTION: f64 = 0.4;
 
-/// Those of table and blade: a blade of steel slips below a plate that stays where it is. With equal
-/// ones the load, about half on either, lets both slide or none, and what does is not decided.
+/// Friction values of table and blade.
+///
+/// A steel blade slips under a plate that stays in place. Equal values would make the motion
+/// undetermined because table and blade each carry about half of the load.
 const TABLE: f64 = 0.6;
 const BLADE: f64 = 0.3;
 
-/// The outline of a drive's circuit board without its notches, metres.
+/// Outline of a drive's circuit board without its notches, metres.
 const BOARD: [[f64; 2]; 7] = [
     [0.0, 0.0],
     [0.058, 0.0],
@@ -52,7 +54,7 @@ const BOARD: [[f64; 2]; 7] = [
     [0.0, 0.086],
 ];
 
-/// Polygon number `shape` by the motion of the thesis.
+/// Returns polygon `shape` with the motion of the thesis.
 pub(super) fn fixed(shapes: &mut Pcg64, rng: &mut Pcg64, shape: u64) -> (LeverScene, LeverUp) {
     let corners = polygon(shapes, shape);
     let place = any_place(rng, &corners);
@@ -60,7 +62,7 @@ pub(super) fn fixed(shapes: &mut Pcg64, rng: &mut Pcg64, shape: u64) -> (LeverSc
     (scene, lever(place, 0.015, 0.16, 75.0))
 }
 
-/// Polygon number `shape`, everything about it and its motion drawn.
+/// Returns polygon `shape` with random parameters and a random motion.
 pub(super) fn varied(shapes: &mut Pcg64, rng: &mut Pcg64, shape: u64) -> (LeverScene, LeverUp) {
     let corners = polygon(shapes, shape);
     let height = uniform(shapes, 0.004, 0.014);
@@ -74,7 +76,7 @@ pub(super) fn varied(shapes: &mut Pcg64, rng: &mut Pcg64, shape: u64) -> (LeverS
     (scene, lever(place, depth, pivot, uniform(rng, 30.0, 120.0)))
 }
 
-/// The disc, at this one of its places.
+/// Returns the disc with a lever-up at one of its places.
 pub(super) fn disc(rng: &mut Pcg64, place: usize) -> (LeverScene, LeverUp) {
     let corner = |k: usize| on_circle(TAU * k as f64 / DISC_PLACES as f64);
     let corners = (0..DISC_PLACES).map(corner).collect();
@@ -82,7 +84,7 @@ pub(super) fn disc(rng: &mut Pcg64, place: usize) -> (LeverScene, LeverUp) {
     (scene, lever(Place { edge: place, fraction: 0.5 }, 0.015, 2.0 * RADIUS, 45.0))
 }
 
-/// The circuit board's outline, at any place.
+/// Returns the circuit board's outline with a lever-up at a random place.
 pub(super) fn board(rng: &mut Pcg64) -> (LeverScene, LeverUp) {
     let corners: Vec<Vector> = BOARD.iter().map(|[x, y]| Vector::new(*x, *y)).collect();
     let plate = plate(corners, 0.0016, FRICTION);
@@ -91,7 +93,7 @@ pub(super) fn board(rng: &mut Pcg64) -> (LeverScene, LeverUp) {
     (alone(plate, rng), lever(place, 0.012, pivot, 60.0))
 }
 
-/// The usual lever-up of the only plate, `angle` in degrees.
+/// Returns the default lever-up of the only plate, with `angle` in degrees.
 pub(super) fn lever(place: Place, depth: f64, pivot: f64, angle: f64) -> LeverUp {
     LeverUp {
         plate: 0,
@@ -105,12 +107,12 @@ pub(super) fn lever(place: Place, depth: f64, pivot: f64, angle: f64) -> LeverUp
     }
 }
 
-/// The blade of a screwdriver with this friction value.
+/// Returns a screwdriver's blade with this friction value.
 pub(super) fn screwdriver(friction: f64) -> Blade {
     Blade { length: 0.12, width: 0.006, thickness: 0.002, friction }
 }
 
-/// A plate on feet of this outline and height, about its centre of mass.
+/// Returns a plate on feet with this outline and height, centred at its centre of mass.
 pub(super) fn plate(corners: Vec<Vector>, height: f64, friction: f64) -> Plate {
     let slab = Slab { corners, bottom: 0.0, height };
     let mass = DENSITY * slab.volume();
@@ -126,7 +128,7 @@ pub(super) fn plate(corners: Vec<Vector>, height: f64, friction: f64) -> Plate {
     .balanced()
 }
 
-/// A plate alone on the table, turned any way.
+/// Returns a scene with a single plate in random rotation.
 pub(super) fn alone(mut plate: Plate, rng: &mut Pcg64) -> LeverScene {
     plate.pose = anywhere(rng);
     LeverScene {
@@ -137,12 +139,12 @@ pub(super) fn alone(mut plate: Plate, rng: &mut Pcg64) -> LeverScene {
     }
 }
 
-/// A pose before the robot.
+/// Draws a pose in front of the robot.
 pub(super) fn anywhere(rng: &mut Pcg64) -> Pose {
     Pose::new(uniform(rng, 0.4, 0.6), uniform(rng, -0.2, 0.2), heading(rng))
 }
 
-/// How far the outline reaches from this edge, metres.
+/// Returns the extent of the outline perpendicular to an edge, metres.
 pub(super) fn width(corners: &[Vector], edge: usize) -> f64 {
     let from = corners[edge];
     let along = (corners[(edge + 1) % corners.len()] - from).normalize();
@@ -150,7 +152,7 @@ pub(super) fn width(corners: &[Vector], edge: usize) -> f64 {
     corners.iter().map(|corner| inward.dot(&(corner - from))).fold(0.0, f64::max)
 }
 
-/// A place on any edge that has room.
+/// Draws a place on an edge of sufficient length.
 pub(super) fn any_place(rng: &mut Pcg64, corners: &[Vector]) -> Place {
     loop {
         let edge = rng.random_range(0..corners.len());
@@ -162,11 +164,12 @@ pub(super) fn any_place(rng: &mut Pcg64, corners: &[Vector]) -> Place {
     }
 }
 
-/// Corners at random on the circle, 3 to 10 of them by turns.
+/// Draws 3 to 10 random corners on the circle; the number cycles with `shape`.
 fn polygon(rng: &mut Pcg64, shape: u64) -> Vec<Vector> {
     let count = 3 + (shape % 8) as usize;
     loop {
-        // Gaps between random points on a circle are exponential numbers scaled to its sum.
+        // Gaps between random points on a circle are exponential numbers scaled to its
+        // circumference.
         let gaps: Vec<f64> = (0..count).map(|_| -(1.0 - rng.random::<f64>()).ln()).collect();
         let scale = (TAU - count as f64 * SHORTEST) / gaps.iter().sum::<f64>();
         let gaps: Vec<f64> = gaps.iter().map(|gap| SHORTEST + scale * gap).collect();

@@ -1,9 +1,9 @@
-//! Arrays as `.npy`, and those in a `.npz`.
+//! Writing of arrays as `.npy` and `.npz`.
 //!
-//! The format of NumPy, version 1.0
-//! (<https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>): a header, one line
-//! that Python could read, and the numbers. The crates for it bring a parser of Python literals and
-//! compressors in C, for what is written in twenty lines.
+//! The format is NumPy's version 1.0
+//! (<https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>): a header with one
+//! Python literal, then the numbers. Existing crates depend on a parser of Python literals and
+//! compressors in C, which this module avoids with twenty lines.
 
 use std::io::{Cursor, Write};
 
@@ -19,11 +19,11 @@ pub(super) enum Numbers {
     Integers(Vec<i64>),
     /// `bool`.
     Flags(Vec<bool>),
-    /// `bytes`, each as long as the longest.
+    /// `bytes`, padded to the longest text.
     Texts(Vec<String>),
 }
 
-/// An array with its name.
+/// Named array.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Array {
     pub name: &'static str,
@@ -32,7 +32,7 @@ pub(super) struct Array {
 }
 
 impl Array {
-    /// The array as a `.npy` file.
+    /// Returns the array as a `.npy` file.
     pub fn npy(&self) -> Vec<u8> {
         let (kind, body) = match &self.numbers {
             Numbers::Floats(all) => {
@@ -57,7 +57,7 @@ impl Array {
         let sizes: String = self.shape.iter().map(|size| format!("{size}, ")).collect();
         let mut header =
             format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({sizes}), }}");
-        // The numbers begin at a multiple of 64 bytes; ten stand before the header.
+        // The numbers start at a multiple of 64 bytes; ten bytes precede the header.
         let length = (header.len() + 1 + 10).next_multiple_of(64) - 10;
         header = format!("{header:<width$}\n", width = length - 1);
         let count = u16::try_from(length).unwrap_or(u16::MAX).to_le_bytes();
@@ -65,7 +65,7 @@ impl Array {
     }
 }
 
-/// Arrays as a `.npz` file. The same arrays are the same bytes.
+/// Returns arrays as a `.npz` file. Equal arrays yield equal bytes.
 pub(super) fn npz(arrays: &[Array]) -> zip::result::ZipResult<Vec<u8>> {
     let mut file = ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default()

@@ -1,4 +1,4 @@
-//! Episodes as arrays.
+//! Conversion of episodes to arrays.
 
 use pushplan::internals::geometry::{MAX_CORNERS, Pose, Shape, Vector};
 use pushplan::internals::{outcome::Frame, scene::Object, task::Stroke};
@@ -7,7 +7,7 @@ use crate::dataset::Episode;
 
 use super::archive::{Array, Numbers};
 
-/// Arrays of episodes that have at most `most` objects; see `format.md`.
+/// Returns the arrays of episodes with at most `most` objects; see `format.md`.
 pub(super) fn arrays(episodes: &[Episode], most: usize) -> Vec<Array> {
     let (count, objects) = (episodes.len(), |episode: &Episode| episode.scene.objects.len());
     let strokes = || episodes.iter().flat_map(|episode| &episode.motion.strokes);
@@ -15,7 +15,7 @@ pub(super) fn arrays(episodes: &[Episode], most: usize) -> Vec<Array> {
     let (all_strokes, all_frames) = (strokes().count(), frames().count());
     let per_episode =
         |value: &dyn Fn(&Episode) -> f64| Numbers::Floats(episodes.iter().map(value).collect());
-    // Rows of `width` numbers for objects, NaN for those that an episode does not have.
+    // Rows of `width` numbers per object, padded with NaN.
     let per_object = |width: usize, value: &dyn Fn(&Object) -> Vec<f64>| {
         let mut numbers = Vec::with_capacity(count * most * width);
         for episode in episodes {
@@ -97,7 +97,7 @@ pub(super) fn arrays(episodes: &[Episode], most: usize) -> Vec<Array> {
     ]
 }
 
-/// Where each episode's rows begin, and where the last one's end.
+/// Returns the first row of each episode, followed by the total number of rows.
 fn starts(episodes: &[Episode], rows: impl Fn(&Episode) -> usize) -> Numbers {
     let mut found = vec![0];
     for episode in episodes {
@@ -106,7 +106,7 @@ fn starts(episodes: &[Episode], rows: impl Fn(&Episode) -> usize) -> Numbers {
     Numbers::Integers(found)
 }
 
-/// Poses less those of the frame before.
+/// Returns the changes of all poses since the previous frame.
 fn changes(episodes: &[Episode], most: usize) -> Numbers {
     let mut found = Vec::new();
     for episode in episodes {

@@ -1,8 +1,8 @@
-//! Data sets for other programs: NumPy's `.npz`, uncompressed zips of arrays.
+//! Data sets for other programs: NumPy's `.npz`, uncompressed zip files of arrays.
 //!
-//! The same episodes as in [`generate`](super::generate()), [`A_FILE`] of them a file, with a line
-//! for each file in `records.jsonl` and, when all are there, `statistics.json`. What the arrays hold
-//! stands in [`FORMAT`], which is written beside them.
+//! Episodes equal the episodes of [`generate`](super::generate()), with [`A_FILE`] episodes per
+//! file. Every file has a line in `records.jsonl`; `statistics.json` is written at the end. The
+//! arrays are described in [`FORMAT`], which is written next to them.
 
 mod archive;
 mod arrays;
@@ -11,5 +11,5 @@ mod write;
 
 pub use write::{A_FILE, generate_npz};
 
-/// What the arrays of a file are: names, shapes, units.
+/// Description of the arrays of a file: names, shapes, units.
 pub const FORMAT: &str = include_str!("format.md");

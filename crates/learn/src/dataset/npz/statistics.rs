@@ -1,4 +1,4 @@
-//! Mean and spread of the columns of arrays.
+//! Means and spreads of the columns of arrays.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::archive::{Array, Numbers};
 
-/// Arrays that have statistics, and the columns that each has them of.
+/// Arrays with statistics, each with its number of columns.
 const OF: [(&str, usize); 8] = [
     ("size", 3),
     ("mass", 1),
@@ -18,7 +18,7 @@ const OF: [(&str, usize); 8] = [
     ("change", 3),
 ];
 
-/// Of one column: how many numbers, their mean, the sum of squares about it, least and largest.
+/// Moments of one column: count, mean, sum of squared deviations, minimum and maximum.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Moments {
     count: u64,
@@ -28,7 +28,7 @@ pub(super) struct Moments {
     max: f64,
 }
 
-/// What `statistics.json` says of one array: a number for each of its columns.
+/// Entry of `statistics.json` for one array, with one number per column.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub(super) struct Statistics {
     count: Vec<u64>,
@@ -38,17 +38,17 @@ pub(super) struct Statistics {
     max: Vec<f64>,
 }
 
-/// Moments by array.
+/// Moments by name of the array.
 pub(super) type All = BTreeMap<String, Vec<Moments>>;
 
 impl Moments {
-    /// Of one number.
+    /// Returns the moments of one number.
     fn one(value: f64) -> Self {
         Self { count: 1, mean: value, squares: 0.0, min: value, max: value }
     }
 
-    /// Of two sets of numbers (Chan, Golub and LeVeque 1983, "Algorithms for computing the sample
-    /// variance").
+    /// Combines the moments of two sets of numbers (Chan, Golub and LeVeque 1983, "Algorithms for
+    /// computing the sample variance").
     fn with(self, other: Self) -> Self {
         let count = self.count + other.count;
         let (apart, share) = (other.mean - self.mean, other.count as f64 / count as f64);
@@ -62,7 +62,7 @@ impl Moments {
     }
 }
 
-/// Moments of the columns of arrays, NaN left out.
+/// Returns the moments of the columns of arrays, ignoring NaN.
 pub(super) fn moments(arrays: &[Array]) -> All {
     let mut found = All::new();
     for (name, width) in OF {
@@ -77,7 +77,7 @@ pub(super) fn moments(arrays: &[Array]) -> All {
     found
 }
 
-/// Moments of the numbers of both.
+/// Combines two sets of moments.
 pub(super) fn with(mut all: All, more: &All) -> All {
     for (name, moments) in more {
         match all.get_mut(name).filter(|there| there.len() == moments.len()) {
@@ -94,7 +94,7 @@ pub(super) fn with(mut all: All, more: &All) -> All {
     all
 }
 
-/// What people and programs ask for.
+/// Returns the statistics written to `statistics.json`.
 pub(super) fn said(all: &All) -> BTreeMap<&str, Statistics> {
     let say = |moments: &Vec<Moments>| Statistics {
         count: moments.iter().map(|one| one.count).collect(),

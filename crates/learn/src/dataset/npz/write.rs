@@ -1,4 +1,4 @@
-//! A data set of `.npz` files in a folder, resumable like every long job.
+//! Resumable writing of a data set of `.npz` files.
 
 use std::path::{Path, PathBuf};
 
@@ -16,10 +16,11 @@ use super::archive::npz;
 use super::arrays::arrays;
 use super::statistics::{All, moments, said, with};
 
-/// Episodes in a file: megabytes, and seconds of work that an interruption can cost.
+/// Number of episodes per file: some megabytes, and at most seconds of work lost by an
+/// interruption.
 pub const A_FILE: u64 = 128;
 
-/// A finished file, as a line of `records.jsonl`.
+/// Finished file, as a line of `records.jsonl`.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Finished {
@@ -32,13 +33,14 @@ struct Finished {
     moments: All,
 }
 
-/// Makes a data set of `.npz` files in the folder `dir`, or finishes one that was interrupted: files
-/// that are there stay. The files are the same bits for any number of threads and interruptions.
-/// Gives their size, bytes.
+/// Makes a data set of `.npz` files in the folder `dir`, or completes an interrupted one.
+///
+/// Existing files are kept. The files are bit-identical for any number of threads and
+/// interruptions. Returns their size in bytes.
 ///
 /// # Errors
-/// If the configuration asks for nothing, the folder holds a data set of other settings, a file of it
-/// was changed, another process writes to it, a file cannot be written, or `watch` says to stop.
+/// If the configuration requests no data, the folder holds other settings or a changed file, the
+/// folder is locked, a file cannot be written, or `watch` cancels.
 pub fn generate_npz(
     config: &DatasetConfig,
     dir: &Path,
@@ -92,7 +94,7 @@ pub fn generate_npz(
     Ok(bytes)
 }
 
-/// Whether a finished file is still what was written.
+/// Checks that a finished file is unchanged.
 fn unchanged(finished: &Finished, dir: &Path) -> Result<(), String> {
     let path: PathBuf = dir.join(&finished.file);
     let there = std::fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))?;

@@ -1,4 +1,4 @@
-//! Lever-ups as examples, and side by side as tensors.
+//! Lever-ups as examples and as batched tensors.
 
 use crate::lever_model::LeverModel;
 use candle_core::{Device, Result, Tensor};
@@ -12,42 +12,45 @@ use crate::network::{LeverGraph, LeverTensors};
 
 use super::LeverSettings;
 
-/// Normalised features beyond this are cut off, as the cell does.
+/// Bound of normalised features, equal to the bound in the cell.
 const BOUND: f32 = 10.0;
 
-/// Squared distances below this, in units of 5 cm, count less: 1 mm.
+/// Softening of distances in units of 5 cm, squared: errors below 1 mm count less.
 const NEAR: f64 = 4e-4;
 
-/// Weights in the loss, beside that of ways during the turn: of axes, of the pose at rest, of slip
-/// and ending. Ways decide; the others help a little.
+/// Weights in the loss of axes, pose at rest, slip and ending, relative to positions during the
+/// turn.
+///
+/// Positions dominate; the other terms help slightly.
 const WEIGHTS: [f64; 4] = [0.3, 0.1, 0.1, 0.1];
 
-/// A lever-up with its answer.
+/// Lever-up with its ground truth.
 #[derive(Clone, Debug)]
 pub struct LeverExample {
-    /// What the network is told.
+    /// Inputs of the network.
     pub inputs: LeverInputs,
-    /// What is to be added to the base: [T, 9] and at rest [9].
+    /// Targets to add to the base: [T, 9] for frames and [9] at rest.
     wanted: Vec<f32>,
     slip: f32,
     ending: usize,
-    /// Frames that count.
+    /// Number of frames that count.
     frames: usize,
 }
 
 impl LeverExample {
-    /// That of an episode, if it came to rest without a jam and has frames that count.
+    /// Creates the example of an episode, if the episode came to rest without a jam and has frames
+    /// that count.
     pub fn new(settings: &LeverSettings, episode: &LeverEpisode) -> Option<Self> {
         let example = episode.is_sound().then(|| example(settings, episode));
         example.filter(|example| example.frames > 0)
     }
 
-    /// Those of `episodes`.
+    /// Creates the examples of `episodes`.
     pub fn all(settings: &LeverSettings, episodes: &[LeverEpisode]) -> Vec<Self> {
         episodes.par_iter().filter_map(|episode| Self::new(settings, episode)).collect()
     }
 
-    /// Scales of features of a lever-up, and of a frame.
+    /// Returns the scales of the features per lever-up and per frame.
     pub fn scales<'a>(
         examples: impl Iterator<Item = &'a Self> + Clone,
         sizes: &LeverSizes,
@@ -83,26 +86,26 @@ fn example(settings: &LeverSettings, episode: &LeverEpisode) -> LeverExample {
     LeverExample { inputs, wanted, slip, ending, frames }
 }
 
-/// A batch as tensors.
+/// Batch as tensors.
 pub struct LeverBatch {
     tensors: LeverTensors,
-    /// Of every frame: [B, T, 9].
+    /// Targets of all frames: [B, T, 9].
     wanted: Tensor,
-    /// At rest: [B, 1, 9].
+    /// Targets at rest: [B, 1, 9].
     rests: Tensor,
-    /// [B, 1].
+    /// Slips, [B, 1]: 1 or 0.
     slips: Tensor,
-    /// [B, 3]: 1 at the true ending.
+    /// Endings, [B, 3]: 1 at the true ending.
     endings: Tensor,
-    /// How much every frame counts, [B, T]; their sums are 1.
+    /// Weight of every frame, [B, T]; the sum per lever-up is 1.
     shares: Tensor,
 }
 
 impl LeverBatch {
-    /// Examples side by side.
+    /// Creates a batch of examples.
     ///
     /// # Errors
-    /// Those of candle, which examples of these sizes do not cause.
+    /// Errors of candle; examples of these sizes cause none.
     pub fn new(
         examples: &[&LeverExample],
         scales: &[Statistics; 2],
@@ -128,7 +131,7 @@ impl LeverBatch {
         let poses = |values: Vec<f32>, frames: usize| {
             Tensor::from_vec(values, (count, frames, LEVER_POSE), &Device::Cpu)
         };
-        // Where a plate was a frame before: at first it has not moved.
+        // Pose of a plate in the previous frame; initially it has not moved.
         let before = |e: &LeverExample, t: usize| match t.checked_sub(1) {
             Some(last) => e.wanted[last * LEVER_POSE..][..LEVER_POSE].to_vec(),
             None => vec![0.0; LEVER_POSE],
@@ -158,17 +161,19 @@ impl LeverBatch {
         })
     }
 
-    /// Distances of ways and axes, their root mean square over the frames, and at rest, and cross
-    /// entropies of slip and ending; means over lever-ups. The network may be told something `beside`
-    /// features, see [`LeverGraph::forward`].
+    /// Returns the loss, averaged over lever-ups.
+    ///
+    /// The loss contains root mean square distances of positions and axes over the frames and at
+    /// rest, and cross entropies of slip and ending. `beside` is an optional additional input, see
+    /// [`LeverGraph::forward`].
     ///
     /// # Errors
-    /// Those of candle.
+    /// Errors of candle.
     pub fn loss(&self, network: &LeverGraph, beside: Option<&Tensor>) -> Result<Tensor> {
         let (poses, end) = network.forward(&self.tensors, beside)?;
         let [axes, rest, slip, ending] = WEIGHTS;
         let told = Tensor::stack(&poses, 1)?;
-        // Not the mean distance: what is published is the root mean square over the frames.
+        // The published measure is the root mean square over frames instead of the mean distance.
         let squares = |told: &Tensor, wanted: &Tensor, from: usize, count: usize| {
             (told.narrow(2, from, count)? - wanted.narrow(2, from, count)?)?.sqr()?.sum(2)
         };
@@ -180,7 +185,7 @@ impl LeverBatch {
         let told = end.narrow(1, 4, LEVER_POSE)?.unsqueeze(1)?;
         let apart = (squares(&told, &self.rests, 0, 3)?.sum(1)? + NEAR)?.sqrt()?.mean_all()?;
         loss = (loss + (apart * rest)?)?;
-        // log(1 + exp x) - x y, without overflow.
+        // Computes log(1 + exp x) - x y without overflow.
         let x = end.narrow(1, 0, 1)?;
         let soft = (x.relu()? + ((x.abs()?.neg()?.exp()? + 1.0)?.log()?))?;
         loss = (loss + ((soft - (x * &self.slips)?)?.mean_all()? * slip)?)?;

@@ -1,4 +1,4 @@
-//! Everything that decides a training run besides its episodes, and what it reports.
+//! Settings of a training run except its episodes, and its score.
 
 use std::fmt;
 
@@ -10,41 +10,41 @@ use serde::{Deserialize, Serialize};
 use crate::dataset::{LeverConfig, LeverEpisode};
 use crate::train::Descent;
 
-/// Settings of a run; the defaults are those of the shipped weights, but for the data.
+/// Settings of a run; apart from the data, the defaults are the settings of the shipped weights.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeverSettings {
-    /// What the network is told of the shape.
+    /// Shape features.
     pub features: LeverFeatures,
-    /// Whether it corrects the prior.
+    /// Whether the network corrects the analytic model.
     pub prior: bool,
     /// Width of the hidden state, H.
     pub width: usize,
-    /// Seed of first weights and batches.
+    /// Seed of initial weights and batches.
     pub seed: u64,
-    /// How weights follow gradients.
+    /// Optimisation settings.
     pub descent: Descent,
-    /// Whether it is told the pose of the frame before: the true one when it learns, its own when it
-    /// predicts.
+    /// Whether the pose of the previous frame is an input: the true pose in training, the predicted
+    /// one in rollouts.
     pub feedback: bool,
-    /// Whether the frames from a slip on are left out.
+    /// Whether frames from a slip on are excluded.
     pub cut: bool,
     /// Whether the data are one part of a random split over lever-ups.
     pub split: bool,
-    /// The families that it is trained on.
+    /// Data sets for training.
     pub data: Vec<LeverConfig>,
-    /// Plates of this many corners are left out of them.
+    /// Number of corners of plates that are excluded from the data.
     pub left_out: Option<usize>,
 }
 
 impl LeverSettings {
-    /// Widths of the network.
+    /// Returns the widths of the network.
     pub fn sizes(&self) -> LeverSizes {
         let sizes = LeverInputs::sizes(self.features, self.prior, self.width);
         LeverSizes { feedback: self.feedback, ..sizes }
     }
 
-    /// The card after `steps` steps on this many `episodes`, with the scales of features of a lever-up
-    /// and of a frame.
+    /// Returns the card after `steps` steps on this many `episodes`, with the feature scales per
+    /// lever-up and per frame.
     pub fn card(&self, [still, moving]: [Statistics; 2], episodes: usize, steps: u64) -> LeverCard {
         LeverCard {
             features: self.features,
@@ -57,7 +57,8 @@ impl LeverSettings {
         }
     }
 
-    /// Those of `held_out` that came to rest without a jam, as far as their frames count.
+    /// Returns the episodes of `held_out` that came to rest without a jam, reduced to the frames
+    /// that count.
     pub fn judged_on(&self, held_out: &[LeverEpisode]) -> Vec<LeverEpisode> {
         let sound = held_out.iter().filter(|episode| episode.is_sound());
         sound
@@ -92,20 +93,21 @@ impl Default for LeverSettings {
     }
 }
 
-/// Errors on lever-ups that were not learned from.
+/// Errors on held-out lever-ups.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LeverScore {
-    /// Root mean square distance of the centre of mass over the turn, mean, metres.
+    /// Mean over lever-ups of the root mean square distance of the centre of mass over the turn,
+    /// metres.
     pub lift: f64,
-    /// Distance at its end, mean, metres.
+    /// Mean distance at the end of the turn, metres.
     pub last: f64,
-    /// Share of slips told right.
+    /// Share of correctly predicted slips.
     pub slips: f64,
-    /// Share of endings told right.
+    /// Share of correctly predicted endings.
     pub endings: f64,
 }
 
-/// What a person wants to follow.
+/// Summary for the progress display.
 impl fmt::Display for LeverScore {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [lift, last] = [self.lift, self.last].map(|metres| 1e3 * metres);

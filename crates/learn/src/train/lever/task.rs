@@ -1,4 +1,4 @@
-//! What the trainer asks of a network of lever-ups.
+//! Training task of lever-up networks.
 
 use std::path::PathBuf;
 
@@ -18,10 +18,10 @@ use crate::train::{Descent, REPLICAS, TrainError, Trainable, Trainer, gradients_
 
 use super::{LeverBatch, LeverExample, LeverScore, LeverSettings};
 
-/// Trains in `folder`, see [`Trainer::run`].
+/// Trains a network in `folder`, see [`Trainer::run`].
 ///
 /// # Errors
-/// [`TrainError`]; whatever was saved before stays.
+/// [`TrainError`]; files saved before are kept.
 pub fn train_lever(
     settings: &LeverSettings,
     episodes: &[LeverEpisode],
@@ -43,7 +43,7 @@ struct Task<'a> {
 impl Trainable for Task<'_> {
     const KEY: &'static str = "pushplan-lever-checkpoint";
     type Settings = LeverSettings;
-    /// Of features of a lever-up, and of a frame.
+    /// Feature scales per lever-up and per frame.
     type Scales = [Statistics; 2];
     type Score = LeverScore;
     type Card = LeverCard;
@@ -83,7 +83,7 @@ impl Trainable for Task<'_> {
     }
 
     fn score(&self, weights: &LeverWeights) -> LeverScore {
-        // Weights that cannot be used have no error.
+        // Unusable weights have zero error.
         let network = LeverNetwork::new(weights);
         network.map_or_else(|_| LeverScore::default(), |network| score(&network, &self.held_out))
     }
@@ -97,7 +97,7 @@ impl Trainable for Task<'_> {
     }
 }
 
-/// One replica's share of `batch` examples, drawn by seed and step alone.
+/// Returns one replica's share of `batch` examples, which depends only on seed, step and replica.
 pub fn drawn<T>(examples: &[T], batch: usize, (seed, step, replica): (u64, u64, usize)) -> Vec<&T> {
     let mut rng = generator(seed, step);
     let all = (0..batch).map(|_| &examples[rng.random_range(0..examples.len())]);
@@ -105,7 +105,7 @@ pub fn drawn<T>(examples: &[T], batch: usize, (seed, step, replica): (u64, u64, 
     all.take(to).skip(from).collect()
 }
 
-/// Errors of a network on held-out lever-ups.
+/// Computes the errors of a network on held-out lever-ups.
 pub fn score(network: &dyn LeverModel, held_out: &[LeverEpisode]) -> LeverScore {
     let jobs: Vec<LeverJob> = held_out.iter().map(|episode| episode.job()).collect();
     let share = 1.0 / jobs.len().max(1) as f64;

@@ -1,5 +1,4 @@
-//! How far off the network will be: fitted to its own rollouts once its weights are trained, see
-//! [`Doubt`].
+//! Error predicted by the network itself, fitted to its own rollouts after training, see [`Doubt`].
 
 use pushplan::internals::effect::Network;
 use pushplan::internals::geometry::Pose;
@@ -15,35 +14,36 @@ use rayon::prelude::*;
 
 use crate::dataset::{Dataset, Episode};
 
-/// Most episodes of a set that are rolled out, and fewer of crowds, which have more objects.
+/// Maximum number of rolled-out episodes per set, for tools and for crowds, which have more
+/// objects.
 const EPISODES: [usize; 2] = [1500, 150];
 
-/// An object that moves less is no test, metres.
+/// Minimum displacement of an object that counts, metres.
 const MOVED: f64 = 0.01;
 
-/// Steps down the likelihood, and how long they are in the beginning.
+/// Number of optimiser steps and initial step size.
 const STEPS: usize = 400;
 const RATE: f64 = 0.03;
 
-/// Pulls weights towards zero.
+/// Weight decay.
 const DECAY: f64 = 1e-4;
 
-/// Errors below this count as this, metres and radians: recordings know no better.
+/// Lower bounds of errors, metres and radians: the accuracy of recordings.
 const LEAST: [f64; 2] = [2e-5, 2e-4];
 
-/// An object of an episode: how far off it ends, and its hidden rows.
+/// Object of an episode with its final errors and hidden rows.
 struct Case {
-    /// Of its position, metres; of its heading, radians, unless it is round.
+    /// Error of the position, metres, and of the heading, radians, unless the object is round.
     errors: [Option<f64>; 2],
-    /// From output units to metres and radians.
+    /// Factors from output units to metres and radians.
     units: [f64; 2],
-    /// The even half of each of its frames, [T, h].
+    /// Even half of the hidden row of each frame, [T, h].
     rows: Vec<f32>,
-    /// How much it counts.
+    /// Weight of the case.
     weight: f64,
 }
 
-/// The doubt of these weights, from rollouts of `sets`.
+/// Fits the predicted error of these weights to rollouts of `sets`.
 pub(super) fn fit_doubt(weights: &PredictorWeights, sets: &[Dataset]) -> Doubt {
     let network = Network::new(weights.clone());
     let cases: Vec<Case> = sets.iter().flat_map(|set| cases(&network, set)).collect();
@@ -57,7 +57,7 @@ pub(super) fn fit_doubt(weights: &PredictorWeights, sets: &[Dataset]) -> Doubt {
     }
 }
 
-/// All objects of a set that count, which together have the same weight as those of any other.
+/// Returns the cases of a set, with equal total weights for all sets.
 fn cases(network: &Network, set: &Dataset) -> Vec<Case> {
     let most = EPISODES[usize::from(set.config().preset.is_crowd())];
     let episodes = &set.episodes()[..set.episodes().len().min(most)];
@@ -83,7 +83,7 @@ fn rolled(forward: &Forward, episode: &Episode) -> Vec<Case> {
         }
     };
     let job = Job::stated(&episode.scene, episode.motion.clone());
-    // Nothing left out, so that objects have the numbers of the scene.
+    // Pruning is disabled, so that objects keep their indices in the scene.
     let settings = RollSettings { pruned: false, ..RollSettings::default() };
     let spec = ModelSpec::from(ModelKind::NETWORK);
     let found = Roller::new(spec, settings).roll(
@@ -112,12 +112,12 @@ fn rolled(forward: &Forward, episode: &Episode) -> Vec<Case> {
     rows.into_iter().enumerate().filter_map(case).collect()
 }
 
-/// What is fitted of one of the two.
+/// Parameters fitted for position or heading.
 #[derive(Clone)]
 struct Fitted {
     weights: Vec<f64>,
     bias: f64,
-    /// Logarithm of the floor.
+    /// Logarithm of the lower bound.
     low: f64,
 }
 
@@ -131,7 +131,7 @@ impl Fitted {
     }
 }
 
-/// Adam (Kingma and Ba 2015) on the mean of ln S + r / S.
+/// Minimises the mean of ln S + r / S with Adam (Kingma and Ba 2015).
 fn fit(cases: &[Case], k: usize, half: usize) -> Fitted {
     let cases: Vec<&Case> =
         cases.iter().filter(|case| case.errors[k].is_some() && !case.rows.is_empty()).collect();

@@ -1,4 +1,4 @@
-//! Single frames of episodes as training examples, with disturbed inputs.
+//! Single frames of episodes as training examples with perturbed inputs.
 
 use pushplan::internals::contact::{Bodies, FrameProblem, FrameSolver, ListIndex, Motion, hold};
 use pushplan::internals::geometry::{Pose, Vector};
@@ -16,49 +16,53 @@ use serde::{Deserialize, Serialize};
 
 use crate::dataset::Episode;
 
-/// How input states are disturbed (Sanchez-Gonzalez et al. 2020, "random-walk noise").
+/// Perturbation of input states (Sanchez-Gonzalez et al. 2020, "random-walk noise").
 ///
-/// The target is the correction that the prior needs at the true state. What a disturbance
-/// changes, the prior answers: asking the network to find back instead asks for what nobody can
-/// know, the side to which a state is off, and buries what it can learn. At 3000 steps this
-/// leaves a median error of 0.35 mm for one object, finding back 0.43.
+/// The target is the correction of the analytic model at the true state.
+///
+/// The analytic model accounts for the perturbation. A target that returns to the true state would
+/// require unobservable information, the direction of the perturbation, and would mask learnable
+/// effects. At 3000 steps the median error for one object is 0.35 mm, compared with 0.43 mm for
+/// returning.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Noise {
-    /// Largest shift drawn, metres. The size of a scene's disturbance is drawn log-uniformly
-    /// from `Noise::SMALLEST` of this to all of it, so that precision near the truth and
-    /// recovery from afar are both trained.
+    /// Maximum shift, metres.
+    ///
+    /// The size of a scene's perturbation is log-uniform between the share `Noise::SMALLEST` of
+    /// this and all of it. Precision near the ground truth and recovery from large errors are
+    /// therefore both trained.
     pub shift: f64,
-    /// Radians of turn per metre of shift.
+    /// Rotation per metre of shift, radians.
     pub turn_per_metre: f64,
-    /// Share of examples left undisturbed.
+    /// Share of unperturbed examples.
     pub clean: f64,
-    /// Largest number of frames that the network's own rollout leads up to an example; 0 for
-    /// none.
+    /// Maximum number of frames that the network's own rollout precedes an example; 0 for none.
     pub lead: usize,
-    /// How that number is drawn.
+    /// Distribution of this number.
     #[serde(default)]
     pub exposure: Exposure,
-    /// Share of examples in which the network is not told what objects rest on, and the prior takes
-    /// them to rest evenly: planning often knows no better.
+    /// Share of examples with unknown supports, for which the analytic model assumes uniform
+    /// support. Supports are often unknown in planning.
     #[serde(default)]
     pub unknown_supports: f64,
 }
 
-/// How the network meets states of its own making in training. No gradient flows from a frame
-/// into the one before.
+/// Exposure of the network to its own predictions in training. Gradients do not propagate between
+/// frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Exposure {
-    /// Any number of frames up to `lead`, each equally often, from the start of training on:
-    /// the "pushforward" of Brandstetter, Worrall and Welling (2022).
+    /// Uniform number of frames up to `lead` over the whole run: the "pushforward" of Brandstetter,
+    /// Worrall and Welling (2022).
     #[default]
     Pushforward,
-    /// Scheduled sampling (Bengio, Vinyals, Jaitly and Shazeer 2015; Tekden 2020, 8.1.2): each
-    /// of the last `lead` frames is the network's own, given the later ones are, with a
-    /// probability that rises evenly from zero to one over the run.
+    /// Scheduled sampling (Bengio, Vinyals, Jaitly and Shazeer 2015; Tekden 2020, 8.1.2).
+    ///
+    /// Each of the last `lead` frames is predicted, if the later ones are, with a probability that
+    /// increases linearly from zero to one over the run.
     Scheduled,
-    /// A loss over several steps: every start is followed for `lead` frames of its own, and
-    /// every one of them is an example. As many examples a step, from fewer starts.
+    /// Loss over several steps. Every start is followed for `lead` predicted frames, each of which
+    /// is an example. The number of examples per step is unchanged, with fewer starts.
     MultiStep,
 }
 
@@ -79,32 +83,32 @@ impl Default for Noise {
     }
 }
 
-/// An example: its episode and the frame before the transition.
+/// Position of an example: its episode and the frame before the transition.
 struct Place<'a> {
     episode: &'a Episode,
     frame: u32,
     wanted: Box<[Wanted]>,
 }
 
-/// The correction that the prior of an object needs, in output units.
+/// Required correction of an object's analytic prediction, in output units.
 struct Wanted {
     object: ListIndex,
     correction: [f32; 6],
 }
 
-/// All usable transitions of several sets of episodes.
+/// Usable transitions of several sets of episodes.
 pub struct Examples<'a> {
     sets: Vec<Places<'a>>,
 }
 
-/// Those of one set.
+/// Usable transitions of one set.
 struct Places<'a> {
     places: Vec<Place<'a>>,
-    /// How often an example is of this set, against others.
+    /// Relative frequency of examples from this set.
     weight: f64,
 }
 
-/// A batch with the corrections wanted, row-major [N, 6], and the loss weights.
+/// Batch with its target corrections, row-major [N, 6], and loss weights.
 #[derive(Default)]
 pub(super) struct Supervised {
     pub batch: Batch,
@@ -113,8 +117,8 @@ pub(super) struct Supervised {
 }
 
 impl<'a> Examples<'a> {
-    /// Finds every transition in which the network has something to decide, of sets with the weights
-    /// by which they are drawn from.
+    /// Collects all transitions in which the network has an effect, given sets of episodes with
+    /// their sampling weights.
     pub fn new(sets: impl IntoIterator<Item = (&'a [Episode], f64)>) -> Self {
         let places = |(episodes, weight): (&'a [Episode], f64)| Places {
             places: episodes.par_iter().flat_map_iter(places).collect(),
@@ -124,15 +128,15 @@ impl<'a> Examples<'a> {
         Self { sets }
     }
 
-    /// Number of examples.
+    /// Returns the number of examples.
     pub fn count(&self) -> usize {
         self.sets.iter().map(|set| set.places.len()).sum()
     }
 
-    /// Any example, all of a set equally likely.
+    /// Draws an example, uniformly within a set.
     fn any(&self, random: &mut Pcg64) -> &Place<'a> {
         let whole: f64 = self.sets.iter().map(|set| set.weight).sum();
-        // With a single set nothing is drawn that was not drawn for it alone.
+        // A single set draws no additional random number.
         let mut left = if self.sets.len() > 1 { random.random::<f64>() * whole } else { 0.0 };
         let chosen = self.sets.iter().position(|set| {
             left -= set.weight;
@@ -142,8 +146,8 @@ impl<'a> Examples<'a> {
         &set.places[random.random_range(0..set.places.len())]
     }
 
-    /// `count` examples drawn with the random numbers of (`seed`, `step`, `part`), `progress`
-    /// (0 to 1) of the way through the run.
+    /// Draws `count` examples with the random numbers of (`seed`, `step`, `part`) at `progress` (0
+    /// to 1) of the run.
     pub(super) fn draw(
         &self,
         noise: &Noise,
@@ -182,7 +186,7 @@ impl<'a> Examples<'a> {
                     disturb(&mut state, noise, &mut random);
                     hold(&bodies, &mut state, |_| true);
                 }
-                // Of a guess the prior needs another correction than of the truth.
+                // A guessed support requires another correction than the true one.
                 let wanted = (!unknown).then_some(&*place.wanted);
                 let at = frame - lead;
                 let transition = Transition::of(episode, at);
@@ -212,7 +216,7 @@ impl<'a> Examples<'a> {
     }
 }
 
-/// The usable transitions of an episode.
+/// Returns the usable transitions of an episode.
 fn places(episode: &Episode) -> impl Iterator<Item = Place<'_>> {
     let bodies = bodies(episode);
     let mut memory = Memory::default();
@@ -223,21 +227,21 @@ fn places(episode: &Episode) -> impl Iterator<Item = Place<'_>> {
     })
 }
 
-/// An example on its way from the state it was drawn at to the frame it is taken at.
+/// Example during its rollout from the drawn state to its frame.
 struct Start<'a> {
     episode: &'a Episode,
     bodies: Bodies,
-    /// The frame before the transition to learn.
+    /// Frame before the target transition.
     frame: usize,
-    /// The corrections wanted there, if they are known.
+    /// Required corrections at that frame, if known.
     wanted: Option<&'a [Wanted]>,
-    /// The frame that `state` belongs to, and what the tool does from there.
+    /// Frame of `state`, and the tool's motion from there.
     at: usize,
     transition: Transition,
     state: State,
 }
 
-/// With the network, up to the frame of the example.
+/// Rolls out with the network up to the frame of the example.
 impl Walk for Start<'_> {
     fn next(&mut self) -> Option<FrameProblem<'_>> {
         (self.at < self.frame).then(|| self.transition.problem(&self.bodies, &self.state))
@@ -250,14 +254,14 @@ impl Walk for Start<'_> {
     }
 }
 
-/// Memory that building graphs reuses.
+/// Buffers reused for building graphs.
 #[derive(Default)]
 struct Memory {
     solver: FrameSolver,
     batch: Batch,
 }
 
-/// The corrections that the prior needs from frame `frame` to the next, at the true state.
+/// Returns the required corrections from frame `frame` to the next, at the true state.
 fn wanted(
     episode: &Episode,
     bodies: &Bodies,
@@ -299,7 +303,8 @@ impl Supervised {
             memory.solver.solve_with_forces(start.transition.problem(bodies, state));
         self.batch.add(0, &frame, &forces);
         for node in &self.batch.nodes[first..] {
-            // What nothing can touch at the true state moves as its prior says, exactly.
+            // Objects that no body can touch at the true state move exactly as the analytic model
+            // predicts.
             let known = wanted.iter().find(|wanted| wanted.object == node.object);
             self.target.extend(known.map_or([0.0; 6], |wanted| wanted.correction));
             let cylinder = episode.scene.objects[node.object.0].shape.is_cylinder();
@@ -308,13 +313,13 @@ impl Supervised {
     }
 }
 
-/// The bodies of an episode.
+/// Returns the bodies of an episode.
 fn bodies(episode: &Episode) -> Bodies {
     let physics = Physics::stated(&episode.scene);
     Bodies::new(&episode.scene, &episode.motion.tool, episode.motion.lift, &physics)
 }
 
-/// The same where nobody knows what objects rest on.
+/// Returns the bodies of an episode with unknown supports.
 fn guessed(episode: &Episode) -> Bodies {
     let mut physics = Physics::stated(&episode.scene);
     physics.support_all(&episode.scene, &Support::Even);
@@ -322,19 +327,19 @@ fn guessed(episode: &Episode) -> Bodies {
     Bodies::new(&episode.scene, &episode.motion.tool, episode.motion.lift, &physics)
 }
 
-/// The tool's motion between a frame and the next, and the unit vector of its stroke.
+/// Motion of the tool between two consecutive frames, and the unit vector of its stroke.
 struct Transition {
     step: FrameStep,
     axis: Vector,
 }
 
 impl Transition {
-    /// From frame `index` of an episode to the next.
+    /// Returns the transition from frame `index` of an episode to the next.
     fn of(episode: &Episode, index: usize) -> Self {
         let frames = &episode.frames;
         let stroke_index = frames[index + 1].stroke;
         let stroke = &episode.motion.strokes[stroke_index];
-        // Frames of this stroke before the next one: the start belongs to none.
+        // Number of earlier frames of this stroke; the initial frame belongs to no stroke.
         let done = frames[1..=index].iter().rev().take_while(|f| f.stroke == stroke_index).count();
         let axis = stroke.direction().unwrap_or_else(Vector::x);
         let step = if done < stroke.frames() {
@@ -358,7 +363,7 @@ fn disturb(state: &mut State, noise: &Noise, random: &mut Pcg64) {
             position: pose.position + Vector::new(draw(size), draw(size)),
             heading: pose.heading + draw(size * noise.turn_per_metre),
         };
-        // Objects at rest stay at rest; moving ones get a few per cent.
+        // Objects at rest stay at rest; velocities of moving objects change by a few per cent.
         let share = size / noise.shift * 0.1;
         let speed = velocity.linear.norm();
         velocity.linear += Vector::new(draw(share * speed), draw(share * speed));

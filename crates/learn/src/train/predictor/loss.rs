@@ -1,27 +1,30 @@
-//! The one-frame loss: pseudo-Huber on the six output numbers of every node.
+//! Loss of a single frame: pseudo-Huber on the six outputs of every node.
 
 use candle_core::{Device, Result, Tensor};
 
-/// Errors well above this count linearly, in output units (0.1 mm): pushes on the edge of
-/// slipping off are decided by less than anyone can know and must not rule the weights.
+/// Error above which the loss is linear, in output units (0.1 mm).
+///
+/// Pushes at the edge of slipping off are unpredictable and must not dominate the weights.
 const KNEE: f64 = 0.01;
 
-/// Weight of shifts (x, y), the turn, and the corresponding velocities.
+/// Weights of shifts (x, y), of rotations, and of the corresponding velocities.
 const SHIFT: f32 = 1.0;
 const TURN: f32 = 1.0;
-/// Velocities only decide how far an object slides on after the push.
+/// Velocities affect only the free sliding after a push.
 const VELOCITY: f32 = 0.2;
-/// Nobody sees a cylinder turn; its spin matters a little for how it slides.
+/// The rotation of a cylinder is unobservable and hardly affects its sliding.
 const CYLINDER: f32 = 0.1;
 
-/// Weights of a node's six outputs, in their order.
+/// Returns the weights of a node's six outputs, in their order.
 pub(super) fn weights(cylinder: bool) -> [f32; 6] {
     let turn = if cylinder { CYLINDER } else { 1.0 };
     [SHIFT, VELOCITY, SHIFT, TURN * turn, VELOCITY, VELOCITY * turn]
 }
 
-/// Sum over nodes and outputs of weight x KNEE^2 (sqrt(1 + (e / KNEE)^2) - 1), divided by
-/// `count`: predicted [N, 6], target and weight row-major [N, 6].
+/// Returns the sum over nodes and outputs of weight x KNEE^2 (sqrt(1 + (e / KNEE)^2) - 1), divided
+/// by `count`.
+///
+/// Shapes: predicted [N, 6], target and weight row-major [N, 6].
 pub(super) fn loss(
     predicted: &Tensor,
     target: Vec<f32>,
@@ -32,7 +35,7 @@ pub(super) fn loss(
     let target = Tensor::from_vec(target, shape.clone(), &Device::Cpu)?;
     let weight = Tensor::from_vec(weight, shape, &Device::Cpu)?;
     let error = ((predicted - target)? / KNEE)?;
-    // Never the root of zero, whose gradient is infinite.
+    // The argument of the root is at least one, so the gradient is finite.
     let huber = ((error.sqr()? + 1.0)?.sqrt()? - 1.0)?;
     (huber * weight)?.sum_all()? * (KNEE * KNEE / count as f64)
 }

@@ -1,4 +1,4 @@
-//! The held-out criterion: whole rollouts against the truth.
+//! Held-out criterion: errors of whole rollouts.
 
 use std::fmt;
 
@@ -9,40 +9,42 @@ use serde::{Deserialize, Serialize};
 
 use crate::dataset::{Dataset, Episode};
 
-/// Cap of a single error in the criterion, metres.
+/// Upper bound of a single error in the criterion, metres.
 const CAP: f64 = 0.01;
 
-/// Scenes with more objects than this are crowds: those with tools have no more.
+/// Maximum number of objects of scenes with tools; larger scenes are crowds.
 const FEW: usize = 3;
 
-/// Final position errors of rollouts over held-out episodes; objects whose true motion exceeds
-/// 1 cm are counted.
+/// Final position errors of rollouts over held-out episodes, over objects with a true displacement
+/// above 1 cm.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct HeldOutError {
-    /// Objects counted.
+    /// Number of objects that count.
     pub objects: usize,
-    /// Mean, metres.
+    /// Mean error, metres.
     pub mean: f64,
-    /// Median, metres.
+    /// Median error, metres.
     pub median: f64,
-    /// 95th percentile, metres.
+    /// 95th percentile of the error, metres.
     pub p95: f64,
-    /// Mean with every error capped at 10 mm, metres: what decides which weights are best,
-    /// because a handful of pushes that end differently by chance otherwise would.
+    /// Mean error with every error limited to 10 mm, metres.
+    ///
+    /// This is the criterion for the best weights because otherwise a few bifurcating pushes would
+    /// dominate.
     pub capped: f64,
     /// Mean heading error of cuboids, radians.
     pub heading: f64,
-    /// The same over episodes with a single object.
+    /// Errors over episodes with a single object.
     pub single: Option<Box<HeldOutError>>,
-    /// The same over episodes with more than three.
+    /// Errors over episodes with more than three objects.
     pub crowd: Option<Box<HeldOutError>>,
-    /// The same over each set of episodes, in their order, if there are several; `capped` above is
-    /// then the mean of theirs.
+    /// Errors over each set of episodes, in their order, if there are several. `capped` is then the
+    /// mean over the sets.
     #[serde(default)]
     pub sets: Vec<HeldOutError>,
 }
 
-/// What a person wants to follow.
+/// Summary for the progress display.
 impl fmt::Display for HeldOutError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [mean, median, p95] = [self.mean, self.median, self.p95].map(|metres| 1e3 * metres);
@@ -50,7 +52,7 @@ impl fmt::Display for HeldOutError {
     }
 }
 
-/// Rolls every episode out from its first frame and compares the last.
+/// Rolls out every episode from its first frame and compares the final states.
 pub fn rollout_error(model: &dyn EffectModel, sets: &[Dataset]) -> HeldOutError {
     let judged: Vec<Vec<Judged>> = sets.iter().map(|set| judge(model, set.episodes())).collect();
     if let [one] = &judged[..] {
@@ -61,7 +63,7 @@ pub fn rollout_error(model: &dyn EffectModel, sets: &[Dataset]) -> HeldOutError 
     HeldOutError { capped, sets, ..summaries(&judged.concat()) }
 }
 
-/// An object's error, with the number of objects in its scene.
+/// Error of an object, with the number of objects in its scene.
 type Judged = (usize, ObjectError);
 
 fn judge(model: &dyn EffectModel, episodes: &[Episode]) -> Vec<Judged> {

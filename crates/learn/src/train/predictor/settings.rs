@@ -1,4 +1,4 @@
-//! Everything that decides a training run besides its data.
+//! Settings of a training run except its data.
 
 use pushplan::internals::network::Config;
 use serde::{Deserialize, Serialize};
@@ -7,16 +7,16 @@ use crate::train::Descent;
 
 use super::Noise;
 
-/// Settings of a run; the defaults are those of the shipped weights.
+/// Settings of a run; the defaults are the settings of the shipped weights.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PredictorSettings {
     /// Network size.
     pub config: Config,
-    /// Seed of first weights, batches and noise.
+    /// Seed of initial weights, batches and noise.
     pub seed: u64,
-    /// How weights follow gradients.
+    /// Optimisation settings.
     pub descent: Descent,
-    /// Disturbance of input states.
+    /// Perturbation of input states.
     pub noise: Noise,
 }
 
@@ -27,7 +27,7 @@ impl Default for PredictorSettings {
             seed: 1,
             descent: Descent {
                 steps: 3000,
-                // Large enough that two cores' halves keep the matrix products busy.
+                // Large enough to keep the matrix products of two cores busy.
                 batch: 256,
                 evaluate_every: 500,
                 learning_rate: 1e-3,

@@ -1,9 +1,9 @@
-//! How much of a trained correction counts: as much as serves every truth.
+//! Scaling of the trained correction for all sources of ground truth.
 //!
-//! Where truths disagree and much is decided by chance, one-frame losses fall with corrections that
-//! make whole pushes worse. So the last layer is scaled once the weights are trained: of a few
-//! shares the one with the least error over the held-out sets counts, and of these only one that
-//! leaves no set with an error larger than the prior's by more than chance.
+//! If ground truths disagree and outcomes are partly random, one-frame losses decrease with
+//! corrections that make whole pushes worse. The last layer is therefore scaled after training. The
+//! chosen share has the minimum error over the held-out sets, among the shares whose error on no
+//! set exceeds the analytic model's significantly.
 
 use pushplan::internals::effect::Network;
 use pushplan::internals::network::PredictorWeights;
@@ -13,14 +13,15 @@ use crate::dataset::Dataset;
 
 use super::{HeldOutError, rollout_error};
 
-/// The shares that are tried, after none.
+/// Candidate shares in addition to zero.
 const SHARES: [f32; 6] = [0.15, 0.3, 0.45, 0.6, 0.8, 1.0];
 
-/// Held-out sets of some hundred pushes tell no smaller difference from chance.
+/// Relative difference below which errors on held-out sets of some hundred pushes are not
+/// significant.
 const CHANCE: f64 = 0.01;
 
-/// The weights with the share of their correction that serves all of `sets`, and that share; none if
-/// no other does.
+/// Returns the weights with the best share of their correction for all of `sets`, and that share;
+/// zero if no other share is better.
 pub(super) fn shared(
     weights: &PredictorWeights,
     sets: &[Dataset],

@@ -1,4 +1,4 @@
-//! What the trainer asks of the physics predictor.
+//! Training task of the physics predictor.
 
 use std::path::{Path, PathBuf};
 
@@ -19,20 +19,20 @@ use super::loss::loss;
 use super::share::shared;
 use super::{Examples, HeldOutError, PredictorSettings, rollout_error};
 
-/// Graphs on which the feature scales are measured.
+/// Number of graphs on which the feature scales are measured.
 const NORMALISER_GRAPHS: usize = 4096;
 
-/// Steps between refreshes of the network that leads up to examples (see `Noise::lead`).
+/// Number of steps between updates of the network that precedes examples (see `Noise::lead`).
 const REFRESH: u64 = 50;
 
-/// How often an example is of a crowd, against those of each truth of pushes with tools: of tools are
-/// then as many objects in frames as in crowds.
+/// Relative frequency of crowd examples. Frames then contain equally many objects of tool episodes
+/// and crowds.
 const CROWDS: f64 = 0.7;
 
-/// Trains in `folder`, see [`Trainer::run`].
+/// Trains a network in `folder`, see [`Trainer::run`].
 ///
 /// # Errors
-/// [`TrainError`]; whatever was saved before stays.
+/// [`TrainError`]; files saved before are kept.
 pub fn train_predictor(
     settings: &PredictorSettings,
     data: &[Dataset],
@@ -49,8 +49,8 @@ pub fn train_predictor(
     Ok(best)
 }
 
-/// Once the schedule is through: scales the correction of the weights in a file to what serves every
-/// truth, and adds how far off they expect to be.
+/// Completes the weights in a file after the schedule: scales their correction and adds their
+/// predicted error.
 fn finish(
     path: &Path,
     steps: u64,
@@ -70,7 +70,7 @@ fn finish(
     Ok(())
 }
 
-/// How often an example is of this set, against others.
+/// Returns the relative frequency of examples from this set.
 fn weight(set: &Dataset) -> f64 {
     if set.config().preset.is_crowd() { CROWDS } else { 1.0 }
 }
@@ -85,7 +85,7 @@ struct Task<'a> {
     data: &'a [Dataset],
     held_out: &'a [Dataset],
     examples: Examples<'a>,
-    /// What leads up to examples.
+    /// Network that precedes examples.
     lead: Option<Forward>,
 }
 

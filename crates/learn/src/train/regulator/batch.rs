@@ -1,4 +1,4 @@
-//! Lessons side by side, as tensors.
+//! Lessons as batched tensors.
 
 use candle_core::{Device, Result, Tensor};
 use pushplan::internals::network::Statistics;
@@ -8,33 +8,33 @@ use pushplan_act::regulator::{LEAST, TYPES};
 use crate::dataset::Lesson;
 use crate::network::{RegulatorGraph, Unrolled};
 
-/// Weight of the first and of the last window in the loss (thesis 8.1.3, which begins at none): late
-/// beliefs must be right, early ones may still be open.
+/// Weights of the first and the last window in the loss (thesis 8.1.3, which starts at zero). Late
+/// beliefs must be correct, early ones may be undecided.
 const WEIGHT: [f32; 2] = [0.2, 2.0];
 
-/// Weight of squared changes of hidden states in the loss, as the authors': memories that jump about
-/// are not smoothed away by time.
+/// Weight of squared changes of hidden states in the loss, as in the original work, which keeps
+/// hidden states smooth over time.
 const CHANGES: f64 = 1e-6;
 
-/// Normalised features beyond this are cut off, as the cell does.
+/// Bound of normalised features, equal to the bound in the cell.
 const BOUND: f32 = 10.0;
 
-/// A lesson, and those of its windows that are learned from.
+/// Lesson with its windows for training.
 pub(super) type Heard<'a> = (&'a Lesson, Vec<&'a Testimony>);
 
-/// Of what a loss is made besides the network's answer.
+/// Inputs of the loss apart from the network's outputs.
 pub(super) struct Examples {
     unrolled: Unrolled,
     /// T tensors [P, 4]: logarithms of the filter's probabilities.
     filtered: Vec<Tensor>,
-    /// T tensors [P, 4]: the weight at the true type, else 0.
+    /// T tensors [P, 4]: the weight at the true type, otherwise 0.
     wanted: Vec<Tensor>,
     /// Sum of all weights.
     weight: f64,
 }
 
 impl Examples {
-    /// Lays `lessons` side by side; shorter ones are told nothing at their end.
+    /// Creates a batch of `lessons`; shorter lessons are padded with uninformative windows.
     pub fn new(lessons: &[Heard], scales: &Statistics) -> Result<Self> {
         let windows = lessons.iter().map(|(_, windows)| windows.len()).max().unwrap_or(0);
         let pairs: usize = lessons.iter().map(|(lesson, _)| lesson.pairs.len()).sum();
@@ -94,7 +94,8 @@ impl Examples {
         Ok(Self { unrolled, filtered, wanted, weight })
     }
 
-    /// Cross entropy of the regulated beliefs, weighed over time, and the smoothness of memories.
+    /// Returns the weighted cross entropy of the regulated beliefs plus the penalty on hidden
+    /// changes.
     pub fn loss(&self, network: &RegulatorGraph) -> Result<Tensor> {
         let (outputs, changes) = network.forward(&self.unrolled)?;
         let mut loss = (changes * CHANGES)?;

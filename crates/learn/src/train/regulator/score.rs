@@ -1,4 +1,4 @@
-//! How right a regulator is on lessons that it did not learn from.
+//! Accuracy of a regulator on held-out lessons.
 
 use std::fmt;
 
@@ -7,18 +7,18 @@ use serde::{Deserialize, Serialize};
 
 use crate::dataset::Lesson;
 
-/// Beliefs at the end of lessons, about pairs of which one moved by more than 1 cm.
+/// Accuracy of final beliefs about pairs of which an object moved by more than 1 cm.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RegulatorScore {
-    /// Pairs counted.
+    /// Number of pairs that count.
     pub pairs: usize,
-    /// Share whose likeliest type is the true one, of the filter alone and regulated.
+    /// Share of pairs whose most probable type is correct, by the filter alone and regulated.
     pub right: [f64; 2],
-    /// Mean negative logarithm of the probability of the true type, of the same two.
+    /// Mean negative log-probability of the true type, by the filter alone and regulated.
     pub nll: [f64; 2],
 }
 
-/// What a person wants to follow.
+/// Summary for the progress display.
 impl fmt::Display for RegulatorScore {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ([filter, right], [of_filter, nll]) = (self.right.map(|share| 1e2 * share), self.nll);
@@ -26,12 +26,12 @@ impl fmt::Display for RegulatorScore {
     }
 }
 
-/// How right `regulator` is on `lessons`.
+/// Evaluates `regulator` on `lessons`.
 pub fn score(regulator: &Regulator, lessons: &[Lesson]) -> RegulatorScore {
     let mut score = RegulatorScore::default();
     for lesson in lessons {
         let mut memory = Memory::default();
-        // By the filter alone and regulated.
+        // Results of the filter alone and of the regulator.
         let mut told = vec![None; lesson.pairs.len()];
         for window in &lesson.windows {
             let pairs = (&lesson.pairs[..], lesson.objects);

@@ -1,17 +1,17 @@
-//! Everything that decides a regulator's training besides its lessons.
+//! Settings of a regulator's training except its lessons.
 
 use serde::{Deserialize, Serialize};
 
 use crate::train::Descent;
 
-/// Settings of a run; the defaults are those of the shipped weights.
+/// Settings of a run; the defaults are the settings of the shipped weights.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RegulatorSettings {
     /// Width of the hidden state, H.
     pub width: usize,
-    /// Seed of first weights and batches.
+    /// Seed of initial weights and batches.
     pub seed: u64,
-    /// How weights follow gradients.
+    /// Optimisation settings.
     pub descent: Descent,
     /// Seed of the lessons.
     pub data_seed: u64,
@@ -30,7 +30,7 @@ impl Default for RegulatorSettings {
                 evaluate_every: 250,
                 learning_rate: 2e-3,
                 warm_up: 200,
-                // Some thousands of lessons are few for the regulator's parameters.
+                // A few thousand lessons are few for the regulator's parameters.
                 weight_decay: 0.02,
                 clip: 1.0,
                 average: 0.995,

@@ -1,4 +1,4 @@
-//! What the trainer asks of the belief regulator.
+//! Training task of the belief regulator.
 
 use std::path::PathBuf;
 
@@ -16,14 +16,14 @@ use crate::train::{Descent, REPLICAS, TrainError, Trainable, Trainer, gradients_
 use super::batch::{Examples, Heard};
 use super::{RegulatorScore, RegulatorSettings, score};
 
-/// How often a lesson is learned as it was heard until some push was taken again, and not to its end:
-/// beliefs are asked at such moments, too.
+/// Probability that a lesson is used up to the end of a draft instead of its end, because beliefs
+/// are also used at such moments.
 const DRAFTS: f64 = 0.4;
 
-/// Trains in `folder`, see [`Trainer::run`].
+/// Trains a regulator in `folder`, see [`Trainer::run`].
 ///
 /// # Errors
-/// [`TrainError`]; whatever was saved before stays.
+/// [`TrainError`]; files saved before are kept.
 pub fn train_regulator(
     settings: &RegulatorSettings,
     lessons: &[Lesson],
@@ -31,7 +31,7 @@ pub fn train_regulator(
     folder: &FolderLock,
     watch: &dyn Watch,
 ) -> Result<Option<PathBuf>, TrainError> {
-    // Those in which nothing was told teach nothing.
+    // Lessons without informative windows are skipped.
     let lessons = lessons.iter().filter(|lesson| !lesson.windows.is_empty()).collect();
     Trainer::open(Task { settings, lessons, held_out }, folder)?.run(watch)
 }
@@ -43,7 +43,7 @@ struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// The lessons of a step.
+    /// Draws the lessons of a step.
     fn drawn(&self, step: u64) -> Vec<Heard<'_>> {
         let mut rng = generator(self.settings.seed, step);
         let mut draw = |_| {

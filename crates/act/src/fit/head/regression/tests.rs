@@ -3,7 +3,7 @@
 use super::*;
 use pushplan::scene::{HeadSpread, Narrowed};
 
-/// 60 ends of two numbers that follow two parameters, (0.3, -0.2) and nothing else, with an
+/// Returns 60 final poses of two values that are linear in the parameters (0.3, -0.2), with an
 /// error of alternating sign.
 fn ends(error: f64) -> Vec<Observed> {
     (0..60)
@@ -51,7 +51,7 @@ fn what_is_left_of_the_prior_is_what_the_normal_equations_say() {
 #[test]
 fn what_was_learnt_before_counts_as_if_all_had_been_observed_at_once() {
     let ends = ends(1e-2);
-    // The floor of the noise binds in both, so that they weigh observations alike.
+    // The lower bound of the noise is active in both, so observations are weighted equally.
     let of = |ends: &[Observed]| Regression::new(ends, &[0.0; 2], NoiseLaw::Gaussian, 2e-2);
     let solve = |regression: &Regression| regression.solve(0.5).expect("a posterior");
     let (all, half) = (of(&ends), of(&ends[..30]));
