@@ -53,7 +53,7 @@ pub fn design_document(task: &Task, design: &Design) -> Document {
     document
 }
 
-/// Returns the reason why no tool is proposed, as an addition to the result of the known tools.
+/// Returns the reason why no tool is proposed, a clause after the result of the known tools.
 fn why_none(design: &Design) -> &'static str {
     match (design.known.status, design.spent.looked_at) {
         (PlanStatus::Solved, 0) => ", and none could do so with more margin",

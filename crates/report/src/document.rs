@@ -20,9 +20,9 @@ pub struct Document {
     pub notes: Vec<String>,
     /// Sections, in order.
     pub sections: Vec<Section>,
-    /// One row for each measurement, with full-precision numbers, for CSV.
+    /// Rows of measurements, one each, with full-precision numbers, for CSV.
     pub rows: Table,
-    /// Complete content for programs, as an object.
+    /// Complete content for programs: a JSON object.
     pub json: Json,
 }
 

@@ -58,13 +58,13 @@ pub struct GraphNode {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RelationName {
-    /// The bodies touch, or may touch in this frame.
+    /// Contact, present or possible in this frame.
     Contact,
-    /// The bodies move as one: joined objects, and the parts of a tool.
+    /// Fixed joint, or rigid connection of the parts of a tool.
     Fixed,
-    /// One body rotates about a point of the other.
+    /// Revolute joint, with a rotation about a common point.
     Revolute,
-    /// One body slides along a line of the other.
+    /// Prismatic joint, with a translation along a common line.
     Prismatic,
 }
 

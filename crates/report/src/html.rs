@@ -19,7 +19,7 @@ th,td{padding:.25rem .7rem;border-bottom:1px solid #8884;text-align:left;white-s
 figure{margin:1rem 0}svg{max-width:100%;height:auto}\
 details{margin-top:2rem}";
 
-/// Returns the page. Its content security policy forbids all external resources, as a safeguard
+/// Returns the page. Its content security policy forbids all external resources, which also guards
 /// against bugs here.
 pub(super) fn page(document: &Document) -> String {
     let title = escape(&document.title);

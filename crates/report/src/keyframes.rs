@@ -14,7 +14,7 @@ pub struct Key<const N: usize> {
     pub value: [f64; N],
 }
 
-/// All animations of one document.
+/// Animations of one document.
 #[derive(Clone, Debug)]
 pub struct Keyframes {
     /// Length of the loop, seconds.

@@ -1,4 +1,4 @@
-//! One plan predicted by several models.
+//! Predictions of one plan by several models.
 
 use serde_json::{Value as Json, json};
 
