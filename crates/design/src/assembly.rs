@@ -124,7 +124,7 @@ impl Assembly {
         pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
     }
 
-    /// Returns the name of such a tool.
+    /// Returns a name that describes the form.
     pub fn name(&self) -> &'static str {
         let bends = (1..self.form.links).filter(|k| around(self.numbers[4 + k]) != 0.0);
         match (self.form.head, bends.count()) {

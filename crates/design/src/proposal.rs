@@ -27,7 +27,7 @@ pub struct Design {
     /// `None` if the existing tools solve the task and no candidate has more margin, or if no
     /// candidate can push at all.
     pub proposal: Option<Proposal>,
-    /// Cost.
+    /// Cost of the search.
     pub spent: Spent,
     /// Whether the search was cancelled.
     pub stopped: bool,

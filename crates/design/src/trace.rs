@@ -45,7 +45,7 @@ const ACROSS: f64 = 0.6;
 const KEPT: usize = 6;
 const APART: f64 = 0.1;
 
-/// Half lengths of bars at the end, as shares of the object's half width.
+/// Lengths of bars at the end, as shares of the object's width.
 const SHARES: [f64; 3] = [1.2, 0.8, 0.5];
 
 /// Offsets of the handle from the middle of the pushing bar, in half widths of the object.

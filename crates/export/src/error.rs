@@ -15,7 +15,7 @@ pub enum ExportError {
     /// Plan of a robot without an arm, or solved without one.
     #[error("it has no motion of joints; solve a task whose `robot` has a `urdf`")]
     NoJoints,
-    /// Plan without its tools, which no plan file is.
+    /// Plan without its tools, which plan files always contain.
     #[error("its steps name tools that the file does not hold")]
     Tools,
     /// Trajectory that cannot be written, for example because it has more frames than a file can

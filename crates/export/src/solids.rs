@@ -11,7 +11,7 @@ use super::xml::{Xml, numbers};
 /// Largest radius of an object's feet, metres.
 const FOOT: f64 = 1e-3;
 
-/// Distance by which objects on stated points hang above the table, metres.
+/// Clearance of the solids of objects on stated points above the table, metres.
 const CLEAR: f64 = 5e-4;
 
 /// Colliding solid: its name, its friction value, and its body in the scene, `None` for the table.

@@ -17,9 +17,9 @@ const MOVED: f64 = 1e-3;
 /// the prediction without replays.
 pub(super) struct Bystander<'a> {
     name: &'a str,
-    /// Metres.
+    /// Displacement, metres.
     moved: f64,
-    /// Radians.
+    /// Rotation, radians.
     turned: f64,
     fell: bool,
 }
