@@ -13,8 +13,7 @@ const FARTHEST: f64 = 10.0;
 const FINEST: f64 = 1e-3;
 
 /// Feasible tool poses, by distance from the base and by rotation of the tool relative to the
-/// radial direction. The default
-/// stands for unknown poses.
+/// radial direction. The default stands for unknown poses.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Places {

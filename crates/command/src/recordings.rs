@@ -16,7 +16,8 @@ pub struct RecordingSet {
     pub recordings: Vec<Recording>,
 }
 
-/// Reads recordings: each file is a set, and each folder with its subfolders is a set.
+/// Reads recordings. Each given file is a set, and so is each given folder and each of its
+/// subfolders.
 ///
 /// # Errors
 /// Returns all faults of all files, and an error for a folder without recordings.

@@ -17,7 +17,7 @@ pub fn recorded_document(reports: &[RecordedErrors]) -> Document {
     let Some((newest, before)) = reports.split_last() else { return Document::default() };
     let notes = if before.is_empty() { vec![LEGEND.to_owned()] } else { Vec::new() };
     let mut sections = vec![Section { table: recorded_table(newest), ..Section::default() }];
-    // Each recording of a combined report was reported before.
+    // A combined report has no table by recording, because earlier reports contain the recordings.
     let told = |name| before.iter().any(|report| report.names.contains(name));
     if newest.names.len() > 1 && !newest.names.iter().any(told) {
         sections.extend(newest.errors.models.first().map(|model| Section {

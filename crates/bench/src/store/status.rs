@@ -23,7 +23,7 @@ pub struct RunStatus {
 /// Progress of a shard.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ShardStatus {
-    /// Shard.
+    /// Shard of the run.
     pub shard: Shard,
     /// Folder of the shard.
     pub folder: PathBuf,

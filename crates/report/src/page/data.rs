@@ -284,7 +284,7 @@ pub struct Candidates {
     pub shown: usize,
 }
 
-/// Considered last pushes of a sequence, with one tool and one grip.
+/// Pushes considered as the last of a sequence, with one tool and one grip.
 #[derive(Serialize)]
 pub struct Grid {
     /// Name of the tool.
