@@ -1,4 +1,4 @@
-//! Where an arm can hold a tool over the table, found by trying.
+//! Search for the poses at which an arm can hold a tool over the table.
 
 use std::f64::consts::{PI, TAU};
 
@@ -14,27 +14,27 @@ use super::kinematics::{dexterity, frames};
 use super::path::DEXTERITY;
 use super::room::Room;
 
-/// Distances from the base that are tried are this far apart, metres, up to this.
+/// Step and maximum of the sampled distances from the base, metres.
 const STEP: f64 = 0.025;
 const FARTHEST: f64 = 3.0;
 
-/// Turns of the tool that are tried at each.
+/// Number of sampled tool rotations per distance.
 const TURNS: usize = 36;
 
-/// Starts from anywhere, where no neighbour gives one.
+/// Number of starts from arbitrary configurations if no neighbour provides one.
 const STARTS: usize = 3;
 
-/// Until a ring is found, only one in this many is tried.
+/// Stride of sampled rings until a feasible one is found.
 const SPARSE: usize = 3;
 
-/// The search ends after this many rings in a row have failed.
+/// Number of consecutive failed rings that end the search.
 const FAILED: usize = 3;
 
-/// The distances between which an arm can hold a tool, metres.
+/// Inner and outer radius of the annulus in which an arm can hold a tool, metres.
 pub type Ring = [f64; 2];
 
-/// Where an arm can hold a tool with its underside at a height, metres, without meeting itself or the table;
-/// `None` where it can nowhere.
+/// Finds the poses at which an arm can hold a tool, with its underside at a height, metres, without
+/// self-collision or collision with the table. Returns `None` if there are none.
 pub fn find_places(arm: &Arm, height: f64) -> Option<Places> {
     let scene = Scene::default();
     let room = Room::new(arm, &scene, None);
@@ -58,7 +58,7 @@ pub fn find_places(arm: &Arm, height: f64) -> Option<Places> {
     (first < last).then_some(Places { ring, step: STEP, turns: TURNS, free })
 }
 
-/// Whether it can, ahead of the base with the tool at a turn, at each distance.
+/// Returns the feasibility at each distance ahead of the base, for one rotation of the tool.
 fn row(room: &Room, height: f64, turn: f64, rings: usize) -> Vec<bool> {
     let arm = room.arm;
     let sound = |posture: &Vec<f64>| {
@@ -76,7 +76,8 @@ fn row(room: &Room, height: f64, turn: f64, rings: usize) -> Vec<bool> {
         })
     };
     let mut row = vec![false; rings];
-    // From the first that is found, in the middle, outwards and inwards until some in a row fail.
+    // Starts at the first feasible ring near the middle and proceeds in both directions until
+    // several rings in a row fail.
     let middle = (0..rings / 2).step_by(SPARSE).flat_map(|k| [rings / 2 - k, rings / 2 + k]);
     let first =
         middle.filter(|ring| *ring < rings).find_map(|ring| Some((ring, held(ring, None)?)));
@@ -98,8 +99,8 @@ fn row(room: &Room, height: f64, turn: f64, rings: usize) -> Vec<bool> {
     row
 }
 
-/// Whether the first joint turns about the vertical through the origin, nearly all around: what the arm
-/// does ahead of the base it does to its sides as well.
+/// Returns `true` if the first joint rotates about the vertical through the origin, nearly all
+/// around. Results ahead of the base then also hold for its sides.
 fn turns_about_the_base(arm: &Arm) -> bool {
     let Some(first) = arm.joints.first() else { return false };
     let frame = arm.base * first.origin;
@@ -108,8 +109,8 @@ fn turns_about_the_base(arm: &Arm) -> bool {
     !first.slides && wide && axis.xy().norm() < 1e-3 && frame.position.xy().norm() < 1e-3
 }
 
-/// A posture that is free, with a tool over the middle of the ring at the height at which tools travel,
-/// metres, or as high as it goes; `None` where there is none.
+/// Returns a collision-free configuration with a tool over the middle of the ring, at the travel
+/// height, metres, or as high as possible. Returns `None` if there is none.
 pub fn usual_home(arm: &Arm, [near_by, far]: Ring, travel: f64) -> Option<Vec<f64>> {
     let scene = Scene::default();
     let room = Room::new(arm, &scene, None);

@@ -1,10 +1,12 @@
-//! A plan of pushes as a motion of the joints.
+//! Conversion of a plan of pushes to a joint trajectory.
 //!
-//! Every push is a straight line of the flange: down from above, along, back by what the tool retreats,
-//! and up. Between pushes the joints go straight, or, where that meets something, fold to how they are
-//! at home, turn, and unfold. What posture a push begins in is tried: near where the arm is, then any
-//! other; the first that carries the whole push out is taken. After the last push the arm goes home, where
-//! the next plan begins, if there is a way.
+//! Every push consists of straight lines of the flange: down, along the push, back by the tool's
+//! retreat, and up. Between pushes the joints move linearly. If that collides, they move through
+//! the home configuration, rotated to the start and then to the end.
+//!
+//! The start configuration of a push is searched near the current one first, then anywhere; the
+//! first that completes the push is used. After the last push the arm returns home, the start of
+//! the next plan, if possible.
 
 use std::sync::Arc;
 
@@ -18,21 +20,21 @@ use super::inverse::postures;
 use super::path::{GENTLE, Pieces, flange_at, line, unwound};
 use super::room::Room;
 
-/// Joints on their straight way are looked at this often, radians or metres.
+/// Interval of collision checks on linear joint motion, radians or metres.
 const LOOK: f64 = 0.06;
 
-/// A lifted tool is at least this far above the tallest object, metres, where it does not get as high as
-/// the task wants.
+/// Minimum clearance of a lifted tool above the tallest object, metres, if the arm cannot reach the
+/// travel height of the task.
 const ABOVE: f64 = 0.02;
 
-/// Postures that a push may begin in, at most.
+/// Maximum number of start configurations tried for a push.
 const POSTURES: usize = 10;
 
-/// How the joints of `arm` carry out the pushes of a plan; `states` say where objects are before the
-/// first push and after each, as far as that is known.
+/// Computes the joint trajectory with which `arm` executes the pushes of a plan. `states` are the
+/// states before the first push and after each, as far as they are known.
 ///
 /// # Errors
-/// The first push that no pose carries out, and why.
+/// Returns the first push that the arm cannot execute, and the reason.
 pub fn follow(
     task: &Task,
     (arm, scene): (&Arm, &Scene),
@@ -80,23 +82,23 @@ pub fn follow(
 
 struct Push<'a> {
     room: &'a Room<'a>,
-    /// Whether the tool comes from above.
+    /// Whether the tool is lowered from above.
     set_down: bool,
     ends: [Pose3; 2],
-    /// Where it goes back to before it is lifted, if it is.
+    /// Pose of the retreat before lifting, if the tool is lifted.
     back: Option<Pose3>,
-    /// How high it is lifted, and how high at least, metres.
+    /// Lifting height and its minimum, metres.
     rise: f64,
     least: f64,
     before: Vec<(&'a str, PlacedHull)>,
     after: Vec<(&'a str, PlacedHull)>,
 }
 
-/// The lines of a push, in joint positions.
+/// Lines of a push as joint positions.
 struct Lines {
-    /// From above down to where it begins.
+    /// Descent to the start of the push.
     down: Vec<Vec<f64>>,
-    /// What it takes to come above that.
+    /// Joint motion to the start of the descent.
     way: Vec<Vec<f64>>,
     push: Vec<Vec<f64>>,
     back: Vec<Vec<f64>>,
@@ -104,7 +106,7 @@ struct Lines {
 }
 
 impl Push<'_> {
-    /// Adds the push; the points at which it begins and ends.
+    /// Appends the push and returns the indices of its first and last point.
     fn make(&self, pieces: &mut Pieces, step: &PushStep) -> Result<[usize; 2], ArmFault> {
         let arm = self.room.arm;
         let now = pieces.now().to_vec();
@@ -138,13 +140,13 @@ impl Push<'_> {
         Ok([begin, end])
     }
 
-    /// The lines from a posture in which the push can begin.
+    /// Computes the lines from a feasible start configuration.
     fn begun(&self, now: &[f64]) -> Result<Lines, ArmFault> {
         let arm = self.room.arm;
         let seeds = [now.to_vec(), facing(arm, &arm.home, &self.ends[0])];
         let mut fault = None;
         let mut tried: Vec<Vec<f64>> = Vec::new();
-        // Few of them need more than what is near.
+        // Configurations near the current one usually suffice.
         for all in [false, true] {
             let found = match all {
                 false => super::inverse::near(arm, &self.ends[0], &seeds),
@@ -165,7 +167,7 @@ impl Push<'_> {
         Err(fault.unwrap_or(ArmFault::Unreachable))
     }
 
-    /// The lines from this posture.
+    /// Computes the lines from the given start configuration.
     fn lines(&self, posture: &[f64], now: &[f64]) -> Result<Lines, ArmFault> {
         let arm = self.room.arm;
         let (push, fault) = line(arm, [&self.ends[0], &self.ends[1]], posture);
@@ -192,7 +194,7 @@ impl Push<'_> {
         Ok(lines)
     }
 
-    /// Straight up, as high as it goes.
+    /// Computes a vertical line upwards, as far as reachable.
     fn risen(
         &self,
         from: &Pose3,
@@ -212,7 +214,7 @@ impl Push<'_> {
         Ok(points)
     }
 
-    /// That the arm, its tool apart, meets nothing.
+    /// Checks that the arm without its tool is collision-free.
     fn clear(&self, points: &[Vec<f64>], objects: &[(&str, PlacedHull)]) -> Result<(), ArmFault> {
         for point in points {
             if let Some(between) = self.room.met(&self.room.stance(point), objects, false) {
@@ -223,8 +225,8 @@ impl Push<'_> {
     }
 }
 
-/// Joint positions on the way to others with the tool lifted, past objects: those themselves, or how the
-/// arm is at home before and after it turns.
+/// Returns joint positions from `from` to `to` with the tool lifted, without collisions: `to` alone
+/// if possible, otherwise through the rotated home configuration.
 fn way(
     room: &Room<'_>,
     from: &[f64],
@@ -248,7 +250,7 @@ fn way(
     Ok(by.to_vec())
 }
 
-/// What is met on the straight way of the joints.
+/// Returns the first collision on linear joint motion.
 fn swept(
     room: &Room<'_>,
     [from, to]: [&[f64]; 2],
@@ -263,7 +265,7 @@ fn swept(
     })
 }
 
-/// A posture with the first joint turned so that the flange is in the direction of another.
+/// Returns a configuration with the first joint rotated so that the flange faces a target.
 fn facing(arm: &Arm, posture: &[f64], target: &Pose3) -> Vec<f64> {
     let mut turned = posture.to_vec();
     let angle = |pose: &Pose3| pose.position.y.atan2(pose.position.x);

@@ -1,7 +1,7 @@
-//! Convex solids in space: a few points, and how far around their hull the solid goes.
+//! Convex solids in space: a few points, and a radius around their convex hull.
 //!
-//! A ball is one point, a capsule two, a box eight; of a mesh as many of its corners are kept as tell
-//! its outline, and the radius makes up for the rest. Distances by parry's GJK.
+//! A ball has one point, a capsule two, a box eight. A mesh keeps the corners that determine its
+//! outline, and the radius covers the error. Distances are computed by the GJK algorithm of parry.
 
 use parry3d_f64::math::{Pose as ParryPose, Vector as ParryVector};
 use parry3d_f64::query::details::distance_support_map_support_map;
@@ -10,38 +10,39 @@ use serde::{Deserialize, Serialize};
 
 use pushplan::geometry::{Footprint, Matrix3, Pose3, Vector3};
 
-/// Corners of a mesh are kept in this many directions, evenly spread, and looked at in as many.
+/// Numbers of evenly distributed directions, for keeping corners of a mesh and for measuring the
+/// error.
 const KEPT: usize = 48;
 const SEEN: usize = 400;
 
-/// Corners nearer to each other are one, metres.
+/// Corners nearer than this are merged, metres.
 const GRAIN: f64 = 0.002;
 
-/// Sides of the prism that stands for a cylinder, around it.
+/// Number of sides of the prism that approximates a cylinder.
 const SIDES: usize = 16;
 
-/// All that is at most a radius from the convex hull of some points.
+/// Points within a radius of the convex hull of a point set.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Hull {
     /// Points, metres; at least one.
     pub points: Vec<Vector3>,
-    /// How far around them it goes, metres.
+    /// Radius around the convex hull, metres.
     pub radius: f64,
 }
 
-/// A hull where it is.
+/// Placed hull in the world.
 #[derive(Clone, Debug)]
 pub struct PlacedHull {
     points: Vec<ParryVector>,
     radius: f64,
     middle: ParryVector,
-    /// From the middle to the farthest point of the solid, metres.
+    /// Distance from the middle to the farthest point of the solid, metres.
     bound: f64,
 }
 
 impl Hull {
-    /// Around all of these points, by at most 48 of them; `None` without points.
+    /// Returns a hull that contains all points, with at most 48 corners; `None` without points.
     pub fn around(points: &[Vector3]) -> Option<Self> {
         let grain = |v: &Vector3| [v.x, v.y, v.z].map(|x| (x / GRAIN).round() as i64);
         let mut corners: Vec<Vector3> = points.to_vec();
@@ -58,12 +59,12 @@ impl Hull {
             placed.gap(&corner, f64::INFINITY)
         });
         let radius = out.fold(0.0, f64::max);
-        // What was rounded away.
+        // Merging of corners may have moved the surface by this much.
         let grain = if points.len() > corners.len() { GRAIN } else { 0.0 };
         Some(Self { radius: radius + grain, ..core })
     }
 
-    /// A box of these half extents, seen from a pose.
+    /// Returns a box of these half extents at a pose.
     pub fn cuboid(half: Vector3, pose: &Pose3) -> Self {
         let corner = |k: usize| {
             let sign = |bit: usize| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
@@ -72,7 +73,8 @@ impl Hull {
         Self { points: (0..8).map(corner).collect(), radius: 0.0 }
     }
 
-    /// What stands on a footprint between two heights, metres; a disc by the polygon around it.
+    /// Returns the prism on a footprint between two heights, metres; a disc becomes the
+    /// circumscribed polygon.
     pub fn prism(footprint: &Footprint, [low, high]: [f64; 2], pose: &Pose3) -> Self {
         let corners: Vec<[f64; 2]> = match footprint {
             Footprint::Disc { radius } => {
@@ -92,7 +94,7 @@ impl Hull {
         Self { points: at(low).chain(at(high)).collect(), radius: 0.0 }
     }
 
-    /// How thick its points are in the direction in which that is least, metres.
+    /// Returns the extent of the points along their axis of least variance, metres.
     pub fn thickness(&self) -> f64 {
         let middle = self.points.iter().sum::<Vector3>() / self.points.len().max(1) as f64;
         let off = self.points.iter().map(|point| point - middle);
@@ -106,7 +108,7 @@ impl Hull {
         (high - low).max(0.0)
     }
 
-    /// Where it is when the frame that it is seen from is there.
+    /// Returns the hull in the world, with its frame at `pose`.
     pub fn placed(&self, pose: &Pose3) -> PlacedHull {
         let to = |v: &Vector3| {
             let v = pose.point(*v);
@@ -122,8 +124,8 @@ impl Hull {
 }
 
 impl PlacedHull {
-    /// How far it is from another, metres; zero or less where they touch. What is farther than
-    /// `reach` metres is only said to be at least so far.
+    /// Returns the distance to another hull, metres; zero or less for contact. Beyond `reach`
+    /// metres, the result is only a lower bound that exceeds `reach`.
     pub fn gap(&self, other: &Self, reach: f64) -> f64 {
         let apart = (self.middle - other.middle).length() - self.bound - other.bound;
         if apart > reach {
@@ -133,7 +135,7 @@ impl PlacedHull {
         between - self.radius - other.radius
     }
 
-    /// Height of its lowest point, metres.
+    /// Returns the height of the lowest point, metres.
     pub fn lowest(&self) -> f64 {
         self.points.iter().map(|point| point.z).fold(f64::INFINITY, f64::min) - self.radius
     }
@@ -152,7 +154,8 @@ impl SupportMap for PlacedHull {
     }
 }
 
-/// The farthest points in `count` directions, each once: directions on a spiral around a ball.
+/// Returns the extreme points in `count` directions on a spiral around a sphere, without
+/// duplicates.
 fn extremes(points: &[Vector3], count: usize) -> Vec<Vector3> {
     let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
     let mut found: Vec<usize> = (0..count)

@@ -1,7 +1,8 @@
-//! Joint positions that bring the flange somewhere: damped least squares (Wampler 1986,
-//! doi:10.1109/TSMC.1986.289285) with the damping of what is left (Sugihara 2011,
-//! doi:10.1109/TRO.2011.2148230). A joint at its limit stands still and the others move on; what joints
-//! there are to spare draws towards the middle of their limits.
+//! Inverse kinematics by damped least squares (Wampler 1986, doi:10.1109/TSMC.1986.289285), with
+//! damping by the remaining error (Sugihara 2011, doi:10.1109/TRO.2011.2148230).
+//!
+//! Joints at their limits are fixed while the others continue. Redundant joints move towards the
+//! middle of their limits.
 
 use nalgebra::{DVector, Matrix6, Vector6};
 
@@ -10,26 +11,26 @@ use pushplan::geometry::Pose3;
 
 use super::kinematics::{flange, frames, jacobian, twist};
 
-/// Nearer is there, metres and radians.
+/// Position and rotation tolerance of convergence, metres and radians.
 const SHIFT: f64 = 1e-7;
 const TURN: f64 = 1e-6;
 
-/// A joint moves by at most this in one round, radians or metres.
+/// Maximum joint motion in one iteration, radians or metres.
 const STRIDE: f64 = 0.4;
 
-/// Spare joints go this share of the way to their middle in the first round.
+/// Share of the way to their middle that redundant joints move in the first iteration.
 const SPARE: f64 = 0.02;
 
-/// Rounds from where the joints are near, and from anywhere.
+/// Maximum number of iterations from a near and from an arbitrary configuration.
 pub(super) const NEAR: usize = 15;
 pub(super) const ANYWHERE: usize = 60;
 
-/// Starts besides the given ones, and how far postures are apart that are not one, radians or metres.
+/// Number of additional starts, and minimum distance of distinct configurations, radians or metres.
 const STARTS: usize = 24;
 const APART: f64 = 0.1;
 
-/// Joint positions that bring the flange to a pose, near `seed`; `None` if none are found within `rounds` steps
-/// of the solver.
+/// Computes joint positions that bring the flange to a pose, near `seed`. Returns `None` if the
+/// solver finds none within `rounds` iterations.
 pub fn inverse(arm: &Arm, target: &Pose3, seed: &[f64], rounds: usize) -> Option<Vec<f64>> {
     let mut at = seed.to_vec();
     keep(arm, &mut at);
@@ -45,7 +46,7 @@ pub fn inverse(arm: &Arm, target: &Pose3, seed: &[f64], rounds: usize) -> Option
         }
         let mut jacobian = jacobian(arm, &frames, here.position);
         let mut step = DVector::zeros(at.len());
-        // Joints that would leave their limits are taken out, and the rest solves it alone.
+        // Joints that would leave their limits are excluded, and the rest solves the step.
         for _ in 0..3 {
             step = solved(&jacobian, &left);
             let mut held = false;
@@ -65,7 +66,7 @@ pub fn inverse(arm: &Arm, target: &Pose3, seed: &[f64], rounds: usize) -> Option
         if round == 0 && at.len() > 6 {
             let wish = |k: usize, _| SPARE * (arm.joints[k].middle() - at[k]);
             let wish = DVector::from_fn(at.len(), wish);
-            // Of the wish, what does not move the flange.
+            // The null-space motion does not move the flange.
             step += &wish - solved(&jacobian, &(&jacobian * &wish));
         }
         let largest = step.amax();
@@ -79,7 +80,7 @@ pub fn inverse(arm: &Arm, target: &Pose3, seed: &[f64], rounds: usize) -> Option
     None
 }
 
-/// Postures near these, as far as there are any, each once.
+/// Returns the distinct configurations found from the given seeds.
 pub(super) fn near(arm: &Arm, target: &Pose3, seeds: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let found = seeds.iter().filter_map(|seed| inverse(arm, target, seed, ANYWHERE));
     let mut found: Vec<Vec<f64>> = found.collect();
@@ -87,13 +88,13 @@ pub(super) fn near(arm: &Arm, target: &Pose3, seeds: &[Vec<f64>]) -> Vec<Vec<f64
     found
 }
 
-/// The largest difference of joint positions.
+/// Returns the largest difference of joint positions.
 fn away(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// Postures that bring the flange to a pose, those near `seeds` first and then those nearest to the
-/// first of them.
+/// Returns the configurations that bring the flange to a pose: those found from `seeds`, then
+/// others, nearest to the first seed first.
 pub fn postures(arm: &Arm, target: &Pose3, seeds: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let mut found: Vec<Vec<f64>> = Vec::new();
     let add = |found: &mut Vec<Vec<f64>>, seed: &[f64]| {
@@ -112,9 +113,10 @@ pub fn postures(arm: &Arm, target: &Pose3, seeds: &[Vec<f64>]) -> Vec<Vec<f64>> 
     found
 }
 
-/// Joint positions within the limits, spread evenly: a Kronecker sequence, the same each time.
+/// Returns joint positions of a Kronecker sequence within the limits, evenly distributed and
+/// deterministic.
 pub(super) fn start(arm: &Arm, index: usize) -> Vec<f64> {
-    // Powers of the positive root of x^(d+1) = x + 1.
+    // The shares are powers of the positive root of x^(d+1) = x + 1.
     let d = arm.joints.len() as i32;
     let mut root: f64 = 1.5;
     for _ in 0..40 {
@@ -123,7 +125,7 @@ pub(super) fn start(arm: &Arm, index: usize) -> Vec<f64> {
     let share = |k: usize| (0.5 + (index + 1) as f64 * root.powi(-(k as i32 + 1))).fract();
     let at = |k: usize| {
         let span = arm.joints[k].limits.unwrap_or([-std::f64::consts::PI, std::f64::consts::PI]);
-        // Turns by more than once around are the same postures again.
+        // Rotations by more than one turn repeat the same configurations.
         let low = span[0].max(-std::f64::consts::PI);
         let high = span[1].min(std::f64::consts::PI).max(low);
         low + share(k) * (high - low)
@@ -131,7 +133,7 @@ pub(super) fn start(arm: &Arm, index: usize) -> Vec<f64> {
     (0..arm.joints.len()).map(at).collect()
 }
 
-/// The least step of the joints for a twist, damped by what is left of it.
+/// Returns the smallest joint step for a twist, damped by its magnitude.
 fn solved(jacobian: &nalgebra::Matrix6xX<f64>, twist: &Vector6<f64>) -> DVector<f64> {
     let damping = 1e-3 * twist.norm_squared().min(1.0) + 1e-10;
     let mut square: Matrix6<f64> = jacobian * jacobian.transpose();
@@ -144,7 +146,7 @@ fn solved(jacobian: &nalgebra::Matrix6xX<f64>, twist: &Vector6<f64>) -> DVector<
     }
 }
 
-/// Brings positions into the limits.
+/// Clamps joint positions to their limits.
 fn keep(arm: &Arm, at: &mut [f64]) {
     for (joint, at) in arm.joints.iter().zip(at) {
         if let Some([low, high]) = joint.limits {
@@ -160,7 +162,7 @@ mod tests {
     use crate::places::Places;
     use pushplan::geometry::{Turn3, Vector3};
 
-    /// Six joints like those of a small arm, 0.3 m and 0.3 m long.
+    /// Returns an arm with six joints and two links of 0.3 m.
     fn arm() -> Arm {
         let joint = |at: [f64; 3], axis: Vector3| ArmJoint {
             name: "j".into(),
@@ -215,7 +217,8 @@ mod tests {
 
     #[test]
     fn a_reachable_pose_has_several_postures() {
-        // Tool down and the flange's axes along the world's takes a last joint that turns by more than 2.8.
+        // This pose, with the tool down and aligned axes, needs a last joint that rotates by more
+        // than 2.8.
         let mut arm = arm();
         arm.joints.iter_mut().for_each(|joint| joint.limits = None);
         let down = Turn3::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI);

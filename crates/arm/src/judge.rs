@@ -1,4 +1,4 @@
-//! Whether a joint trajectory carries a plan out: forwards, from its numbers alone.
+//! Check whether a joint trajectory executes a plan, by forward kinematics from its numbers only.
 
 use std::sync::Arc;
 
@@ -11,26 +11,26 @@ use super::kinematics::{dexterity, flange, frames};
 use super::path::DEXTERITY;
 use super::room::Room;
 
-/// The tool may be this far off a push, metres, and a turn counts at this distance, metres.
+/// Tolerance of the tool pose during a push, and the lever arm that weights rotations, metres.
 const OFF: f64 = 1e-3;
 const ARM: f64 = 0.1;
 
-/// Joints are looked at this often, radians or metres.
+/// Interval of checks on joint motion, radians or metres.
 const LOOK: f64 = 0.05;
 
-/// Slack for rounding, radians and metres, and a share of a speed.
+/// Tolerance for rounding, in radians and metres, and as a share of a speed.
 const SLACK: f64 = 1e-6;
 
-/// A tool this far above where it pushes, metres, that moves sideways by this from point to point, is
-/// carried.
+/// Thresholds for a carried tool, metres: height above the push, and sideways motion between
+/// points.
 const RAISED: f64 = 0.01;
 const SIDEWAYS: f64 = 0.005;
 
-/// How much nearer to a singular pose rounding may bring it.
+/// Factor by which rounding may reduce the dexterity.
 const NEARER: f64 = 0.9;
 
-/// What of a plan a trajectory does not do, or not with this arm: of every push the first fault. `states`
-/// say where objects are before the first push and after each, as far as that is known.
+/// Checks a joint trajectory against a plan and an arm, and returns the first fault of every push.
+/// `states` are the states before the first push and after each, as far as they are known.
 pub fn judge(
     (arm, scene): (&Arm, &Scene),
     tool: &Arc<Tool>,
@@ -51,7 +51,8 @@ pub fn judge(
     let ends = |k: usize| path.pushes.get(k).map_or(path.points.len() - 1, |push| push[1]);
     let mut found = Vec::new();
     for (k, step) in steps.iter().enumerate() {
-        // A push answers for how the arm gets to it, and the last one for how it leaves.
+        // A push includes the motion to its start, and the last push also includes the motion after
+        // it.
         let from = if k == 0 { 0 } else { path.pushes[k - 1][1] };
         let to = if k + 1 == steps.len() { path.points.len() - 1 } else { ends(k) };
         let fault = (from..to).find_map(|point| {
@@ -80,7 +81,7 @@ pub fn judge(
     found
 }
 
-/// Joint positions from a point to the next, both included.
+/// Returns joint positions sampled from a point to the next, both included.
 fn samples(path: &JointTrajectory, point: usize) -> Vec<Vec<f64>> {
     let [a, b] = [&path.points[point].positions, &path.points[point + 1].positions];
     let far = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
@@ -88,7 +89,7 @@ fn samples(path: &JointTrajectory, point: usize) -> Vec<Vec<f64>> {
     (0..=count).map(|k| path.between(point, k as f64 / count as f64)).collect()
 }
 
-/// Limits of positions and speeds.
+/// Checks the limits of positions and speeds.
 fn limits(
     arm: &Arm,
     path: &JointTrajectory,
@@ -114,19 +115,19 @@ fn limits(
     None
 }
 
-/// The end effector, at the tool's underside, at joint positions.
+/// Returns the pose of the end effector, at the tool's underside, for joint positions.
 fn effector(arm: &Arm, at: &[f64]) -> Pose3 {
     flange(arm, &frames(arm, at)) * arm.flange_of_tool().inverse()
 }
 
-/// Whether the tool is moved over the table.
+/// Returns `true` if the tool is carried over the table.
 fn is_carried(arm: &Arm, step: &PushStep, samples: &[Vec<f64>]) -> bool {
     let [a, b] = [&samples[0], &samples[samples.len() - 1]].map(|at| effector(arm, at).position);
     let sideways = (a.xy() - b.xy()).norm() > SIDEWAYS;
     sideways && a.z.min(b.z) > step.lift + RAISED
 }
 
-/// How far a pose is from the line of a push, metres.
+/// Returns the deviation of a pose from the line of a push, metres.
 fn off_line(step: &PushStep, pose: &Pose3) -> f64 {
     let push = &step.push;
     let along = (pose.position.xy() - push.start).dot(&push.heading()).clamp(0.0, push.length);
@@ -134,13 +135,13 @@ fn off_line(step: &PushStep, pose: &Pose3) -> f64 {
     off_pose(step, pose, Vector3::new(nearest.x, nearest.y, step.lift))
 }
 
-/// How far a pose is from where the tool is to be, held as the push says.
+/// Returns the deviation of a pose from a position and the grip of a push, metres.
 fn off_pose(step: &PushStep, pose: &Pose3, position: Vector3) -> f64 {
     let held = Pose3::upright(pushplan::geometry::Pose::new(0.0, 0.0, step.grip_yaw), 0.0);
     (pose.position - position).norm() + ARM * pose.angle_to(&held)
 }
 
-/// A pose of the tool off its push, or too near to a singular one.
+/// Checks that the tool follows its push, away from singular configurations.
 fn off(arm: &Arm, step: &PushStep, samples: &[Vec<f64>]) -> Option<ArmFault> {
     samples.iter().find_map(|at| {
         let distance = off_line(step, &effector(arm, at));
@@ -151,7 +152,7 @@ fn off(arm: &Arm, step: &PushStep, samples: &[Vec<f64>]) -> Option<ArmFault> {
     })
 }
 
-/// A push that does not begin or end where it should.
+/// Checks the start and the end of a push.
 fn ends_off(arm: &Arm, step: &PushStep, path: &JointTrajectory, k: usize) -> Option<ArmFault> {
     let push = &step.push;
     let ends = path.pushes[k].into_iter().zip([push.start, push.end()]);

@@ -1,14 +1,15 @@
-//! From joint positions to frames, and how these move with the joints.
+//! Forward kinematics and Jacobian.
 
 use nalgebra::{Matrix6, Matrix6xX, Vector6};
 
 use super::model::Arm;
 use pushplan::geometry::{Pose3, Vector3};
 
-/// What a turn counts against a shift, metres: a tool's part is about as far from the flange.
+/// Lever arm that weights rotations against translations, metres: about the distance of a tool's
+/// parts from the flange.
 const LEVER: f64 = 0.2;
 
-/// Frames of the bodies of an arm in the world: of what stands, then of what moves with each joint.
+/// Returns the world frames of the bodies of an arm: the base, then the body of each joint.
 pub fn frames(arm: &Arm, positions: &[f64]) -> Vec<Pose3> {
     let mut frames = Vec::with_capacity(arm.joints.len() + 1);
     let mut frame = arm.base;
@@ -20,12 +21,12 @@ pub fn frames(arm: &Arm, positions: &[f64]) -> Vec<Pose3> {
     frames
 }
 
-/// Where the flange is.
+/// Returns the pose of the flange.
 pub fn flange(arm: &Arm, frames: &[Pose3]) -> Pose3 {
     frames.last().map_or(arm.base, |last| *last * arm.flange)
 }
 
-/// How the flange moves with the joints: shifts, then turns, in the world's axes.
+/// Returns the Jacobian of the flange in world axes: translations, then rotations.
 pub(super) fn jacobian(arm: &Arm, frames: &[Pose3], at: Vector3) -> Matrix6xX<f64> {
     let mut found = Matrix6xX::zeros(arm.joints.len());
     for (k, joint) in arm.joints.iter().enumerate() {
@@ -40,15 +41,15 @@ pub(super) fn jacobian(arm: &Arm, frames: &[Pose3], at: Vector3) -> Matrix6xX<f6
     found
 }
 
-/// What is left to a pose: a shift, metres, and a turn, radians.
+/// Returns the twist between two poses: translation, metres, and rotation vector, radians.
 pub(super) fn twist(from: &Pose3, to: &Pose3) -> Vector6<f64> {
     let shift = to.position - from.position;
     let turn = (to.rotation * from.rotation.inverse()).scaled_axis();
     Vector6::new(shift.x, shift.y, shift.z, turn.x, turn.y, turn.z)
 }
 
-/// How far the flange moves at least, metres, for joints that move by one radian together, in the
-/// direction in which it moves least; a turn counts as a shift at 20 cm. Zero at a singular pose.
+/// Returns the smallest singular value of the Jacobian, metres per radian, with rotations weighted
+/// by a lever arm of 20 cm. The value is zero at a singular configuration.
 pub fn dexterity(arm: &Arm, frames: &[Pose3]) -> f64 {
     let mut jacobian = jacobian(arm, frames, flange(arm, frames).position);
     jacobian.rows_mut(3, 3).scale_mut(LEVER);

@@ -1,30 +1,33 @@
-//! Robot arms for pushplan: the pose of the flange, joint positions that bring it somewhere, collisions,
-//! and the motion of the joints through a plan of pushes.
+//! Robot arms for pushplan: forward and inverse kinematics, collisions, and joint trajectories for
+//! plans of pushes.
 //!
-//! The library knows an arm only as a [`RobotArm`](pushplan::task::RobotArm). [`install`] registers the
-//! reader of this crate; after that a task file may name a URDF, and a plan file may hold an arm:
+//! The core library accesses an arm only through [`RobotArm`](pushplan::task::RobotArm).
+//! [`install`] registers the reader of this crate. Afterwards a task file may name a URDF, and a
+//! plan file may contain an arm:
 //!
 //! ```
 //! pushplan_arm::install();
 //! ```
 //!
-//! - `model`: an [`Arm`], plain data; `hull`: its solids; `places`: where it holds tools at all, the test
-//!   that is cheap enough for a search, found by trying (`find`).
-//! - `read`, `urdf`: from the keys of a file, or from a URDF. Of that the chain of joints from its root to
-//!   the flange is read, their limits, and the collision solids of links that move with them.
-//! - `kinematics`: from joints to frames and their Jacobian; `inverse`: back, near where the joints are.
-//! - `room`: what the arm, with a tool on it, runs into.
-//! - `path`, `follow`: a plan becomes a [`JointTrajectory`](pushplan::scene::JointTrajectory).
-//! - `judge`: the check of such a trajectory from its numbers alone, by another way than it was made.
+//! - `model`: an [`Arm`], plain data; `hull`: its solids; `places`: the poses at which it can hold
+//!   tools, cheap enough for a search and computed by `find`.
+//! - `read`, `urdf`: readers for the keys of a file and for URDFs. A URDF provides the joint chain
+//!   from its root to the flange, joint limits, and the collision solids of the links.
+//! - `kinematics`: frames and Jacobian from joint positions; `inverse`: joint positions from a
+//!   pose.
+//! - `room`: collisions of the arm and its tool.
+//! - `path`, `follow`: conversion of a plan to a
+//!   [`JointTrajectory`](pushplan::scene::JointTrajectory).
+//! - `judge`: independent check of such a trajectory from its numbers only.
 //!
 //! The response of the table is not modelled here.
 //!
-//! The kinematics are our own hundred lines on nalgebra. The crate for them is `k` of openrr (0.32): it
-//! brings a second nalgebra (0.30), holds every joint behind a lock, which a search on all cores waits
-//! for, reads URDF without places through `urdf-rs`, and its solver gives up at a joint's limit rather
-//! than move the others on. `rs-opw-kinematics` (3.0) is for six joints with a spherical wrist: neither
-//! a Panda nor a UR5 has one. What is here is compared with Pinocchio in
-//! `crates/python/tests/test_arm.py`.
+//! The kinematics are about a hundred lines on nalgebra. The alternative crate `k` of openrr (0.32)
+//! requires a second nalgebra (0.30) and guards every joint by a lock, which blocks a parallel
+//! search. It also reads URDF through `urdf-rs` without error locations, and its solver stops at a
+//! joint's limit instead of moving the other joints. `rs-opw-kinematics` (3.0) supports six joints
+//! with a spherical wrist, which neither a Panda nor a UR5 has. `crates/python/tests/test_arm.py`
+//! compares the results with Pinocchio.
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 

@@ -1,4 +1,4 @@
-//! An arm with everything that is needed to move it: kinematics, limits, solids.
+//! Arm model: kinematics, limits, solids.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,78 +8,78 @@ use pushplan::scene::MAX_JOINTS;
 use super::hull::Hull;
 use super::places::Places;
 
-/// Most points of a solid, and most solids of a body.
+/// Maximum number of points of a solid, and of solids of a body.
 const MOST: usize = 64;
 
-/// A joint that moves.
+/// Movable joint.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ArmJoint {
-    /// Its name, as controllers know it.
+    /// Name used by controllers.
     pub name: String,
-    /// Whether it slides along its axis; else it turns about it.
+    /// Whether the joint is prismatic; otherwise it is revolute.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub slides: bool,
-    /// Its frame at zero, seen from the frame of the joint before.
+    /// Joint frame at position zero, in the frame of the joint before.
     pub origin: Pose3,
-    /// Its axis in that frame, of length one.
+    /// Unit axis in the joint frame.
     pub axis: Vector3,
-    /// The least and the largest position, radians or metres; `None` where it turns without end.
+    /// Lower and upper position limit, radians or metres; `None` for a continuous joint.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub limits: Option<[f64; 2]>,
-    /// Largest speed, radians or metres a second; `None` for any.
+    /// Maximum speed, radians or metres per second; `None` if unlimited.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_speed: Option<f64>,
 }
 
-/// What moves with a joint.
+/// Rigid body that moves with a joint.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ArmBody {
-    /// The name of its link.
+    /// Name of the link.
     pub name: String,
-    /// Its solids, in the frame of the joint.
+    /// Solids in the frame of the joint.
     pub solids: Vec<Hull>,
 }
 
-/// How the tool hangs on the flange.
+/// Mounting of the tool on the flange.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ToolMount {
-    /// From the flange to the tool's underside, along the flange's z axis, metres.
+    /// Distance from the flange to the tool's underside along the flange's z axis, metres.
     pub length: f64,
-    /// Turn of the tool about that axis, radians.
+    /// Rotation of the tool about that axis, radians.
     pub yaw: f64,
 }
 
-/// A serial arm.
+/// Serial arm.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Arm {
-    /// The name of the robot.
+    /// Name of the robot.
     pub name: String,
-    /// Where its base stands in the world.
+    /// Pose of the base in the world.
     pub base: Pose3,
-    /// The joints that move, from the base on.
+    /// Movable joints, from the base on.
     pub joints: Vec<ArmJoint>,
-    /// What stands on the table, and then what moves with each joint.
+    /// Bodies: the base, then the body of each joint.
     pub bodies: Vec<ArmBody>,
-    /// Pairs of bodies that could come to each other; others are neighbours, or their convex solids are in
-    /// each other without the links being so.
+    /// Pairs of bodies to check for self-collision. Neighbours are excluded, and pairs whose convex
+    /// solids overlap although the links do not.
     pub pairs: Vec<[usize; 2]>,
-    /// The flange in the frame of the last joint, its z axis pointing out of it.
+    /// Flange in the frame of the last joint, with its z axis pointing outwards.
     pub flange: Pose3,
-    /// The tool on it.
+    /// Mounting of the tool.
     pub mount: ToolMount,
-    /// Joint positions at which a plan begins, radians or metres.
+    /// Joint positions at the start of a plan, radians or metres.
     pub home: Vec<f64>,
-    /// Where it can hold a tool over the table; found when a URDF is read.
+    /// Feasible tool poses over the table, computed when a URDF is read.
     #[serde(default)]
     pub places: Places,
 }
 
 impl ArmJoint {
-    /// Its frame, seen from the frame of the joint before, at `position`, radians or metres.
+    /// Returns the joint frame at `position`, radians or metres, in the frame of the joint before.
     pub fn pose(&self, position: f64) -> Pose3 {
         let moved = match self.slides {
             true => Pose3 { position: self.axis * position, ..Pose3::default() },
@@ -91,22 +91,22 @@ impl ArmJoint {
         self.origin * moved
     }
 
-    /// The middle of its limits; 0 without any.
+    /// Returns the middle of the limits; 0 for a joint without limits.
     pub fn middle(&self) -> f64 {
         self.limits.map_or(0.0, |[low, high]| 0.5 * (low + high))
     }
 }
 
 impl Arm {
-    /// The flange as a tool sees it whose end effector is at the origin and whose underside is at
-    /// height zero.
+    /// Returns the pose of the flange relative to a tool whose end effector is at the origin, with
+    /// its underside at height zero.
     pub fn flange_of_tool(&self) -> Pose3 {
         let down = Turn3::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI);
         let turn = Turn3::from_axis_angle(&Vector3::z_axis(), self.mount.yaw);
         Pose3 { position: Vector3::z() * self.mount.length, rotation: down * turn }
     }
 
-    /// What is wrong with it, if anything.
+    /// Returns a description of the first error in the model, if any.
     pub fn fault(&self) -> Option<String> {
         let finite =
             |pose: &Pose3| pose.is_finite() && (pose.rotation.coords.norm() - 1.0).abs() < 1e-6;

@@ -1,5 +1,4 @@
-//! Pieces of the way of an arm: straight lines of the flange, straight lines of the joints, and what time
-//! they take.
+//! Segments of an arm's path: straight lines of the flange, linear joint motions, and their timing.
 
 use super::model::Arm;
 use pushplan::geometry::Pose3;
@@ -8,25 +7,26 @@ use pushplan::scene::{ArmFault, JointPoint};
 use super::inverse::{NEAR, inverse};
 use super::kinematics::{dexterity, flange, frames};
 
-/// Points of a straight line of the flange are at most this far apart, metres.
+/// Maximum distance of points on a straight line of the flange, metres.
 const SPACING: f64 = 0.01;
 
-/// From point to point of a line joints move by at most this, radians or metres: more is a jump.
+/// Maximum joint motion between two points of a line, radians or metres; larger motion is a jump.
 const JUMP: f64 = 0.35;
 
-/// The flange moves by at least this, metres a radian, whichever way it is to go: 10 cm/s take
-/// joints at 3 rad/s then, which is what arms do.
+/// Minimum dexterity along a line, metres per radian: 10 cm/s then need joint speeds of 3 rad/s,
+/// which is typical of arms.
 pub(super) const DEXTERITY: f64 = 0.03;
 
-/// Joints that do not push use this share of their speed, and without a limit this, radians or metres
-/// a second.
+/// Share of the joint speed limit used between pushes, and the default speed without a limit,
+/// radians or metres per second.
 const SHARE: f64 = 0.5;
 const USUAL_SPEED: f64 = 1.0;
 
-/// Tools are set down and lifted at this speed, m/s.
+/// Speed of lowering and lifting tools, m/s.
 pub(super) const GENTLE: f64 = 0.1;
 
-/// Joint positions along a straight line of the flange, from `start`, which is there, on.
+/// Computes joint positions along a straight line of the flange, from the configuration `start` at
+/// its beginning.
 pub(super) fn line(
     arm: &Arm,
     [from, to]: [&Pose3; 2],
@@ -55,7 +55,7 @@ pub(super) fn line(
     (points, None)
 }
 
-/// Why joints do not go on from where they are.
+/// Returns the reason why the joints cannot continue from their positions.
 pub(super) fn why(arm: &Arm, at: &[f64]) -> ArmFault {
     let ended = arm.joints.iter().zip(at).find(|(joint, at)| {
         joint.limits.is_some_and(|[low, high]| **at - low < 1e-3 || high - **at < 1e-3)
@@ -67,7 +67,7 @@ pub(super) fn why(arm: &Arm, at: &[f64]) -> ArmFault {
     }
 }
 
-/// The same posture with joints turned by whole turns, as near to another as their limits allow.
+/// Shifts joints by whole turns so that a configuration is as near to another as the limits allow.
 pub(super) fn unwound(arm: &Arm, posture: &[f64], near: &[f64]) -> Vec<f64> {
     use std::f64::consts::TAU;
     let turned = |((joint, at), near): ((&crate::model::ArmJoint, &f64), &f64)| {
@@ -81,7 +81,7 @@ pub(super) fn unwound(arm: &Arm, posture: &[f64], near: &[f64]) -> Vec<f64> {
     arm.joints.iter().zip(posture).zip(near).map(turned).collect()
 }
 
-/// A trajectory that grows piece by piece, each from rest to rest.
+/// Trajectory under construction, whose segments start and end at rest.
 pub(super) struct Pieces<'a> {
     arm: &'a Arm,
     pub points: Vec<JointPoint>,
@@ -92,12 +92,12 @@ impl<'a> Pieces<'a> {
         Self { arm, points: vec![resting(0.0, &arm.home)] }
     }
 
-    /// Where the joints are by now.
+    /// Returns the current joint positions.
     pub fn now(&self) -> &[f64] {
         self.points.last().map_or(&self.arm.home, |point| &point.positions)
     }
 
-    /// Joints on a straight line to other positions, as fast as half of their speed allows.
+    /// Appends a linear joint motion to other positions, at half of the speed limits.
     pub fn swing(&mut self, to: &[f64]) {
         let took = |((joint, a), b): ((&crate::model::ArmJoint, &f64), &f64)| {
             let speed = SHARE * joint.max_speed.unwrap_or(USUAL_SPEED / SHARE);
@@ -109,8 +109,8 @@ impl<'a> Pieces<'a> {
         }
     }
 
-    /// Along points of a line of the flange of this length, metres, at a speed, m/s; where `gently`, as
-    /// much slower as joints need.
+    /// Appends the points of a flange line of this length, metres, at a speed, m/s. `gently`
+    /// reduces the speed as far as the joint speed limits require.
     pub fn along(&mut self, line: &[Vec<f64>], length: f64, speed: f64, gently: bool) {
         let count = line.len().saturating_sub(1);
         if count == 0 || length <= 0.0 {
@@ -125,7 +125,7 @@ impl<'a> Pieces<'a> {
                 }
             }
         }
-        // It speeds up and slows down within the first and the last of them.
+        // The line accelerates and decelerates within its first and last interval.
         let long = |k: usize| if k == 0 || k + 1 == count { 2.0 * interval } else { interval };
         let begun = self.time();
         let times: Vec<f64> = (0..=count).map(|k| begun + (0..k).map(long).sum::<f64>()).collect();
@@ -149,7 +149,7 @@ fn resting(time: f64, positions: &[f64]) -> JointPoint {
     JointPoint { time, positions: positions.to_vec(), velocities: vec![0.0; positions.len()] }
 }
 
-/// The flange at joint positions.
+/// Returns the pose of the flange for joint positions.
 pub(super) fn flange_at(arm: &Arm, positions: &[f64]) -> Pose3 {
     flange(arm, &frames(arm, positions))
 }

@@ -1,4 +1,4 @@
-//! Where an arm can hold a tool over the table: a cheap test that comes before all others.
+//! Feasible tool poses of an arm over the table: a cheap test that precedes all others.
 
 use std::f64::consts::TAU;
 
@@ -6,31 +6,31 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use pushplan::geometry::Vector;
 
-/// No arm over a table reaches farther, metres.
+/// Largest plausible reach of an arm over a table, metres.
 const FARTHEST: f64 = 10.0;
 
-/// Nobody tries distances that are nearer to each other, metres.
+/// Smallest plausible step of distances, metres.
 const FINEST: f64 = 1e-3;
 
-/// By distance from the base and by how the tool is turned against the way there. No arm has any until
-/// they are found.
+/// Feasible tool poses, by distance from the base and by rotation of the tool relative to the
+/// radial direction. The default stands for unknown poses.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Places {
-    /// The least and the largest distance from the base at which it can at some turn, metres.
+    /// Smallest and largest distance from the base that is feasible for some rotation, metres.
     pub ring: [f64; 2],
-    /// Between two distances, metres.
+    /// Step between distances, metres.
     pub step: f64,
-    /// Turns that were tried at each distance, evenly spread.
+    /// Number of evenly spaced rotations per distance.
     pub turns: usize,
-    /// Whether it can, for each distance from zero on and each turn; empty where that depends on more. A
-    /// text of 0 and 1 in files.
+    /// Feasibility for each distance from zero on, and for each rotation; empty if it depends on
+    /// more. Files store it as a text of 0 and 1.
     #[serde(with = "bits")]
     pub free: Vec<bool>,
 }
 
 impl Places {
-    /// Whether they were found, and are sound.
+    /// Returns `true` if the poses were computed and are valid.
     pub fn known(&self) -> bool {
         let [near, far] = self.ring;
         let sound = near >= 0.0 && near < far && far <= FARTHEST;
@@ -38,8 +38,8 @@ impl Places {
         sound && (self.free.is_empty() || self.step >= FINEST && counted)
     }
 
-    /// Whether a tool may be held at a position, its end effector turned by `yaw` radians: no where none
-    /// of what was tried around it can.
+    /// Returns `true` if a tool may be held at a position with the end effector rotated by `yaw`
+    /// radians. The result is `false` only if no sampled pose around it is feasible.
     pub fn allow(&self, position: Vector, yaw: f64) -> bool {
         if self.free.is_empty() {
             return true;
@@ -54,7 +54,7 @@ impl Places {
     }
 }
 
-/// Yes and no as a text of 1 and 0.
+/// Serialization of booleans as a text of 1 and 0.
 mod bits {
     use super::{Deserialize, Deserializer, Serializer};
 
@@ -89,7 +89,7 @@ mod tests {
         let at = |x: f64, yaw: f64| places.allow(Vector::new(x, 0.0), yaw);
         assert!(at(0.2, 0.0) && at(0.15, 0.1) && at(0.25, -0.1));
         assert!(!at(0.05, 0.0) && !at(0.35, 0.0) && !at(0.2, 1.6) && !at(9.0, 0.0));
-        // Only the turn against the way there counts.
+        // Only the rotation relative to the radial direction counts.
         assert!(places.allow(Vector::new(0.0, 0.2), TAU / 4.0));
         assert!(Places::default().allow(Vector::new(9.0, 0.0), 0.0));
     }

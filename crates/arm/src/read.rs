@@ -1,4 +1,4 @@
-//! Arms of task and plan files, and what the library asks of them.
+//! Reader for the arms of task and plan files, and its interface to the core library.
 
 use std::sync::Arc;
 
@@ -16,12 +16,12 @@ use super::model::Arm;
 use super::places::Places;
 use super::room::pairs;
 
-/// A fault and its remedy.
+/// Error message and remedy.
 pub(super) type Wrong = (String, String);
 
 const AGAIN: &str = "the file is damaged or of another version; make it again";
 
-/// Lets the library read arms: those of URDF files, and those that plan files hold.
+/// Registers the reader of this crate, for arms of URDF files and of plan files.
 pub fn install() {
     read_arms_with(|stated| Ok(Arc::new(read(stated)?)));
 }

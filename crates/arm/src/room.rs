@@ -1,4 +1,4 @@
-//! What an arm with a tool runs into: itself, the table, and what stands there.
+//! Collisions of an arm with a tool: with itself, the table, and bodies on it.
 
 use super::hull::{Hull, PlacedHull};
 use super::model::Arm;
@@ -8,19 +8,19 @@ use pushplan::scene::{Object, Robot, Scene, State, Tool};
 use super::inverse::start;
 use super::kinematics::{flange, frames};
 
-/// An arm keeps this far from all that stands there, metres; from itself it must only be apart.
+/// Minimum distance of an arm from other bodies, metres; self-collision requires only separation.
 const APART: f64 = 0.002;
 
-/// Postures in which it is looked at which bodies are in each other, and in what share of them that is
-/// how they are built.
+/// Number of sampled configurations to detect permanent overlaps of bodies, and the share of
+/// overlaps that counts as permanent.
 const POSTURES: usize = 100;
 const OFTEN: f64 = 0.2;
 
-/// What the tool is called.
+/// Name of the tool in collisions.
 const TOOL: &str = "tool";
 
-/// The pairs of bodies of an arm that could come to each other: no neighbours, and not in each other as
-/// often as the convex solids of a bent wrist are, nor at home.
+/// Returns the pairs of bodies to check for self-collision. Neighbours are excluded, and pairs that
+/// overlap at home or as often as the convex solids of a bent wrist do.
 pub fn pairs(arm: &Arm) -> Vec<[usize; 2]> {
     let room = Room::empty(arm);
     let stances: Vec<Stance> = (0..POSTURES).map(|k| room.stance(&start(arm, k))).collect();
@@ -35,7 +35,8 @@ pub fn pairs(arm: &Arm) -> Vec<[usize; 2]> {
     all.filter(apart).collect()
 }
 
-/// The first body of an arm that can come to the table: those before it stand there.
+/// Returns the index of the first body that can collide with the table; the bodies before it stand
+/// on it.
 pub fn above(arm: &Arm) -> usize {
     let home = Room::empty(arm).stance(&arm.home);
     let count = arm.bodies.len();
@@ -43,20 +44,20 @@ pub fn above(arm: &Arm) -> usize {
     (1..count).find(|k| !low(&home.bodies[*k])).unwrap_or(count)
 }
 
-/// What an arm may run into.
+/// Collision model of an arm and its surroundings.
 pub(super) struct Room<'a> {
     pub arm: &'a Arm,
-    /// The first body that can come to the table.
+    /// Index of the first body that can collide with the table.
     above: usize,
-    /// The tool's parts, seen from the flange.
+    /// Parts of the tool in the frame of the flange.
     tool: Vec<Hull>,
-    /// Obstacles, without what the arm stands on.
+    /// Obstacles, except the base of the arm.
     obstacles: Vec<(&'a str, PlacedHull)>,
-    /// Objects at their turn, with their heights.
+    /// Objects in their own frames.
     objects: Vec<(&'a str, Hull)>,
 }
 
-/// The arm at some joint positions.
+/// Placed solids of the arm and its tool.
 pub(super) struct Stance {
     bodies: Vec<Vec<PlacedHull>>,
     tool: Vec<PlacedHull>,
@@ -82,13 +83,13 @@ impl<'a> Room<'a> {
         }
     }
 
-    /// An arm without anything around it.
+    /// Returns a collision model without tool, obstacles and objects.
     fn empty(arm: &'a Arm) -> Self {
         let (tool, obstacles, objects) = (Vec::new(), Vec::new(), Vec::new());
         Self { arm, above: 1, tool, obstacles, objects }
     }
 
-    /// The arm at some joint positions.
+    /// Returns the placed solids at the given joint positions.
     pub fn stance(&self, positions: &[f64]) -> Stance {
         let frames = frames(self.arm, positions);
         let bodies = self
@@ -104,7 +105,7 @@ impl<'a> Room<'a> {
         }
     }
 
-    /// Objects where they are in a state.
+    /// Returns the placed objects of a state.
     pub fn objects(&self, state: &State) -> Vec<(&'a str, PlacedHull)> {
         let placed = self.objects.iter().zip(&state.poses);
         placed
@@ -112,8 +113,9 @@ impl<'a> Room<'a> {
             .collect()
     }
 
-    /// Which two things are in each other, if any: the arm's own, the arm and the table, obstacles or
-    /// `objects`; of the tool too where it is `carried`, and not where it pushes.
+    /// Returns the names of the first colliding pair, if any: bodies of the arm, table, obstacles
+    /// and `objects`. The tool counts only if it is `carried`, because it touches objects when it
+    /// pushes.
     pub fn met(
         &self,
         stance: &Stance,
@@ -128,14 +130,14 @@ impl<'a> Room<'a> {
         }
         let last = stance.bodies.len().saturating_sub(2);
         for (k, body) in stance.bodies.iter().enumerate() {
-            // What holds the tool is near it however it moves.
+            // The last two bodies are next to the tool in all configurations.
             if k < last && touching(body, &stance.tool, 0.0) == Some(true) {
                 return Some([name(k), TOOL.into()]);
             }
             if k >= self.above && body.iter().any(|hull| hull.lowest() < APART) {
                 return Some([name(k), "table".into()]);
             }
-            // The base does not move: what stands next to it stands there.
+            // The base does not move, so bodies next to it do not collide.
             if k > 0
                 && let Some(other) = first_met(body, self.obstacles.iter().chain(objects))
             {
@@ -164,14 +166,14 @@ fn first_met<'b>(
     others.find(|(_, other)| near(other)).map(|(name, _)| (*name).to_owned())
 }
 
-/// Whether bodies are in each other; nothing of what has no solids.
+/// Returns whether bodies overlap; `None` if either has no solids.
 fn touching(a: &[PlacedHull], b: &[PlacedHull], apart: f64) -> Option<bool> {
     let pairs = || a.iter().flat_map(|a| b.iter().map(move |b| (a, b)));
     pairs().next()?;
     Some(pairs().any(|(a, b)| a.gap(b, apart) <= apart))
 }
 
-/// The parts of a tool, seen from the flange.
+/// Returns the parts of a tool in the frame of the flange.
 fn of_tool(arm: &Arm, tool: &Tool) -> Vec<Hull> {
     let seen = arm.flange_of_tool().inverse();
     let grip = tool.grip.inverse();

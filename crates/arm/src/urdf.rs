@@ -1,4 +1,4 @@
-//! The chain of an arm in a URDF.
+//! Reader for the kinematic chain of an arm in a URDF.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -17,19 +17,19 @@ use pushplan_import::foreign::{Files, load};
 
 use super::read::Wrong;
 
-/// No length and no corner of a mesh is larger, in metres or the mesh's own unit.
+/// Largest plausible length, metres, and mesh coordinate, in the mesh's own unit.
 const FARTHEST: f64 = 1e5;
 
-/// A file that is being read.
+/// URDF file with its parsed document.
 struct File<'a> {
     path: &'a Path,
     document: &'a Document<'a>,
-    /// Packages of meshes stand anywhere above it.
+    /// Mesh files; packages may be in any folder above the URDF.
     files: Files,
 }
 
-/// The arm in a file from its root to the link `flange`; it stands at the origin, and what is mounted on
-/// it is not known yet. At home its joints are in the middle of their limits.
+/// Reads the arm in a file from its root to the link `flange`. The base is at the origin, the tool
+/// mount is not set, and the home position is the middle of the joint limits.
 pub(crate) fn chain(path: &Path, flange: &str) -> Result<Arm, Wrong> {
     let (_, text) = read_text(path).map_err(|fault| (fault.to_string(), String::new()))?;
     let document = Document::parse(&text).map_err(|error| {
@@ -63,7 +63,7 @@ impl<'a> File<'a> {
         let named = |tag: &'static str| elements(root).filter(move |node| node.has_tag_name(tag));
         let links: HashMap<&str, Node> =
             named("link").filter_map(|node| Some((node.attribute("name")?, node))).collect();
-        // By child: what attaches it.
+        // Joints by child link.
         let mut joints: HashMap<&str, Node> = HashMap::new();
         for joint in named("joint") {
             if joints.insert(end(joint, "child"), joint).is_some() {
@@ -78,7 +78,7 @@ impl<'a> File<'a> {
             let message = format!("there is no link `{flange}`");
             return Err(self.wrong(root, message, format!("its links are {}", known.join(", "))));
         }
-        // From the flange up, then turned around.
+        // The chain is collected from the flange upwards, then reversed.
         let mut chain = Vec::new();
         let mut link = flange;
         while let Some(joint) = joints.get(link) {
@@ -121,7 +121,7 @@ impl<'a> File<'a> {
         Ok(arm)
     }
 
-    /// The solids of a link, and of what is fixed to it beside the chain.
+    /// Collects the solids of a link, and of links that are fixed to it outside the chain.
     fn collect(
         &self,
         branches: &Branches<'_, 'a>,
@@ -263,7 +263,7 @@ impl<'a> File<'a> {
     }
 }
 
-/// What hangs where.
+/// Links and joints of the kinematic tree.
 struct Branches<'b, 'a> {
     links: &'b HashMap<&'a str, Node<'a, 'a>>,
     joints: &'b HashMap<&'a str, Node<'a, 'a>>,

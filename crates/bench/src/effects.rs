@@ -1,4 +1,4 @@
-//! One action by one effect model, timed.
+//! Timed prediction of one action by one effect model.
 
 use std::time::Instant;
 
@@ -9,18 +9,19 @@ use pushplan::{
     task::Job,
 };
 
-/// What a model says of an action.
+/// Timed prediction of an action.
 #[derive(Clone, Debug)]
 pub struct TimedEffect {
-    /// Where everything ends.
+    /// Predicted trajectory.
     pub trajectory: Trajectory,
-    /// What lowers the trust in it, known before or seen on the way, each once.
+    /// Warnings about the prediction, from the model's range and from the rollout, without
+    /// duplicates.
     pub warnings: Vec<Warning>,
     /// Wall time of the rollout, seconds.
     pub seconds: f64,
 }
 
-/// Rolls a job out by a model; `None` if it gives no trajectory.
+/// Rolls out a job with a model; returns `None` if the model declines the job.
 pub fn timed_effect(model: &dyn EffectModel, scene: &Scene, job: &Job) -> Option<TimedEffect> {
     let began = Instant::now();
     let found = model.rollout(scene, std::slice::from_ref(job), Record::Outcome);

@@ -1,7 +1,7 @@
-//! Measures what the product is for: tool selection in batches, and suites of task files.
+//! Benchmarks of the product: tool selection in batches, and suites of task files.
 //!
-//! Everything is seeded, takes any [`pushplan::effect::EffectModel`] and gives plain data that can
-//! be written as JSON; nothing is drawn here.
+//! Benchmarks are seeded, accept any [`pushplan::effect::EffectModel`] and return plain data that
+//! can be written as JSON. This crate does not draw.
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 

@@ -1,4 +1,4 @@
-//! The result of solving a task, as benchmarks keep it.
+//! Benchmark record of a solved task.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,47 +10,47 @@ use pushplan::{
     task::{Plan, Task},
 };
 
-/// The result of solving one task, everything but the times.
+/// Result of solving one task, without the times.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SolvedTask {
     /// Name of the task.
     pub task: String,
-    /// How it ended.
+    /// Status of the solution.
     pub status: PlanStatus,
-    /// Largest distance that counts as success, metres; `None` where no place is asked for.
+    /// Largest distance that counts as success, metres; `None` for a goal without a position.
     pub tolerance: Option<f64>,
-    /// The plan to use, or the nearest one; `None` if no push can be made at all.
+    /// Chosen plan, or the nearest one; `None` if no push is feasible.
     pub plan: Option<Plan>,
-    /// Where it ends as predicted by the effect model.
+    /// Outcome predicted by the effect model.
     pub predicted: Option<End>,
-    /// Where it ends in the planar engine.
+    /// Outcome in the 2-D engine.
     pub planar: Option<End>,
-    /// Where it ends in the 3-D engine.
+    /// Outcome in the 3-D engine.
     pub spatial: Option<End>,
-    /// Share of the disturbed 3-D replays that reach the goal, where any were made.
+    /// Share of the perturbed 3-D replays that reach the goal, if any were made.
     pub robustness: Option<f64>,
-    /// Plans that were replayed until one passed or they ran out.
+    /// Number of plans replayed until one passed or none was left.
     pub attempts: usize,
-    /// Rollouts of the effect model.
+    /// Number of rollouts of the effect model.
     pub rollouts: usize,
-    /// What lowers the trust in the prediction.
+    /// Warnings about the prediction.
     pub warnings: Vec<Warning>,
 }
 
-/// Where the goal object ends.
+/// Final error of the goal object.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct End {
     /// Distance from the goal, metres.
     pub error: f64,
-    /// Heading error, radians, where a heading is asked for.
+    /// Heading error, radians, if the goal has a heading.
     pub heading_error: Option<f64>,
     /// Whether the goal is reached at rest.
     pub reached: bool,
 }
 
 impl SolvedTask {
-    /// The record of a solution. A plan that was not worth verifying is replayed all the same,
-    /// so that every plan has its error in both engines.
+    /// Returns the record of a solution. An unverified plan is replayed too, so that every plan has
+    /// its error in both engines.
     pub fn of(task: &Task, solution: &Solution) -> Self {
         let best = solution.best();
         let situation = Situation::stated(&task.scene);
@@ -75,7 +75,7 @@ impl SolvedTask {
         }
     }
 
-    /// How long solving took, by stage.
+    /// Returns the duration of solving, by stage.
     pub fn seconds(solution: &Solution) -> Seconds {
         let timing = &solution.statistics.timing;
         let stages = [
@@ -89,7 +89,7 @@ impl SolvedTask {
 }
 
 impl End {
-    /// The part of an outcome that is counted.
+    /// Returns the errors of an outcome.
     pub fn of(outcome: &Outcome) -> Self {
         let (error, heading_error) = (outcome.error(), outcome.heading_error());
         Self { error, heading_error, reached: outcome.reached }

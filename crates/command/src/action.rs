@@ -1,4 +1,4 @@
-//! One action from the command line: a task, a tool and pushes become a tool motion.
+//! Actions from the command line: conversion of a task, a tool and pushes to a tool motion.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -41,7 +41,7 @@ impl LibraryArgs {
         })
     }
 
-    /// What is made from these tools, the task and, where it is said, models.
+    /// Returns the sources of a page: these tools, the task and, if given, the models.
     pub fn origin(&self, task: TaskSource, model: Option<Models>) -> Origin {
         let shown = |folder: &PathBuf| folder.display().to_string();
         Origin {
@@ -73,16 +73,16 @@ pub struct ActionArgs {
 }
 
 impl ActionArgs {
-    /// Whether an action was given at all.
+    /// Returns `true` if an action was given.
     pub fn given(&self) -> bool {
         self.tool.is_some() || self.lever.is_some()
     }
 
-    /// The action as a plan, with the tool that it names; rules of the task that it breaks are
-    /// warned of.
+    /// Returns the action as a plan, with its tool. Violated rules of the task are reported as
+    /// warnings.
     ///
     /// # Errors
-    /// [`CliError::Usage`] if no such plan can be made.
+    /// Returns [`CliError::Usage`] if the arguments give no valid plan.
     pub fn plan(
         &self,
         task: &Task,
@@ -122,7 +122,7 @@ impl ActionArgs {
         Ok((asked.plan, Arc::clone(tool)))
     }
 
-    /// A lever-up as a plan, with its tool: the one that is named, or else the first of the task.
+    /// Returns a lever-up as a plan, with its tool: the named one, otherwise the first of the task.
     fn levering(
         &self,
         task: &Task,

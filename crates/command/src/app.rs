@@ -1,4 +1,4 @@
-//! From the command line to an exit code.
+//! Execution of a command line, with its exit code.
 
 use std::ffi::OsString;
 use std::io::{IsTerminal, Write};
@@ -45,7 +45,7 @@ enum Command {
     Completions(completions::CompletionsArgs),
 }
 
-/// What the commands are for, in the order of `--help`.
+/// Groups of commands, in the order of `--help`.
 const GROUPS: Groups = &[
     ("Plan and carry out", &["new", "solve", "run", "verify", "predict", "design"]),
     ("Files", &["check", "import", "export"]),
@@ -53,18 +53,18 @@ const GROUPS: Groups = &[
     ("Measure", &["bench"]),
 ];
 
-/// Runs the command with the given arguments, the program's name first, and gives its exit code.
+/// Runs the command with the given arguments, the program's name first, and returns its exit code.
 pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
     start(args, GROUPS, |cli: &Cli| &cli.global, execute)
 }
 
-/// The command with its help.
+/// Returns the command with its help.
 pub fn command() -> clap::Command {
     grouped(Cli::command(), GROUPS)
 }
 
-/// Runs a command of this family: parses its arguments, starts a session, has `execute` do what
-/// they ask for, reports what goes wrong, and gives the exit code.
+/// Runs a command of this family and returns its exit code. The function parses the arguments,
+/// starts a session, calls `execute`, and reports errors.
 pub fn start<C: Parser>(
     args: impl IntoIterator<Item = OsString>,
     groups: Groups,
@@ -75,7 +75,7 @@ pub fn start<C: Parser>(
     let cli = match parsed.and_then(|mut matches| C::from_arg_matches_mut(&mut matches)) {
         Ok(cli) => cli,
         Err(message) => {
-            // Help and version come here too, for stdout and with code 0.
+            // Help and version arrive here too, for stdout and with code 0.
             let _ = message.print();
             let wrong = message.use_stderr();
             return if wrong { exit_code::USAGE } else { exit_code::DONE };
@@ -115,7 +115,7 @@ fn execute(cli: &Cli, session: &Session) -> Result<u8, CliError> {
 fn report(error: &CliError) {
     let text = match error {
         CliError::Closed => return,
-        // Every fault says so itself, behind its place.
+        // Each fault contains its own `error:`, after its place.
         CliError::Files(faults) | CliError::Output(faults) => faults.to_string(),
         CliError::Interrupted(message) => message.clone(),
         _ => format!("error: {error}"),

@@ -1,5 +1,5 @@
-//! `pushplan check`: reads files and says everything that is wrong with them; JSON schemas of files
-//! that people write.
+//! `pushplan check`: reads files and reports all errors, and prints JSON schemas of user-written
+//! files.
 
 use std::path::{Path, PathBuf};
 
@@ -84,7 +84,7 @@ pub fn run(args: &CheckArgs, session: &Session) -> Result<u8, CliError> {
     if faults.is_empty() { Ok(code) } else { Err(Faults(faults).into()) }
 }
 
-/// Says what keeps a task from having a plan; the exit code.
+/// Prints the reason why a task has no plan, and returns the exit code.
 fn why(file: &Path, library: &ToolLibrary, session: &Session) -> Result<u8, CliError> {
     let task = asset::load_task(file, library)?;
     if task.levers.is_some() {

@@ -1,4 +1,4 @@
-//! `pushplan design`: a tool for a task that no tool solves.
+//! `pushplan design`: a tool for a task that no existing tool solves.
 
 use std::path::{Path, PathBuf};
 
@@ -21,7 +21,7 @@ use super::{
     words::{EFFORTS, words},
 };
 
-/// The folder of proposed tools, below that of the results.
+/// Folder of proposed tools, within the folder of results.
 const TOOLS: &str = "tools";
 
 /// Propose a tool for a task that none solves, or that one solves with more margin
@@ -116,13 +116,13 @@ pub fn run(args: &DesignArgs, session: &Session) -> Result<u8, CliError> {
         }
         None => Ok(Vec::new()),
     };
-    // As a plan, a tool is shown also where the disk has no place for it.
+    // A tool is shown even if it cannot be saved.
     document.wrote(written.as_deref().unwrap_or_default());
     args.form.show(session, &document)?;
     written.map(|_: Vec<PathBuf>| code)
 }
 
-/// Writes the file of a tool into the folder, and gives its path.
+/// Writes the file of a tool into the folder and returns its path.
 fn write_tool(folder: &Path, tool: &Tool) -> Result<PathBuf, CliError> {
     output::prepare(folder)?;
     output::write(folder, &format!("{}.yaml", tool.name), tool.to_yaml()?.as_bytes())

@@ -1,4 +1,4 @@
-//! Everything that ends a command early, with its exit code.
+//! Errors that end a command early, with their exit codes.
 
 use std::fmt::Display;
 use std::io;
@@ -9,57 +9,57 @@ use pushplan::asset::Faults;
 
 use super::exit_code;
 
-/// Why a command could not finish.
+/// Error that ends a command.
 #[derive(Debug, Error)]
 pub enum CliError {
-    /// Arguments that only make sense together, or not at all, for this task.
+    /// Arguments that are inconsistent with each other or with the task.
     #[error("{message}\n  help: {advice}")]
     Usage {
         /// Description of the fault.
         message: String,
-        /// What to try.
+        /// Suggested correction.
         advice: String,
     },
-    /// Faults of given files; each says `error:` itself.
+    /// Faults of given files; each contains its own `error:`.
     #[error("{0}")]
     Files(#[from] Faults),
-    /// A given file or folder that is missing, damaged or of another kind.
+    /// Missing or damaged file or folder, or one of another kind.
     #[error("{0}")]
     File(String),
-    /// The model should not be trusted with what is asked, and was told to refuse then.
+    /// Request outside the model's range, with the option to refuse it.
     #[error(
         "{0}\n  help: `--outside simulate` simulates instead, `--outside warn` predicts all the same"
     )]
     Refused(String),
-    /// Stopped by a signal.
+    /// Interruption by a signal.
     #[error("{0}")]
     Interrupted(String),
-    /// What was carried out came to an end that nobody wanted.
+    /// Execution that ended without success.
     #[error("{0}")]
     Ended(String),
-    /// Results that cannot be written; each fault says `error:` itself.
+    /// Error of writing results; each fault contains its own `error:`.
     #[error("{0}")]
     Output(Faults),
-    /// Nobody reads the results any more.
+    /// Closed reader of the results.
     #[error("the output was closed")]
     Closed,
-    /// Anything else.
+    /// Any other error.
     #[error("{0}")]
     Unexpected(String),
 }
 
 impl CliError {
-    /// A wrong command line.
+    /// Returns an error of the command line.
     pub fn usage(message: impl Into<String>, advice: impl Into<String>) -> Self {
         Self::Usage { message: message.into(), advice: advice.into() }
     }
 
-    /// A failure outside the given files.
+    /// Returns an error outside the given files.
     pub fn unexpected(doing: &str, error: &dyn Display) -> Self {
         Self::Unexpected(format!("{doing}: {error}"))
     }
 
-    /// A failure to write results.
+    /// Converts an error of writing results.
     pub fn output(error: &io::Error) -> Self {
         match error.kind() {
             io::ErrorKind::BrokenPipe => Self::Closed,
@@ -67,7 +67,7 @@ impl CliError {
         }
     }
 
-    /// The process's exit code.
+    /// Returns the exit code of the process.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Usage { .. } => exit_code::USAGE,
@@ -75,7 +75,7 @@ impl CliError {
             Self::Refused(_) => exit_code::REFUSED,
             Self::Ended(_) => exit_code::FAILED_VERIFICATION,
             Self::Interrupted(_) => exit_code::INTERRUPTED,
-            // `pushplan ... | head` is no failure.
+            // A pipe such as `pushplan ... | head` is no failure.
             Self::Closed => exit_code::DONE,
             Self::Output(_) | Self::Unexpected(_) => exit_code::UNEXPECTED,
         }

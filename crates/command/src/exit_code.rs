@@ -1,28 +1,28 @@
-//! What the process tells the shell. Scripts rely on these numbers: never change their meaning.
+//! Exit codes of the process. Scripts rely on these numbers, so their meaning must never change.
 
-/// Did what was asked.
+/// Success.
 pub const DONE: u8 = 0;
-/// Could not finish for a reason outside the given files: a folder that cannot be written, a full
-/// disk, or a defect of pushplan.
+/// Failure for a reason outside the given files: a folder that cannot be written, a full disk, or a
+/// defect of pushplan.
 pub const UNEXPECTED: u8 = 1;
-/// The command line is wrong. Nothing was run.
+/// Invalid command line; nothing was run.
 pub const USAGE: u8 = 2;
-/// A given file is missing, unreadable or wrong. Every fault found was printed.
+/// Missing, unreadable or invalid file; every fault found was printed.
 pub const INVALID_FILE: u8 = 3;
-/// The search ended and no plan reaches the goal; the nearest one is shown.
+/// Search without a plan that reaches the goal; the nearest plan is shown.
 pub const NO_PLAN: u8 = 4;
-/// Plans reach the goal by prediction, but none of those tried works in simulation.
+/// Plans that reach the goal by prediction, but fail verification.
 pub const FAILED_VERIFICATION: u8 = 5;
-/// The model should not be trusted with this, and `--outside refuse` was asked for.
+/// Request outside the model's range, with `--outside refuse`.
 pub const REFUSED: u8 = 6;
-/// The best plan works as written, but too seldom under small errors.
+/// Best plan that works as written, but too seldom under perturbations.
 pub const FRAGILE: u8 = 7;
-/// The best plan meets some of several goals only.
+/// Best plan that meets only some of several goals.
 pub const PARTIAL: u8 = 8;
-/// Stopped by Ctrl-C or a termination signal; what was finished is saved.
+/// Interruption by Ctrl-C or a termination signal; finished work is saved.
 pub const INTERRUPTED: u8 = 130;
 
-/// The list for `--help`.
+/// List of exit codes for `--help`.
 pub const HELP: &str = "\
 Exit codes:
     0  done

@@ -60,7 +60,7 @@ enum Format {
 }
 
 impl Format {
-    /// How names of its files end.
+    /// Returns the file extension of the format.
     fn ending(self) -> &'static str {
         match self {
             Format::Mjcf => "xml",
@@ -134,7 +134,7 @@ pub fn run(args: &ExportArgs, session: &Session) -> Result<u8, CliError> {
     Ok(exit_code::DONE)
 }
 
-/// A plan, and what it does if the file says so.
+/// Reads a plan, and its trajectory if the file contains one.
 fn open(path: &Path) -> Result<(PlanFile, Option<Trajectory>), Faults> {
     match asset::check(path, None)? {
         Kind::Plan => PlanFile::load(path).map(|plan| (plan, None)),
@@ -153,7 +153,7 @@ fn open(path: &Path) -> Result<(PlanFile, Option<Trajectory>), Faults> {
     }
 }
 
-/// What a plan does according to a model.
+/// Predicts the trajectory of a plan with a model.
 fn carried_out(
     plan: &PlanFile,
     spec: &ModelSpec,
@@ -167,7 +167,7 @@ fn carried_out(
     let scene = &plan.task.scene;
     let motions = plan.plan.motions(&plan.tools).unwrap_or_default();
     let trajectory =
-        // What follows something levered is for the engine alone.
+        // Steps after a lever-up are supported only by the engine.
         match motions.len() > 1 && plan.plan.levers() {
             false => {
                 let model = model::load(spec)?;
@@ -187,7 +187,8 @@ fn carried_out(
     Ok(trajectory)
 }
 
-/// `a/b.plan.json` becomes `b.xml`, `a/b.3d.trajectory.json` `b.3d.xml`.
+/// Returns the name of the exported file: `a/b.plan.json` becomes `b.xml`, and
+/// `a/b.3d.trajectory.json` becomes `b.3d.xml`.
 fn name(path: &Path, format: Format) -> String {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let stem = name.strip_suffix(".json").unwrap_or(&name);

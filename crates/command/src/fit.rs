@@ -1,4 +1,4 @@
-//! `pushplan fit`: how objects rest and rub, from recorded pushes.
+//! `pushplan fit`: support and friction of objects, from recorded pushes.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! How a long job shows itself on stderr and is stopped by Ctrl-C.
+//! Progress of a long job on stderr, and its cancellation by Ctrl-C.
 
 use std::sync::Mutex;
 
@@ -12,25 +12,25 @@ use super::{
     session::{Session, count},
 };
 
-/// Follows a job with a bar or a spinner.
+/// Progress bar or spinner of a job.
 pub struct Following<'a> {
     session: &'a Session,
     bar: ProgressBar,
-    /// Whether the units that it counts are those of a stage.
+    /// Whether the counted units belong to a stage.
     staged: bool,
-    /// The stage and the best answer so far.
+    /// Stage, and best answer so far.
     said: Mutex<[String; 2]>,
-    /// What went wrong while showing; the job is asked to stop then.
+    /// First error of showing progress, which cancels the job.
     trouble: Mutex<Option<CliError>>,
 }
 
 impl<'a> Following<'a> {
-    /// A bar, for many equal units of `what`.
+    /// Returns a bar for many equal units of `what`.
     pub fn bar(session: &'a Session, what: &str) -> Self {
         Self::with(session, session.bar(what), false)
     }
 
-    /// A spinner with the stage and how far it is.
+    /// Returns a spinner with the stage and its progress.
     pub fn spinner(session: &'a Session, what: &str) -> Self {
         Self::with(session, session.staged(what), true)
     }
@@ -39,7 +39,7 @@ impl<'a> Following<'a> {
         Self { session, bar, staged, said: Mutex::default(), trouble: Mutex::default() }
     }
 
-    /// Shows what was said last, changed.
+    /// Changes the shown message.
     fn say(&self, change: impl FnOnce(&mut [String; 2])) {
         let mut said = self.said.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         change(&mut said);
@@ -51,14 +51,14 @@ impl<'a> Following<'a> {
     /// Ends the bar.
     ///
     /// # Errors
-    /// What went wrong while showing.
+    /// Returns the first error of showing progress.
     pub fn finish(self) -> Result<(), CliError> {
         self.bar.finish_and_clear();
         let trouble = self.trouble.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
         trouble.map_or(Ok(()), Err)
     }
 
-    /// Keeps the first trouble.
+    /// Records an error, if it is the first.
     pub fn keep(&self, shown: Result<(), CliError>) {
         if let Err(error) = shown {
             let mut trouble = self.trouble.lock().unwrap_or_else(|poisoned| poisoned.into_inner());

@@ -1,4 +1,4 @@
-//! How results are printed.
+//! Output format of results.
 
 use clap::Args;
 
@@ -21,7 +21,7 @@ impl Form {
     /// Prints a report.
     ///
     /// # Errors
-    /// If nobody reads it, or it cannot be written.
+    /// Returns an error if the output is closed or cannot be written.
     pub fn show(self, session: &Session, document: &Document) -> Result<(), CliError> {
         session.print(&match self {
             Self { json: true, .. } => document.to_json(),
@@ -30,11 +30,11 @@ impl Form {
         })
     }
 
-    /// Prints a part of a report that takes minutes as soon as it is there, and a blank line; of
-    /// JSON there is only the whole.
+    /// Prints a part of a report that takes minutes, with a blank line, as soon as it is available.
+    /// JSON is printed only as a whole.
     ///
     /// # Errors
-    /// Those of [`Form::show`].
+    /// Returns the errors of [`Form::show`].
     pub fn show_part(self, session: &Session, part: &Document) -> Result<(), CliError> {
         if self.json {
             return Ok(());
@@ -43,10 +43,10 @@ impl Form {
         session.print("\n")
     }
 
-    /// Prints a whole report whose parts were shown: in JSON, or what is left to say.
+    /// Prints the whole report after its parts: in JSON, or if there is content `left`.
     ///
     /// # Errors
-    /// Those of [`Form::show`].
+    /// Returns the errors of [`Form::show`].
     pub fn show_rest(
         self,
         session: &Session,

@@ -1,14 +1,14 @@
-//! Help in which commands that belong together stand together.
+//! Help with grouped commands.
 
 use std::fmt::Write;
 
 use clap::Command;
 
-/// Titles, and the commands below each.
+/// Titles, and the commands of each group.
 pub type Groups = &'static [(&'static str, &'static [&'static str])];
 
-/// `command` with a help that lists its subcommands in `groups`. Those that a build leaves out are
-/// left out, those that no group names stand last.
+/// Returns `command` with a help that lists its subcommands in `groups`. Commands that are not part
+/// of the build are omitted, and ungrouped commands are last.
 pub fn grouped(command: Command, groups: Groups) -> Command {
     let listed: Vec<(String, String)> = command
         .get_subcommands()

@@ -153,7 +153,8 @@ pub fn run(args: &ImportArgs, session: &Session) -> Result<u8, CliError> {
     Ok(exit_code::DONE)
 }
 
-/// The first line of an imported file. Line feeds in a name would end the comment.
+/// Returns the first line of an imported file. Control characters are replaced because a line feed
+/// in a name would end the comment.
 fn from(file: &str, language: Language) -> String {
     let file = file.replace(char::is_control, " ");
     format!("# From {file} ({}).", language.name())
@@ -166,7 +167,7 @@ fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
-/// `x,y` in metres.
+/// Parses `x,y` in metres.
 fn shift(text: &str) -> Result<Vector, String> {
     let numbers: Option<Vec<f64>> = text.split(',').map(|word| word.trim().parse().ok()).collect();
     match numbers.as_deref() {

@@ -1,4 +1,4 @@
-//! `pushplan infer`: which objects are joined, from recorded pushes.
+//! `pushplan infer`: joints between objects, from recorded pushes.
 
 use std::path::PathBuf;
 
@@ -24,7 +24,7 @@ use super::{
     words::{VIEWS, words},
 };
 
-/// What usually rolls hypotheses out.
+/// Default model for the rollouts of hypotheses.
 const MODEL: &str = "prior";
 
 /// Infer from a recording which objects are joined, and by which joints
@@ -116,7 +116,7 @@ pub fn run(args: &InferArgs, session: &Session) -> Result<u8, CliError> {
     Ok(exit_code::DONE)
 }
 
-/// What infers the same again: settings that are not as usual.
+/// Returns the recipe that repeats the inference, with the non-default settings.
 fn recipe(args: &InferArgs) -> Recipe {
     let mut settings = Vec::new();
     let value = args.model.to_string();

@@ -1,4 +1,4 @@
-//! Ctrl-C and termination signals.
+//! Handling of Ctrl-C and termination signals.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
@@ -12,30 +12,32 @@ static FLAGS: OnceLock<Flags> = OnceLock::new();
 
 struct Flags {
     requested: Arc<AtomicBool>,
-    /// Whether the next signal ends the process at once.
+    /// Whether the next signal ends the process immediately.
     abrupt: Arc<AtomicBool>,
 }
 
-/// Installs the handlers: a job that [`watch`]es is asked to stop at the first signal and save,
-/// and is ended by the second; anything else ends at once. Files appear under their final name
-/// only when they are whole, so ending at once loses nothing that was finished.
+/// Installs the signal handlers.
 ///
-/// The hangup of a terminal keeps what it does: it ends the process, or under `nohup` nothing.
+/// The first signal asks a job that polls [`watch`] to stop and save, and the second ends it. Other
+/// commands end immediately. Files get their final names only when they are complete, so that no
+/// finished work is lost.
+///
+/// The hangup of a terminal keeps its default: it ends the process, or does nothing under `nohup`.
 ///
 /// # Errors
-/// [`CliError::Unexpected`] if the system refuses a handler.
+/// Returns [`CliError::Unexpected`] if the system refuses a handler.
 pub fn install() -> Result<(), CliError> {
     let flags = Flags {
         requested: Arc::new(AtomicBool::new(false)),
         abrupt: Arc::new(AtomicBool::new(true)),
     };
     let (requested, abrupt) = (flags.requested.clone(), flags.abrupt.clone());
-    // A second call in one process (tests, embedding) finds the handlers in place.
+    // A second call in one process (tests, embedding) finds the handlers installed.
     if FLAGS.set(flags).is_err() {
         return Ok(());
     }
     for signal in [SIGINT, SIGTERM] {
-        // In this order, so that the signal that sets `abrupt` is not the one that ends.
+        // The order ensures that the signal that sets `abrupt` does not end the process.
         flag::register_conditional_shutdown(signal, exit_code::INTERRUPTED.into(), abrupt.clone())
             .and_then(|_| flag::register(signal, abrupt.clone()))
             .and_then(|_| flag::register(signal, requested.clone()))
@@ -44,8 +46,8 @@ pub fn install() -> Result<(), CliError> {
     Ok(())
 }
 
-/// From here on the first signal asks to stop, which a long job sees between two units of work:
-/// see [`requested`].
+/// Starts graceful handling: from now on the first signal only requests a stop, which a long job
+/// polls between two units of work, see [`requested`].
 pub fn watch() -> &'static AtomicBool {
     static NEVER: AtomicBool = AtomicBool::new(false);
     FLAGS.get().map_or(&NEVER, |flags| {
@@ -54,7 +56,7 @@ pub fn watch() -> &'static AtomicBool {
     })
 }
 
-/// Whether a watched job was asked to stop.
+/// Returns `true` if a stop was requested.
 pub fn requested() -> bool {
     FLAGS.get().is_some_and(|flags| flags.requested.load(Ordering::SeqCst))
 }

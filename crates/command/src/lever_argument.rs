@@ -3,7 +3,7 @@
 use pushplan::solve::{ManualLever, ManualPlace};
 use pushplan::task::Pivot;
 
-/// Help shown wherever a lever-up can be given.
+/// Help for options that accept a lever-up.
 pub const LEVER_FORM: &str = "\
 A lever-up, in a task of levering:
   --lever point=0:0.5,depth=0.012,angle=90
@@ -13,10 +13,10 @@ A lever-up, in a task of levering:
       with the axis 12 mm behind the edge instead of at the support line (pivot=auto), and so fast
       (m/s; by default as the task says)";
 
-/// Reads one lever-up.
+/// Parses one lever-up.
 ///
 /// # Errors
-/// What is wrong with it, and what to write instead.
+/// Returns a description of the fault, with a correction.
 pub fn lever_argument(text: &str) -> Result<ManualLever, String> {
     let (mut place, mut pivot) = (None, None);
     let (mut depth, mut angle, mut speed) = (None, None, None);
@@ -33,7 +33,7 @@ pub fn lever_argument(text: &str) -> Result<ManualLever, String> {
                 };
                 pivot.replace(found).is_some()
             }
-            // The ranges of task files.
+            // Task files have the same ranges.
             "depth" => depth.replace(within(key, value, [0.002, 0.2])?).is_some(),
             "angle" => angle.replace(within(key, value, [1.0, 150.0])?).is_some(),
             "speed" => speed.replace(within(key, value, [0.01, 1.0])?).is_some(),

@@ -1,6 +1,8 @@
-//! The `pushplan` command: one file per subcommand, each from arguments to a call and its report.
+//! The `pushplan` command: one file per subcommand, which converts arguments to a call and a
+//! report.
 //!
-//! Results go to stdout; progress, warnings and errors to stderr. No logic lives here.
+//! Results go to stdout; progress, warnings and errors to stderr. The planning logic is in the
+//! other crates.
 #![deny(unsafe_code)]
 
 pub mod action;

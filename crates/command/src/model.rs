@@ -25,37 +25,37 @@ macro_rules! help {
     };
 }
 
-/// The line for `--help`.
+/// Text of `--help`.
 pub const HELP: &str = help!("");
 
-/// The same where the effort decides unless models are named.
+/// Text of `--help` for commands whose default models depend on the effort.
 pub const HELP_WITH_EFFORT: &str = help!(
     ". Two with > between them: the first screens the many rollouts of a search, the second decides \
      among the few, prior>network [default: those of the effort]"
 );
 
-/// The same where it is the network unless a model is named; for lever-ups their own.
+/// Text of `--help` for commands whose default is the network; lever-ups have their own text.
 pub const HELP_WITH_NETWORK: &str = help!(" [default: network]");
 
-/// Models of lever-ups.
+/// Text of `--help` for models of lever-ups.
 pub const HELP_FOR_LEVERS: &str =
     "What predicts the effect of lever-ups: prior, or a simulation such as 3d,step=1/60";
 
-/// The model that is used unless another is asked for.
+/// Default model.
 pub const DEFAULT: &str = "network";
 
-/// The model that `spec` describes.
+/// Loads the model that `spec` describes.
 ///
 /// # Errors
-/// A weights file that is missing, damaged or not of pushplan.
+/// Returns an error if a weights file is missing, damaged or not of pushplan.
 pub fn load(spec: &ModelSpec) -> Result<Routed, CliError> {
     Ok(EffectModels::build(spec)?)
 }
 
-/// The weights of a network; none for other models.
+/// Loads the weights of a network; returns `None` for other models.
 ///
 /// # Errors
-/// A weights file that is missing, damaged or not of pushplan.
+/// Returns an error if a weights file is missing, damaged or not of pushplan.
 pub fn weights(spec: &ModelSpec) -> Result<Option<PredictorWeights>, CliError> {
     Ok(EffectModels::weights_of(spec)?)
 }
@@ -80,22 +80,22 @@ pub struct TableArgs {
 }
 
 impl TableArgs {
-    /// The file, if one is named.
+    /// Returns the file as a setting, if one is named.
     pub fn setting(&self) -> Option<Setting> {
         let value = self.fit.as_ref()?.display().to_string();
         Some(Setting { option: "--fit", keyword: Some("fit"), value })
     }
 
-    /// The file's contents, if one is named.
+    /// Reads the file, if one is named.
     ///
     /// # Errors
-    /// A file that cannot be read, or is none of a fit.
+    /// Returns an error if the file cannot be read, or is not a fit.
     pub fn load(&self) -> Result<Option<TableFit>, CliError> {
         Ok(self.fit.as_ref().map(TableFit::load).transpose()?)
     }
 }
 
-/// Lets `scene` be as `fit` says, and warns of objects that it was not learnt on.
+/// Applies `fit` to `scene`, with a warning for objects that were not in its training data.
 pub fn state(fit: &TableFit, scene: &mut Scene, session: &Session) {
     for object in fit.strange(scene) {
         session.warn(&format!(
@@ -116,31 +116,31 @@ pub struct OutsideArgs {
 }
 
 impl OutsideArgs {
-    /// What was asked for.
+    /// Returns the policy outside of a model's range.
     pub fn outside(self) -> Outside {
         self.outside
     }
 
-    /// Notes what was asked for among the settings of a kept run, unless it is the default: a
-    /// run that began without this option goes on.
+    /// Adds the policy to the settings of a saved run, unless it is the default. Runs started
+    /// before this option existed can therefore be resumed.
     pub fn note(self, settings: &mut serde_json::Value) {
         if self.outside() != Outside::default() {
             settings["outside"] = serde_json::json!(self.outside());
         }
     }
 
-    /// The model that `spec` describes, used only where it can be trusted.
+    /// Loads the model that `spec` describes, used only within its range.
     ///
     /// # Errors
-    /// Those of [`load`].
+    /// Returns the errors of [`load`].
     pub fn load(self, spec: &ModelSpec) -> Result<Arc<dyn EffectModel>, CliError> {
         self.fitted(spec, None)
     }
 
-    /// The same with what was learnt about a table.
+    /// Loads the model with the fit of a table.
     ///
     /// # Errors
-    /// Those of [`load`], and a fit of other weights.
+    /// Returns the errors of [`load`], and an error for a fit of other weights.
     pub fn fitted(
         self,
         spec: &ModelSpec,

@@ -1,4 +1,4 @@
-//! `pushplan new`: a task file to begin with.
+//! `pushplan new`: a task file to start from.
 
 use std::path::PathBuf;
 
@@ -8,7 +8,7 @@ use pushplan::asset::{example_text, write_atomic};
 
 use super::{error::CliError, exit_code, session::Session, task_argument};
 
-/// The shortest task that runs, with what a beginner asks.
+/// Minimal task that runs, with answers to beginners' questions.
 const TASK: &str = include_str!("new.yaml");
 
 /// Write a task file to begin with
@@ -29,7 +29,7 @@ pub struct NewArgs {
 pub fn run(args: &NewArgs, session: &Session) -> Result<u8, CliError> {
     let mut path = args.name.clone();
     if !path.extension().is_some_and(|end| end == "yaml" || end == "yml") {
-        // A name may hold dots.
+        // A name may contain dots.
         path.as_mut_os_string().push(".yaml");
     }
     let shown = path.display();

@@ -1,11 +1,11 @@
-//! How exactly things are seen.
+//! Accuracy of recorded poses.
 
 use clap::Args;
 
 use pushplan::task::Noise;
 use pushplan_report::Setting;
 
-/// Usual errors, metres and radians.
+/// Default errors, metres and radians.
 const USUAL: (f64, f64) = (1e-3, 0.01);
 
 /// Errors of recorded poses.
@@ -20,12 +20,12 @@ pub struct NoiseArgs {
 }
 
 impl NoiseArgs {
-    /// The noise.
+    /// Returns the noise.
     pub fn noise(self) -> Noise {
         Noise { position: self.noise, heading: self.heading_noise }
     }
 
-    /// What of it is not as usual.
+    /// Returns the non-default settings.
     pub fn settings(self) -> Vec<Setting> {
         let setting = |option, keyword, value: f64, usual: f64| {
             let value = value.to_string();

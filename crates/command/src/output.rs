@@ -1,4 +1,4 @@
-//! The folder that results are written to.
+//! Folder of the results.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ use super::action::LibraryArgs;
 use super::error::CliError;
 use super::words::{VIEWS, words};
 
-/// Where results go unless `--out` says otherwise.
+/// Default folder of the results.
 pub const FOLDER: &str = "plans";
 
 /// Where results go, what their page shows, and which tools there are.
@@ -27,10 +27,10 @@ pub struct ResultArgs {
     pub library: LibraryArgs,
 }
 
-/// Makes the folder and sees that it can be written to, before anything long is computed.
+/// Creates the folder and checks that it is writable, before any long computation.
 ///
 /// # Errors
-/// [`CliError::Output`] if it cannot be made or written to.
+/// Returns [`CliError::Output`] if the folder cannot be created or written.
 pub fn prepare(folder: &Path) -> Result<(), CliError> {
     let refused = |error: std::io::Error| {
         CliError::Output(Fault::io(folder, "write to the folder", &error).into())
@@ -39,20 +39,20 @@ pub fn prepare(folder: &Path) -> Result<(), CliError> {
     tempfile::tempfile_in(folder).map(drop).map_err(refused)
 }
 
-/// Writes a file of the folder whole or not at all, and gives its path.
+/// Writes a file into the folder atomically and returns its path.
 ///
 /// # Errors
-/// [`CliError::Output`] if that fails.
+/// Returns [`CliError::Output`] on failure.
 pub fn write(folder: &Path, name: &str, bytes: &[u8]) -> Result<PathBuf, CliError> {
     let path = folder.join(name);
     write_atomic(&path, bytes).map_err(CliError::Output)?;
     Ok(path)
 }
 
-/// Writes figures into the folder, and gives their paths.
+/// Writes figures into the folder and returns their paths.
 ///
 /// # Errors
-/// [`CliError::Output`] if one cannot be written.
+/// Returns [`CliError::Output`] if one cannot be written.
 pub fn write_figures<'a>(
     folder: &Path,
     figures: impl IntoIterator<Item = &'a Figure>,

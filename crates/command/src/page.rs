@@ -1,4 +1,4 @@
-//! The page of a plan that was replayed.
+//! The page of a replayed plan.
 
 use std::path::{Path, PathBuf};
 
@@ -13,12 +13,11 @@ use pushplan_report::{PageView, Recipe, verdict_page};
 
 use super::{error::CliError, model, output, session::Session};
 
-/// Writes the page `<task>.verify.html` with what the plan's effect model says next to the replays, and
-/// gives its path; `recipe` makes the replays
-/// again.
+/// Writes the page `<task>.verify.html` with the prediction of the plan's effect model and the
+/// replays, and returns its path. `recipe` repeats the replays.
 ///
 /// # Errors
-/// If it cannot be written.
+/// Returns an error if the page cannot be written.
 pub fn write(
     out: &Path,
     session: &Session,
@@ -35,14 +34,14 @@ pub fn write(
     output::write(out, &format!("{}.verify.html", file.task.name), page.as_bytes())
 }
 
-/// What a model says of a plan; `None` if it gives no trajectory.
+/// Predicts a plan with a model; returns `None` if the model declines it.
 fn predict(
     session: &Session,
     file: &PlanFile,
     spec: &ModelSpec,
 ) -> Result<Option<Trajectory>, CliError> {
     let motions = file.plan.motions(&file.tools).unwrap_or_default();
-    // What follows something levered no model of the plane tells.
+    // Planar models do not support steps after a lever-up.
     if motions.len() > 1 && file.plan.levers() {
         return Ok(None);
     }

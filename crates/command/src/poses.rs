@@ -1,4 +1,4 @@
-//! Predicted poses as a file for other programs.
+//! Export of predicted poses for other programs.
 
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -19,7 +19,7 @@ pub struct PosesArgs {
     export: Option<PosesFile>,
 }
 
-/// A file of poses, named with its ending.
+/// Pose file, with its format from the extension.
 #[derive(Clone, Debug)]
 struct PosesFile {
     path: PathBuf,
@@ -41,15 +41,15 @@ impl FromStr for PosesFile {
 }
 
 impl PosesArgs {
-    /// Whether poses are wanted at all.
+    /// Returns `true` if an export is wanted.
     pub fn wanted(&self) -> bool {
         self.export.is_some()
     }
 
-    /// Writes them.
+    /// Writes the poses.
     ///
     /// # Errors
-    /// [`CliError::Output`] if the file cannot be written.
+    /// Returns [`CliError::Output`] if the file cannot be written.
     pub fn write(&self, rows: &[PoseRow]) -> Result<(), CliError> {
         let Some(PosesFile { path, json }) = &self.export else { return Ok(()) };
         let document = poses_document(rows);

@@ -1,4 +1,5 @@
-//! `pushplan predict`: what one motion does by several models, or how well models predict recordings.
+//! `pushplan predict`: predictions of one motion by several models, or errors of models on
+//! recordings.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -80,21 +81,21 @@ pub struct PredictArgs {
     pub form: Form,
 }
 
-/// What the command line names.
+/// Kind of input on the command line.
 enum Named<'a> {
     Example(&'a str),
-    /// A task or a plan.
+    /// Task or plan.
     File(&'a Path, Kind),
     Recordings,
 }
 
-/// What is predicted.
+/// Prediction to compute.
 struct Asked {
     source: TaskSource,
     task: Task,
     tools: Vec<Arc<Tool>>,
     plan: Plan,
-    /// What its model knew of the table.
+    /// Fit of the table used by the plan's model.
     fit: Option<TableFit>,
 }
 
@@ -116,7 +117,7 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
 }
 
 impl PredictArgs {
-    /// The model that is asked for, or else the network.
+    /// Returns the given model, otherwise the network.
     pub fn spec(&self) -> ModelSpec {
         self.model.clone().unwrap_or(ModelKind::NETWORK.into())
     }
@@ -135,19 +136,19 @@ impl PredictArgs {
         })
     }
 
-    /// The plan of a plan file, or the action in a task.
+    /// Returns the plan of a plan file, or the action in a task.
     fn asked(&self, file: &Path, kind: Kind, session: &Session) -> Result<Asked, CliError> {
         let source = TaskSource::of(file);
         if kind == Kind::Plan {
             let PlanFile { task, tools, plan, model, fit, .. } = PlanFile::load(file)?;
-            // It is of the network that made the plan, and of no other.
+            // The fit belongs to the network that made the plan only.
             let fit = fit.filter(|_| self.model.is_none() || self.model == model);
             return Ok(Asked { source, task, tools, plan, fit });
         }
         self.acted(Task::load(file)?, source, session)
     }
 
-    /// The action in a task.
+    /// Returns the action in a task.
     fn acted(&self, task: Task, source: TaskSource, session: &Session) -> Result<Asked, CliError> {
         let library = self.library.load()?;
         let (plan, tool) = self.action.plan(&task, &library, session)?;
@@ -169,14 +170,14 @@ fn predict(args: &PredictArgs, asked: Asked, session: &Session) -> Result<u8, Cl
         ));
     };
     let spec = args.model.clone().unwrap_or(match task.levers {
-        // Among other things than a plain table the network of lever-ups knows nothing.
+        // The network of lever-ups supports only a plain table.
         Some(_) => ModelKind::PRIOR.into(),
         None => ModelKind::NETWORK.into(),
     });
     let job = Job::stated(&task.scene, motion.clone());
     let mut specs = vec![spec.clone()];
     if !args.alone {
-        // What leaves the plane is simulated coarsely, as planning does, and finely.
+        // Motions that leave the plane are simulated coarsely, as in planning, and finely.
         let coarse =
             ModelKind::Simulated { engine: Engine::Spatial, rate: LeverSimulator::COARSE.rate };
         let levers = motion.is_lever() || task.levers.is_some();
@@ -221,7 +222,7 @@ fn predict(args: &PredictArgs, asked: Asked, session: &Session) -> Result<u8, Cl
     Ok(exit_code::DONE)
 }
 
-/// Writes every trajectory with its pictures, and gives their paths.
+/// Writes every trajectory with its pictures, and returns their paths.
 fn write_trajectories(
     (task, tools, plan): (&Task, &[Arc<Tool>], &Plan),
     trajectories: Vec<Trajectory>,
@@ -230,7 +231,7 @@ fn write_trajectories(
 ) -> Result<Vec<PathBuf>, CliError> {
     let mut written = Vec::new();
     for trajectory in trajectories {
-        // `3d,step=1/60` is no name of a file everywhere.
+        // A name such as `3d,step=1/60` is not a valid file name on all systems.
         let by: String = trajectory.by.to_string();
         let by: String =
             by.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
@@ -245,7 +246,7 @@ fn write_trajectories(
     Ok(written)
 }
 
-/// Every object in every frame.
+/// Returns the pose of every object in every frame.
 fn poses(task: &Task, trajectory: &Trajectory) -> Vec<PoseRow> {
     let by = trajectory.by.to_string();
     let of_frame = |frame: &Frame| -> Vec<PoseRow> {

@@ -1,9 +1,9 @@
-//! The argument of `--push`: a push given by where it starts, or by the object it meets.
+//! The argument of `--push`: a push, given by its start or by the pushed object.
 
 use pushplan::geometry::Vector;
 use pushplan::solve::{ManualPush, ManualStart};
 
-/// Help shown wherever a push can be given.
+/// Help for options that accept a push.
 const FORMS: &str = "\
 Pushes, in the order they are made:
   --push 'start=0.42,0.10 direction_deg=180 length=0.2 speed=0.1'
@@ -13,15 +13,15 @@ Pushes, in the order they are made:
   --push can:180:0.01     with its centre 1 cm left of the centre line of the tool's face
   --push can:180:0:0.15   15 cm far";
 
-/// Help shown wherever pushes or a lever-up can be given.
+/// Returns the help for options that accept pushes or a lever-up.
 pub fn forms() -> String {
     format!("{FORMS}\n\n{}", super::lever_argument::LEVER_FORM)
 }
 
-/// Reads one push.
+/// Parses one push.
 ///
 /// # Errors
-/// What is wrong with it, and what to write instead.
+/// Returns a description of the fault, with a correction.
 pub fn push_argument(text: &str) -> Result<ManualPush, String> {
     if text.contains('=') { keyed(text) } else { colons(text) }
 }
@@ -77,7 +77,7 @@ fn finish(
     length: Option<f64>,
     speed: Option<f64>,
 ) -> Result<ManualPush, String> {
-    // The ranges of task files.
+    // Task files have the same ranges.
     for (name, value, largest) in [("length", length, 2.0), ("speed", speed, 2.0)] {
         if value.is_some_and(|value| !(value > 0.0 && value <= largest)) {
             return Err(format!("{name} must be above 0 and at most {largest}"));

@@ -1,4 +1,4 @@
-//! `pushplan predict` for recordings: how far each model ends from what was recorded.
+//! `pushplan predict` for recordings: errors of each model.
 
 use pushplan::effect::EffectModel;
 use pushplan::geometry::Pose;
@@ -19,11 +19,11 @@ use super::{
     session::Session,
 };
 
-/// Judges the models on every set of recordings by itself, and on all together where there are
+/// Evaluates the models on every set of recordings, and on all of them together if there are
 /// several.
 ///
 /// # Errors
-/// Recordings and models that cannot be read; results that cannot be written.
+/// Returns errors of reading recordings and models, and of writing results.
 pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     let mut sets = load_recordings(&args.files)?;
     let fit = args.table.load()?;
@@ -72,7 +72,7 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     Ok(exit_code::DONE)
 }
 
-/// Lets all recordings be as `fit` says; what it was not learnt on is told once.
+/// Applies `fit` to all recordings; each kind of unfamiliar object is reported once.
 fn tell(fit: &TableFit, sets: &mut [RecordingSet], session: &Session) {
     let mut told: Vec<String> = Vec::new();
     for recording in sets.iter_mut().flat_map(|set| &mut set.recordings) {
@@ -86,8 +86,8 @@ fn tell(fit: &TableFit, sets: &mut [RecordingSet], session: &Session) {
     }
 }
 
-/// The model that is asked for, the same under other assumptions about joints where there are
-/// some, and those that it is compared with.
+/// Returns the given model, its variants with other assumptions about joints if there are any, and
+/// the models for comparison.
 fn models(
     args: &PredictArgs,
     recordings: &[&Recording],
@@ -109,7 +109,7 @@ fn models(
     Ok(models)
 }
 
-/// Says which recordings the model was not made for, one line for each kind of doubt.
+/// Warns of recordings outside the model's range, one line for each kind of warning.
 fn warn(model: &dyn EffectModel, recordings: &[&Recording], session: &Session) {
     let mut kinds: Vec<(Warning, Vec<&str>)> = Vec::new();
     for recording in recordings {
@@ -136,7 +136,7 @@ fn warn(model: &dyn EffectModel, recordings: &[&Recording], session: &Session) {
     }
 }
 
-/// Every object at every recorded instant that is compared: as recorded, and by every model.
+/// Returns the recorded and predicted poses of every object at every compared instant.
 fn poses(
     recordings: &[&Recording],
     trials: &[Trial],

@@ -7,20 +7,20 @@ use pushplan::recording::Recording;
 
 use super::error::CliError;
 
-/// Recordings that are judged together.
+/// Set of recordings that are evaluated together.
 #[derive(Debug)]
 pub struct RecordingSet {
-    /// The folder, or the name of the only recording.
+    /// Name of the folder, or of the only recording.
     pub title: String,
-    /// At least one.
+    /// Recordings, at least one.
     pub recordings: Vec<Recording>,
 }
 
-/// Reads recordings: every file by itself, and what is in a folder, or in a folder in it,
-/// together.
+/// Reads recordings. Each given file is a set, and so is each given folder and each of its
+/// subfolders.
 ///
 /// # Errors
-/// All faults of all files; a folder without recordings.
+/// Returns all faults of all files, and an error for a folder without recordings.
 pub fn load_recordings(paths: &[PathBuf]) -> Result<Vec<RecordingSet>, CliError> {
     let (mut sets, mut faults) = (Vec::new(), Vec::new());
     for path in paths {
@@ -48,7 +48,7 @@ pub fn load_recordings(paths: &[PathBuf]) -> Result<Vec<RecordingSet>, CliError>
     if faults.is_empty() { Ok(sets) } else { Err(Faults(faults).into()) }
 }
 
-/// A recording, or a trajectory file taken for one.
+/// Reads a recording, or a trajectory file as a recording.
 fn load(file: &Path) -> Result<Recording, Faults> {
     match asset::check(file, None)? {
         Kind::Trajectory => {

@@ -1,4 +1,4 @@
-//! Which belief regulator a command uses.
+//! Choice of the belief regulator.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use pushplan_report::Setting;
 
 use super::error::CliError;
 
-/// The word for no regulator.
+/// Name of the option to use no regulator.
 const NONE: &str = "none";
 
 /// Which belief regulator.
@@ -24,16 +24,17 @@ pub struct RegulatorArgs {
 }
 
 impl RegulatorArgs {
-    /// The regulator, if it is not the usual one.
+    /// Returns the regulator as a setting, if it is not the default.
     pub fn setting(&self) -> Option<Setting> {
         let value = self.regulator.clone()?;
         Some(Setting { option: "--regulator", keyword: None, value })
     }
 
-    /// The regulator with a digest of its weights; `None` for the filter alone.
+    /// Loads the regulator with a digest of its weights; returns `None` for the filter without a
+    /// regulator.
     ///
     /// # Errors
-    /// Weights that cannot be read.
+    /// Returns an error if the weights cannot be read.
     pub fn load(&self) -> Result<Option<(BeliefRegulator, String)>, CliError> {
         let weights = match self.regulator.as_deref() {
             Some(NONE) => return Ok(None),

@@ -1,4 +1,4 @@
-//! `pushplan run`: plan, push, look, believe, plan again.
+//! `pushplan run`: plan, push, observe, update the belief, plan again.
 
 use std::path::{Path, PathBuf};
 
@@ -158,7 +158,7 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
     }
     interrupt::watch();
     let following = Following::bar(session, "pushes");
-    // Until the results are written: what another run writes here would be lost.
+    // The lock is held until the results are written, because another run could overwrite them.
     let _alone = FolderLock::take(&args.results.out, &following)?;
     let begun = Trace::new(task, settings, planned_by, Some(truth.clone()));
     let mut trace = begin(&path, begun, args.resume)?;
@@ -191,7 +191,7 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
     })
 }
 
-/// What makes the run again: settings that are not as usual.
+/// Returns the recipe that repeats the run, with the non-default settings.
 fn recipe(args: &RunArgs) -> Recipe {
     let word = |table: &[(&str, ProbeRule, &str)]| {
         let own = table.iter().find(|(_, rule, _)| *rule == args.rule);
@@ -220,7 +220,7 @@ fn recipe(args: &RunArgs) -> Recipe {
     args.results.library.origin(args.task.source(), args.model.clone()).run(&args.world, &settings)
 }
 
-/// The world in a file, or drawn from a number.
+/// Returns the world from a file, or sampled from a seed.
 fn world(argument: &str, task: &Task, library: &ToolLibrary) -> Result<Truth, CliError> {
     match argument.parse() {
         Ok(seed) => Ok(hidden(task, library, seed)?),
@@ -228,7 +228,7 @@ fn world(argument: &str, task: &Task, library: &ToolLibrary) -> Result<Truth, Cl
     }
 }
 
-/// The trace to go on with.
+/// Returns the trace to continue.
 fn begin(path: &Path, begun: Trace, resume: bool) -> Result<Trace, CliError> {
     if !resume || !path.exists() {
         return Ok(begun);

@@ -1,4 +1,4 @@
-//! What every subcommand shares: where to write, how to show progress, how many threads.
+//! Shared state of subcommands: output, progress and threads.
 
 use std::io::{IsTerminal, Write};
 use std::time::Duration;
@@ -24,15 +24,15 @@ pub struct GlobalArgs {
     pub quiet: bool,
 }
 
-/// What is being done, and how much of it is, once that is known.
+/// Templates of a stage without and with counted units.
 const STAGE: &str = "{spinner} {prefix}, {elapsed} {msg}";
 const COUNTED: &str = "{spinner} {prefix}, {elapsed} {msg}, {pos}/{len}";
 
-/// Work that ends sooner shows no progress. A first plan is often found by then, and people see it within a
-/// tenth of a second.
+/// Delay before progress is shown. A first plan is often found by then, and a user notices it
+/// within a tenth of a second.
 const SHOW_AFTER: Duration = Duration::from_millis(50);
 
-/// One run of the command.
+/// Session of one command, with its thread pool.
 #[derive(Debug)]
 pub struct Session {
     pool: ThreadPool,
@@ -43,11 +43,12 @@ impl Session {
     /// Starts the threads.
     ///
     /// # Errors
-    /// [`CliError::Unexpected`] if the system refuses that many threads.
+    /// Returns [`CliError::Unexpected`] if the system refuses that many threads.
     pub fn start(args: &GlobalArgs) -> Result<Self, CliError> {
         let threads = match args.threads {
             0 => {
-                // Affinity and control groups are known to it, which Slurm need not use.
+                // This number respects affinity and control groups, which Slurm does not
+                // necessarily use.
                 let cores = std::thread::available_parallelism().map_or(1, usize::from);
                 allocated(cores, std::env::var("SLURM_CPUS_PER_TASK").ok().as_deref())
             }
@@ -60,7 +61,7 @@ impl Session {
         Ok(Self { pool, quiet: args.quiet })
     }
 
-    /// How many threads there are.
+    /// Returns the number of threads.
     pub fn threads(&self) -> usize {
         self.pool.current_num_threads()
     }
@@ -70,20 +71,21 @@ impl Session {
         self.pool.install(work)
     }
 
-    /// Runs `work` on one thread of its own, so that the processor time it measures is all it needs.
+    /// Runs `work` on a pool of one thread, whose processor time then covers all of the work.
     pub fn compute_alone<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
         match ThreadPoolBuilder::new().num_threads(1).build() {
             Ok(alone) => alone.install(work),
-            // Only times suffer.
+            // Only the measured times are affected.
             Err(_) => self.compute(work),
         }
     }
 
-    /// Writes results to stdout, with control characters written out: names and descriptions come
-    /// from files that anybody may have made. In JSON that is the same text.
+    /// Writes results to stdout with control characters escaped, because names and descriptions
+    /// come from untrusted files. JSON is not affected.
     ///
     /// # Errors
-    /// [`CliError::Closed`] if the reader went away, [`CliError::Unexpected`] for anything else.
+    /// Returns [`CliError::Closed`] if the reader has closed the output, and
+    /// [`CliError::Unexpected`] for other errors.
     pub fn print(&self, text: &str) -> Result<(), CliError> {
         let mut out = std::io::stdout().lock();
         out.write_all(shown(text).as_bytes())
@@ -96,15 +98,15 @@ impl Session {
         self.say(&format!("warning: {text}"));
     }
 
-    /// Writes a line to stderr, apart from the results.
+    /// Writes a line to stderr, separate from the results.
     pub fn say(&self, text: &str) {
         if !self.quiet {
-            // Were stderr gone, there would be nobody left to tell.
+            // A failure is ignored because there is no other channel to report it.
             let _ = writeln!(std::io::stderr(), "{}", shown(text));
         }
     }
 
-    /// A bar for long work in many equal units. Invisible unless stderr is a terminal.
+    /// Returns a bar for long work in many equal units, visible only if stderr is a terminal.
     pub fn bar(&self, what: &str) -> ProgressBar {
         if self.quiet || !std::io::stderr().is_terminal() {
             return ProgressBar::hidden();
@@ -115,13 +117,13 @@ impl Session {
         bar
     }
 
-    /// A spinner for work whose length is not known, shown once it has taken a while. Invisible
-    /// unless stderr is a terminal.
+    /// Returns a spinner for work of unknown length, shown after a delay and only if stderr is a
+    /// terminal.
     pub fn spinner(&self, what: &str) -> ProgressBar {
         self.spinning(what, STAGE)
     }
 
-    /// The same for work in stages, each of a number of units.
+    /// Returns a spinner for work in stages, each of a number of units.
     pub fn staged(&self, what: &str) -> ProgressBar {
         self.spinning(what, STAGE)
     }
@@ -144,12 +146,12 @@ impl Session {
     }
 }
 
-/// Shows the number of units of a stage, or none where there is nothing to count.
+/// Shows the number of units of a stage, or none if they are not counted.
 pub fn count(bar: &ProgressBar, counted: bool) {
     bar.set_style(style(if counted { COUNTED } else { STAGE }));
 }
 
-/// Of `cores`, as many as Slurm has allotted to the task, if it has.
+/// Returns `cores`, limited to the number that Slurm has allotted to the task, if any.
 fn allocated(cores: usize, slurm: Option<&str>) -> usize {
     match slurm.and_then(|text| text.trim().parse().ok()) {
         Some(allotted @ 1..) => cores.min(allotted),
@@ -157,13 +159,13 @@ fn allocated(cores: usize, slurm: Option<&str>) -> usize {
     }
 }
 
-/// `text` line by line without anything that a terminal would obey.
+/// Returns `text` without control characters, line by line.
 pub fn shown(text: &str) -> String {
     text.split('\n').map(printable).collect::<Vec<_>>().join("\n")
 }
 
 fn style(template: &str) -> ProgressStyle {
-    // Only a typing mistake in a template above can fail; the default bar then does.
+    // Only an invalid template above can fail, and the default bar is then used.
     ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 

@@ -117,13 +117,13 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
         None => Ok(Vec::new()),
     };
     let mut document = solution_document(&task, &solution);
-    // A plan that took minutes is shown also where the disk has no place for it.
+    // A plan that took minutes is shown even if it cannot be saved.
     document.wrote(written.as_deref().unwrap_or_default());
     args.form.show(session, &document)?;
     written.map(|_| code)
 }
 
-/// A share from 0 to 1.
+/// Parses a share from 0 to 1.
 pub fn share(text: &str) -> Result<f64, String> {
     let share: f64 = text.parse().map_err(|_| "a share is a number from 0 to 1".to_owned())?;
     match (0.0..=1.0).contains(&share) {
@@ -132,7 +132,7 @@ pub fn share(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A time in seconds.
+/// Parses a time in seconds.
 pub fn time_limit(text: &str) -> Result<Duration, String> {
     let seconds: f64 = text.parse().map_err(|_| "a time is a number of seconds".to_owned())?;
     let limit = Duration::try_from_secs_f64(seconds).map_err(|error| error.to_string())?;
@@ -142,7 +142,7 @@ pub fn time_limit(text: &str) -> Result<Duration, String> {
     }
 }
 
-/// What a task that cannot be tried means for the exit code.
+/// Converts an error of solving to an error of the command.
 pub fn solve_error(error: SolveError) -> CliError {
     match error {
         SolveError::Tools(faults) => CliError::Files(faults),
@@ -152,7 +152,7 @@ pub fn solve_error(error: SolveError) -> CliError {
     }
 }
 
-/// The exit code of a status, and what the names of its files end in.
+/// Returns the exit code of a status, and the suffix of its file names.
 pub fn ending(status: PlanStatus) -> (u8, &'static str) {
     match status {
         PlanStatus::Solved => (exit_code::DONE, ""),
@@ -163,17 +163,17 @@ pub fn ending(status: PlanStatus) -> (u8, &'static str) {
     }
 }
 
-/// What is written of a solution, and where.
+/// Files written for a solution.
 pub struct Results<'a> {
-    /// The folder.
+    /// Folder of the files.
     pub out: &'a Path,
-    /// What the files are called.
+    /// Base name of the files.
     pub name: String,
-    /// What the page shows.
+    /// View of the table on the page.
     pub page: PageView,
-    /// Whether a moving picture is drawn, too.
+    /// Whether an animation is drawn.
     pub animate: bool,
-    /// From what plans of a model are made.
+    /// Function that returns the sources of a plan for the given models.
     pub origin: &'a dyn Fn(Option<Models>) -> Origin,
 }
 
@@ -181,7 +181,7 @@ impl Results<'_> {
     /// Writes the plan file, the pictures and the page.
     ///
     /// # Errors
-    /// Results that cannot be written.
+    /// Returns an error if the results cannot be written.
     pub fn write(
         &self,
         session: &Session,

@@ -1,4 +1,4 @@
-//! Which task a command is about: a file of yours, or one that is shipped.
+//! Task of a command: a user's file, or a shipped one.
 
 use std::path::PathBuf;
 
@@ -11,10 +11,10 @@ use pushplan_report::TaskSource;
 
 use super::error::CliError;
 
-/// What `--example` is for.
+/// Text of `--help` for `--example`.
 pub const HELP: &str = "A shipped task instead of a file";
 
-/// Reads the name of a shipped task; help and faults list them.
+/// Returns a parser of the names of shipped tasks, which help and errors list.
 pub fn example() -> PossibleValuesParser {
     Task::examples().into()
 }
@@ -38,7 +38,7 @@ impl TaskArgs {
         })
     }
 
-    /// What to call it.
+    /// Returns the source of the task.
     pub fn source(&self) -> TaskSource {
         match (&self.example, &self.task) {
             (Some(name), _) => TaskSource::Example(name.clone()),

@@ -22,7 +22,7 @@ use super::{
     words::{VIEWS, words},
 };
 
-/// Replays that take longer are announced, seconds.
+/// Estimated duration above which replays are announced, seconds.
 const LONG: f64 = 20.0;
 
 /// Replay a plan in both simulations, as written and disturbed

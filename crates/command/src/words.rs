@@ -1,4 +1,4 @@
-//! The words of the command line that stand for values, each with its line in `--help`.
+//! Words of the command line for values, each with its line in `--help`.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
@@ -9,10 +9,10 @@ use pushplan_act::act::ProbeRule;
 use pushplan_bench::Layout;
 use pushplan_report::PageView;
 
-/// Words, what they stand for, and what that means.
+/// Words, their values and their descriptions.
 pub type Words<T> = [(&'static str, T, &'static str)];
 
-/// How hard to try.
+/// Levels of effort.
 pub static EFFORTS: [(&str, Effort, &str); 3] = [
     ("draft", Effort::Draft, "A first look"),
     ("standard", Effort::Standard, "Enough for most tasks"),
@@ -23,14 +23,14 @@ pub static EFFORTS: [(&str, Effort, &str); 3] = [
     ),
 ];
 
-/// What to do where a model should not be trusted.
+/// Policies outside of a model's range.
 pub static OUTSIDE: [(&str, Outside, &str); 3] = [
     ("simulate", Outside::Simulate, "Simulate in the plane instead"),
     ("warn", Outside::Warn, "Predict and warn"),
     ("refuse", Outside::Refuse, "Give no prediction; exit code 6"),
 ];
 
-/// What a page shows of the table.
+/// Views of the table on a page.
 pub static VIEWS: [(&str, PageView, &str); 2] = [
     ("2d", PageView::Above, "A drawing from above"),
     ("3d", PageView::Solid, "The same, and a scene to look at from all sides"),
@@ -47,7 +47,7 @@ pub static ENGINES: [(&str, Engine, &str); 3] = [
     ),
 ];
 
-/// Ways to choose a push that is made only to learn something.
+/// Rules for choosing exploratory pushes.
 pub static PROBES: [(&str, ProbeRule, &str); 5] = [
     ("task", ProbeRule::Task, "Tells apart the samples in which different plans work"),
     ("information", ProbeRule::Information, "Tells the most, whatever the task"),
@@ -56,13 +56,13 @@ pub static PROBES: [(&str, ProbeRule, &str); 5] = [
     ("motion", ProbeRule::Motion, "Moves objects farthest"),
 ];
 
-/// Where the cylinder of the tool benchmark starts.
+/// Layouts of the cylinder's starts in the tool benchmark.
 pub static LAYOUTS: [(&str, Layout, &str); 2] = [
     ("grid", Layout::Grid, "On the reference's grid, where flat faces meet it nearly always"),
     ("scattered", Layout::Scattered, "Anywhere within its cell of that grid"),
 ];
 
-/// Reads one of these words.
+/// Returns a parser of the words of a table.
 pub fn words<T>(table: &'static Words<T>) -> impl TypedValueParser<Value = T>
 where
     T: Clone + Send + Sync + 'static,

@@ -1,4 +1,4 @@
-//! A tool as numbers: cuboids that a search can draw and vary.
+//! Parametric tools: cuboids that a search can sample and vary.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -9,64 +9,67 @@ use pushplan::scene::{Part, Tool};
 
 use super::form::{Form, Head};
 
-/// Number of parameters of sizes and places.
+/// Number of parameters of sizes and positions.
 pub(super) const NUMBERS: usize = 16;
 
-/// Height of the parts, metres: that of all shipped tools.
+/// Height of the parts, metres: equal for all shipped tools.
 pub(super) const HEIGHT: f64 = 0.05;
 
-/// Lengths of the links of a handle, metres. The longest are what the shipped networks were trained on.
+/// Range of the lengths of handle links, metres. The upper bound is the largest length in the
+/// training data of the shipped networks.
 const LINKS: [f64; 2] = [0.03, 0.5];
 
-/// Lengths of other bars, metres.
+/// Range of the lengths of other bars, metres.
 const BARS: [f64; 2] = [0.02, 0.5];
 
-/// Widths, metres: thinner bars would bend, wider ones are rare among shipped tools.
+/// Range of widths, metres: thinner bars would bend, and wider ones are rare among shipped tools.
 const WIDTHS: [f64; 2] = [0.01, 0.08];
 
-/// A handle is turned against the hand by at most this, degrees.
+/// Maximum rotation of a handle against the hand, degrees.
 const TURN: f64 = 180.0;
 
-/// A link is turned against the one before by at most this, degrees.
+/// Maximum rotation of a link against the one before, degrees.
 const BEND: f64 = 135.0;
 
-/// A bar is turned from straight across the handle by at most this, degrees.
+/// Maximum rotation of a bar from straight across the handle, degrees.
 const SLANT: f64 = 60.0;
 
-/// Of numbers that have a middle, the share that is taken for it, and beyond which the ends are.
+/// Thresholds of parameters around a middle: smaller magnitudes than the first map to the middle,
+/// larger ones than the second to an end.
 const MIDDLE: f64 = 0.4;
 const END: f64 = 0.85;
 
-/// A form with all its numbers, each from 0 to 1.
+/// A form with all its parameters, each from 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Assembly {
     pub form: Form,
     pub numbers: [f64; NUMBERS],
 }
 
-/// A handle along points, and a bar at its end.
+/// A polyline handle, with an optional bar at its end.
 pub(super) struct Route {
-    /// Where it is held, where it bends, and where it ends, metres, seen by the end effector.
+    /// Grip, bends and end of the handle in the end effector's frame, metres.
     pub points: Vec<Vector>,
-    /// Its width, metres.
+    /// Width of the handle, metres.
     pub width: f64,
-    /// Bar across its end.
+    /// Bar across the end.
     pub bar: Option<Bar>,
 }
 
-/// A bar across the end of a handle.
+/// Bar across the end of a handle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bar {
-    /// Metres.
+    /// Length, metres.
     pub length: f64,
     /// Direction, radians.
     pub heading: f64,
-    /// Distance of its middle from the end of the handle in that direction, metres.
+    /// Offset of its middle from the end of the handle along the bar, metres.
     pub aside: f64,
 }
 
 impl Assembly {
-    /// The one that runs like this, as nearly as there is one.
+    /// Returns the assembly that approximates a route; `None` if the number of links is not
+    /// supported.
     pub fn along(route: &Route) -> Option<Self> {
         let ways: Vec<Vector> = route.points.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let links = ways.len();
@@ -86,7 +89,7 @@ impl Assembly {
         let mut head = Head::Plain;
         if let Some(Bar { length, heading: across, aside }) = route.bar {
             let slant = wrap(across.to_degrees() - heading(ways.last()?) - 90.0);
-            // A bar is the same turned by half a turn.
+            // A bar is symmetric under half a turn.
             let turned = slant.abs() > 90.0;
             let slant = if turned { wrap(slant + 180.0) } else { slant };
             let aside = if turned { -aside } else { aside };
@@ -101,7 +104,7 @@ impl Assembly {
         Some(Self { form: Form { links, head }, numbers })
     }
 
-    /// Varies some of the numbers by up to `spread`.
+    /// Returns a copy with some parameters varied by up to `spread`.
     pub fn varied(&self, random: &mut impl Rng, spread: f64) -> Self {
         let mut numbers = self.numbers;
         let one = random.random_range(0..NUMBERS);
@@ -114,13 +117,14 @@ impl Assembly {
         Self { numbers, ..self.clone() }
     }
 
-    /// How far another one of this form is from it: the largest difference of their numbers.
+    /// Returns the distance to another assembly of this form: the largest difference of their
+    /// parameters.
     pub fn distance(&self, other: &Self) -> f64 {
         let pairs = self.numbers.iter().zip(&other.numbers);
         pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
     }
 
-    /// Returns the name of such a tool.
+    /// Returns a name that describes the form.
     pub fn name(&self) -> &'static str {
         let bends = (1..self.form.links).filter(|k| around(self.numbers[4 + k]) != 0.0);
         match (self.form.head, bends.count()) {
@@ -134,7 +138,8 @@ impl Assembly {
         }
     }
 
-    /// The tool, held at the near end of its handle; `None` if its parts came apart by rounding.
+    /// Builds the tool, held at the near end of its handle. Returns `None` if rounding separated
+    /// its parts.
     pub fn tool(&self, name: &str) -> Option<Tool> {
         let [wide, turn, ..] = self.numbers;
         let width = log(WIDTHS, wide);
@@ -149,8 +154,8 @@ impl Assembly {
             let from = shaft.from * Pose::new(shaft.length, 0.0, bend(k));
             let length = millimetres(even(LINKS, self.numbers[2 + k]));
             shaft = Shaft { from, length, width };
-            // At a corner links reach over each other, as far as their length allows; in whole
-            // millimetres, or flush ones would not touch.
+            // Links overlap at a corner, as far as their length allows. The overlap is a whole
+            // number of millimetres because flush parts would not touch otherwise.
             let corner = millimetres(width / 2.0);
             let over = |k, spare: f64| if bend(k) == 0.0 { 0.0 } else { spare.min(corner) };
             let before = over(k, LINKS[1] - length);
@@ -185,7 +190,7 @@ impl Assembly {
         }
         parts.push(part("bar", [length, width], bar));
         let (reach, thick) = (log(BARS, more), log(WIDTHS, thick));
-        // Left of a bar that points left is back to the grip.
+        // The left side of a bar that points left faces the grip.
         let ways = if back < 0.5 { 1.0 } else { -1.0 };
         let tip = |side: f64| {
             let out = side * (length - length.min(thick)) / 2.0;
@@ -209,7 +214,7 @@ impl Assembly {
     }
 }
 
-/// The last link of a handle: where it begins and points.
+/// Last link of a handle: its start pose and size.
 struct Shaft {
     from: Pose,
     length: f64,
@@ -224,8 +229,8 @@ fn name_of_tip(form: Form, side: f64) -> &'static str {
     }
 }
 
-/// A cuboid of whole millimetres and degrees, as files are for people; its place is exact enough for
-/// flush parts to touch.
+/// Builds a cuboid with sizes in whole millimetres and degrees, for readable files. Its position is
+/// precise enough for flush parts to touch.
 fn part(name: &str, [length, width]: [f64; 2], at: Pose) -> Part {
     let place = at.position.map(|metres| (1e5 * metres).round() / 1e5);
     let at = Pose { position: place, heading: degrees(wrap(at.heading.to_degrees())) + 0.0 };
@@ -236,7 +241,7 @@ fn millimetres(metres: f64) -> f64 {
     (1e3 * metres).round() / 1e3
 }
 
-/// Whole degrees, in radians.
+/// Rounds to whole degrees and converts to radians.
 fn degrees(degrees: f64) -> f64 {
     degrees.round().to_radians()
 }
@@ -245,34 +250,34 @@ fn even([low, high]: [f64; 2], number: f64) -> f64 {
     low + (high - low) * number
 }
 
-/// Evenly in ratios: from 1 to 2 cm is as far as from 4 to 8.
+/// Interpolates logarithmically, so that 1 to 2 cm is as far as 4 to 8 cm.
 fn log([low, high]: [f64; 2], number: f64) -> f64 {
     low * (high / low).powf(number)
 }
 
-/// From -1 to 1, with more than a chance of the middle and of the ends: what is straight, square or
-/// flush is simple to build.
+/// Maps a parameter to -1 to 1, with finite probability of the middle and of the ends, because
+/// straight, square or flush parts are simple to build.
 fn around(number: f64) -> f64 {
     let out = 2.0 * number - 1.0;
     out.signum() * ((out.abs() - MIDDLE) / (END - MIDDLE)).clamp(0.0, 1.0)
 }
 
-/// Maps to -1 to 1.
+/// Maps a parameter to -1 to 1.
 fn signed(number: f64) -> f64 {
     2.0 * number - 1.0
 }
 
-/// The number that [`even`] takes for a value.
+/// Inverse of [`even`].
 fn even_number([low, high]: [f64; 2], value: f64) -> f64 {
     ((value - low) / (high - low)).clamp(0.0, 1.0)
 }
 
-/// The number that [`log`] takes for a value.
+/// Inverse of [`log`].
 fn log_number([low, high]: [f64; 2], value: f64) -> f64 {
     ((value / low).ln() / (high / low).ln()).clamp(0.0, 1.0)
 }
 
-/// The number that [`around`] takes for a value.
+/// Inverse of [`around`].
 fn number_around(value: f64) -> f64 {
     match value.abs().min(1.0) {
         size if size < 1e-3 => 0.5,
@@ -280,7 +285,7 @@ fn number_around(value: f64) -> f64 {
     }
 }
 
-/// Wraps a turn to half a turn, degrees.
+/// Wraps an angle to half a turn, degrees.
 fn wrap(degrees: f64) -> f64 {
     degrees - 360.0 * (degrees / 360.0).round()
 }
@@ -290,7 +295,7 @@ mod tests {
     use super::*;
     use pushplan::seeded::generator;
 
-    /// A tool comes apart only if what joins it was forgotten or rounded away.
+    /// A tool separates only if a connection was omitted or rounded away.
     #[test]
     fn every_assembly_is_one_piece_of_its_parts_and_a_file_says_the_same() {
         for (k, form) in Form::up_to(usize::MAX).into_iter().enumerate() {
@@ -315,7 +320,7 @@ mod tests {
         let bar = Bar { length: 0.08, heading: 1.0, aside: 0.02 };
         let route = Route { points: points.clone(), width: 0.02, bar: Some(bar) };
         let tool = Assembly::along(&route).expect("three links").tool("tool").expect("one piece");
-        // Of the end effector at the origin.
+        // The end effector is at the origin.
         let frame = tool.pose(Pose::default());
         let [one, two, three, bar] = [0, 1, 2, 3].map(|k| tool.part_pose(k, &frame));
         for (pose, ends) in [one, two, three].iter().zip(points.windows(2)) {
@@ -325,7 +330,7 @@ mod tests {
         }
         let middle = points[3] + Vector::new(1f64.cos(), 1f64.sin()) * 0.02;
         assert!((bar.position - middle).norm() < 0.015, "{bar:?} about {middle}");
-        // A bar is the same turned by half a turn.
+        // A bar is symmetric under half a turn.
         assert!((bar.heading - 1.0).sin().abs() < 0.02);
     }
 

@@ -1,36 +1,36 @@
-//! The kinds of tools that are proposed: of how many links the handle is, and what it ends in.
+//! Forms of proposed tools: number of links of the handle, and its end.
 
 /// End of a handle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Head {
-    /// Nothing.
+    /// Plain end.
     Plain,
-    /// A bar across: an L, a T, or anything between, at its end or before.
+    /// Bar across, at the end or before: an L, a T, or an intermediate shape.
     Bar,
-    /// A bar with a tip at its end, as a J has.
+    /// Bar with a tip at its end, as in a J.
     Catch,
-    /// Two bars at different places.
+    /// Two bars at different positions.
     Bars,
-    /// A bar with a tine at either end: a fork, or a rake where they point back.
+    /// Bar with a tine at either end: a fork, or a rake if the tines point back.
     Fork,
     /// Ring: a catch closed by a second bar.
     Ring,
 }
 
-/// A handle and what it ends in.
+/// Handle and its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Form {
-    /// Bars of the handle, each on from the end of the one before: straight on, as none is longer than
-    /// half a metre, or around a corner.
+    /// Number of bars of the handle. Each continues from the end of the one before, straight or
+    /// around a corner, because a bar is at most half a metre long.
     pub links: usize,
     pub head: Head,
 }
 
 impl Form {
-    /// The most links of a handle.
+    /// Maximum number of links of a handle.
     pub const LINKS: usize = 3;
 
-    /// Forms of at most `parts` parts, simplest first.
+    /// Returns the forms of at most `parts` parts, simplest first.
     pub fn up_to(parts: usize) -> Vec<Self> {
         let heads = [Head::Plain, Head::Bar, Head::Catch, Head::Bars, Head::Fork, Head::Ring];
         let all = (1..=Self::LINKS).flat_map(|links| heads.map(|head| Self { links, head }));
@@ -39,7 +39,7 @@ impl Form {
         forms
     }
 
-    /// The next simpler one, if there is one.
+    /// Returns the next simpler form, if there is one.
     pub fn simpler(self) -> Option<Self> {
         let head = match self.head {
             Head::Plain if self.links == 1 => return None,
@@ -51,7 +51,7 @@ impl Form {
         Some(Self { head, ..self })
     }
 
-    /// Number of parts.
+    /// Returns the number of parts.
     pub fn parts(self) -> usize {
         let head = match self.head {
             Head::Plain => 0,

@@ -1,7 +1,9 @@
-//! Proposes a tool for a task: cuboids in one of a few forms, drawn and varied, each judged by a first
-//! look, and the best of them solved with and verified like any other tool: [`design`].
+//! Tool design: proposes a tool for a task, see [`design`].
 //!
-//! Does not draw, write files or change the library.
+//! Candidates are assemblies of cuboids in a few forms. They are sampled, varied and screened. The
+//! task is solved with the best of them, and the plans are verified as for any other tool.
+//!
+//! This crate does not draw, write files or change the library.
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 

@@ -8,49 +8,51 @@ use pushplan::scene::Tool;
 
 use pushplan::solve::{PlanStatus, Solution};
 
-/// A tool with what it does for the task.
+/// Proposed tool with its solution of the task.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Proposal {
-    /// The tool.
+    /// Proposed tool.
     pub tool: Arc<Tool>,
-    /// The task solved with it alone.
+    /// Solution of the task with this tool only.
     pub solution: Solution,
 }
 
-/// The result of [`design`](crate::design).
+/// Result of [`design`](crate::design).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Design {
-    /// The task solved with the tools that there are, whichever it names.
+    /// Solution of the task with the existing tools, regardless of its tool choice.
     pub known: Solution,
-    /// The tool to make. `None` where those that there are solve the task and none was found that does so
-    /// with more margin, or where no tool can push at all. Where no tool works it is the nearest.
+    /// Proposed tool; if no tool works, the nearest one.
+    ///
+    /// `None` if the existing tools solve the task and no candidate has more margin, or if no
+    /// candidate can push at all.
     pub proposal: Option<Proposal>,
-    /// Cost.
+    /// Cost of the search.
     pub spent: Spent,
-    /// Whether it was stopped before it was over.
+    /// Whether the search was cancelled.
     pub stopped: bool,
 }
 
 /// Cost of designing a tool.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Spent {
-    /// Tools that were looked at.
+    /// Number of screened tools.
     pub looked_at: usize,
-    /// Rollouts of the model that screens for these.
+    /// Number of rollouts of the screening model.
     pub rollouts: usize,
-    /// Number of these tools that were predicted to reach the goal.
+    /// Number of screened tools that were predicted to reach the goal.
     pub promising: usize,
-    /// Tools with which the task was solved in full.
+    /// Number of tools with which the task was solved in full.
     pub solved: usize,
 }
 
 impl Design {
-    /// How well the task can be solved: with the tool that is proposed, or with those that there are.
+    /// Returns the status of the best solution, with the proposed tool or with the existing ones.
     pub fn status(&self) -> PlanStatus {
         self.best().status
     }
 
-    /// The solution that [`Self::status`] speaks of.
+    /// Returns the solution with the proposed tool, or with the existing tools if none is proposed.
     pub fn best(&self) -> &Solution {
         self.proposal.as_ref().map_or(&self.known, |proposal| &proposal.solution)
     }

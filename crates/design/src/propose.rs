@@ -14,16 +14,19 @@ use super::screening::Looking;
 use super::search::{Seen, kept, search};
 use super::{Design, DesignSettings, Proposal};
 
-/// The most tools of one form that are solved with in full: what fails for one fails for its kin.
+/// Maximum number of tools of one form that are solved in full, because similar tools usually fail
+/// alike.
 const OF_A_FORM: usize = 3;
 
-/// The most characters of the task's name that go into the tool's: file names have a limit.
+/// Maximum number of characters of the task's name in the tool's name, because file names have a
+/// limit.
 const LONGEST_NAME: usize = 48;
 
-/// Proposes a tool for a task of pushing: one that solves what no tool of `library` does, or that does so
-/// with more margin, verified like any other.
+/// Proposes a tool for a pushing task that no tool of `library` solves, or that the new tool solves
+/// with more margin. Its plan is verified as for any other tool.
 ///
-/// The result is the same for any number of threads. Stopped by `watch`, the best so far comes back.
+/// The result is the same for any number of threads. If `watch` cancels, the best proposal so far
+/// is returned.
 ///
 /// ```
 /// use pushplan::watch::Unwatched;
@@ -40,7 +43,7 @@ const LONGEST_NAME: usize = 48;
 /// ```
 ///
 /// # Errors
-/// [`SolveError`] for bad input only: a task of levering is one.
+/// Returns [`SolveError`] for invalid input only, which includes a task of levering.
 pub fn design(
     planner: &Planner,
     task: &Task,
@@ -75,7 +78,7 @@ pub fn design(
         solved: 0,
     };
 
-    // With the others no push can be made.
+    // The remaining tools cannot push at all.
     seen.retain(|one| one.look.misses.is_finite());
     let mut best: Option<(Option<Grade>, Proposal)> = None;
     let finalists = kept(&seen, settings.solved, OF_A_FORM);
@@ -101,7 +104,7 @@ pub fn design(
     Ok(design)
 }
 
-/// The task solved with this tool alone.
+/// Solves the task with this tool only.
 fn solved(
     planner: &Planner,
     task: &Task,
@@ -115,7 +118,7 @@ fn solved(
     Ok(Proposal { tool, solution })
 }
 
-/// The tool that was looked at, under a name that no tool of the library has.
+/// Builds a screened tool, under a name that is not in the library.
 fn named(seen: &Seen, task: &Task, library: &ToolLibrary) -> Option<Tool> {
     let short: String = task.name.chars().take(LONGEST_NAME).collect();
     let name = format!("{short}-{}", seen.assembly.name());
@@ -139,7 +142,7 @@ fn is_better(one: &Option<Grade>, other: &Option<Grade>) -> bool {
     }
 }
 
-/// Returns `true` if it is worth proposing, where `bar` is the reach of the tools that there are.
+/// Returns `true` if a tool is worth proposing, where `bar` is the grade of the existing tools.
 fn has_more(one: &Option<Grade>, bar: &Option<Grade>) -> bool {
     match (one, bar) {
         (Some(one), Some(bar)) => one.has_more_margin(bar),

@@ -1,5 +1,5 @@
-//! A first look at what a tool can do: a small search and refinement with the model that screens.
-//! Nothing is verified.
+//! Screening of tools: a small search and refinement with the screening model, without
+//! verification.
 
 use std::cmp::Ordering;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use pushplan::watch::{Quiet, Watch};
 
 use pushplan::solve::{LeverSettings, Settings, WELL_INSIDE, distinct};
 
-/// Settings of screening: about half a thousand rollouts where three pushes are allowed.
+/// Settings of screening: about 500 rollouts for up to three pushes.
 const SETTINGS: Settings = Settings {
     offsets: 3,
     beam: 4,
@@ -34,24 +34,24 @@ const SETTINGS: Settings = Settings {
 /// Screening result of a tool; compared in this order, less being better.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Look {
-    /// How far off the best plan ends, in units of the tolerance, on the support and with the small errors
-    /// that are worst for it; 0 where that is well inside, and the way that is left where the goal is not
-    /// reached.
+    /// Error of the best plan, in units of the tolerance, for the worst support model and
+    /// perturbation. The error is 0 well within the tolerance. If the goal is not reached, it is at
+    /// least the cost-to-go.
     pub misses: f64,
-    /// Pushes of that plan.
+    /// Number of pushes of that plan.
     pub pushes: usize,
-    /// Pieces of the tool, flush parts taken together, and parts.
+    /// Number of pieces of the tool, with flush parts merged, and number of parts.
     pub pieces: usize,
     pub parts: usize,
-    /// Area of its parts together, square metres.
+    /// Total area of the parts, square metres.
     pub size: f64,
-    /// Rollouts that it took.
+    /// Number of rollouts used.
     pub rollouts: usize,
 }
 
 impl Look {
-    /// What is preferred, less being better: what ends near, with few pushes and a simple, small tool, as
-    /// plans are ranked.
+    /// Compares two results as plans are ranked, less being better: the error, then the number of
+    /// pushes, then simplicity and size of the tool.
     pub fn compare(&self, other: &Self) -> Ordering {
         let near = self.misses.total_cmp(&other.misses);
         let counts = |look: &Self| (look.pushes, look.pieces, look.parts);
@@ -71,9 +71,9 @@ pub(super) struct Looking<'a> {
 }
 
 impl Looking<'_> {
-    /// Looks at a tool.
+    /// Screens a tool.
     pub fn at(&self, tool: Tool) -> Look {
-        // Many tools are looked at side by side.
+        // Many tools are screened in parallel.
         let watch = &Quiet(self.watch);
         let size = tool.parts().iter().map(|part| part.footprint().area()).sum();
         let (pieces, parts) = (tool.outline().len(), tool.parts().len());
@@ -113,11 +113,11 @@ impl Looking<'_> {
         Look { misses, pushes, pieces, parts, size, rollouts: rollouts.used() }
     }
 
-    /// Returns the error of a plan in the worst of the cases that are tried.
+    /// Returns the error of a plan in the worst of the evaluated cases.
     fn missed(&self, workspace: &Workspace, rollouts: &mut Rollouts, one: &Refined) -> f64 {
         let worst = one.worst.max(one.best.score);
         if worst > 1.0 {
-            // Around what stands there, where the distance misleads.
+            // The cost-to-go includes detours around obstacles, which the distance ignores.
             let left = self.field.cost(&one.best.outcome);
             return worst.max(if left.is_finite() { left } else { 0.0 });
         }

@@ -1,8 +1,8 @@
-//! Which tools are looked at: first evenly drawn ones, then variations of the best so far.
+//! Search over tools: evenly sampled candidates first, then variations of the best ones.
 //!
-//! A seeded evolution in generations without gradients: a tool's worth jumps wherever a contact comes
-//! or goes. Every tool has a random generator of its own, and generations are compared in the order in
-//! which they were drawn, so results are the same for any number of threads.
+//! The search is a seeded evolution in generations without gradients, because a tool's score jumps
+//! with every contact change. Every tool has its own random generator, and generations are compared
+//! in sampling order. Results are therefore the same for any number of threads.
 
 use rand::Rng;
 use rayon::prelude::*;
@@ -16,31 +16,31 @@ use super::form::Form;
 use super::screening::{Look, Looking};
 use super::trace::traced;
 
-/// Variations that are looked at together.
+/// Number of variations screened together.
 const GENERATION: usize = 40;
 
-/// The best so far that are varied, and at most how many of one form.
+/// Number of best tools that are varied, and its maximum for one form.
 const PARENTS: usize = 12;
 const OF_A_FORM: usize = 5;
 
-/// Numbers are varied by up to this in the first generation and in the last.
+/// Variation of parameters in the first generation and in the last.
 const SPREAD: [f64; 2] = [0.4, 0.06];
 
-/// Probabilities with which a variation takes on any form, and the next simpler one.
+/// Probabilities that a variation takes an arbitrary form, and the next simpler form.
 const REFORMED: f64 = 0.1;
 const SIMPLER: f64 = 0.15;
 
-/// Two of a form whose numbers differ by no more are alike.
+/// Parameter distance below which two tools of one form count as alike.
 const ALIKE: f64 = 0.05;
 
-/// A tool that was looked at.
+/// Screened tool.
 #[derive(Clone)]
 pub(super) struct Seen {
     pub assembly: Assembly,
     pub look: Look,
 }
 
-/// Looks at tools, and gives all of them, best first.
+/// Screens tools and returns all of them, best first.
 pub(super) fn search(looking: &Looking, settings: &DesignSettings, seed: u64) -> Vec<Seen> {
     let forms = Form::up_to(settings.parts.max(1));
     let count = Count::new(looking.watch, 0, settings.candidates);
@@ -50,7 +50,7 @@ pub(super) fn search(looking: &Looking, settings: &DesignSettings, seed: u64) ->
     first.truncate(settings.candidates);
     let mut seen = look_at(looking, &first, &count);
     seen.sort_by(|a, b| a.look.compare(&b.look));
-    // Some assemblies make no tool, so it is not those seen that are counted.
+    // The count includes assemblies that make no tool.
     let mut made = first.len();
     while made < settings.candidates && !looking.watch.cancelled() {
         let parents = kept(&seen, PARENTS, OF_A_FORM);
@@ -60,7 +60,7 @@ pub(super) fn search(looking: &Looking, settings: &DesignSettings, seed: u64) ->
         let children: Vec<Assembly> = (made..made + many)
             .map(|index| {
                 let mut random = generator(seed, index as u64);
-                // The better of two: better ones are varied more often.
+                // The minimum of two draws favours better parents.
                 let one = random.random_range(0..parents.len().max(1));
                 let one = one.min(random.random_range(0..parents.len().max(1)));
                 let mut child = match parents.get(one) {
@@ -77,13 +77,14 @@ pub(super) fn search(looking: &Looking, settings: &DesignSettings, seed: u64) ->
             .collect();
         made += many;
         seen.extend(look_at(looking, &children, &count));
-        // Stable: of equals the earlier one.
+        // The sort is stable: of equals the earlier one comes first.
         seen.sort_by(|a, b| a.look.compare(&b.look));
     }
     seen
 }
 
-/// The best of those seen, sorted, that are not alike: up to `most`, and up to `of_a_form` of each form.
+/// Returns the best of sorted tools that are not alike: up to `most`, and up to `of_a_form` of each
+/// form.
 pub(super) fn kept(seen: &[Seen], most: usize, of_a_form: usize) -> Vec<&Seen> {
     let mut kept: Vec<&Seen> = Vec::new();
     for one in seen {
@@ -109,9 +110,9 @@ fn look_at(looking: &Looking, assemblies: &[Assembly], count: &Count) -> Vec<See
     assemblies.par_iter().filter_map(look).collect()
 }
 
-/// Forms in turn, the numbers of each spread evenly: multiples of the powers of a generalised golden
-/// ratio, from a start by the seed (Roberts 2018, "The unreasonable effectiveness of quasirandom
-/// sequences").
+/// Samples the forms in turn, with evenly distributed parameters: multiples of powers of a
+/// generalised golden ratio, from a seeded start (Roberts 2018, "The unreasonable effectiveness of
+/// quasirandom sequences").
 fn drawn_evenly(forms: &[Form], count: usize, seed: u64) -> Vec<Assembly> {
     let golden = (0..64).fold(1.5f64, |x, _| (1.0 + x).powf(1.0 / (NUMBERS as f64 + 1.0)));
     let mut random = generator(seed, u64::MAX);

@@ -2,42 +2,42 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Budgets, all counted and none in seconds.
+/// Budgets of tool design, all as counts, none in seconds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DesignSettings {
-    /// The most parts of a tool.
+    /// Maximum number of parts of a tool.
     pub parts: usize,
-    /// Tools that are looked at.
+    /// Number of screened tools.
     pub candidates: usize,
-    /// Maximum number of these that run where there is room for a handle.
+    /// Maximum number of screened tools whose handles are routed through free space.
     pub traced: usize,
-    /// Number of these that are drawn by chance before the best are varied.
+    /// Number of screened tools that are sampled before the best are varied.
     pub drawn: usize,
-    /// Number of the best that are solved with in full, plans verified.
+    /// Number of best tools with which the task is solved in full, with verification.
     pub solved: usize,
 }
 
 impl DesignSettings {
-    /// Three parts make a J, or a hook of two thirds of a metre.
+    /// Default number of parts: enough for a J, or for a hook of two thirds of a metre.
     pub const PARTS: usize = 3;
 
-    /// Default number of candidates: three to eleven seconds of two busy cores.
+    /// Default number of candidates: three to eleven seconds on two busy cores.
     pub const CANDIDATES: usize = 1000;
 
-    /// Share that is drawn, of a thousand candidates.
+    /// Numbers of routed and of sampled tools per thousand candidates.
     const TRACED: usize = 150;
     const DRAWN: usize = 300;
 
-    /// The most parts that a form has.
+    /// Maximum number of parts of a form.
     pub const MOST_PARTS: usize = 7;
 
-    /// Looks at this many tools.
+    /// Returns settings that screen this many tools.
     pub fn looking_at(candidates: usize) -> Self {
         let [traced, drawn] = [Self::TRACED, Self::DRAWN].map(|share| candidates * share / 1000);
         Self { parts: Self::PARTS, candidates, traced, drawn, solved: 8 }
     }
 
-    /// As many drawn by chance, and none that is traced or varied: what a search is measured against.
+    /// Returns settings that only sample as many tools at random: the baseline of a search.
     pub fn at_random(self) -> Self {
         Self { traced: 0, drawn: self.candidates, ..self }
     }

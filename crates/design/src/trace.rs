@@ -1,8 +1,8 @@
-//! Handles that run where there is room: from the face that is to push an object, around what stands
-//! there, to where the hand may be, with as few bends as do.
+//! Handles routed through free space, from the pushing face around obstructions to a feasible hand
+//! position, with as few bends as possible.
 //!
-//! Most tools that are drawn by chance run through a wall. These are where the search begins; whether they
-//! push well is for the look to say.
+//! Randomly sampled tools mostly intersect a wall. The search therefore starts from these handles,
+//! and screening evaluates their pushes.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -16,41 +16,42 @@ use pushplan::task::Task;
 use super::assembly::{Assembly, Bar, HEIGHT, Route};
 use super::form::Form;
 
-/// Widths of handles that are tried, metres, simplest to push with first.
+/// Widths of handles that are tried, metres, the most effective for pushing first.
 const WIDTHS: [f64; 3] = [0.03, 0.018, 0.01];
 
-/// The longest link, metres: corners take a little.
+/// Maximum length of a link, metres; corners need a little of the limit.
 const LONGEST: f64 = 0.48;
 
-/// Room beyond what the rules ask for, metres: tools are made in whole millimetres and degrees.
+/// Clearance beyond the rules, metres, because tools are made in whole millimetres and degrees.
 const ROOM: f64 = 0.0015;
 
-/// Room that a hand keeps, metres.
+/// Clearance of a hand, metres.
 const HAND_ROOM: f64 = HAND_CLEARANCE + 2e-3;
 
-/// Distance of the places where a hand may be, and handles may bend, metres.
+/// Grid spacing of candidate hand positions and bends, metres.
 const SPACING: f64 = 0.08;
 
-/// The most coordinates along an axis at which handles may bend.
+/// Maximum number of coordinates along an axis at which handles may bend.
 const MOST: usize = 20;
 
-/// The most points already reached from which the way to a further one is tried, near ones first.
+/// Maximum number of reached points from which a further point is tried, nearest first.
 const TRIED: usize = 40;
 
-/// A last link pushes with its side rather than its end where the cosine of its turn is less.
+/// Cosine of the angle between the last link and the push, below which the link pushes with its
+/// side.
 const ACROSS: f64 = 0.6;
 
-/// Of the ways for one push, as many are kept; and the least distance of their hands, metres.
+/// Number of paths kept for one push, and minimum distance of their hands, metres.
 const KEPT: usize = 6;
 const APART: f64 = 0.1;
 
-/// Bars at the end are of these shares of the object's width.
+/// Lengths of bars at the end, as shares of the object's width.
 const SHARES: [f64; 3] = [1.2, 0.8, 0.5];
 
-/// The handle meets the bar that pushes in its middle, or as far aside, in half widths of the object.
+/// Offsets of the handle from the middle of the pushing bar, in half widths of the object.
 const FEET: [f64; 3] = [0.0, 0.4, -0.4];
 
-/// A push for which a tool is wanted.
+/// Push for which a tool is wanted.
 struct Wanted {
     object: usize,
     direction: f64,
@@ -59,7 +60,7 @@ struct Wanted {
     aside: f64,
 }
 
-/// Handles of at most `parts` parts for the first push of a task, those of few parts first.
+/// Returns handles of at most `parts` parts for the first push of a task, fewest parts first.
 pub(super) fn traced(task: &Task, field: &CostToGo, parts: usize) -> Vec<Assembly> {
     let start = task.scene.start();
     let mut wanted = Vec::new();
@@ -80,20 +81,20 @@ pub(super) fn traced(task: &Task, field: &CostToGo, parts: usize) -> Vec<Assembl
     let found: Vec<Vec<Assembly>> =
         wanted.par_iter().map(|one| Tracing::new(task, one).assemblies(parts)).collect();
     let mut all: Vec<Assembly> = found.into_iter().flatten().collect();
-    // Stable: of as many parts the wider handle.
+    // The sort is stable: of equal part counts the wider handle comes first.
     all.sort_by_key(|assembly| assembly.form.parts());
     all
 }
 
-/// Obstructions of a handle that makes one push.
+/// Free-space model for a handle that makes one push.
 struct Tracing<'a> {
     task: &'a Task,
     wanted: &'a Wanted,
-    /// The travel of the push.
+    /// Displacement of the push.
     shift: Vector,
-    /// Half of the object's extent across it, metres.
+    /// Half of the object's extent across the push, metres.
     half_width: f64,
-    /// Middle of the face in its thickness.
+    /// Centre of the pushing face, within its thickness.
     face: Vector,
     /// End of the handle.
     foot: Vector,
@@ -125,7 +126,7 @@ impl<'a> Tracing<'a> {
         }
     }
 
-    /// The ways to the hand as tools.
+    /// Returns the paths to the hand as tools.
     fn assemblies(&self, parts: usize) -> Vec<Assembly> {
         let mut found = Vec::new();
         let yaw = self.task.pushes.grip_yaws.first().copied().unwrap_or_default();
@@ -137,14 +138,14 @@ impl<'a> Tracing<'a> {
             let middle = self.wanted.aside == 0.0;
             let mut way = way.clone();
             if across && middle {
-                // Such a link pushes with its side, as far as there is room.
+                // Such a link pushes with its side, extended as far as there is space.
                 let ends = SHARES.map(|share| self.face + last * (share * self.half_width));
                 let free =
                     |end: &Vector| (end - before).norm() <= LONGEST && self.is_free(before, *end);
                 way.pop();
                 way.push(ends.into_iter().find(free).unwrap_or(self.face));
             }
-            // Seen by the end effector, which is turned as it is gripped.
+            // The frame is the end effector's, rotated by the grip yaw.
             let grip = Pose { position: hand, heading: yaw };
             let points: Vec<Vector> = way.iter().map(|point| grip.local_point(*point)).collect();
             let width = self.wanted.width;
@@ -154,13 +155,13 @@ impl<'a> Tracing<'a> {
             });
             let with = |bar| Assembly::along(&Route { points: points.clone(), width, bar });
             found.extend(bar.and_then(|bar| with(Some(bar))));
-            // Without a bar only a handle that meets the object's middle pushes it straight.
+            // Without a bar, a handle pushes straight only at the object's middle.
             found.extend(middle.then(|| with(None)).flatten());
         }
         found
     }
 
-    /// Length of the widest bar at the face that has room.
+    /// Returns the length of the longest collision-free bar at the face.
     fn bar(&self) -> Option<f64> {
         let left = perpendicular(self.shift.normalize());
         let free = |length: &f64| {
@@ -170,7 +171,8 @@ impl<'a> Tracing<'a> {
         SHARES.map(|share| 2.0 * share * self.half_width).into_iter().find(free)
     }
 
-    /// Ways from hand to face, of as few links as do and at most `links`, short ones first.
+    /// Returns paths from hand to face, with as few links as possible and at most `links`, short
+    /// ones first.
     fn ways(&self, links: usize) -> Vec<Vec<Vector>> {
         if !self.is_free(self.foot, self.foot) {
             return Vec::new();
@@ -178,7 +180,7 @@ impl<'a> Tracing<'a> {
         let mut points = vec![self.foot];
         points.extend(self.bends().into_iter().filter(|point| self.is_free(*point, *point)));
         let hands: Vec<bool> = points.iter().map(|point| self.is_hand(*point)).collect();
-        // Links and length of the way from the face, and the point before.
+        // Number of links, length of the path from the face, and the point before.
         let mut reached: Vec<Option<(usize, f64, usize)>> = vec![None; points.len()];
         reached[0] = Some((0, 0.0, 0));
         for link in 1..=links {
@@ -231,7 +233,8 @@ impl<'a> Tracing<'a> {
         kept.iter().map(way).collect()
     }
 
-    /// Where a handle may bend or begin: on an even grid, and wherever it just passes something.
+    /// Returns the candidate bends and ends of a handle: an even grid, and coordinates that just
+    /// pass an obstruction.
     fn bends(&self) -> Vec<Vector> {
         let reach = self.task.robot.reach_max;
         let even = |axis: usize| {
@@ -253,7 +256,7 @@ impl<'a> Tracing<'a> {
             all.extend(self.fixed.iter().flat_map(|fixed| sides(fixed, self.shift[axis])));
             all.extend(self.objects.iter().flat_map(|object| sides(object, 0.0)));
             all.sort_by(f64::total_cmp);
-            // Where two things are near, in the middle between them as well.
+            // Coordinates midway between neighbouring obstructions are included too.
             let middles: Vec<f64> = all.windows(2).map(|pair| (pair[0] + pair[1]) / 2.0).collect();
             all.extend(middles);
             all.sort_by(f64::total_cmp);
@@ -272,7 +275,8 @@ impl<'a> Tracing<'a> {
         bends
     }
 
-    /// Whether a bar from point to point has room at the start of the push and all along it.
+    /// Returns `true` if a bar between two points is collision-free at the start of the push and
+    /// along it.
     fn is_free(&self, from: Vector, to: Vector) -> bool {
         let way = to - from;
         let half = Vector::new(way.norm() / 2.0, self.wanted.width / 2.0);
@@ -290,7 +294,7 @@ impl<'a> Tracing<'a> {
         self.objects.iter().all(set_down) && self.fixed.iter().all(clear)
     }
 
-    /// Whether the hand may be there, and at the end of the push.
+    /// Returns `true` if the hand may be at a position, and displaced at the end of the push.
     fn is_hand(&self, at: Vector) -> bool {
         let robot = &self.task.robot;
         if !(robot.reaches(at) && robot.reaches(at + self.shift)) {

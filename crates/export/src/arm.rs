@@ -1,8 +1,9 @@
-//! The arm of a scene: bodies on joints that servos move, with the tool in its hand.
+//! MJCF of the arm of a scene: bodies on servo-driven joints, with the tool in its hand.
 //!
-//! A plan file says where links are and what they meet, not what they weigh nor how strong motors are.
-//! Solids weigh [`DENSITY`], gravity is made up for as controllers of arms do, and every joint has two
-//! servos, of position and of speed, which are told both: what is left to follow is what pushes back.
+//! A plan file contains link poses and collision solids, but no masses and no motor strength.
+//! Solids have the density [`DENSITY`], and gravity is compensated as by arm controllers. Every
+//! joint has a position servo and a velocity servo, which follow the planned references. The
+//! tracking error therefore results from external forces.
 
 use pushplan::geometry::{Pose, Pose3, Vector3};
 use pushplan::scene::{JointTrajectory, Robot, Scene, Tool};
@@ -14,35 +15,35 @@ use super::strokes::numeric;
 use super::tool::pieces;
 use super::xml::{Xml, numbers};
 
-/// Of links, kg/m3: the 18 litres within a Panda's hulls weigh 18 kg.
+/// Density of links, kg/m3: the 18 litres within a Panda's hulls weigh 18 kg.
 const DENSITY: f64 = 1000.0;
 
-/// Of tools, kg/m3, as of wood: the stick weighs a kilogram.
+/// Density of tools, kg/m3, as of wood: the stick weighs a kilogram.
 const TOOL_DENSITY: f64 = 500.0;
 
-/// Radius of the rod that is seen between flange and tool, metres.
+/// Radius of the visible rod between flange and tool, metres.
 const MOUNT: f64 = 0.012;
 
-/// What a link without solids weighs, kg.
+/// Mass of a link without solids, kg.
 const BARE: f64 = 0.1;
 
-/// What joints turn besides links, kg m2 and kg: rotors behind their gears.
+/// Armature of joints, kg m2 or kg: the inertia of rotors behind their gears.
 const ROTOR: f64 = 0.1;
 
-/// Stiffness of joints that turn, Nm/rad, and what holds them back, Nm s/rad: 20 N at 60 cm bend a
-/// joint by 0.07 degrees, and two thirds of the critical damping of a stretched Panda.
+/// Stiffness and damping of revolute joints, Nm/rad and Nm s/rad. A load of 20 N at 60 cm bends a
+/// joint by 0.07 degrees, and the damping is two thirds of critical for a stretched Panda.
 const TURNING: [f64; 2] = [1e4, 300.0];
 
-/// The same of joints that slide, N/m and N s/m.
+/// Stiffness and damping of prismatic joints, N/m and N s/m.
 const SLIDING: [f64; 2] = [1e5, 3e3];
 
-/// Friction value of links, which nothing states: what obstacles have by default.
+/// Friction value of links, which files do not contain: the default of obstacles.
 const FRICTION: f64 = 0.5;
 
-/// A hull that is flatter than this has no volume in MuJoCo, metres.
+/// Thickness below which a hull has no volume in MuJoCo, metres.
 const FLAT: f64 = 1e-3;
 
-/// How the joints move: a row for each point.
+/// Writes the joint trajectory: a row for each point.
 pub(super) fn way(xml: &mut Xml, path: &JointTrajectory) {
     xml.comment("How joints move: of each point the time, then positions, then velocities.");
     for (k, point) in path.points.iter().enumerate() {
@@ -55,7 +56,7 @@ pub(super) fn way(xml: &mut Xml, path: &JointTrajectory) {
     numeric(xml, "pushes of joints", &ends.collect::<Vec<_>>());
 }
 
-/// The meshes of links.
+/// Writes the meshes of links.
 pub(super) fn meshes(xml: &mut Xml, arm: &Arm) {
     xml.open("asset", &[]);
     for body in &arm.bodies {
@@ -70,7 +71,7 @@ pub(super) fn meshes(xml: &mut Xml, arm: &Arm) {
     xml.close();
 }
 
-/// The arm at its zeros, and the tool.
+/// Writes the arm at zero joint positions, and the tool.
 pub(super) fn bodies(xml: &mut Xml, arm: &Arm, tool: &Tool) {
     for (k, body) in arm.bodies.iter().enumerate() {
         let joint = k.checked_sub(1).map(|k| &arm.joints[k]);
@@ -99,7 +100,7 @@ pub(super) fn bodies(xml: &mut Xml, arm: &Arm, tool: &Tool) {
     open(xml, "tool".into(), &(seen * Pose3::upright(tool.grip.inverse(), 0.0)));
     pieces(xml, ("tool/", tool), &Pose::default(), 0.0, TOOL_DENSITY);
     if arm.mount.length > FLAT {
-        // It is only seen.
+        // The rod is only visual.
         let Pose { position: at, .. } = tool.grip;
         let ends = [at.x, at.y, 0.0, at.x, at.y, arm.mount.length];
         let rod = [
@@ -116,7 +117,7 @@ pub(super) fn bodies(xml: &mut Xml, arm: &Arm, tool: &Tool) {
     }
 }
 
-/// What the arm and its tool may touch, besides what tools push.
+/// Returns the contact pairs of the arm and its tool, except the pairs of tool and objects.
 pub(super) fn pairs(arm: &Arm, scene: &Scene, tool: &Tool) -> Vec<Pair> {
     let mut pairs = Vec::new();
     let mut add = |(a, one): (String, f64), (b, other): (String, f64), margin: f64| {
@@ -154,7 +155,7 @@ pub(super) fn pairs(arm: &Arm, scene: &Scene, tool: &Tool) -> Vec<Pair> {
     pairs
 }
 
-/// Two for each joint: the first is told its position, the second its speed.
+/// Writes two servos for each joint: the first follows the position, the second the velocity.
 pub(super) fn servos(xml: &mut Xml, arm: &Arm) {
     xml.comment("Of each joint a servo of its position, and one of its speed.");
     xml.open("actuator", &[]);
@@ -176,16 +177,16 @@ fn open(xml: &mut Xml, name: String, pose: &Pose3) {
     xml.open("body", &attributes);
 }
 
-/// The solids of a link, each with its name.
+/// Returns the solids of a link with their names.
 fn solids(body: &ArmBody) -> impl Iterator<Item = (String, &Hull)> {
     body.solids.iter().enumerate().map(|(k, hull)| (format!("arm/{}/{}", body.name, k + 1), hull))
 }
 
-/// What MuJoCo has for a hull.
+/// MuJoCo primitive for a hull.
 enum Solid {
     Sphere(Vector3, f64),
     Capsule([Vector3; 2], f64),
-    /// Corners, and how far around them the solid goes.
+    /// Corners, and a margin around their hull.
     Mesh {
         points: Vec<Vector3>,
         margin: f64,

@@ -1,30 +1,31 @@
-//! Joined objects as trees: which object is attached to which.
+//! Jointed objects as trees, in which every object is attached to its parent.
 
 use pushplan::scene::{DisjointSets, Joint, JointKind, Scene};
 
 use super::ExportError;
 
-/// An object on its tree.
+/// Object in its tree.
 pub(super) struct Node<'a> {
-    /// Its index in the scene.
+    /// Index in the scene.
     pub object: usize,
-    /// The object that it is attached to, and by which joint; `None` where it stands by itself.
+    /// Parent object and joint; `None` for a root.
     pub parent: Option<(usize, &'a Joint)>,
-    /// What hangs on it.
+    /// Attached objects.
     pub children: Vec<Node<'a>>,
 }
 
-/// The trees of a scene, each rooted at its first object.
+/// Returns the trees of a scene, each rooted at its first object, or at an object with a world
+/// joint.
 ///
-/// Fixed joints may close loops, as one rigid body has room for any number of them.
+/// Fixed joints may close loops, because one rigid body may have any number of them.
 ///
 /// # Errors
-/// [`ExportError::JointLoop`] where another joint closes a loop.
+/// Returns [`ExportError::JointLoop`] if another joint closes a loop.
 pub(super) fn forest(scene: &Scene) -> Result<Vec<Node<'_>>, ExportError> {
     let count = scene.objects.len();
     let (fixed, free): (Vec<&Joint>, Vec<&Joint>) =
         scene.joints.iter().partition(|joint| joint.kind == JointKind::Fixed);
-    // Fixed joints first, so that only they may close a loop.
+    // Fixed joints come first, so that only they may close a loop.
     let mut trees = DisjointSets::new(count);
     let mut kept = Vec::new();
     for joint in fixed.into_iter().chain(free) {
@@ -35,7 +36,7 @@ pub(super) fn forest(scene: &Scene) -> Result<Vec<Node<'_>>, ExportError> {
             return Err(ExportError::JointLoop { between });
         }
     }
-    // What the world holds is the root of its tree.
+    // An object with a world joint is the root of its tree.
     let held = |tree: usize| {
         let mut mounts = scene.mounts.iter().map(|mount| mount.object);
         mounts.find(|&object| trees.lowest(object) == tree).unwrap_or(tree)

@@ -1,7 +1,7 @@
-//! Messages of the schemas that Foxglove and similar viewers draw, in JSON.
+//! Messages in the JSON schemas of Foxglove, which similar viewers also draw.
 //!
-//! Of `foxglove.SceneUpdate` and `foxglove.FrameTransforms` all fields are written, whose names and
-//! meanings are at <https://docs.foxglove.dev/docs/sdk/schemas>.
+//! Messages contain all fields of `foxglove.SceneUpdate` and `foxglove.FrameTransforms`; see
+//! <https://docs.foxglove.dev/docs/sdk/schemas> for their names and meanings.
 
 use serde_json::{Value as Json, json};
 
@@ -10,12 +10,12 @@ use pushplan::geometry::{ConvexPolygon, Pose, Pose3, Shape};
 /// Red, green, blue and opacity, 0 to 1.
 pub(super) type Colour = [f64; 4];
 
-/// A whole second and the rest in nanoseconds.
+/// Returns a time as whole seconds and the rest in nanoseconds.
 pub(super) fn time(nanoseconds: u64) -> Json {
     json!({"sec": nanoseconds / 1_000_000_000, "nsec": nanoseconds % 1_000_000_000})
 }
 
-/// A turn about the vertical.
+/// Returns the quaternion of a rotation about the vertical.
 fn quaternion(heading: f64) -> Json {
     let (z, w) = (heading / 2.0).sin_cos();
     json!({"x": 0.0, "y": 0.0, "z": z, "w": w})
@@ -25,13 +25,13 @@ fn vector([x, y, z]: [f64; 3]) -> Json {
     json!({"x": x, "y": y, "z": z})
 }
 
-/// A pose at a height, metres.
+/// Returns a pose at a height, metres.
 fn pose(pose: &Pose, height: f64) -> Json {
     let position = [pose.position.x, pose.position.y, height];
     json!({"position": vector(position), "orientation": quaternion(pose.heading)})
 }
 
-/// `foxglove.FrameTransform`: where a frame is in that of the table; heights in metres.
+/// Returns a `foxglove.FrameTransform`: the pose of a frame in the table frame; heights in metres.
 pub(super) fn transform(at: u64, child: &str, frame: &Pose, height: f64) -> Json {
     json!({
         "timestamp": time(at),
@@ -42,7 +42,7 @@ pub(super) fn transform(at: u64, child: &str, frame: &Pose, height: f64) -> Json
     })
 }
 
-/// The same of a frame in space.
+/// Returns a `foxglove.FrameTransform` of a frame in space.
 pub(super) fn transform_3d(at: u64, child: &str, frame: &Pose3) -> Json {
     let [x, y, z, w] = frame.quaternion();
     json!({
@@ -54,10 +54,10 @@ pub(super) fn transform_3d(at: u64, child: &str, frame: &Pose3) -> Json {
     })
 }
 
-/// The frame of all others: the table's top, x ahead of the robot.
+/// Root frame: the table's top, with x ahead of the robot.
 pub(super) const TABLE: &str = "table";
 
-/// `foxglove.SceneEntity`: solids that stand in a frame, each with its pose there and the height of
+/// Returns a `foxglove.SceneEntity`: solids in a frame, each with its pose there and the height of
 /// its middle, metres.
 pub(super) fn entity(frame: &str, id: &str, solids: &[(Shape, Pose, f64)], colour: Colour) -> Json {
     let [r, g, b, a] = colour;
@@ -102,14 +102,14 @@ pub(super) fn entity(frame: &str, id: &str, solids: &[(Shape, Pose, f64)], colou
     })
 }
 
-/// Corners of a prism about its middle, and the triangles between them.
+/// Returns the corners of a prism about its middle, and the triangles between them.
 fn faces(base: &ConvexPolygon, height: f64) -> (Vec<Json>, Vec<usize>) {
     let ring = |z: f64| base.corners().iter().map(move |at| vector([at.x, at.y, z]));
     let points: Vec<Json> = ring(-height / 2.0).chain(ring(height / 2.0)).collect();
     let count = base.corners().len();
     let mut indices = Vec::new();
     for k in 1..count - 1 {
-        // Seen from outside corners go round counter-clockwise.
+        // Corners are counter-clockwise from outside.
         indices.extend([0, k + 1, k, count, count + k, count + k + 1]);
     }
     for k in 0..count {
@@ -119,7 +119,7 @@ fn faces(base: &ConvexPolygon, height: f64) -> (Vec<Json>, Vec<usize>) {
     (points, indices)
 }
 
-/// JSON schema of `foxglove.FrameTransforms`.
+/// Returns the JSON schema of `foxglove.FrameTransforms`.
 pub(super) fn transforms_schema() -> Json {
     let one = object(json!({
         "timestamp": a_time(),
@@ -131,7 +131,7 @@ pub(super) fn transforms_schema() -> Json {
     titled("foxglove.FrameTransforms", object(json!({"transforms": list(one)})))
 }
 
-/// JSON schema of `foxglove.SceneUpdate`, with the solids that are used here.
+/// Returns the JSON schema of `foxglove.SceneUpdate`, with the solids that are used here.
 pub(super) fn scene_schema() -> Json {
     let place = || object(json!({"position": three(), "orientation": turn()}));
     let colour = || {
@@ -173,17 +173,17 @@ pub(super) fn scene_schema() -> Json {
     titled("foxglove.SceneUpdate", object(fields))
 }
 
-/// JSON schema of an object with these fields.
+/// Returns the JSON schema of an object with these fields.
 pub(super) fn object(fields: Json) -> Json {
     json!({"type": "object", "properties": fields})
 }
 
-/// JSON schema of a list.
+/// Returns the JSON schema of a list.
 pub(super) fn list(items: Json) -> Json {
     json!({"type": "array", "items": items})
 }
 
-/// The same schema under a title.
+/// Adds a title to a schema.
 pub(super) fn titled(title: &str, mut schema: Json) -> Json {
     schema["title"] = json!(title);
     schema

@@ -1,26 +1,28 @@
-//! Joints of objects in MuJoCo's terms.
+//! MJCF of the joints of objects.
 
 use pushplan::geometry::{Pose, Vector};
 use pushplan::scene::{GRAVITY, Joint, JointKind, Mount, Scene};
 
 use super::xml::{Xml, numbers};
 
-/// The joint between a thing and the world.
+/// Writes the joint between an object and the world.
 pub(super) fn mount(xml: &mut Xml, scene: &Scene, mount: &Mount) {
     let frame = mount.frames(&scene.objects)[1];
     hinge(xml, &mount.kind, frame, 1.0, rubbing(scene, mount));
 }
 
-/// The joint that attaches object `child`; in MJCF no joint means fixed.
+/// Writes the joint that attaches object `child`; in MJCF a body without a joint is fixed.
 pub(super) fn joint(xml: &mut Xml, scene: &Scene, child: usize, joint: &Joint) {
-    // Limits are of the second object against the first, MuJoCo's of the child.
+    // Limits in files are of the second object against the first, in MuJoCo of the child.
     let (side, sign) = if joint.between[1] == child { (1, 1.0) } else { (0, -1.0) };
     hinge(xml, &joint.kind, joint.frames(&scene.objects)[side], sign, 0.0);
 }
 
-/// What the table's friction takes from the joint between a thing and the world, N or N m: it stands on
-/// the table all the same, but only along one way it can move. As contacts of feet it would be more
-/// than one way up has room for: a drawer of 32 feet bounces.
+/// Returns the joint friction that replaces the table's friction on an object with a world joint, N
+/// or N m.
+///
+/// The object rests on the table but has only one degree of freedom. Contacts at its feet would
+/// overconstrain it in height: a drawer with 32 feet bounces.
 fn rubbing(scene: &Scene, mount: &Mount) -> f64 {
     let [hinge, _] = mount.frames(&scene.objects);
     let of = |k: usize| {
@@ -36,8 +38,8 @@ fn rubbing(scene: &Scene, mount: &Mount) -> f64 {
     scene.parts_of(mount.object).chain([mount.object]).map(of).sum()
 }
 
-/// A hinge or a slide whose frame is this one of the body's, its positions counted with `sign`, and this
-/// much friction of its own, N or N m.
+/// Writes a hinge or slide joint in this frame of the body, with positions multiplied by `sign`,
+/// and with joint friction, N or N m.
 fn hinge(xml: &mut Xml, kind: &JointKind, frame: Pose, sign: f64, friction: f64) {
     let (name, axis, at) = match *kind {
         JointKind::Fixed => return,

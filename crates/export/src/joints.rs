@@ -1,5 +1,4 @@
-//! How the joints of an arm carry a plan out: `trajectory_msgs/JointTrajectory` of ROS as JSON, and as
-//! CSV.
+//! Joint trajectories of an arm: `trajectory_msgs/JointTrajectory` of ROS as JSON, and a CSV table.
 
 use std::fmt::Write;
 
@@ -10,18 +9,18 @@ use pushplan::scene::JointTrajectory;
 
 use super::ExportError;
 
-/// Nanoseconds in a second.
+/// Nanoseconds per second.
 const NANOS: f64 = 1e9;
 
 fn joints(plan: &PlanFile) -> Result<&JointTrajectory, ExportError> {
     plan.joints.as_ref().ok_or(ExportError::NoJoints)
 }
 
-/// The message `trajectory_msgs/JointTrajectory`, its fields by their names: radians (metres of joints
-/// that slide), seconds.
+/// Returns the message `trajectory_msgs/JointTrajectory` as JSON with its field names: radians
+/// (metres for prismatic joints), seconds.
 ///
 /// # Errors
-/// A plan without the motion of joints.
+/// Returns [`ExportError::NoJoints`] for a plan without a joint trajectory.
 pub fn joint_trajectory(plan: &PlanFile) -> Result<String, ExportError> {
     let path = joints(plan)?;
     let points: Vec<_> = path
@@ -47,16 +46,17 @@ pub fn joint_trajectory(plan: &PlanFile) -> Result<String, ExportError> {
     Ok(format!("{message:#}\n"))
 }
 
-/// The same as a table: a row for each point, with its time, seconds, the positions and the velocities.
+/// Returns the joint trajectory as CSV: a row for each point, with its time, seconds, the positions
+/// and the velocities.
 ///
 /// # Errors
-/// A plan without the motion of joints.
+/// Returns [`ExportError::NoJoints`] for a plan without a joint trajectory.
 pub fn joint_table(plan: &PlanFile) -> Result<String, ExportError> {
     let path = joints(plan)?;
     let mut text = String::from("time");
     for ending in ["", " velocity"] {
         for name in &path.joints {
-            // Names of joints may hold anything.
+            // Joint names may contain any character.
             let _ = write!(text, ",\"{}{ending}\"", name.replace('"', "\"\""));
         }
     }

@@ -1,11 +1,12 @@
-//! Plans for other programs: MJCF, the scenes of MuJoCo, an engine that shares no code with ours, and
-//! MCAP, the recordings that viewers of robots play.
+//! Export of plans: MJCF for MuJoCo, an engine that shares no code with ours, and MCAP, recordings
+//! for robotics viewers.
 //!
-//! A plan becomes one file that holds all of it, the pushes and the goal included ([`mjcf()`]), and
-//! one script for all such files carries it out and judges it by our rules ([`REPLAY_SCRIPT`], and
-//! [`LEVER_SCRIPT`] where something leaves the plane). An MCAP file holds a plan and what a model
-//! says it does. Nothing is simulated here, nothing is written to disk, and MuJoCo is not a
-//! dependency. Reports for people are in `pushplan-report`.
+//! A plan becomes one self-contained file with its pushes and goal ([`mjcf()`]). One script for all
+//! such files executes the plan and judges it by our rules ([`REPLAY_SCRIPT`], or [`LEVER_SCRIPT`]
+//! for motions that leave the plane). An MCAP file contains a plan and its predicted trajectory.
+//!
+//! This crate neither simulates nor writes to disk, and MuJoCo is not a dependency. Reports for
+//! people are in `pushplan-report`.
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 

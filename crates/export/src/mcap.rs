@@ -1,4 +1,4 @@
-//! A plan and what it does as MCAP, the recordings of robots that Foxglove, Rerun and others play.
+//! MCAP export of a plan and its trajectory, a recording for Foxglove, Rerun and others.
 
 use std::collections::BTreeMap;
 use std::io::Cursor;
@@ -25,23 +25,23 @@ const REGION: Colour = [0.80, 0.20, 0.20, 0.25];
 const TOOL: Colour = [0.30, 0.65, 0.40, 1.0];
 const GOAL: Colour = [0.90, 0.55, 0.20, 0.25];
 
-/// Height of the goal's disc, metres: visible, and in nobody's way.
+/// Height of the goal's disc, metres: visible, but not obstructing.
 const DISC: f64 = 1e-3;
 
-/// `plan` and what it does according to `trajectory` as the bytes of an MCAP file.
+/// Returns `plan` and its `trajectory` as the bytes of an MCAP file.
 ///
-/// | topic | schema | when | what |
+/// | topic | schema | when | content |
 /// |---|---|---|---|
 /// | `/scene` | `foxglove.SceneUpdate` | at the start | solids of objects, obstacles, tool and goal, each in its frame |
 /// | `/tf` | `foxglove.FrameTransforms` | every frame | frames `object/NAME` and `tool` in `table` |
-/// | `/state` | `pushplan.State` | every frame | the same as x, y (metres) and heading (radians, turns counted), the push, and the distance from the goal, the first of several (metres) |
+/// | `/state` | `pushplan.State` | every frame | poses as x, y (metres) and unwrapped heading (radians), the push, and the distance from the first goal (metres) |
 ///
 /// Messages are JSON with JSON schemas; times count from the start, in nanoseconds. The attachment
-/// `plan.json` is the plan file, complete; the metadata `pushplan` say tool, model and outcome. Nothing
-/// is compressed. The same plan gives the same bytes.
+/// `plan.json` is the complete plan file, and the metadata `pushplan` contains tool, model and
+/// outcome. Data is not compressed, and equal plans give equal bytes.
 ///
 /// # Errors
-/// [`ExportError::Mcap`] if the trajectory holds something that no such file can.
+/// Returns [`ExportError::Mcap`] if the trajectory contains data that an MCAP file cannot hold.
 pub fn mcap(plan: &PlanFile, trajectory: &Trajectory) -> Result<Vec<u8>, ExportError> {
     written(plan, trajectory).map_err(|error| ExportError::Mcap(error.to_string()))
 }
@@ -69,7 +69,7 @@ fn written(plan: &PlanFile, trajectory: &Trajectory) -> Result<Vec<u8>, mcap::Mc
     ];
     let metadata = said.map(|(key, value)| (key.to_owned(), value)).into_iter().collect();
     file.writer.write_metadata(&Metadata { name: "pushplan".to_owned(), metadata })?;
-    // Written like the plan file itself, so that it can be taken out and verified.
+    // The format equals the plan file format, so that the attachment can be extracted and verified.
     let data = serde_json::to_vec_pretty(plan).map_err(std::io::Error::from)?;
     file.writer.attach(&Attachment {
         log_time: 0,
@@ -82,7 +82,7 @@ fn written(plan: &PlanFile, trajectory: &Trajectory) -> Result<Vec<u8>, mcap::Mc
     Ok(file.writer.into_inner().into_inner())
 }
 
-/// A file that grows.
+/// File under construction.
 struct File {
     writer: Writer<Cursor<Vec<u8>>>,
     sequence: u32,
@@ -106,7 +106,7 @@ fn nanoseconds(seconds: f64) -> u64 {
     (1e9 * seconds).round() as u64
 }
 
-/// Everything that is drawn.
+/// Returns all drawn entities.
 fn entities(plan: &PlanFile) -> Vec<Json> {
     let scene = &plan.task.scene;
     let mut found = Vec::new();
@@ -152,7 +152,7 @@ fn entities(plan: &PlanFile) -> Vec<Json> {
     found
 }
 
-/// A mark that is an area, as a sheet on the table.
+/// Returns an area mark as a sheet on the table.
 fn sheet(mark: &Mark) -> Option<(Shape, Pose, f64)> {
     let (shape, pose) = match mark {
         Mark::Disc { centre, radius } => {
@@ -165,19 +165,19 @@ fn sheet(mark: &Mark) -> Option<(Shape, Pose, f64)> {
     Some((shape, pose, DISC / 2.0))
 }
 
-/// The frame of the tool of this index.
+/// Returns the frame name of the tool of this index.
 fn frame_of(tool: usize) -> String {
     if tool == 0 { "tool".to_owned() } else { format!("tool/{tool}") }
 }
 
-/// Bodies with a frame of their own: of what leaves the plane all solids have one.
+/// Returns the bodies with their own frames; in space, a compound object has one frame.
 fn drawn(plan: &PlanFile) -> impl Iterator<Item = (usize, &Object)> {
     let together = in_space(plan);
     let solids = plan.task.scene.objects.iter().enumerate();
     solids.filter(move |(_, object)| !(together && object.is_part()))
 }
 
-/// A part about the underside of its object.
+/// Returns a part relative to the underside of its object.
 fn fixed(part: &Object) -> Option<(Shape, Pose, f64)> {
     Some((part.shape, part.whole?.place, part.z + part.shape.height() / 2.0))
 }
@@ -186,7 +186,7 @@ fn in_space(plan: &PlanFile) -> bool {
     plan.task.in_space() || plan.plan.levers()
 }
 
-/// Where everything is in one frame.
+/// Returns the transforms of all bodies in one frame.
 fn transforms(plan: &PlanFile, frame: &Frame, at: u64) -> Vec<Json> {
     let mut found: Vec<Json> = Vec::new();
     for ((k, object), pose) in drawn(plan).zip(&frame.state.poses) {
@@ -212,7 +212,7 @@ fn transforms(plan: &PlanFile, frame: &Frame, at: u64) -> Vec<Json> {
     found
 }
 
-/// The same as plain numbers.
+/// Returns the poses of all bodies in one frame as plain numbers.
 fn numbers(plan: &PlanFile, frame: &Frame) -> Json {
     let place =
         |pose: &Pose| json!({"x": pose.position.x, "y": pose.position.y, "heading": pose.heading});

@@ -1,15 +1,15 @@
-//! Prisms as meshes: MJCF has no primitive for them.
+//! Prisms as meshes, because MJCF has no primitive for them.
 
 use pushplan::geometry::{ConvexPolygon, Shape};
 
 use super::xml::{Xml, numbers};
 
-/// Whether any of the named solids is a prism.
+/// Returns `true` if any of the named solids is a prism.
 pub(super) fn are_among(solids: &[(String, Shape)]) -> bool {
     solids.iter().any(|(_, shape)| matches!(shape, Shape::Prism { .. }))
 }
 
-/// The meshes of those of the named solids that are prisms; a solid finds its own by its name.
+/// Writes the meshes of the prisms among the named solids; a solid refers to its mesh by its name.
 pub(super) fn meshes(xml: &mut Xml, solids: &[(String, Shape)]) {
     if !are_among(solids) {
         return;
@@ -24,8 +24,8 @@ pub(super) fn meshes(xml: &mut Xml, solids: &[(String, Shape)]) {
     xml.close();
 }
 
-/// Mass and moments of inertia of a prism whose middle is `rise` metres above the body's origin:
-/// MuJoCo would take the centroid of the mesh for the centre of mass.
+/// Writes mass and moments of inertia of a prism whose middle is `rise` metres above the body's
+/// origin. MuJoCo would use the centroid of the mesh as the centre of mass.
 pub(super) fn inertial(xml: &mut Xml, base: &ConvexPolygon, height: f64, rise: f64, mass: f64) {
     let ([xx, xy, yy], zz) = (base.second_moments(), height * height / 12.0);
     let inertia = [yy + zz, xx + zz, xx + yy, -xy, 0.0, 0.0].map(|moment| mass * moment);

@@ -1,18 +1,22 @@
-//! A plan as a scene of MuJoCo (MJCF), pushes and goal included.
+//! Export of a plan as a MuJoCo scene (MJCF), with pushes and goal.
 //!
-//! What our 3-D engine has, the scene has: gravity, the table, obstacles, objects with their
-//! masses, joints and the points that they stand on, friction of every pair as the mean of two
-//! values, and a tool that nothing stops. It is held by two sliding joints (and a hinge where it turns), whose positions *and*
-//! velocities the script sets before every step: a `mocap` body has no velocity, so an object that
-//! it pushes rubs against it as if it stood still (a box pushed 10 degrees aside then slips by 35
-//! mm of 200 instead of sticking).
+//! The scene contains the same physics as our 3-D engine: gravity, the table, obstacles, and
+//! objects with masses, joints and support points. Friction of every pair is the mean of two
+//! values, and no force stops the tool.
+//!
+//! The tool is held by two slide joints (and a hinge if it rotates), whose positions *and*
+//! velocities the script sets before every step. A `mocap` body would have no velocity, so that a
+//! pushed object would rub against it as if it were at rest. A box pushed 10 degrees off its normal
+//! then slips by 35 mm of 200 instead of sticking.
 //!
 //! MuJoCo's friction is convex: an object that slides at v is pushed off the surface by mu b v,
-//! b = 2 / (d timeconst) of the friction's constraint, against (1 - d) / d of the load that holds
-//! it there, shared by its points. With the default impedance (d = 0.9) every slide is a row of
-//! hops, and what should stick to the tool slips; [`CONTACT`] keeps the second above the first up
-//! to 0.5 m/s. Free slides then end within 0.1 mm of v^2 / (2 mu g), and 20 cm pushes within 0.6 mm
-//! of Coulomb's law, flush or aside (`tests/it/export/mujoco.rs`). Half the step moved the ends of
+//! with b = 2 / (d timeconst) of the friction constraint. Against this acts (1 - d) / d of the
+//! load, shared by its points. With the default impedance (d = 0.9) every slide is a sequence of
+//! hops, and sticking contacts at the tool slip. [`CONTACT`] keeps the second term above the first
+//! up to 0.5 m/s.
+//!
+//! Free slides then end within 0.1 mm of v^2 / (2 mu g), and 20 cm pushes within 0.6 mm of
+//! Coulomb's law, flush or oblique (`tests/it/export/mujoco.rs`). Half the step moved the ends of
 //! eight shipped plans by at most 0.3 mm.
 
 use pushplan::asset::PlanFile;
@@ -37,22 +41,24 @@ use super::tool::{Taken, taken, tool};
 use super::wanted::wanted;
 use super::xml::{Xml, numbers};
 
-/// Carries out any number of scenes that [`mjcf()`] wrote and says how they end: Python 3.11 with
-/// the package `mujoco`, of which 3.3 and 4.0 were tried.
+/// Script that executes any number of scenes written by [`mjcf()`] and prints their results. It
+/// needs Python 3.11 and the package `mujoco`, tested with 3.3 and 4.0.
 pub const REPLAY_SCRIPT: &str = pushplan_page::REPLAY;
 
-/// Plays scenes that [`motion_mjcf()`] wrote, one after another, and says where everything is at the
-/// end of every frame; it imports [`REPLAY_SCRIPT`] as `replay.py` beside it.
+/// Script that executes scenes written by [`motion_mjcf()`], one after another, and prints all
+/// poses at the end of every frame. It imports [`REPLAY_SCRIPT`], stored next to it as `replay.py`.
 pub const FRAMES_SCRIPT: &str = pushplan_page::FRAMES;
 
-/// Of a step, seconds.
+/// Time step, seconds.
 const STEP: f64 = 2.5e-4;
 
-/// How much harder friction is than the load; what sticks then creeps by micrometres a second.
+/// Ratio of friction impedance to normal impedance; sticking contacts then creep by micrometres per
+/// second.
 const FRICTION_HARDNESS: f64 = 1e5;
 
-/// How contacts give way; see above. Time constants are 4 ms of the load (16 steps: several points
-/// of a body add up, and with 4 steps some explode) and 200 ms of friction (with d = 0.03, b = 333/s).
+/// Contact compliance, see the module documentation. The time constant of the load is 4 ms (16
+/// steps), because several points of a body add up, and with 4 steps some are unstable. The time
+/// constant of friction is 200 ms (with d = 0.03, b = 333/s).
 const CONTACT: [(&str, &str); 4] = [
     ("condim", "3"),
     ("solref", "0.004 1"),
@@ -60,25 +66,27 @@ const CONTACT: [(&str, &str); 4] = [
     ("solreffriction", "0.2 1"),
 ];
 
-/// Radius of the points that an object stands on, metres. It never stands on its solid, which MuJoCo
-/// would rest on corners.
+/// Radius of an object's support points, metres. The object's solid itself does not touch the
+/// table, because MuJoCo would support it at corners.
 const FOOT: f64 = 1e-3;
 
-/// How deep a table that ends is, metres: nothing gets below it.
+/// Thickness of a finite table, metres: nothing gets below it.
 const TABLE_DEPTH: f64 = 0.5;
 
-/// How far a cuboid or prism hangs above the table, metres; it meets it when it tips beyond its feet. A
-/// cylinder never does: MuJoCo's contact of a cylinder and a plane throws standing ones over.
+/// Clearance of a cuboid or prism above the table, metres. It touches the table only if it tips
+/// beyond its feet. A cylinder never touches it, because MuJoCo's contact of cylinder and plane
+/// topples standing cylinders.
 const CLEAR: f64 = 5e-4;
 
-/// The scene of `file`'s task with its tool and the plan's pushes, as MJCF; of a plan with an arm that, and
-/// how its joints move.
+/// Returns the scene of `file`'s task with its tool and the plan's pushes, as MJCF. For a plan with
+/// an arm the scene contains the arm and its joint trajectory.
 ///
-/// Names are `object/NAME`, `obstacle/NAME`, `region/NAME`, `arm/LINK` and `tool/PARTS`, flush parts being one solid. The pushes, the goal, our rules and
-/// the end of our own 3-D replay (where the file has one) stand under `custom`.
+/// Names are `object/NAME`, `obstacle/NAME`, `region/NAME`, `arm/LINK` and `tool/PARTS`; flush
+/// parts are one solid. The section `custom` contains the pushes, the goal, our rules and the end
+/// of our own 3-D replay (if the file has one).
 ///
 /// # Errors
-/// [`ExportError::JointLoop`], [`ExportError::Tools`].
+/// Returns [`ExportError::JointLoop`] or [`ExportError::Tools`].
 pub fn mjcf(file: &PlanFile) -> Result<String, ExportError> {
     if file.task.in_space() || file.plan.levers() {
         return plan_mjcf(file);
@@ -91,27 +99,27 @@ pub fn mjcf(file: &PlanFile) -> Result<String, ExportError> {
     written(&file.task.name, &file.task.scene, (&motions, holder), |xml| wanted(xml, file))
 }
 
-/// The scene with the tool and its strokes, as MJCF, without a goal: for learning from what happens.
-/// Here the tool may turn on its way.
+/// Returns the scene with the tool and its strokes, as MJCF, without a goal: for training data.
+/// Here the tool may rotate during a stroke.
 ///
 /// # Errors
-/// [`ExportError::JointLoop`].
+/// Returns [`ExportError::JointLoop`].
 pub fn motion_mjcf(name: &str, scene: &Scene, motion: &ToolMotion) -> Result<String, ExportError> {
     written(name, scene, (std::slice::from_ref(motion), Holder::Table), |_| ())
 }
 
-/// What holds the tools.
+/// Holder of the tools.
 #[derive(Clone, Copy)]
 enum Holder<'a> {
-    /// Something that never leaves the table.
+    /// Holder that never leaves the table.
     Table,
-    /// A hand that lifts them off as a robot would.
+    /// Hand that lifts the tools as a robot would.
     Lifting(&'a Robot),
-    /// An arm that moves like this; it has one tool.
+    /// Arm with its joint trajectory; it has one tool.
     Arm(&'a Arm, &'a JointTrajectory),
 }
 
-/// The scene, with what `wanted` says of it.
+/// Writes the scene, with the elements added by `wanted`.
 fn written(
     name: &str,
     scene: &Scene,
@@ -205,7 +213,7 @@ pub(super) fn object_name(object: &Object) -> String {
     format!("object/{}", object.name)
 }
 
-/// Name of foot `index` of an object.
+/// Returns the name of foot `index` of an object.
 pub(super) fn foot_name(object: &Object, index: usize) -> String {
     format!("object/{}/foot-{}", object.name, index + 1)
 }
@@ -243,7 +251,7 @@ fn settings(xml: &mut Xml, meshes: bool) {
     xml.close();
 }
 
-/// An object and everything attached to it.
+/// Writes an object and everything attached to it.
 fn body(xml: &mut Xml, scene: &Scene, node: &Node<'_>) {
     let object = &scene.objects[node.object];
     let middle = object.middle();
@@ -288,8 +296,8 @@ fn body(xml: &mut Xml, scene: &Scene, node: &Node<'_>) {
     xml.close();
 }
 
-/// The points that an object stands on: all contacts of a body are loaded alike, so of a thing of several
-/// solids as many as are right for each.
+/// Returns the support points of an object. MuJoCo loads all contacts of a body alike, so each
+/// solid of a compound object gets a suitable number of points.
 pub(super) fn feet(scene: &Scene, index: usize) -> Feet {
     let feet = scene.feet(index, &scene.objects[index].support);
     if !scene.is_compound(index) {
@@ -299,7 +307,8 @@ pub(super) fn feet(scene: &Scene, index: usize) -> Feet {
     scene.contacts(index, &feet, &masses)
 }
 
-/// The part of an object that is clear of the table, and how far that moves its middle up, metres.
+/// Returns the part of an object that is clear of the table, and the upward shift of its middle,
+/// metres.
 fn clear(object: &Object) -> (Shape, f64) {
     match object.shape {
         above if object.is_raised() => (above, 0.0),
@@ -313,7 +322,7 @@ fn clear(object: &Object) -> (Shape, f64) {
     }
 }
 
-/// The solids that objects and tools are made of, by their names.
+/// Returns the solids of objects and tools with their names.
 fn solids(scene: &Scene, tools: &[Taken]) -> Vec<(String, Shape)> {
     let objects = scene.objects.iter();
     let objects = objects.map(|object| (object_name(object), clear(object).0));
@@ -324,7 +333,8 @@ fn solids(scene: &Scene, tools: &[Taken]) -> Vec<(String, Shape)> {
     objects.chain(tools).chain(regions::solids(scene)).collect()
 }
 
-/// A solid of a mass and a friction value. Only pairs rub; the value is for readers of the file.
+/// Writes a solid with a mass and a friction value. The value is informative, because friction is
+/// defined by pairs.
 pub(super) fn solid(
     xml: &mut Xml,
     name: String,
@@ -336,7 +346,7 @@ pub(super) fn solid(
     xml.leaf("geom", &solid_keys(name, shape, pose, height, material));
 }
 
-/// Attributes of a solid's geom.
+/// Returns the attributes of a solid's geom.
 fn solid_keys(
     name: String,
     shape: &Shape,

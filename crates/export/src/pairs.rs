@@ -1,22 +1,22 @@
-//! Which pairs may touch, and their friction.
+//! Contact pairs and their friction.
 
 use pushplan::scene::{Physics, Scene, Surface, Tool};
 
 use super::mjcf::{feet, foot_name};
 use super::xml::{Xml, numbers};
 
-/// Two geoms that may touch.
+/// Pair of geoms that may touch.
 pub(super) struct Pair {
-    /// Their names.
+    /// Names of the geoms.
     pub geoms: [String; 2],
-    /// Their coefficient of friction.
+    /// Coefficient of friction.
     pub friction: f64,
-    /// From how far apart they press against each other, metres.
+    /// Distance below which the geoms press against each other, metres.
     pub margin: f64,
 }
 
 impl Pair {
-    /// As an element.
+    /// Writes the pair as an element.
     pub fn write(self, xml: &mut Xml) {
         let [a, b] = self.geoms;
         let friction = numbers(&[self.friction, self.friction]);
@@ -28,7 +28,8 @@ impl Pair {
     }
 }
 
-/// Every pair of which at least one can move by itself; the names of a tool's solids begin with its prefix.
+/// Returns all pairs of which at least one can move freely; the names of a tool's solids begin with
+/// its prefix.
 pub(super) fn pairs(scene: &Scene, tools: &[(&str, &Tool)]) -> Vec<Pair> {
     let physics = Physics::stated(scene);
     let rigid = physics.rigid_groups().of;

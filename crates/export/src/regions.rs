@@ -1,22 +1,23 @@
-//! Regions that are to be kept out of: to be seen, and to be run into by nothing.
+//! Keep-out regions, which are visible but do not collide.
 
 use pushplan::geometry::Shape;
 use pushplan::scene::{Region, Scene};
 
 use super::xml::{Xml, numbers};
 
-/// How thick they are drawn, metres.
+/// Thickness of the drawn regions, metres.
 const THICK: f64 = 1e-3;
 
-/// Red, and most of what is behind it.
+/// Transparent red.
 const COLOUR: [f64; 4] = [0.8, 0.2, 0.2, 0.25];
 
-/// Their solids, by their names.
+/// Returns the solids of the regions with their names.
 pub(super) fn solids(scene: &Scene) -> impl Iterator<Item = (String, Shape)> {
     scene.keep_out.iter().map(|region| (name(region), region.sheet(THICK)))
 }
 
-/// A geom for each; `contype` and `conaffinity` are 0 by default in the file, and no pair names it.
+/// Writes a geom for each region. The geoms do not collide: `contype` and `conaffinity` are 0 by
+/// default in the file, and no pair names them.
 pub(super) fn geoms(xml: &mut Xml, scene: &Scene) {
     for region in &scene.keep_out {
         let name = name(region);

@@ -1,19 +1,19 @@
-//! The tool's outline as solids that an engine may look at one by one.
+//! Outline of the tool as separate solids without seams.
 //!
-//! The pieces of an outline overlap, and faces of one may end in line with a face of another,
-//! where a body that slides along is caught by the corner. Our engines take such contacts away;
-//! elsewhere the face that cannot be touched is moved back into the piece that covers it.
+//! The pieces of an outline overlap, and a face of one may be aligned with a face of another. A
+//! body that slides along would then be caught by the corner. Our engines remove such contacts; for
+//! others, the covered face is moved back into the piece that covers it.
 
 use pushplan::geometry::{Footprint, Pose, Shape, Vector};
 use pushplan::scene::Piece;
 
-/// How far a covered face is moved back, metres: more than engines look ahead.
+/// Distance by which a covered face is moved back, metres: more than the look-ahead of engines.
 const BACK: f64 = 0.01;
 
-/// What rounding may hide, metres.
+/// Tolerance for rounding, metres.
 const SLACK: f64 = 1e-6;
 
-/// The pieces, each with a shape and a pose in the tool frame that leave no seams.
+/// Returns the pieces, with shapes and poses in the tool frame that leave no seams.
 pub(super) fn seamless(pieces: &[Piece]) -> Vec<(&str, Shape, Pose)> {
     pieces
         .iter()
@@ -55,7 +55,7 @@ fn trimmed(piece: &Piece, pieces: &[Piece]) -> (Shape, Pose) {
     (Shape::Cuboid { size: [extent.x, extent.y, size[2]] }, pose)
 }
 
-/// Whether a piece holds all of a rectangle between two corners in the frame at `pose`.
+/// Returns `true` if a piece contains a rectangle between two corners in the frame at `pose`.
 fn holds(piece: &Piece, pose: &Pose, from: Vector, to: Vector) -> bool {
     let Footprint::Rectangle { half } = piece.footprint() else { return false };
     [from, to, Vector::new(from.x, to.y), Vector::new(to.x, from.y)].into_iter().all(|corner| {
@@ -80,7 +80,7 @@ mod tests {
             Some((_, Shape::Cuboid { size }, pose)) => (*size, pose.position),
             other => panic!("{other:?}"),
         };
-        // Joined they are an L: the end is the bar's, the back the handle's.
+        // Joined, the parts are an L: the end belongs to the bar, the back to the handle.
         let ((handle, at), (bar, middle)) = (size("handle"), size("bar"));
         let spans = [at.x - handle[0] / 2.0, at.x + handle[0] / 2.0];
         assert!(spans[0].abs() < 1e-9 && (spans[1] - 0.42).abs() < 1e-9, "{spans:?}");

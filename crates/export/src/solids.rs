@@ -1,4 +1,4 @@
-//! Objects in space as bodies of MuJoCo: solids, feet, joints, and the friction of pairs.
+//! MJCF of objects in space: solids, feet, joints, and the friction of pairs.
 
 use pushplan::geometry::{Pose3, Vector, Vector3};
 use pushplan::scene::{Body, Obstacle, Physics, Plate, Scene, Slab, Surface, stands_on};
@@ -11,19 +11,18 @@ use super::xml::{Xml, numbers};
 /// Largest radius of an object's feet, metres.
 const FOOT: f64 = 1e-3;
 
-/// Distance by which objects on stated points hang above the table, metres.
+/// Clearance of the solids of objects on stated points above the table, metres.
 const CLEAR: f64 = 5e-4;
 
-/// A solid that others can meet: its name, its friction value, and what it is in the scene, the table being
-/// nothing.
+/// Colliding solid: its name, its friction value, and its body in the scene, `None` for the table.
 pub(super) type Meets = (String, f64, Option<Body>);
 
-/// The scene on the table.
+/// Scene on the table.
 pub(super) struct Stage<'a> {
     pub plates: Vec<Plate>,
     pub obstacles: &'a [Obstacle],
     pub table_friction: f64,
-    /// The scene that this is of, with its physics; a lever-up of a data set is of none.
+    /// Source scene with its physics; `None` for a lever-up of a data set.
     pub scene: Option<(&'a Scene, Physics)>,
 }
 
@@ -34,13 +33,13 @@ impl Stage<'_> {
         of.is_some_and(|of| of[one] == of[other])
     }
 
-    /// The index of a solid of a plate into the objects of the scene.
+    /// Returns the object index of a plate's solid in the scene.
     fn solid(&self, plate: usize, slab: usize) -> usize {
         let scene = self.scene.as_ref().map(|(scene, _)| scene).filter(|_| slab > 0);
         scene.and_then(|scene| scene.parts_of(plate).nth(slab - 1)).unwrap_or(plate)
     }
 
-    /// The coefficient of friction of a pair.
+    /// Returns the coefficient of friction of a pair.
     pub fn friction(&self, (_, one, a): &Meets, (_, other, b): &Meets) -> f64 {
         let surface = match b {
             None => Surface::Table,
@@ -57,7 +56,7 @@ impl Stage<'_> {
     }
 }
 
-/// An object and everything that is attached to it; `found` gets their solids.
+/// Writes an object and everything attached to it; `found` collects their solids.
 pub(super) fn body(
     xml: &mut Xml,
     stage: &Stage,
@@ -93,7 +92,7 @@ pub(super) fn body(
     xml.close();
 }
 
-/// The solids and feet of an object, with its mass.
+/// Writes the solids and feet of an object, with its mass.
 fn solids(xml: &mut Xml, stage: &Stage, k: usize) -> Vec<Meets> {
     let plate = &stage.plates[k];
     let own = stage.scene.as_ref();
@@ -120,7 +119,7 @@ fn solids(xml: &mut Xml, stage: &Stage, k: usize) -> Vec<Meets> {
         let name = slab_name(plate, s);
         let Slab { corners, bottom, height: thick } = slab;
         let lifted = if height == 0.0 && *bottom == 0.0 && feet.is_some() { CLEAR } else { 0.0 };
-        // MuJoCo's boxes meet on more points than its meshes.
+        // Boxes have more contact points in MuJoCo than meshes.
         if let Some((middle, size)) = upright_rectangle(corners) {
             let position = Vector3::new(middle.x, middle.y, bottom + 0.5 * (thick + lifted));
             let pose = Pose3 { position, ..Pose3::default() };
@@ -155,7 +154,7 @@ fn solids(xml: &mut Xml, stage: &Stage, k: usize) -> Vec<Meets> {
     solids
 }
 
-/// Middle and extents of a rectangle along the axes.
+/// Returns the middle and the extents of an axis-aligned rectangle; `None` for other polygons.
 fn upright_rectangle(corners: &[Vector]) -> Option<(Vector, [f64; 2])> {
     let [a, b, c, d] = *corners else { return None };
     let along = |one: f64, other: f64| (one - other).abs() < 1e-12;

@@ -1,9 +1,9 @@
-//! What leaves the plane as a scene of MuJoCo (MJCF): lever-ups, and pushes before or after them.
+//! Export of 3-D motions as a MuJoCo scene (MJCF): lever-ups, and pushes before or after them.
 //!
 //! Objects are bodies of meshes and boxes on the same feet as in our engine; the table is a cuboid.
-//! Blades and tools are heavy free bodies without weight whose pose *and* velocity the script sets
-//! before every step: a `mocap` body has no velocity. Until their step they wait far away. Friction is
-//! the mean of the two values, pair by pair.
+//! Blades and tools are heavy, gravity-compensated free bodies whose pose *and* velocity the script
+//! sets before every step, because a `mocap` body has no velocity. Until their step they wait far
+//! away. Friction is the mean of the two values of a pair.
 
 use std::sync::Arc;
 
@@ -21,29 +21,31 @@ use super::solids::{Meets, Stage, body, slab_name};
 use super::wanted::checks;
 use super::xml::{Xml, numbers};
 
-/// Plays scenes that [`lever_mjcf()`] wrote, or [`mjcf()`](super::mjcf()) of plans in space, and says
-/// what comes of them.
+/// Script that executes scenes written by [`lever_mjcf()`], or by [`mjcf()`](super::mjcf()) for
+/// plans in space, and prints their results.
 pub const LEVER_SCRIPT: &str = pushplan_page::LEVER;
 
-/// Of a step, seconds. What slides in MuJoCo is pushed off a little, less in finer and harder steps: with
-/// twice this and softer contacts plates slide 3 mm where they hardly do in ours, with this 1.5 mm.
+/// Time step, seconds. Sliding bodies in MuJoCo are pushed off slightly, less with shorter steps
+/// and harder contacts. With twice this step and softer contacts, plates slide 3 mm, with this step
+/// 1.5 mm, and hardly in our engine.
 const STEP: f64 = 2.5e-4;
 
-/// How contacts give way. On the pairs themselves: defaults of geometries do not reach them.
+/// Contact compliance. It is set on the pairs themselves, because defaults of geoms do not apply to
+/// them.
 const CONTACT: [(&str, &str); 3] =
     [("condim", "3"), ("solref", "0.002 1"), ("solimp", "0.9 0.95 0.001")];
 
-/// How much harder friction is than the load.
+/// Ratio of friction impedance to normal impedance.
 const FRICTION_HARDNESS: f64 = 10.0;
 
-/// So heavy that nothing moves it, kg.
+/// Mass of a prescribed body, kg, large enough that contacts do not move it.
 const HAND_MASS: f64 = 1e4;
 
-/// Where a blade or a tool waits for its step: beyond the table, metres.
+/// Waiting distance of a blade or a tool before its step, beyond the table, metres.
 const AWAY: f64 = 50.0;
 
-/// The scene of a lever-up, as MJCF. Names are `plate/NAME`, `block/NAME`, `blade/0` and `table`; what the
-/// blade does stands under `custom`.
+/// Returns the scene of a lever-up as MJCF. Names are `plate/NAME`, `block/NAME`, `blade/0` and
+/// `table`; the section `custom` contains the motion of the blade.
 pub fn lever_mjcf(job: &LeverJob) -> String {
     let tool = Arc::new(Tool::with_blade("blade", job.scene.blade));
     let motion = Motion::Lever(LeverMotion::new(tool, job.lever, None));
@@ -56,10 +58,10 @@ pub fn lever_mjcf(job: &LeverJob) -> String {
     written("lever-up", &stage, (&[motion], &[]), (job.lever.plate, None))
 }
 
-/// The scene of a plan in which something leaves the plane, its steps and goals included.
+/// Returns the scene of a plan in which an object leaves the plane, with its steps and goals.
 ///
 /// # Errors
-/// [`ExportError::Tools`], [`ExportError::JointLoop`].
+/// Returns [`ExportError::Tools`] or [`ExportError::JointLoop`].
 pub(super) fn plan_mjcf(file: &PlanFile) -> Result<String, ExportError> {
     let motions = file.plan.motions(&file.tools).ok_or(ExportError::Tools)?;
     let scene = &file.task.scene;
@@ -143,7 +145,7 @@ fn settings(xml: &mut Xml) {
     xml.close();
 }
 
-/// The table and the obstacles.
+/// Writes the table and the obstacles, and returns their solids.
 fn fixed(xml: &mut Xml, stage: &Stage) -> Vec<Meets> {
     let mut others: Vec<Meets> = vec![("table".to_owned(), stage.table_friction, None)];
     let brink = stage.scene.as_ref().and_then(|(scene, _)| scene.brink());
@@ -160,7 +162,7 @@ fn fixed(xml: &mut Xml, stage: &Stage) -> Vec<Meets> {
     others
 }
 
-/// What is done in step `k`.
+/// Writes the motion of step `k`.
 fn step(xml: &mut Xml, stage: &Stage, k: usize, motion: &Motion) {
     match motion {
         Motion::Lever(motion) => {
@@ -201,13 +203,13 @@ fn step(xml: &mut Xml, stage: &Stage, k: usize, motion: &Motion) {
     }
 }
 
-/// The blade or the tool of step `k`, and its solids.
+/// Writes the blade or the tool of step `k`, and returns its solids.
 fn hand(xml: &mut Xml, k: usize, motion: &Motion) -> Vec<Meets> {
     let tool = motion.tool();
     let what = if motion.is_lever() { "blade" } else { "tool" };
     let name = format!("{what}/{k}");
-    // Without gravity: the solver would see blade and plate fall together, and let the plate creep down
-    // the blade at some millimetres a second.
+    // Gravity is compensated because the solver would see blade and plate fall together, and let
+    // the plate creep down the blade at some millimetres per second.
     let mut attributes = vec![("name", name.clone()), ("gravcomp", "1".to_owned())];
     let away = Vector3::new(AWAY + k as f64, 0.0, 0.0);
     attributes.extend(placed(&Pose3 { position: away, ..Pose3::default() }));
@@ -232,7 +234,7 @@ fn hand(xml: &mut Xml, k: usize, motion: &Motion) -> Vec<Meets> {
     solids
 }
 
-/// A part of a tool in the tool frame, standing on it.
+/// Writes a part of a tool in the tool frame, with its underside at height zero.
 fn tool_part(xml: &mut Xml, name: &str, part: &Part) {
     let height = part.shape.height();
     let middle = Pose3::upright(part.pose, 0.5 * height);
@@ -251,7 +253,7 @@ fn tool_part(xml: &mut Xml, name: &str, part: &Part) {
     xml.leaf("geom", &attributes);
 }
 
-/// The outlines of a tool's prisms, about their middles.
+/// Writes the outlines of a tool's prisms as meshes, about their middles.
 fn tool_meshes(xml: &mut Xml, k: usize, motion: &Motion) {
     for (p, part) in motion.tool().parts().iter().enumerate() {
         if let Footprint::Polygon(polygon) = part.footprint() {
@@ -275,7 +277,7 @@ fn pair(xml: &mut Xml, stage: &Stage, (one, other): (&Meets, &Meets)) {
     xml.leaf("pair", &geoms);
 }
 
-/// The outlines of slabs.
+/// Writes the outlines of slabs as meshes.
 fn meshes(xml: &mut Xml, plates: &[Plate]) {
     for plate in plates {
         for (k, slab) in plate.slabs.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! What a tool does, as numbers that a script reads.
+//! Tool motions, as numbers for a script.
 
 use pushplan::{
     scene::{Object, REST_SPEED, Scene},
@@ -7,10 +7,10 @@ use pushplan::{
 
 use super::xml::{Xml, numbers};
 
-/// How far a tool that is lifted is above the tallest object, metres.
+/// Clearance of a lifted tool above the tallest object, metres.
 const ABOVE: f64 = 0.01;
 
-/// What the tool does.
+/// Writes the strokes of the tool.
 pub(super) fn strokes(xml: &mut Xml, motions: &[ToolMotion]) {
     xml.comment(
         "Where the tool begins and ends (x, y, x, y), how long it takes, whether it then waits; \
@@ -31,7 +31,7 @@ pub(super) fn strokes(xml: &mut Xml, motions: &[ToolMotion]) {
     numeric(xml, "rest", &[REST_SPEED, COAST_FRAME, MAX_COAST_FRAMES as f64]);
 }
 
-/// How far the tool goes back before it is lifted, and how high it then goes.
+/// Writes the retreat of the tool before it is lifted, and its lifting height.
 pub(super) fn retreats(xml: &mut Xml, scene: &Scene, motions: &[ToolMotion]) {
     xml.comment("How far it goes back then, the way it came, before it is lifted, and how high.");
     let each = motions.iter().flat_map(|motion| {
@@ -50,7 +50,7 @@ pub(super) fn retreats(xml: &mut Xml, scene: &Scene, motions: &[ToolMotion]) {
     numeric(xml, "rise", &[heights.fold(0.0, f64::max) + ABOVE]);
 }
 
-/// Whether a tool has more than one heading.
+/// Returns `true` if any tool has more than one heading.
 pub(super) fn turns(motions: &[ToolMotion]) -> bool {
     motions.iter().any(|motion| {
         let heading = motion.strokes.first().map_or(0.0, |stroke| stroke.from.heading);
@@ -60,7 +60,7 @@ pub(super) fn turns(motions: &[ToolMotion]) -> bool {
     })
 }
 
-/// Named numbers.
+/// Writes named numbers.
 pub(super) fn numeric(xml: &mut Xml, name: &str, values: &[f64]) {
     xml.leaf("numeric", &[("name", name.into()), ("data", numbers(values))]);
 }

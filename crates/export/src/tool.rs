@@ -1,4 +1,4 @@
-//! The tools of a scene: bodies that are where they are told to be.
+//! MJCF of the tools of a scene: bodies with prescribed positions.
 
 use pushplan::geometry::{Footprint, Pose, Shape};
 use pushplan::{
@@ -10,19 +10,19 @@ use super::mjcf::solid;
 use super::seamless::seamless;
 use super::xml::{Xml, numbers};
 
-/// So heavy that nothing moves it, kg.
+/// Mass of a tool, kg, large enough that contacts do not move it.
 const MASS: f64 = 1e5;
 
-/// A tool, with the first motion that is made with it, and how its solids are called.
+/// A tool with its first motion and its names.
 pub(super) struct Taken<'a> {
     pub motion: &'a ToolMotion,
-    /// Its body's name.
+    /// Name of its body.
     body: String,
-    /// Before the names of its solids.
+    /// Prefix of the names of its solids.
     pub prefix: String,
 }
 
-/// The tools of motions, each once, in the order in which they are taken.
+/// Returns the tools of the motions, without repetition, in order of use.
 pub(super) fn taken(motions: &[ToolMotion]) -> Vec<Taken<'_>> {
     let mut taken: Vec<Taken> = Vec::new();
     for motion in motions {
@@ -37,8 +37,8 @@ pub(super) fn taken(motions: &[ToolMotion]) -> Vec<Taken<'_>> {
     taken
 }
 
-/// A tool that slides, turns where any does, and can be lifted where it `rises`, with the hand that is to be
-/// seen.
+/// Writes a tool with slide joints, a hinge if any tool rotates (`turns`), and a lift joint if it
+/// `rises`. The `hand` is only visual.
 pub(super) fn tool(xml: &mut Xml, taken: &Taken, turns: bool, hand: Option<Carried>, rises: bool) {
     let Taken { motion, body, prefix } = taken;
     let start = motion.strokes.first().map(|stroke| stroke.from).unwrap_or_default();
@@ -52,7 +52,7 @@ pub(super) fn tool(xml: &mut Xml, taken: &Taken, turns: bool, hand: Option<Carri
     let lift = ("z", "slide", "0 0 1", 0.0);
     let more = [turns.then_some(hinge), rises.then_some(lift)].into_iter().flatten();
     for (name, kind, axis, here) in slides.into_iter().chain(more) {
-        // `ref` makes the joint's position the tool's on the table.
+        // With `ref`, the joint's position equals the tool's position on the table.
         let attributes = [
             ("name", format!("{body} {name}")),
             ("type", kind.into()),
@@ -63,7 +63,7 @@ pub(super) fn tool(xml: &mut Xml, taken: &Taken, turns: bool, hand: Option<Carri
     }
     let turned = Pose { heading: start.heading, ..Pose::default() };
     pieces(xml, (prefix, &motion.tool), &turned, motion.lift, 0.0);
-    // It touches nothing: where it would, no plan goes.
+    // The hand collides with nothing, because plans exclude such contacts.
     if let Some(Carried { footprint: Footprint::Disc { radius }, pose, span: [from, _] }) = hand {
         let shape = Shape::Cylinder { radius, height: SHOWN_HAND };
         let middle = from + 0.5 * SHOWN_HAND;
@@ -72,8 +72,8 @@ pub(super) fn tool(xml: &mut Xml, taken: &Taken, turns: bool, hand: Option<Carri
     xml.close();
 }
 
-/// The solids of a tool, their names beginning with a prefix, at a pose in its body, their undersides at a
-/// height, metres, of a density, kg/m3.
+/// Writes the solids of a tool with a name prefix, at a pose in its body, with undersides at a
+/// height, metres, and of a density, kg/m3.
 pub(super) fn pieces(
     xml: &mut Xml,
     (prefix, tool): (&str, &Tool),

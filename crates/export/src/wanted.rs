@@ -1,4 +1,4 @@
-//! The goals of a plan in MJCF, which `replay.py` judges by.
+//! MJCF of a plan's goals, which `replay.py` evaluates.
 
 use serde_json::{Value as Json, json};
 
@@ -11,7 +11,7 @@ use pushplan::{
 use super::strokes::numeric;
 use super::xml::Xml;
 
-/// What stands for a goal that asks for no place, metres.
+/// Tolerance of a goal without a position, metres.
 const ANYWHERE: f64 = 1e6;
 
 /// Returns a goal in numbers if it is a position in the world, a heading, or both.
@@ -33,7 +33,7 @@ fn pose_and_tolerance(goal: &Goal) -> Option<Vec<f64>> {
     Some(values)
 }
 
-/// The goal, and what our own replay says.
+/// Writes the goals, and the result of our own replay.
 pub(super) fn wanted(xml: &mut Xml, file: &PlanFile) {
     let scene = &file.task.scene;
     checks(xml, &file.task);
@@ -62,7 +62,7 @@ pub(super) fn wanted(xml: &mut Xml, file: &PlanFile) {
     }
 }
 
-/// The goals as JSON: names of their objects, and the checks by which scripts judge.
+/// Writes the goals as JSON: names of their objects, and the checks evaluated by scripts.
 pub(super) fn checks(xml: &mut Xml, task: &Task) {
     let goals = task.goals.iter().map(|goal| {
         json!({"object": task.scene.objects[goal.object].name, "check": goal.check(&task.scene)})

@@ -1,34 +1,34 @@
-//! XML as text: elements, one a line, and their attributes.
+//! XML as text: elements, one per line, and their attributes.
 
 use std::fmt::Write;
 
-/// A growing XML document.
+/// XML document under construction.
 #[derive(Debug, Default)]
 pub(super) struct Xml {
     text: String,
-    /// Names of the elements that are open.
+    /// Names of the open elements.
     open: Vec<&'static str>,
 }
 
 impl Xml {
-    /// A comment; `text` is ours and holds no `--`.
+    /// Writes a comment; `text` must not contain `--`.
     pub fn comment(&mut self, text: &str) {
         self.indent();
         let _ = writeln!(self.text, "<!-- {text} -->");
     }
 
-    /// An element that later ones belong to.
+    /// Opens an element, which contains the elements written until [`Self::close`].
     pub fn open(&mut self, name: &'static str, attributes: &[(&str, String)]) {
         self.element(name, attributes, "");
         self.open.push(name);
     }
 
-    /// An element with nothing in it.
+    /// Writes an element without content.
     pub fn leaf(&mut self, name: &'static str, attributes: &[(&str, String)]) {
         self.element(name, attributes, "/");
     }
 
-    /// Ends what was opened last.
+    /// Closes the last opened element.
     pub fn close(&mut self) {
         if let Some(name) = self.open.pop() {
             self.indent();
@@ -36,7 +36,7 @@ impl Xml {
         }
     }
 
-    /// The document.
+    /// Returns the document.
     pub fn finish(mut self) -> String {
         while !self.open.is_empty() {
             self.close();
@@ -58,7 +58,7 @@ impl Xml {
     }
 }
 
-/// Numbers as an attribute, each with the digits that read back as exactly it.
+/// Formats numbers as an attribute, with digits that parse to exactly the same value.
 pub(super) fn numbers(values: &[f64]) -> String {
     let words: Vec<String> = values.iter().map(f64::to_string).collect();
     words.join(" ")
@@ -72,7 +72,7 @@ fn escaped(value: &str) -> String {
             '<' => safe += "&lt;",
             '>' => safe += "&gt;",
             '"' => safe += "&quot;",
-            // Not allowed in XML at all, or read as a space.
+            // Control characters are not allowed in XML, or are read as a space.
             c if c.is_control() => safe.push(' '),
             c => safe.push(c),
         }

@@ -1,4 +1,4 @@
-//! Bars in groups as SVG: shares by kind of task and method.
+//! Grouped bar charts as SVG: shares by kind of task and method.
 
 use pushplan::geometry::Vector;
 
@@ -8,33 +8,33 @@ use super::svg::{Anchor, Font, Style, Svg};
 /// Share of a group's width that its bars fill.
 const FILLED: f64 = 0.8;
 
-/// Lines across the plot.
+/// Number of grid intervals across the plot.
 const LINES: usize = 5;
 
-/// A bar in every group.
+/// Bars of one series, one in every group.
 #[derive(Clone, Debug)]
 pub struct Bars {
-    /// For the legend.
+    /// Name in the legend.
     pub name: String,
-    /// One share, 0 to 1, for each group; none where nothing is known.
+    /// Share of each group, 0 to 1; `None` where the share is unknown.
     pub shares: Vec<Option<f64>>,
 }
 
-/// Shares side by side, from 0 to 100 %.
+/// Chart of shares side by side, from 0 to 100 %.
 #[derive(Clone, Debug, Default)]
 pub struct BarChart {
-    /// First line, bold.
+    /// Title, bold.
     pub title: String,
-    /// What the shares are of.
+    /// Description of the shares, on the axis.
     pub label: String,
     /// Names of the groups, from left to right.
     pub groups: Vec<String>,
-    /// The bars of each group, from left to right.
+    /// Series, from left to right within each group.
     pub bars: Vec<Bars>,
 }
 
 impl BarChart {
-    /// The chart as an SVG document.
+    /// Returns the chart as an SVG document.
     pub fn to_svg(&self) -> String {
         let legend = self.legend();
         let lines = legend.iter().map(|place| place.y).fold(0.0, f64::max);
@@ -81,7 +81,7 @@ impl BarChart {
         svg.finish()
     }
 
-    /// Where each entry of the legend stands, from its upper left.
+    /// Returns the position of each legend entry, relative to the legend's upper left corner.
     fn legend(&self) -> Vec<Vector> {
         let font = Font::new(12.0, INK);
         let mut next = Vector::zeros();

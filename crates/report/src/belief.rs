@@ -1,4 +1,4 @@
-//! What is believed after a recording: which objects are joined, since when, and how that changed.
+//! Belief after a recording: which objects are joined, since when, and how the belief changed.
 
 use serde_json::json;
 
@@ -13,11 +13,11 @@ use super::table::{
     NONE, Table,
 };
 
-/// Nine in ten normal numbers lie within this many standard deviations.
+/// Half width of the central 90 % interval of a normal distribution, in standard deviations.
 const NINE_IN_TEN: f64 = 1.645;
 
-/// The belief about the objects called `names` of a recording of this title; `ranges` are those that masses
-/// may be in, if they were to be told.
+/// Returns a report on the belief about the objects called `names` after the recording `title`.
+/// `ranges` are the candidate mass ranges, kg; empty if masses were not inferred.
 pub fn belief_document(title: &str, belief: &Belief, names: &[&str], ranges: &[Span]) -> Document {
     let now = belief.situation();
     let probabilities = belief.probabilities();
@@ -75,7 +75,7 @@ pub fn belief_document(title: &str, belief: &Belief, names: &[&str], ranges: &[S
     Document { title, sections, json, ..Document::default() }
 }
 
-/// Masses by range, and ratios of those that touched.
+/// Returns the probabilities of mass ranges, and the mass ratios of objects that touched.
 fn mass_sections(masses: &MassShares, names: &[&str], ranges: &[Span]) -> Vec<Section> {
     let titles: Vec<String> =
         ranges.iter().map(|range| format!("{} to {} kg", range.low, range.high)).collect();
@@ -114,7 +114,7 @@ fn mass_sections(masses: &MassShares, names: &[&str], ranges: &[Span]) -> Vec<Se
     sections
 }
 
-/// Where a joint is while the objects are where they were seen last.
+/// Formats the position of a joint at the last observed poses.
 fn place(joint: &Joint) -> String {
     match joint.kind {
         JointKind::Fixed => NONE.to_owned(),
@@ -129,7 +129,7 @@ fn place(joint: &Joint) -> String {
     }
 }
 
-/// How much further a joint goes to either side where it was seen to stop.
+/// Formats the remaining travel of a joint on each side with an observed limit.
 fn stops(limits: Option<Span>, free: f64, unit: impl Fn(f64) -> String) -> String {
     let Some(limits) = limits else { return String::new() };
     let sides = [limits.low, limits.high].into_iter().filter(|far| far.abs() < free);
@@ -137,13 +137,13 @@ fn stops(limits: Option<Span>, free: f64, unit: impl Fn(f64) -> String) -> Strin
     format!(", goes on to {} at most", sides.join(" and "))
 }
 
-/// The likeliest of four shares.
+/// Returns the index of the most probable joint type.
 fn likeliest(shares: &[f64; 4]) -> usize {
     (0..4).max_by(|&a, &b| shares[a].total_cmp(&shares[b])).unwrap_or(0)
 }
 
-/// The observation since which the likeliest type of a pair is what it is; `None` if neither of
-/// them moved.
+/// Returns the observation since which the most probable type of a pair is unchanged; `None` if
+/// neither object moved.
 fn since(belief: &Belief, pair: usize) -> Option<usize> {
     let history = belief.history();
     history.iter().find(|step| step.evidence[pair].is_some())?;
@@ -152,7 +152,7 @@ fn since(belief: &Belief, pair: usize) -> Option<usize> {
     same.last().map(|step| step.observations)
 }
 
-/// Of every pair the probability of the type that it has at the end.
+/// Plots, for every pair, the probability over time of its final most probable type.
 fn over_time(belief: &Belief, name: &dyn Fn([usize; 2]) -> String) -> Figure {
     let probabilities = belief.probabilities();
     let series = belief.pairs().enumerate().map(|(p, between)| {

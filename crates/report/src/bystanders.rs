@@ -1,4 +1,4 @@
-//! What else a plan moves.
+//! Objects that a plan moves in addition to the goal's object.
 
 use serde_json::{Value as Json, json};
 
@@ -10,21 +10,21 @@ use pushplan::{
 
 use super::number::{degrees, millimetres};
 
-/// What moves less stays where it is, metres.
+/// Smallest displacement that is reported, metres.
 const MOVED: f64 = 1e-3;
 
-/// An object besides that of the goal, and what becomes of it in the replay that moves it most; by
-/// prediction where nothing was replayed.
+/// An object that is not the goal's, with its displacement in the replay that moves it most, or in
+/// the prediction without replays.
 pub(super) struct Bystander<'a> {
     name: &'a str,
-    /// Metres.
+    /// Displacement, metres.
     moved: f64,
-    /// Radians.
+    /// Rotation, radians.
     turned: f64,
     fell: bool,
 }
 
-/// All that a plan moves besides the goal's object, the farthest first.
+/// Returns all objects that a plan moves except the goal's object, farthest first.
 pub(super) fn bystanders<'a>(
     task: &'a Task,
     predicted: Option<&Outcome>,
@@ -60,7 +60,7 @@ pub(super) fn bystanders<'a>(
     moved
 }
 
-/// All bystanders in one line; `None` if there are none.
+/// Formats all bystanders in one line; `None` if there are none.
 pub(super) fn line(moved: &[Bystander<'_>]) -> Option<String> {
     let of = |one: &Bystander| {
         let fell = if one.fell { " and falls" } else { "" };
@@ -74,7 +74,7 @@ pub(super) fn line(moved: &[Bystander<'_>]) -> Option<String> {
     (!all.is_empty()).then(|| format!("also moves: {}", all.join("; ")))
 }
 
-/// All bystanders as JSON, in metres and radians.
+/// Converts all bystanders to JSON, in metres and radians.
 pub(super) fn json(moved: &[Bystander<'_>]) -> Json {
     let of = |one: &Bystander| json!({"object": one.name, "moved": one.moved, "turned": one.turned, "fell": one.fell});
     moved.iter().map(of).collect()

@@ -1,4 +1,4 @@
-//! Line and scatter charts as SVG: training curves, speed against accuracy.
+//! Line and scatter charts as SVG, for training curves and for speed against accuracy.
 
 use pushplan::geometry::Vector;
 
@@ -14,64 +14,64 @@ pub(super) const CORNER: Vector = Vector::new(74.0, 66.0);
 pub(super) const LEGEND_LINE: f64 = 18.0;
 pub(super) const INK: &str = "#212529";
 pub(super) const FAINT_INK: &str = "#6c757d";
-/// Okabe and Ito's colours, told apart by colour-blind readers; repeated with dashes after
+/// Palette of Okabe and Ito, distinguishable by colour-blind readers. It repeats with dashes after
 /// seven series.
 const COLOURS: [&str; 7] =
     ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#495057"];
 
-/// One axis.
+/// Axis of a chart.
 #[derive(Clone, Debug, Default)]
 pub struct Axis {
-    /// What it shows, with its unit.
+    /// Quantity on the axis, with its unit.
     pub label: String,
-    /// Powers of ten at equal distances; values that are not positive are left out.
+    /// Whether the axis is logarithmic; values that are not positive are then left out.
     pub log: bool,
 }
 
-/// How the points of a series are shown.
+/// Style of the points of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// Joined by a line.
+    /// Points joined by a line.
     Line,
-    /// Dots alone.
+    /// Dots without a line.
     Dots,
     /// Dots joined by a line.
     DottedLine,
 }
 
-/// Points with a name.
+/// Named series of points.
 #[derive(Clone, Debug)]
 pub struct Series {
-    /// For the legend; a series without a name or without points is not in it.
+    /// Name in the legend; a series without a name or without points has no entry.
     pub name: String,
-    /// x and y; what is not finite is left out.
+    /// Points (x, y); points that are not finite are left out.
     pub points: Vec<[f64; 2]>,
-    /// How they are shown.
+    /// Style of the points.
     pub mark: Mark,
-    /// Words next to single points, by index.
+    /// Labels next to single points, by index.
     pub labels: Vec<(usize, String)>,
 }
 
-/// A chart.
+/// Line or scatter chart.
 #[derive(Clone, Debug, Default)]
 pub struct Chart {
-    /// First line, bold.
+    /// Title, bold.
     pub title: String,
     /// Horizontal axis.
     pub x: Axis,
     /// Vertical axis.
     pub y: Axis,
-    /// What is shown; later series are drawn over earlier ones.
+    /// Series; later ones are drawn over earlier ones.
     pub series: Vec<Series>,
 }
 
 impl Chart {
-    /// The chart as an SVG document.
+    /// Returns the chart as an SVG document.
     pub fn to_svg(&self) -> String {
         self.to_svg_with_id("plot")
     }
 
-    /// The same for a page with several charts, on which each needs an `id` of its own.
+    /// Returns the chart with its own `id`, for a page with several charts.
     pub(super) fn to_svg_with_id(&self, id: &str) -> String {
         let shown = |k: usize| {
             let axis = [&self.x, &self.y][k];
@@ -102,7 +102,7 @@ impl Chart {
             self.draw(&mut svg, series, k, &map);
         }
         svg.close();
-        // Last, so that no dot or line of another series lies over words.
+        // Labels are drawn last, so that no dot or line of another series covers them.
         self.label(&mut svg, corner, &map);
         for (k, place) in legend {
             self.draw_legend(&mut svg, k, Vector::new(CORNER.x, 46.0) + place);
@@ -155,7 +155,7 @@ impl Chart {
         }
     }
 
-    /// The words next to points, each where it covers least.
+    /// Writes the labels of points, each where it covers least.
     fn label(&self, svg: &mut Svg, corner: Vector, map: &impl Fn(&[f64; 2]) -> Vector) {
         let dotted = self.series.iter().filter(|series| series.mark != Mark::Line);
         let dots = dotted.flat_map(|series| &series.points).filter(|point| self.visible(point));
@@ -171,7 +171,8 @@ impl Chart {
         }
     }
 
-    /// The series with a name and points, and where each stands in the legend, from its upper left.
+    /// Returns the series with a name and points, and the position of each legend entry relative to
+    /// the legend's upper left corner.
     fn legend(&self) -> Vec<(usize, Vector)> {
         let font = Font::new(12.0, INK);
         let mut next = Vector::zeros();
@@ -204,19 +205,19 @@ pub(super) fn colour(index: usize) -> &'static str {
     COLOURS[index % COLOURS.len()]
 }
 
-/// Later series have the colours of earlier ones, dashed.
+/// Returns the line style of a series; series after the palette repeat its colours, dashed.
 fn line(index: usize, width: f64) -> Style {
     let style = Style::stroke(colour(index), width);
     if index < COLOURS.len() { style } else { style.dashed("5 3") }
 }
 
 impl Axis {
-    /// An axis with equal steps.
+    /// Returns an axis with equal steps.
     pub fn linear(label: &str) -> Self {
         Self { label: label.to_owned(), log: false }
     }
 
-    /// An axis with powers of ten.
+    /// Returns an axis with powers of ten.
     pub fn log(label: &str) -> Self {
         Self { label: label.to_owned(), log: true }
     }
@@ -226,7 +227,7 @@ impl Axis {
     }
 }
 
-/// What an axis spans, in its own places (the logarithm on a log axis).
+/// Range of an axis, in axis coordinates (the logarithm on a log axis).
 struct Range {
     low: f64,
     high: f64,
@@ -239,7 +240,7 @@ impl Range {
         if low > high {
             (low, high) = (0.0, 1.0);
         }
-        // A linear axis of amounts begins at zero where that costs little room.
+        // A linear axis of amounts begins at zero if that costs little space.
         if !log && low > 0.0 && low < 0.4 * high {
             low = 0.0;
         }
@@ -252,7 +253,7 @@ impl Range {
         (place - self.low) / (self.high - self.low)
     }
 
-    /// Places and labels of the ticks.
+    /// Returns the positions and labels of the ticks.
     fn ticks(&self, log: bool) -> Vec<(f64, String)> {
         if log { self.log_ticks() } else { self.linear_ticks() }
     }
@@ -273,7 +274,7 @@ impl Range {
     }
 
     fn log_ticks(&self) -> Vec<(f64, String)> {
-        // On a short axis 2 and 5 stand between the powers of ten.
+        // A short axis also has ticks at 2 and 5 between the powers of ten.
         let between: &[f64] = if self.high - self.low < 2.5 { &[1.0, 2.0, 5.0] } else { &[1.0] };
         (self.low.floor() as i32..=self.high.ceil() as i32)
             .flat_map(|power| between.iter().map(move |m| (*m, power)))
@@ -284,7 +285,7 @@ impl Range {
     }
 }
 
-/// A number with thousands as k and millions as M.
+/// Formats a number, with thousands as k and millions as M.
 fn amount(value: f64, digits: usize) -> String {
     let (value, unit, digits) = match value.abs() {
         v if v >= 1e6 => (value / 1e6, "M", 1),

@@ -1,4 +1,4 @@
-//! A proposed tool, with what it does for its task.
+//! Report on a proposed tool and its effect on the task.
 
 use serde_json::json;
 
@@ -16,7 +16,7 @@ use super::plan_text::point;
 use super::solution::{headline, solution_document};
 use super::table::{Align, Table};
 
-/// A tool to make, or why none is proposed.
+/// Returns a report on the proposed tool, or the reason why none is proposed.
 pub fn design_document(task: &Task, design: &Design) -> Document {
     let mut document = solution_document(task, design.best());
     let solution = std::mem::take(&mut document.json);
@@ -53,7 +53,7 @@ pub fn design_document(task: &Task, design: &Design) -> Document {
     document
 }
 
-/// Why no tool is proposed, after what those that there are do.
+/// Returns the reason why no tool is proposed, a clause after the result of the known tools.
 fn why_none(design: &Design) -> &'static str {
     match (design.known.status, design.spent.looked_at) {
         (PlanStatus::Solved, 0) => ", and none could do so with more margin",

@@ -1,4 +1,4 @@
-//! A report in every form that it is asked for: text, Markdown, CSV, JSON, HTML, files.
+//! Reports in all output formats: text, Markdown, CSV, JSON, HTML, figure files.
 
 use std::path::PathBuf;
 
@@ -11,93 +11,93 @@ use super::chart::Chart;
 use super::html;
 use super::table::Table;
 
-/// Tables and pictures under a title, with the rows behind them.
+/// Tables and pictures under a title, with the underlying rows.
 #[derive(Clone, Debug, Default)]
 pub struct Document {
-    /// What it is about; empty where it continues the one before.
+    /// Title; empty if the document continues the one before.
     pub title: String,
-    /// What a reader must know to understand the numbers, in paragraphs.
+    /// Notes that explain the numbers, a paragraph each.
     pub notes: Vec<String>,
-    /// In order.
+    /// Sections, in order.
     pub sections: Vec<Section>,
-    /// One row for each measured thing with numbers in full, for CSV.
+    /// Rows of measurements, one each, with full-precision numbers, for CSV.
     pub rows: Table,
-    /// Everything, for programs: an object.
+    /// Complete content for programs: a JSON object.
     pub json: Json,
 }
 
-/// A table, what follows from it, and pictures of the same numbers.
+/// A table, lines below it, and pictures of the same numbers.
 #[derive(Clone, Debug, Default)]
 pub struct Section {
-    /// What the numbers are.
+    /// Title, which names the numbers.
     pub title: String,
-    /// The numbers.
+    /// Table of the numbers.
     pub table: Table,
-    /// Below them, a line each.
+    /// Lines below the table.
     pub lines: Vec<String>,
-    /// In HTML and as files.
+    /// Figures, in HTML and as files.
     pub figures: Vec<Figure>,
 }
 
-/// A picture with the name that its file gets.
+/// A picture with its file name.
 #[derive(Clone, Debug)]
 pub struct Figure {
-    /// Name of the file without its ending.
+    /// File name without extension.
     pub name: String,
-    /// What it shows.
+    /// Content of the figure.
     pub drawing: Drawing,
 }
 
-/// What a figure shows.
+/// Content of a figure.
 #[derive(Clone, Debug)]
 pub enum Drawing {
-    /// Lines or dots.
+    /// Line or scatter chart.
     Chart(Chart),
-    /// Bars.
+    /// Bar chart.
     Bars(BarChart),
-    /// A finished SVG document.
+    /// Finished SVG document.
     Svg(String),
 }
 
 impl Document {
-    /// Title, notes, tables and lines for a terminal.
+    /// Returns title, notes, tables and lines for a terminal.
     pub fn to_text(&self) -> String {
         self.words(Table::to_text, "", false)
     }
 
-    /// Title, notes, tables and lines in Markdown, as part of a page.
+    /// Returns title, notes, tables and lines in Markdown, as part of a page.
     pub fn to_markdown(&self) -> String {
         self.words(Table::to_markdown, "## ", false)
     }
 
-    /// The same as a page of its own, next to the files of its figures.
+    /// Returns a complete Markdown page, to be stored next to its figure files.
     pub fn to_page(&self) -> String {
         self.words(Table::to_markdown, "# ", true)
     }
 
-    /// The rows with a header line.
+    /// Returns the rows as CSV with a header line.
     pub fn to_csv(&self) -> String {
         self.rows.to_csv()
     }
 
-    /// Everything, for programs.
+    /// Returns the complete content as JSON, with the schema version.
     pub fn to_json(&self) -> String {
         let mut report = self.json.clone();
         report["schema_version"] = json!(PLAN_VERSION);
         format!("{report:#}\n")
     }
 
-    /// A self-contained page: no script, no font, no picture from elsewhere.
+    /// Returns a self-contained HTML page without scripts or external resources.
     pub fn to_html(&self) -> String {
         html::page(self)
     }
 
-    /// The figures of all sections.
+    /// Returns the figures of all sections.
     pub fn figures(&self) -> impl Iterator<Item = &Figure> {
         self.sections.iter().flat_map(|section| &section.figures)
     }
 
-    /// Says which files were written, in a line each below everything else.
+    /// Adds a line for each written file at the end of the document.
     pub fn wrote(&mut self, files: &[PathBuf]) {
         let lines = files.iter().map(|file| format!("wrote {}", file.display()));
         match self.sections.last_mut() {
@@ -132,27 +132,27 @@ impl Document {
 }
 
 impl Figure {
-    /// A chart that gets the file name `name`.
+    /// Returns a figure of a chart, with the file name `name`.
     pub fn chart(name: impl Into<String>, chart: Chart) -> Self {
         Self { name: name.into(), drawing: Drawing::Chart(chart) }
     }
 
-    /// Bars that get the file name `name`.
+    /// Returns a figure of bars, with the file name `name`.
     pub fn bars(name: impl Into<String>, bars: BarChart) -> Self {
         Self { name: name.into(), drawing: Drawing::Bars(bars) }
     }
 
-    /// A finished SVG document that gets the file name `name`.
+    /// Returns a figure of a finished SVG document, with the file name `name`.
     pub fn svg(name: impl Into<String>, svg: String) -> Self {
         Self { name: name.into(), drawing: Drawing::Svg(svg) }
     }
 
-    /// Name of its file.
+    /// Returns the file name with extension.
     pub fn file_name(&self) -> String {
         format!("{}.svg", self.name)
     }
 
-    /// The picture as an SVG document.
+    /// Returns the figure as an SVG document.
     pub fn to_svg(&self) -> String {
         match &self.drawing {
             Drawing::Chart(chart) => chart.to_svg(),

@@ -1,4 +1,4 @@
-//! What was fitted to recordings: numbers, how sure they are, and the posterior as a picture.
+//! Report on parameters fitted to recordings: estimates, their uncertainty, and a posterior plot.
 
 use serde_json::json;
 
@@ -15,14 +15,14 @@ use super::table::{
     Table,
 };
 
-/// Darkest colour of a cell of the picture.
+/// Colour of the most probable cell in the plot.
 const DARK: &str = "#0072b2";
 
-/// Cells fainter than this are left out of the picture, share of the darkest.
+/// Smallest probability that is drawn, relative to the most probable cell.
 const FAINTEST: f64 = 0.004;
 
-/// The fit, the errors that it leaves, and lines to paste into a file; `objects` are the names of
-/// the objects that were fitted, the same for all.
+/// Returns a report on the fit, its remaining errors, and lines to paste into a file. `objects` are
+/// the names of the fitted objects, which share all values.
 pub fn fit_document(fit: &Fit, objects: &[&str]) -> Document {
     let rows = [("spread", &fit.spread), ("friction with the pusher", &fit.friction)];
     let numbers = Table::of(
@@ -89,7 +89,7 @@ pub fn fit_document(fit: &Fit, objects: &[&str]) -> Document {
     }
 }
 
-/// What the network learnt beside these numbers.
+/// Returns a section on the network parameters that were learned with this fit.
 pub fn table_fit_section(fit: &TableFit) -> Section {
     let changed = fit.head.iter().any(|value| *value != 0.0);
     let head = match changed {
@@ -125,7 +125,7 @@ fn says(estimate: &Estimate) -> &'static str {
     }
 }
 
-/// Cells as dark as they are likely, spread from left to right and friction upwards.
+/// Draws the posterior as shaded cells: spread from left to right, friction upwards.
 fn picture(posterior: &Posterior) -> String {
     let grid = posterior.grid;
     let title = "How likely spread and friction are";

@@ -1,9 +1,9 @@
-//! The graph of a moment, for people and programs that look at it: every object, every part of the
-//! tool and every obstacle as a node, and what relates them.
+//! The interaction graph at one instant, for inspection: objects, tool parts and obstacles are
+//! nodes, linked by their relations.
 //!
-//! What the network computes on is a cheaper form of the same: the parts of a tool share one row, as
-//! the fixed joints between them make each say the same, see [`pushplan::graph::Given`]. A test holds the two
-//! together.
+//! The network uses a cheaper form, [`pushplan::graph::Given`]: the parts of a tool share one row
+//! because the fixed joints between them give all parts the same message. A test compares both
+//! forms.
 
 use serde::Serialize;
 
@@ -15,75 +15,75 @@ use pushplan::{
     task::{COAST_FRAME, FrameStep, Job, ToolMotion},
 };
 
-/// A graph at one moment of a motion.
+/// Interaction graph at one instant of a motion.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Graph {
-    /// Objects in the order of the scene, then the tool's parts, then obstacles.
+    /// Nodes: objects in the order of the scene, then the tool's parts, then obstacles.
     pub nodes: Vec<GraphNode>,
-    /// Contacts that are or may come to be, and joints; each once for either direction, but for
-    /// bodies whose motion is given, which nothing moves.
+    /// Existing and possible contacts, and joints. Each appears once per direction, except that
+    /// bodies with prescribed motion are no receivers.
     pub relations: Vec<GraphRelation>,
 }
 
-/// What a node stands for.
+/// Kind of body that a node represents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NodeKind {
-    /// An object, whose motion is predicted.
+    /// Object, whose motion is predicted.
     Object,
-    /// A part of the tool, moved by the end effector.
+    /// Tool part, moved by the end effector.
     Part,
-    /// An obstacle, which never moves.
+    /// Obstacle, which never moves.
     Obstacle,
 }
 
-/// A body.
+/// Node of the graph: a body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GraphNode {
-    /// As the files name it; parts as `TOOL/PART`.
+    /// Name in the files; for parts `TOOL/PART`.
     pub name: String,
-    /// What it is.
+    /// Kind of body.
     pub kind: NodeKind,
-    /// Where it is as the frame begins: metres, radians.
+    /// Pose at the start of the frame: metres, radians.
     pub pose: Pose,
-    /// Its length along its own x and y, metres.
+    /// Extents along the body's own x and y, metres.
     pub size: [f64; 2],
-    /// How far it moves during the frame, metres: predicted, or of parts as prescribed.
+    /// Translation during the frame, metres: predicted, or prescribed for tool parts.
     pub shift: Vector,
-    /// How far it turns during the frame, radians.
+    /// Rotation during the frame, radians.
     pub turn: f64,
 }
 
-/// What relates two bodies.
+/// Type of a relation between two bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RelationName {
-    /// They touch, or may come to in this frame.
+    /// Contact, present or possible in this frame.
     Contact,
-    /// They move as one: joined objects, and the parts of a tool.
+    /// Fixed joint, or rigid connection of the parts of a tool.
     Fixed,
-    /// One turns about a point of the other.
+    /// Revolute joint, with a rotation about a common point.
     Revolute,
-    /// One slides along a line of the other.
+    /// Prismatic joint, with a translation along a common line.
     Prismatic,
 }
 
-/// A relation as its receiver sees it.
+/// Directed relation, from sender to receiver.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct GraphRelation {
-    /// Index of the node that hears.
+    /// Index of the node that receives the message.
     pub receiver: usize,
-    /// Index of the node that speaks.
+    /// Index of the node that sends the message.
     pub sender: usize,
-    /// What relates them.
+    /// Type of the relation.
     pub kind: RelationName,
-    /// Where, world, metres.
+    /// Position of the relation in the world frame, metres.
     pub at: Vector,
 }
 
 impl Graph {
-    /// The graph between frames `index` and `index + 1` of what a model says that `job` does; `None`
-    /// past the last one, and for lever-ups.
+    /// Returns the graph between frames `index` and `index + 1` of the trajectory predicted for
+    /// `job`. Returns `None` past the last frame, and for lever-ups.
     pub fn at(scene: &Scene, job: &Job, trajectory: &Trajectory, index: usize) -> Option<Self> {
         let motion = (!job.in_space()).then(|| job.motion.slide())?;
         let [before, after] = [trajectory.frames.get(index)?, trajectory.frames.get(index + 1)?];
@@ -101,7 +101,7 @@ impl Graph {
     }
 }
 
-/// What the tool does between two frames; its way to where it is set down again is left out.
+/// Returns the tool motion between two frames, without the travel to the start of the next stroke.
 fn step(motion: &ToolMotion, before: &Frame, after: &Frame) -> Option<FrameStep> {
     let stroke = motion.strokes.get(after.stroke)?;
     let first = before.stroke != after.stroke || before.time == 0.0;
@@ -189,12 +189,12 @@ fn relations(
     relations
 }
 
-/// Which of the tool's `parts` is touched there: contacts are found on its outline, in which flush
-/// parts are one.
+/// Returns the index of the tool part touched at `at`. Contacts are found on the outline of the
+/// tool, in which flush parts are one.
 fn touched(parts: &[GraphNode], motion: &ToolMotion, at: Vector) -> usize {
-    /// As small as a point, metres.
+    /// Radius of a disc that stands for a point, metres.
     const POINT: Footprint = Footprint::Disc { radius: 1e-6 };
-    /// Farther than any gap that counts, metres.
+    /// Search range for gaps, larger than any relevant gap, metres.
     const FAR: f64 = 1.0;
     let here = Pose { position: at, heading: 0.0 };
     let gap = |part: usize| {

@@ -1,4 +1,4 @@
-//! A report as one HTML page: styles and charts inside, nothing from outside, every text escaped.
+//! Reports as self-contained HTML pages, with inline styles and charts and all text escaped.
 
 use std::fmt::Write;
 
@@ -6,7 +6,7 @@ use super::document::{Document, Drawing};
 use super::svg::escape;
 use super::table::{Align, Table};
 
-/// Readable on a screen and on paper, in light and in dark.
+/// Style sheet for screen and print, light and dark.
 const STYLE: &str = "\
 :root{color-scheme:light dark}\
 body{font:15px/1.5 Inter,'Segoe UI','Helvetica Neue',Arial,'DejaVu Sans',sans-serif;\
@@ -19,7 +19,8 @@ th,td{padding:.25rem .7rem;border-bottom:1px solid #8884;text-align:left;white-s
 figure{margin:1rem 0}svg{max-width:100%;height:auto}\
 details{margin-top:2rem}";
 
-/// The page. The browser is told to load nothing at all, so that even a bug here could not make it.
+/// Returns the page. Its content security policy forbids all external resources, which also guards
+/// against bugs here.
 pub(super) fn page(document: &Document) -> String {
     let title = escape(&document.title);
     let mut out = format!(

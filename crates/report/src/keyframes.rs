@@ -1,20 +1,20 @@
-//! Values over time, written as CSS keyframes of one endless loop.
+//! Values over time as CSS keyframes of an endless loop.
 //!
-//! CSS and not a script: a forge shows an SVG as an image, where no script runs, and a viewer who
-//! asked for less motion gets the still picture.
+//! CSS is used instead of a script because forges show an SVG as an image, where scripts do not
+//! run. Viewers who prefer reduced motion get the still picture.
 
 use std::fmt::Write;
 
-/// A value at a time, seconds since the start of the loop; between two keys it changes evenly.
+/// A keyframe, with linear interpolation between two keys.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Key<const N: usize> {
-    /// Seconds since the start of the loop.
+    /// Time since the start of the loop, seconds.
     pub at: f64,
-    /// The numbers that the animated property is written from.
+    /// Values from which the animated property is written.
     pub value: [f64; N],
 }
 
-/// All animations of one document.
+/// Animations of one document.
 #[derive(Clone, Debug)]
 pub struct Keyframes {
     /// Length of the loop, seconds.
@@ -23,14 +23,14 @@ pub struct Keyframes {
 }
 
 impl Keyframes {
-    /// No animation yet, in a loop of `seconds`.
+    /// Returns an empty set of animations for a loop of `seconds`.
     pub fn new(seconds: f64) -> Self {
         Self { seconds, css: String::new() }
     }
 
-    /// Moves everything of `class` through `keys`, in order of time; `declare` writes a value as a
-    /// CSS declaration. Keys that the eye cannot tell from an even change, within `tolerance` in
-    /// each number, are left out; what never changes is not animated.
+    /// Animates all elements of `class` through `keys`, which are in order of time. `declare`
+    /// formats a value as a CSS declaration. Keys within `tolerance` of linear interpolation, per
+    /// number, are left out. Constant values are not animated.
     pub fn animate<const N: usize>(
         &mut self,
         class: &str,
@@ -49,7 +49,7 @@ impl Keyframes {
         let mut key = |share: f64, value: [f64; N]| {
             let _ = write!(self.css, "{}%{{{}}}", short(100.0 * share, 2), declare(value));
         };
-        // A browser fills what is missing at both ends with the still picture's value.
+        // A browser fills a gap at either end with the value of the still picture.
         if first.at > 0.0 {
             key(0.0, first.value);
         }
@@ -60,7 +60,7 @@ impl Keyframes {
         self.css.push_str("}\n");
     }
 
-    /// The style sheet.
+    /// Returns the style sheet.
     pub fn finish(self) -> String {
         format!(
             "{}@media (prefers-reduced-motion:reduce){{*{{animation:none!important}}}}",
@@ -69,7 +69,8 @@ impl Keyframes {
     }
 }
 
-/// A number with at most `digits` decimals and no trailing zeros; 0 for what is not finite.
+/// Formats a number with at most `digits` decimals and without trailing zeros; 0 if it is not
+/// finite.
 pub fn short(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return "0".to_owned();
@@ -82,7 +83,7 @@ pub fn short(value: f64, digits: usize) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// The fewest keys of a bisection whose straight pieces stay within `tolerance` of all keys
+/// Simplifies `keys` by bisection so that linear interpolation stays within `tolerance` of all keys
 /// (Ramer 1972, doi:10.1016/S0146-664X(72)80017-0, with the deviation at equal times).
 fn thinned<const N: usize>(keys: &[Key<N>], tolerance: [f64; N]) -> Vec<Key<N>> {
     let mut keep = vec![false; keys.len()];
@@ -108,7 +109,7 @@ fn thinned<const N: usize>(keys: &[Key<N>], tolerance: [f64; N]) -> Vec<Key<N>> 
     keys.iter().zip(keep).filter(|(_, keep)| *keep).map(|(key, _)| *key).collect()
 }
 
-/// The largest difference of two values in units of the tolerance.
+/// Returns the largest difference of two values, in units of the tolerance.
 fn deviation<const N: usize>(a: &[f64; N], b: &[f64; N], tolerance: [f64; N]) -> f64 {
     (0..N).map(|n| (a[n] - b[n]).abs() / tolerance[n]).fold(0.0, f64::max)
 }

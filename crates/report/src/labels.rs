@@ -1,39 +1,40 @@
-//! Words next to points that neither cover one another nor leave the chart.
+//! Placement of labels next to points, without overlaps and within the chart.
 
 use pushplan::geometry::Vector;
 
 use super::svg::Font;
 
-/// Half the side of the square that a dot takes, pixels.
+/// Half the side of the square around a dot, pixels.
 const DOT: f64 = 5.0;
-/// Distance of words from their point along each axis, pixels.
+/// Distance of a label from its point along each axis, pixels.
 const GAP: Vector = Vector::new(6.0, 6.0);
 /// Height of letters above their baseline and below it, in units of the font size.
 const ABOVE: f64 = 0.78;
 const BELOW: f64 = 0.22;
-/// How much worse it is to cover other words than a dot, which the light rim of the words leaves
-/// half visible.
+/// Cost of covering another label, relative to covering a dot. A dot stays half visible because
+/// labels have a light rim.
 const OVER_WORDS: f64 = 10.0;
 
-/// Where words may still go in a chart.
+/// Occupied areas of a chart, for the placement of labels.
 pub(super) struct Labels {
-    /// The plot, which no words leave while there is a place inside.
+    /// Area of the plot, in which labels are placed if possible.
     plot: Rect,
     dots: Vec<Rect>,
     words: Vec<Rect>,
 }
 
 impl Labels {
-    /// In a plot from `corner`, upper left, with `dots` at the given places, pixels.
+    /// Returns an empty set of labels for a plot with its upper left `corner`, and `dots` at the
+    /// given positions, pixels.
     pub fn new(corner: Vector, size: Vector, dots: impl Iterator<Item = Vector>) -> Self {
         let square = Vector::new(DOT, DOT);
         let dots = dots.map(|at| Rect { low: at - square, high: at + square }).collect();
         Self { plot: Rect { low: corner, high: corner + size }, dots, words: Vec::new() }
     }
 
-    /// Where the baseline of `words` begins next to the dot at `point`: the place that covers
-    /// least, of equal ones the first of right above, right below, left above, left below,
-    /// above and below.
+    /// Places `words` next to the dot at `point` and returns the start of their baseline. The
+    /// position that covers least is chosen. Ties are resolved in the order right above, right
+    /// below, left above, left below, above, below.
     pub fn place(&mut self, point: Vector, words: &str, font: Font) -> Vector {
         let width = font.width(words);
         let (right, left, middle) = (GAP.x, -GAP.x - width, -0.5 * width);
@@ -60,7 +61,7 @@ impl Labels {
         start
     }
 
-    /// What a place costs: pixels covered, those outside the plot like words.
+    /// Returns the cost of a position: pixels covered, weighted as for labels outside the plot.
     fn covered(&self, place: &Rect) -> f64 {
         let over = |taken: &[Rect]| -> f64 { taken.iter().map(|other| place.common(other)).sum() };
         let outside = place.common(place) - place.common(&self.plot);
@@ -68,14 +69,14 @@ impl Labels {
     }
 }
 
-/// An upright rectangle, pixels.
+/// Axis-aligned rectangle, pixels.
 struct Rect {
     low: Vector,
     high: Vector,
 }
 
 impl Rect {
-    /// Area common with `other`, square pixels.
+    /// Returns the intersection area with `other`, square pixels.
     fn common(&self, other: &Self) -> f64 {
         let side = self.high.inf(&other.high) - self.low.sup(&other.low);
         side.x.max(0.0) * side.y.max(0.0)

@@ -1,7 +1,7 @@
-//! Results for people and for programs: tables, pictures, charts, pages, numbers with their units.
+//! Results for people and for programs: tables, pictures, charts, pages, numbers with units.
 //!
-//! Values in, text out: nothing is planned, run or written to disk here. A [`Graph`] shows a frame as the
-//! network sees it.
+//! This crate converts values to text. It does not plan, run or write files. A [`Graph`] shows a
+//! frame as the network receives it.
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 

@@ -1,6 +1,6 @@
-//! Quantities with their units, as short as is useful.
+//! Quantities with units, formatted concisely.
 
-/// A length given in metres, in millimetres.
+/// Formats a length given in metres, in millimetres.
 pub fn millimetres(metres: f64) -> String {
     let value = metres * 1e3;
     if !value.is_finite() {
@@ -12,18 +12,19 @@ pub fn millimetres(metres: f64) -> String {
     }
 }
 
-/// The same with two digits below a centimetre, where a tenth of a millimetre is a few per cent.
+/// Formats a length as [`millimetres`] does, with two decimals below a centimetre, where a tenth of
+/// a millimetre is a few per cent.
 pub fn fine_millimetres(metres: f64) -> String {
     if metres.abs() < 0.00995 { format!("{:.2} mm", metres * 1e3) } else { millimetres(metres) }
 }
 
-/// An angle given in radians, in degrees.
+/// Formats an angle given in radians, in degrees.
 pub fn degrees(radians: f64) -> String {
     let value = radians.to_degrees();
     if value.is_finite() { format!("{value:.1}\u{00b0}") } else { "not finite".to_owned() }
 }
 
-/// A duration given in seconds, in the unit that leaves two to four digits.
+/// Formats a duration given in seconds, in the unit that leaves two to four digits.
 pub fn seconds(seconds: f64) -> String {
     match seconds {
         s if !s.is_finite() => "not finite".to_owned(),

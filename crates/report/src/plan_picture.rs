@@ -1,4 +1,4 @@
-//! Pictures of a plan: as it is, and moving.
+//! Still and animated pictures of a plan.
 
 use std::sync::Arc;
 
@@ -15,8 +15,8 @@ use super::picture::{MovingPicture, ScenePicture, Source, SpacePicture, Track};
 use super::plan_text::{engine_name, goal_line, plan_line};
 use super::verdict::{nominal, verdict_line};
 
-/// The pictures of a plan with its ways by prediction and in its replays; `animate` adds one that
-/// moves. Their files are named `name`.
+/// Returns pictures of a plan with the predicted and replayed paths of its objects. `animate` adds
+/// an animation. Files are named `name`.
 pub fn plan_figures(
     task: &Task,
     plan: &RankedPlan,
@@ -45,8 +45,7 @@ pub fn plan_figures(
     figures
 }
 
-/// The pictures of what leaves the plane, with lines below their title; `animate` adds one that
-/// moves.
+/// Returns pictures of a 3-D motion, with lines below the title. `animate` adds an animation.
 pub fn space_figures(
     task: &Task,
     (plan, tools): (&Plan, &[Arc<Tool>]),
@@ -71,7 +70,7 @@ pub fn space_figures(
     figures
 }
 
-/// The simulation of a plan in an engine as a picture that moves.
+/// Returns an animation of a plan's simulation in one engine.
 pub fn moving_figure(
     task: &Task,
     plan: &Plan,

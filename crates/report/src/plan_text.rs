@@ -1,4 +1,4 @@
-//! A plan and where it ends, in words and tables for the terminal.
+//! Plans and their outcomes as sentences and tables for the terminal.
 
 use pushplan::geometry::{Vector, wrap_angle};
 use pushplan::{
@@ -17,8 +17,8 @@ use super::{
     },
 };
 
-/// One line: tool, grip yaw, number of pushes, or what a lever-up does; for a plan that leaves
-/// everything as it is, just that.
+/// Formats a plan in one line: tool, grip yaw and number of pushes, or the effect of a lever-up;
+/// "no push" for an empty plan.
 pub(super) fn plan_line(plan: &Plan) -> String {
     let lines: Vec<String> = rows(plan).into_iter().map(row_line).collect();
     match lines.is_empty() {
@@ -27,7 +27,7 @@ pub(super) fn plan_line(plan: &Plan) -> String {
     }
 }
 
-/// Steps of one kind in a row with one tool, held in one way.
+/// Groups consecutive steps of one kind with one tool and one grip.
 fn rows(plan: &Plan) -> Vec<&[Step]> {
     let together = |a: &Step, b: &Step| match (a, b) {
         (Step::Push(a), Step::Push(b)) => a.tool == b.tool && a.grip_yaw == b.grip_yaw,
@@ -52,7 +52,7 @@ fn row_line(row: &[Step]) -> String {
     }
 }
 
-/// The steps in full, a table for each tool and way to hold it.
+/// Returns the steps in full, one table for each tool and grip.
 pub(super) fn plan_sections(plan: &Plan) -> Vec<Section> {
     let rows = rows(plan);
     let section = |(k, row): (usize, &&[Step])| {
@@ -100,10 +100,10 @@ fn lever_table(lever: &LeverUp) -> Table {
     )
 }
 
-/// Where a source says that a plan ends, and what went wrong on the way.
+/// Outcome of a plan by one source, with the failure during execution, if any.
 type Row<'a> = (String, &'a Outcome, Option<&'a Warning>);
 
-/// Where the goal object ends by several sources, one row each, and what went wrong on the way.
+/// Returns a table of the goal object's final position and the failure, one row per source.
 pub(super) fn outcome_table<'a>(
     task: &Task,
     outcomes: impl Iterator<Item = (String, &'a Outcome, Option<&'a Warning>)>,
@@ -140,7 +140,7 @@ pub(super) fn outcome_table<'a>(
     Table::of(outcomes, &columns)
 }
 
-/// Ends of several objects with goals, a row for each; errors are those of their goals.
+/// Returns a table of the final poses of several goal objects; errors refer to their own goals.
 fn goals_table(task: &Task, outcomes: Vec<(String, &Outcome, Option<&Warning>)>) -> Table {
     let mut rows = Vec::new();
     for (source, outcome, fault) in outcomes {
@@ -148,7 +148,7 @@ fn goals_table(task: &Task, outcomes: Vec<(String, &Outcome, Option<&Warning>)>)
         let known = |goal: &&Goal| goal.movers().iter().all(|k| *k < ends.len());
         for (k, goal) in task.goals.iter().filter(known).enumerate() {
             let turned = goal.heading_error(&outcome.state);
-            // What went wrong on the way went wrong for all of them.
+            // A failure during execution fails all goals.
             let met = fault.is_none() && goal.reached(&outcome.state);
             let there = if met { "yes".to_owned() } else { reached(outcome, fault) };
             for (m, object) in goal.movers().into_iter().enumerate() {
@@ -191,7 +191,7 @@ fn reached(outcome: &Outcome, fault: Option<&Warning>) -> String {
     }
 }
 
-/// How the goal object lies by several sources.
+/// Returns a table of the goal object's lying state, one row per source.
 fn lying_table(
     object: usize,
     outcomes: Vec<(String, &Outcome, Option<&Warning>)>,
@@ -213,7 +213,7 @@ fn lying_table(
     )
 }
 
-/// An engine in a sentence or a table.
+/// Returns the name of an engine for a sentence or a table.
 pub(super) fn engine_name(engine: Engine) -> &'static str {
     match engine {
         Engine::Planar => "planar",
@@ -222,19 +222,19 @@ pub(super) fn engine_name(engine: Engine) -> &'static str {
     }
 }
 
-/// One line: what must come where.
+/// Formats all goals in one line.
 pub(super) fn goal_line(task: &Task) -> String {
     task.goals.iter().map(|goal| goal.line(&task.scene)).collect::<Vec<_>>().join("; ")
 }
 
-/// A position on the table.
+/// Formats a position on the table.
 pub(super) fn point(position: Vector) -> String {
     format!("({:.3}, {:.3}) m", position.x + 0.0, position.y + 0.0)
 }
 
-/// A direction, degrees in (-180, 180] as shown.
+/// Formats a direction in degrees, in (-180, 180] as shown.
 fn direction(radians: f64) -> String {
-    // Half of the last digit shown, so that nothing is shown as -180.0.
+    // The threshold is half of the last digit, so that -180.0 is never shown.
     let wrapped = wrap_angle(radians);
     let half_turn = wrapped <= -(179.95f64.to_radians());
     degrees(if half_turn { std::f64::consts::PI } else { wrapped })

@@ -10,26 +10,26 @@ use super::table::{
     Table,
 };
 
-/// Where an object is at an instant, by a model or as it was recorded.
+/// Pose of an object at an instant, predicted or recorded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PoseRow {
     /// Name of the recording or task.
     pub name: String,
-    /// Which model says so, or `recorded`.
+    /// Name of the model, or `recorded`.
     pub by: String,
     /// Name of the object.
     pub object: String,
-    /// Since the start, seconds.
+    /// Time since the start, seconds.
     pub time: f64,
-    /// Metres and radians.
+    /// Pose in metres and radians.
     pub pose: Pose,
 }
 
-/// The source of a row that no model made.
+/// Source name of recorded rows.
 pub const RECORDED: &str = "recorded";
 
-/// The rows as CSV and JSON: `name`, `by`, `object`, `time` (seconds), `x`, `y` (metres) and
-/// `heading` (radians counter-clockwise, whole turns counted).
+/// Returns the rows as CSV and JSON: `name`, `by`, `object`, `time` (seconds), `x`, `y` (metres)
+/// and `heading` (radians counter-clockwise, unwrapped).
 pub fn poses_document(rows: &[PoseRow]) -> Document {
     let table = Table::of(
         rows,

@@ -1,4 +1,4 @@
-//! One action by several models.
+//! Predictions of one plan by several models.
 
 use serde_json::{Value as Json, json};
 
@@ -17,10 +17,10 @@ use super::table::{
     NONE, Table,
 };
 
-/// Objects that move less than this are left out of the table, metres.
+/// Smallest displacement of an object that is listed in the table, metres.
 const STILL: f64 = 1e-4;
 
-/// What a plan does to a task's objects by several models.
+/// Returns a report on the effect of a plan on a task's objects, by several models.
 pub fn prediction_document(task: &Task, plan: &Plan, effects: &[TimedEffect]) -> Document {
     let json: Vec<Json> = effects
         .iter()
@@ -63,7 +63,7 @@ pub fn prediction_document(task: &Task, plan: &Plan, effects: &[TimedEffect]) ->
     }
 }
 
-/// One row for every model and object that moves; of the goal's object in any case.
+/// Returns a table with one row per model and moving object; the goal's object is always included.
 fn effect_table(task: &Task, effects: &[TimedEffect]) -> Table {
     let start = task.scene.start();
     let moved =

@@ -1,4 +1,4 @@
-//! Errors of models on the user's recordings as tables and curves.
+//! Errors of models on the user's recordings, as tables and curves.
 
 use serde_json::json;
 
@@ -12,13 +12,12 @@ use super::table::{
     NONE, Table,
 };
 
-/// The newest of the reports on recordings, as soon as it is there; with the first one comes what
-/// its columns mean.
+/// Returns the newest of the reports on recordings; the first report also explains its columns.
 pub fn recorded_document(reports: &[RecordedErrors]) -> Document {
     let Some((newest, before)) = reports.split_last() else { return Document::default() };
     let notes = if before.is_empty() { vec![LEGEND.to_owned()] } else { Vec::new() };
     let mut sections = vec![Section { table: recorded_table(newest), ..Section::default() }];
-    // Of all recordings together each was told before.
+    // A combined report has no table by recording, because earlier reports contain the recordings.
     let told = |name| before.iter().any(|report| report.names.contains(name));
     if newest.names.len() > 1 && !newest.names.iter().any(told) {
         sections.extend(newest.errors.models.first().map(|model| Section {
@@ -34,7 +33,7 @@ pub fn recorded_document(reports: &[RecordedErrors]) -> Document {
     Document { title, notes, sections, ..Document::default() }
 }
 
-/// All reports on recordings: side by side, errors by horizon, and in full for programs.
+/// Returns all reports on recordings: side by side, errors by horizon, and in full for programs.
 pub fn recordings_document(reports: &[RecordedErrors]) -> Document {
     let errors: Vec<&TrialErrors> = reports.iter().map(|report| &report.errors).collect();
     let model = errors.first().and_then(|errors| errors.models.first());
@@ -55,7 +54,7 @@ pub fn recordings_document(reports: &[RecordedErrors]) -> Document {
     }
 }
 
-/// What the columns of [`recorded_table`] mean.
+/// Explanation of the columns of [`recorded_table`].
 const LEGEND: &str = "\
 mean, median, p95: final distance from the recorded position over all objects; heading: mean final
 heading error of objects of known heading; of motion: the mean as a share of the mean recorded
@@ -63,7 +62,7 @@ motion; over frames: the same averaged over all recorded frames instead of the l
 deepest of any two predicted objects; own spread: how far the planar engine ends from itself when
 everything starts 0.1 mm beside";
 
-/// What was measured: trajectories, what is said `of` them, how far the objects really moved.
+/// Formats the number of trajectories, described by `of`, and the true displacement of objects.
 pub fn trials_line(errors: &TrialErrors, of: &str) -> String {
     let first = errors.models.first();
     let motion = |errors: Option<&RelativeErrors>| match errors {
@@ -80,7 +79,7 @@ pub fn trials_line(errors: &TrialErrors, of: &str) -> String {
     )
 }
 
-/// Errors of all models on recordings, one row each.
+/// Returns a table of the errors of all models on recordings, one row each.
 fn recorded_table(report: &RecordedErrors) -> Table {
     let end = |model: &ModelErrors, value: fn(&RelativeErrors) -> f64| {
         model.all.end.as_ref().map_or(NONE.to_owned(), |e| fine_millimetres(value(e)))
@@ -103,7 +102,7 @@ fn recorded_table(report: &RecordedErrors) -> Table {
     )
 }
 
-/// Errors of one model recording by recording.
+/// Returns a table of the errors of one model, recording by recording.
 fn each_table(names: &[String], each: &[OneError]) -> Table {
     Table::of(
         names.iter().zip(each),
@@ -121,8 +120,8 @@ fn each_table(names: &[String], each: &[OneError]) -> Table {
     )
 }
 
-/// Table with one row a set of recordings: errors of the first model and of the prior, and the planar
-/// engine's own spread.
+/// Returns a table with one row per set of recordings: errors of the first model and of the
+/// analytic model, and the spread of the 2-D engine.
 fn recordings_table(reports: &[RecordedErrors]) -> Table {
     Table::of(
         reports.iter().filter_map(|report| Some((report, report.errors.models.first()?))),
@@ -145,18 +144,19 @@ fn recordings_table(reports: &[RecordedErrors]) -> Table {
     )
 }
 
-/// The mean error of the first model with such a name.
+/// Formats the mean error of the first model whose name satisfies `wanted`.
 pub fn beside(errors: &TrialErrors, wanted: impl Fn(&str) -> bool) -> String {
     let found = errors.models.iter().find(|model| wanted(&model.model));
     share(found.and_then(|model| model.all.end.as_ref()), |errors| errors.mean)
 }
 
-/// What is said of a model's errors at the end, if anything moves.
+/// Formats a model's errors at the end, if any object moves.
 pub fn end(model: &ModelErrors, text: &dyn Fn(&RelativeErrors) -> String) -> String {
     model.all.end.as_ref().map_or(NONE.to_owned(), text)
 }
 
-/// Error by horizon of all models, averaged over sets of one `family`; `None` if there are none.
+/// Plots the error by horizon of all models, averaged over sets of one `family`; `None` if there
+/// are none.
 pub fn horizon_chart(family: &str, sets: &[&TrialErrors]) -> Option<Chart> {
     let first = sets.first()?;
     let series = |name: &str| {
@@ -185,14 +185,15 @@ pub fn horizon_chart(family: &str, sets: &[&TrialErrors]) -> Option<Chart> {
     })
 }
 
-/// Percent of frames and of the mean final motion.
+/// Returns the error curve in percent: horizon as a share of frames, error as a share of the mean
+/// final motion.
 fn relative_curve(model: &ModelErrors) -> Option<Vec<[f64; 2]>> {
     let motion = model.curve.last().map(|point| point.motion).filter(|motion| *motion > 0.0)?;
     let points = model.curve.iter();
     Some(points.map(|point| [1e2 * point.horizon, 1e2 * point.error / motion]).collect())
 }
 
-/// The model, and in how many trajectories it failed.
+/// Formats the model's name and the number of trajectories in which it failed.
 pub fn model_name(model: &ModelErrors, trajectories: usize) -> String {
     match model.failed {
         0 => model.model.clone(),
@@ -200,7 +201,7 @@ pub fn model_name(model: &ModelErrors, trajectories: usize) -> String {
     }
 }
 
-/// A value of errors as a share of the mean true motion.
+/// Formats a value of errors as a share of the mean true motion.
 pub fn share(errors: Option<&RelativeErrors>, value: impl Fn(&RelativeErrors) -> f64) -> String {
     errors.map_or(NONE.to_owned(), |errors| percent(errors.share(value(errors))))
 }
@@ -214,7 +215,7 @@ fn angle(degrees: Option<f64>) -> String {
     degrees.map_or(NONE.to_owned(), |degrees| format!("{degrees:.2}\u{00b0}"))
 }
 
-/// A share in percent, with two decimals below one.
+/// Formats a share in percent, with two decimals below one.
 pub fn percent(share: f64) -> String {
     let value = 1e2 * share;
     match value.abs() {

@@ -1,4 +1,4 @@
-//! A run: what was done, what was believed meanwhile, and how it ended.
+//! Report on a run: its pushes, the belief over time, and the outcome.
 
 use serde_json::json;
 
@@ -21,7 +21,8 @@ use super::table::{
     NONE, Table,
 };
 
-/// A run with its pictures: `<task>.run.svg` is what was done, `<task>.belief.svg` what was believed.
+/// Returns a report on a run. Its figures are `<task>.run.svg` (pushes) and `<task>.belief.svg`
+/// (belief).
 pub fn run_document(trace: &Trace) -> Document {
     let task = &trace.task;
     let steps = Section {
@@ -62,7 +63,7 @@ pub fn run_document(trace: &Trace) -> Document {
     }
 }
 
-/// How it ended, in a line.
+/// Formats the outcome in one line.
 pub fn headline(trace: &Trace) -> String {
     let pushes = match trace.pushes() {
         0 => "without a push".to_owned(),
@@ -86,12 +87,12 @@ pub fn headline(trace: &Trace) -> String {
     }
 }
 
-/// Where everything is thought to be.
+/// Returns the estimated final state.
 fn seen(trace: &Trace) -> Option<State> {
     trace.steps.last().map(|step| step.state.clone())
 }
 
-/// What was done, push by push.
+/// Returns a table of the pushes.
 pub fn steps(trace: &Trace) -> Table {
     let goal = &trace.task.goals[0];
     let push = |step: &Step| step.plan.pushes().first().copied();
@@ -130,7 +131,7 @@ fn why(why: Why) -> &'static str {
     }
 }
 
-/// What was wrong with what was seen.
+/// Returns the warnings about observations.
 pub fn notes(trace: &Trace) -> Vec<String> {
     let steps = trace.steps.iter().enumerate();
     let of = |(k, step): (usize, &Step)| {
@@ -142,7 +143,7 @@ pub fn notes(trace: &Trace) -> Vec<String> {
     steps.flat_map(of).collect()
 }
 
-/// What is believed of the joints, and over time.
+/// Returns a section on the belief about joints, with its history.
 fn joints(trace: &Trace) -> Option<Section> {
     let last = trace.steps.last()?;
     let count = trace.task.scene.objects.len();
@@ -199,7 +200,7 @@ fn joints(trace: &Trace) -> Option<Section> {
     Some(Section { title: "joints".into(), table, figures, ..Section::default() })
 }
 
-/// What is believed of masses, frictions and supports.
+/// Returns a section on the belief about masses, frictions and supports.
 fn numbers(trace: &Trace) -> Option<Section> {
     let (last, unknown) = (trace.steps.last()?, trace.task.unknown);
     if !unknown.numbers() {
@@ -242,7 +243,7 @@ fn numbers(trace: &Trace) -> Option<Section> {
     Some(Section { title: "masses and friction values".into(), table, ..Section::default() })
 }
 
-/// What was done, and where the objects ended.
+/// Draws the pushes and the final poses of the objects.
 fn picture(trace: &Trace) -> Figure {
     let task = &trace.task;
     let start = trace.before.as_ref().map_or(task.scene.start(), |before| before.state.clone());
@@ -266,7 +267,7 @@ fn picture(trace: &Trace) -> Figure {
         Some(truth) => Source::Simulated(truth.engine),
         None => Source::Seen,
     };
-    // Hidden joints are drawn, as they really are.
+    // Hidden joints are drawn from ground truth.
     let joints = trace.truth.as_ref().map_or(&task.scene.joints, |truth| &truth.scene.joints);
     let scene = Scene { joints: joints.clone(), ..task.scene.clone() };
     let picture = ScenePicture {

@@ -1,4 +1,4 @@
-//! The result of solving a task.
+//! Report on the solution of a task.
 
 use serde_json::{Value as Json, json};
 
@@ -16,7 +16,7 @@ use super::table::{Align, Table};
 use super::verdict::{outcome_section, verdict_line};
 use super::ways::ways;
 
-/// A solved task, or the nearest plan.
+/// Returns a report on a solved task, or on the nearest plan.
 pub fn solution_document(task: &Task, solution: &Solution) -> Document {
     let mut sections = Vec::new();
     if let Some(best) = solution.best() {
@@ -84,7 +84,7 @@ pub(super) fn headline(task: &Task, solution: &Solution) -> String {
     }
 }
 
-/// How many goals a partial plan meets, and the objects of those that it does not.
+/// Returns the number of goals that a partial plan meets, and the objects of the other goals.
 fn met(task: &Task, solution: &Solution) -> (usize, String) {
     let met = solution.partial.as_ref().map_or(&[][..], |partial| &partial.met);
     let missed = task.goals.iter().enumerate().filter(|(k, _)| !met.contains(k));
@@ -92,12 +92,12 @@ fn met(task: &Task, solution: &Solution) -> (usize, String) {
     (met.len(), names.join(", "))
 }
 
-/// Why there is none, if that is known.
+/// Formats the cause of infeasibility, if it is known.
 fn cause(solution: &Solution) -> String {
     solution.cause.as_ref().map_or(String::new(), |cause| format!(": {cause}"))
 }
 
-/// Why pushes were not tried, most frequent first.
+/// Returns a table of the reasons why pushes were not tried, most frequent first.
 fn refusals(solution: &Solution) -> Option<Section> {
     let statistics = &solution.statistics;
     let (what, considered, mut reasons) = match &statistics.levers {
@@ -112,7 +112,7 @@ fn refusals(solution: &Solution) -> Option<Section> {
             ("pushes", statistics.search.considered, reasons)
         }
     };
-    // Stable: equal ones keep the order of their kinds.
+    // The sort is stable: equal counts keep the order of their kinds.
     reasons.sort_by_key(|reason| std::cmp::Reverse(reason.1));
     (!reasons.is_empty()).then(|| Section {
         title: format!("{considered} {what} were considered; of these could not be made"),
@@ -127,7 +127,7 @@ fn refusals(solution: &Solution) -> Option<Section> {
     })
 }
 
-/// The other plans that were verified.
+/// Returns a section on the other verified plans.
 fn alternatives(task: &Task, solution: &Solution) -> Option<Section> {
     let verified = solution.plans.iter().skip(1).filter(|plan| plan.verdict.is_some());
     let others: Vec<_> = verified.take(7).collect();
@@ -144,7 +144,7 @@ fn alternatives(task: &Task, solution: &Solution) -> Option<Section> {
     })
 }
 
-/// What screened the many rollouts, if that is another model, and what decided among the few.
+/// Returns the screening model, if it differs, and the final model.
 fn screened_and_decided(solution: &Solution) -> (Option<ModelKind>, ModelKind) {
     let models = &solution.models;
     let by = solution.best().map(|best| &best.predicted.by.first().kind);
@@ -155,7 +155,7 @@ fn screened_and_decided(solution: &Solution) -> (Option<ModelKind>, ModelKind) {
     ((!same).then(|| kind(models.screened.first())), kind(decided))
 }
 
-/// The same in words.
+/// Formats the screening model and the final model in words.
 pub(super) fn models_words(task: &Task, solution: &Solution) -> String {
     let (screened, decided) = screened_and_decided(solution);
     let crowd =

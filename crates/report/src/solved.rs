@@ -1,4 +1,4 @@
-//! Solved tasks of a benchmark: tables, rows for CSV, a whole report.
+//! Report on the solved tasks of a benchmark: tables, and rows for CSV.
 
 use serde_json::json;
 
@@ -11,7 +11,7 @@ use super::document::{Document, Figure, Section};
 use super::number::{millimetres, seconds};
 use super::table::{Align, Table};
 
-/// Names of [`solved_cells`] in CSV; lengths in metres, angles in degrees, times in seconds.
+/// Column names of [`solved_cells`] in CSV; lengths in metres, angles in degrees, times in seconds.
 pub const SOLVED_COLUMNS: [(&str, Align); 20] = [
     ("index", Align::Right),
     ("task", Align::Left),
@@ -35,7 +35,7 @@ pub const SOLVED_COLUMNS: [(&str, Align); 20] = [
     ("total_s", Align::Right),
 ];
 
-/// A benchmark of task files in every form.
+/// Returns a report on a benchmark of task files.
 pub fn solved_document(run: &RunManifest, tasks: &[Finished<SolvedTask>]) -> Document {
     let solved = tasks.iter().filter(|task| task.record.status == PlanStatus::Solved).count();
     let errors = |end: &dyn Fn(&SolvedTask) -> Option<End>| -> Vec<f64> {
@@ -63,7 +63,7 @@ pub fn solved_document(run: &RunManifest, tasks: &[Finished<SolvedTask>]) -> Doc
     }
 }
 
-/// One row per solved task: the tool, where its plan ends, and how long it took.
+/// Returns a table with one row per task: tool, final error, and duration.
 fn task_table(tasks: &[Finished<SolvedTask>]) -> Table {
     let mut table = Table::new([
         ("task", Align::Left),
@@ -96,7 +96,7 @@ fn task_table(tasks: &[Finished<SolvedTask>]) -> Table {
     table
 }
 
-/// A task in full, for CSV.
+/// Returns all values of a task as cells, for CSV.
 pub fn solved_cells(index: usize, record: &SolvedTask, times: &Seconds) -> Vec<String> {
     let number = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
     let error = |end: Option<End>| number(end.map(|end| end.error));
@@ -122,9 +122,10 @@ pub fn solved_cells(index: usize, record: &SolvedTask, times: &Seconds) -> Vec<S
     cells
 }
 
-/// Which share of tasks ends within which error, on a logarithmic axis.
+/// Plots the share of tasks within an error, on a logarithmic axis.
 pub fn error_chart(title: &str, errors: &[(String, Vec<f64>)]) -> Figure {
-    /// Smaller errors matter to nobody and would only squeeze the rest, metres.
+    /// Smallest error shown, metres. Smaller errors are irrelevant and would compress the rest of
+    /// the axis.
     const SMALLEST: f64 = 1e-4;
     let series = errors.iter().map(|(name, errors)| {
         let mut sorted: Vec<f64> = errors.iter().map(|error| error.max(SMALLEST)).collect();
@@ -148,7 +149,7 @@ pub fn error_chart(title: &str, errors: &[(String, Vec<f64>)]) -> Figure {
     Figure::chart("errors", chart)
 }
 
-/// A finished task as one JSON object, its index and times next to the record's own keys.
+/// Returns a finished task as one JSON object, with index and times next to the keys of the record.
 pub fn flat<R: serde::Serialize>(task: &Finished<R>) -> serde_json::Value {
     let mut value = json!(task.record);
     value["index"] = json!(task.index);
@@ -156,7 +157,7 @@ pub fn flat<R: serde::Serialize>(task: &Finished<R>) -> serde_json::Value {
     value
 }
 
-/// Which part of the suite the numbers are of, where it is not all of it.
+/// Describes the part of the suite that the numbers cover; `None` if it is the whole suite.
 pub fn progress_note(run: &RunManifest, done: usize) -> Option<String> {
     let wanted = run.indices().len();
     let shard = run.shard.map(|shard| format!("Shard {shard} of {} tasks. ", run.tasks));

@@ -1,7 +1,7 @@
-//! A small SVG writer: pixel coordinates, y down, numbers kept short.
+//! A small SVG writer with pixel coordinates, y down, and short numbers.
 //!
-//! It knows shapes, styles and text and nothing of scenes or charts. Every document starts with
-//! an opaque background, so that it reads the same in light and dark viewers.
+//! The writer is independent of scenes and charts. Every document starts with an opaque background,
+//! so that it looks the same in light and dark viewers.
 
 use std::fmt::Write;
 
@@ -10,14 +10,14 @@ use pushplan::geometry::Vector;
 
 use super::keyframes::short;
 
-/// Fonts in the order tried; all ship with common systems, none is embedded.
+/// Font families in order of preference; all ship with common systems, none is embedded.
 const FONTS: &str = "Inter, 'Segoe UI', 'Helvetica Neue', Arial, 'DejaVu Sans', sans-serif";
 
-/// Mean advance of a character in units of the font size, for placing text that cannot be
+/// Mean advance of a character in units of the font size, an estimate because text cannot be
 /// measured here.
 const ADVANCE: f64 = 0.58;
 
-/// How a shape is painted. Colours are SVG colours, widths and dashes in pixels.
+/// Fill and outline of a shape. Colours are SVG colours; widths and dashes are in pixels.
 #[derive(Clone, Copy, Debug)]
 pub struct Style {
     fill: &'static str,
@@ -28,27 +28,27 @@ pub struct Style {
 }
 
 impl Style {
-    /// Filled, without outline.
+    /// Returns a filled style without outline.
     pub const fn fill(colour: &'static str) -> Self {
         Self { fill: colour, stroke: "none", width: 0.0, dash: "", opacity: 1.0 }
     }
 
-    /// Outlined, without fill.
+    /// Returns an outlined style without fill.
     pub const fn stroke(colour: &'static str, width: f64) -> Self {
         Self { fill: "none", stroke: colour, width, dash: "", opacity: 1.0 }
     }
 
-    /// The same with an outline.
+    /// Returns this style with an outline.
     pub const fn outlined(self, colour: &'static str, width: f64) -> Self {
         Self { stroke: colour, width, ..self }
     }
 
-    /// The same with a dashed outline.
+    /// Returns this style with a dashed outline.
     pub const fn dashed(self, dash: &'static str) -> Self {
         Self { dash, ..self }
     }
 
-    /// The same, partly see-through: 0 is invisible, 1 opaque.
+    /// Returns this style with the given opacity: 0 is invisible, 1 opaque.
     pub const fn opacity(self, opacity: f64) -> Self {
         Self { opacity, ..self }
     }
@@ -67,59 +67,59 @@ impl Style {
     }
 }
 
-/// Where a text stands relative to its anchor.
+/// Horizontal alignment of a text relative to its anchor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
-    /// The text starts there.
+    /// The text starts at the anchor.
     Start,
-    /// The text is centred there.
+    /// The text is centred at the anchor.
     Middle,
-    /// The text ends there.
+    /// The text ends at the anchor.
     End,
 }
 
-/// How a text looks.
+/// Appearance of a text.
 #[derive(Clone, Copy, Debug)]
 pub struct Font {
     /// Height, pixels.
     pub size: f64,
     /// Colour.
     pub colour: &'static str,
-    /// Bold or not.
+    /// Whether the text is bold.
     pub bold: bool,
-    /// Side of the anchor.
+    /// Alignment to the anchor.
     pub anchor: Anchor,
-    /// A light rim that keeps the text readable over lines.
+    /// Whether the text has a light rim, which keeps it readable over lines.
     pub halo: bool,
 }
 
 impl Font {
-    /// Plain text that starts at its anchor.
+    /// Returns a plain font, aligned to the start.
     pub const fn new(size: f64, colour: &'static str) -> Self {
         Self { size, colour, bold: false, anchor: Anchor::Start, halo: false }
     }
 
-    /// The same in bold.
+    /// Returns this font in bold.
     pub const fn bold(self) -> Self {
         Self { bold: true, ..self }
     }
 
-    /// The same at another side of its anchor.
+    /// Returns this font with another alignment.
     pub const fn anchored(self, anchor: Anchor) -> Self {
         Self { anchor, ..self }
     }
 
-    /// The same with a light rim.
+    /// Returns this font with a light rim.
     pub const fn halo(self) -> Self {
         Self { halo: true, ..self }
     }
 
-    /// Estimated width of `text`, pixels.
+    /// Returns the estimated width of `text`, pixels.
     pub fn width(&self, text: &str) -> f64 {
         text.chars().count() as f64 * self.size * if self.bold { ADVANCE + 0.04 } else { ADVANCE }
     }
 
-    /// `text` in lines of at most about `width` pixels, broken at spaces.
+    /// Breaks `text` at spaces into lines of at most about `width` pixels.
     pub fn wrap(&self, text: &str, width: f64) -> Vec<String> {
         let mut lines: Vec<String> = Vec::new();
         for word in text.split_whitespace() {
@@ -135,7 +135,7 @@ impl Font {
     }
 }
 
-/// A document in the making.
+/// SVG document under construction.
 #[derive(Clone, Debug)]
 pub struct Svg {
     width: f64,
@@ -145,19 +145,17 @@ pub struct Svg {
 }
 
 impl Svg {
-    /// An empty white document of the given size in pixels; `title` is read out to those who
-    /// cannot see it.
+    /// Returns an empty white document of the given size in pixels; `title` is the accessible name.
     pub fn new(width: f64, height: f64, title: &str) -> Self {
         Self { width, height, title: escape(title), body: String::new() }
     }
 
-    /// Puts raw definitions (patterns, markers, clip paths) at the current place.
+    /// Inserts raw definitions (patterns, markers, clip paths) at the current position.
     pub fn define(&mut self, raw: &str) {
         let _ = writeln!(self.body, "<defs>{raw}</defs>");
     }
 
-    /// Opens a group whose content is cut off outside the rectangle; close it with
-    /// [`Svg::close`].
+    /// Opens a group that is clipped to a rectangle; close it with [`Svg::close`].
     pub fn open_clipped(&mut self, id: &str, corner: Vector, size: Vector) {
         let (x, y, w, h) = (px(corner.x), px(corner.y), px(size.x), px(size.y));
         self.define(&format!(
@@ -166,23 +164,24 @@ impl Svg {
         let _ = writeln!(self.body, "<g clip-path=\"url(#{id})\">");
     }
 
-    /// Opens a group that carries a tooltip; close it with [`Svg::close`].
+    /// Opens a group with a tooltip; close it with [`Svg::close`].
     pub fn open_titled(&mut self, title: &str) {
         let _ = writeln!(self.body, "<g><title>{}</title>", escape(title));
     }
 
-    /// Opens a group that is see-through as a whole, 0 to 1; close it with [`Svg::close`].
+    /// Opens a group with an opacity from 0 to 1; close it with [`Svg::close`].
     pub fn open_faded(&mut self, opacity: f64) {
         let _ = writeln!(self.body, "<g opacity=\"{}\">", px(opacity));
     }
 
-    /// Puts a style sheet at the current place.
+    /// Inserts a style sheet at the current position.
     pub fn style(&mut self, css: &str) {
         let _ = writeln!(self.body, "<style>\n{css}\n</style>");
     }
 
-    /// Opens a group of the given class, which a style sheet animates, shifted by `shift` pixels
-    /// and turned by `degrees` clockwise while it is not; close it with [`Svg::close`].
+    /// Opens a group of the given class for animation by a style sheet; close it with
+    /// [`Svg::close`]. Without animation, the group is shifted by `shift` pixels and rotated by
+    /// `degrees` clockwise.
     pub fn open_moved(&mut self, class: &str, shift: Vector, degrees: f64) {
         let _ = write!(self.body, "<g class=\"{class}\"");
         let mut moves = Vec::new();
@@ -198,14 +197,14 @@ impl Svg {
         self.body.push_str(">\n");
     }
 
-    /// Opens a group of the given class, which a style sheet animates, see-through as a whole (0
-    /// to 1) while it is not; close it with [`Svg::close`].
+    /// Opens a group of the given class for animation by a style sheet; close it with
+    /// [`Svg::close`]. Without animation, the group has the given opacity, 0 to 1.
     pub fn open_shown(&mut self, class: &str, opacity: f64) {
         let _ = writeln!(self.body, "<g class=\"{class}\" opacity=\"{}\">", px(opacity));
     }
 
-    /// A line through points of the given class, whose length counts as 1, so that a style sheet
-    /// can draw it by its `stroke-dashoffset` from 1 to 0.
+    /// Draws a line of the given class with a path length of 1. A style sheet can draw it
+    /// progressively by its `stroke-dashoffset` from 1 to 0.
     pub fn drawn_line(&mut self, class: &str, points: &[Vector], style: Style) {
         let head = format!("polyline class=\"{class}\" pathLength=\"1\"");
         self.points(&head, points, style.dashed("1"));
@@ -216,7 +215,7 @@ impl Svg {
         self.body.push_str("</g>\n");
     }
 
-    /// A rectangle with rounded corners.
+    /// Draws a rectangle with rounded corners.
     pub fn rect(&mut self, corner: Vector, size: Vector, radius: f64, style: Style) {
         let _ = write!(
             self.body,
@@ -230,7 +229,7 @@ impl Svg {
         self.end(style);
     }
 
-    /// A circle.
+    /// Draws a circle.
     pub fn circle(&mut self, centre: Vector, radius: f64, style: Style) {
         let _ = write!(
             self.body,
@@ -242,7 +241,7 @@ impl Svg {
         self.end(style);
     }
 
-    /// A straight line.
+    /// Draws a straight line.
     pub fn line(&mut self, from: Vector, to: Vector, style: Style) {
         let _ = write!(
             self.body,
@@ -255,18 +254,18 @@ impl Svg {
         self.end(style);
     }
 
-    /// A line through points.
+    /// Draws a line through points.
     pub fn polyline(&mut self, points: &[Vector], style: Style) {
         self.points("polyline", points, style);
     }
 
-    /// A closed shape.
+    /// Draws a closed polygon.
     pub fn polygon(&mut self, points: &[Vector], style: Style) {
         self.points("polygon", points, style);
     }
 
-    /// A polygon that has these outlines one after another in an endless loop of so many seconds;
-    /// where nothing moves it has the last one.
+    /// Draws a polygon that cycles through the outlines `ways` in an endless loop of `seconds`.
+    /// Viewers without animation show the last outline.
     pub fn moving_polygon(&mut self, ways: &[Vec<Vector>], seconds: f64, style: Style) {
         let point = |p: &Vector| format!("{},{}", px(p.x), px(p.y));
         let list = |way: &Vec<Vector>| way.iter().map(point).collect::<Vec<_>>().join(" ");
@@ -279,7 +278,7 @@ impl Svg {
         let _ = writeln!(self.body, " values=\"{values}\"/></polygon>");
     }
 
-    /// A straight arrow with a filled head of `head` pixels.
+    /// Draws a straight arrow with a filled head of `head` pixels.
     pub fn arrow(&mut self, from: Vector, to: Vector, head: f64, colour: &'static str, width: f64) {
         let along = to - from;
         let length = along.norm();
@@ -293,12 +292,12 @@ impl Svg {
         self.polygon(&[to, neck + side, neck - side], Style::fill(colour));
     }
 
-    /// A line of text; the anchor is on its baseline.
+    /// Writes a line of text; the anchor is on its baseline.
     pub fn text(&mut self, at: Vector, text: &str, font: Font) {
         self.turned_text(at, 0.0, text, font);
     }
 
-    /// A line of text turned by `degrees` clockwise about its anchor.
+    /// Writes a line of text, rotated by `degrees` clockwise about its anchor.
     pub fn turned_text(&mut self, at: Vector, degrees: f64, text: &str, font: Font) {
         let _ = write!(
             self.body,
@@ -333,7 +332,7 @@ impl Svg {
         let _ = writeln!(self.body, ">{}</text>", escape(text));
     }
 
-    /// The finished document.
+    /// Returns the finished document.
     pub fn finish(self) -> String {
         let (w, h) = (px(self.width), px(self.height));
         format!(
@@ -360,14 +359,14 @@ impl Svg {
     }
 }
 
-/// A number of pixels to a hundredth, without trailing zeros; what is not finite becomes 0, so
-/// that a broken prediction still leaves a readable picture.
+/// Formats a number of pixels to a hundredth, without trailing zeros. Values that are not finite
+/// become 0, so that a broken prediction still leaves a readable picture.
 fn px(value: f64) -> String {
     short(value, 2)
 }
 
-/// Text that cannot break out of an element or a quoted attribute; XML has no control characters,
-/// so they are written out.
+/// Escapes text for an element or a quoted attribute. Control characters are written out because
+/// XML has none.
 pub(super) fn escape(text: &str) -> String {
     printable(text)
         .replace('&', "&amp;")

@@ -1,23 +1,23 @@
-//! Tables for the terminal and for Markdown.
+//! Tables for the terminal, Markdown and CSV.
 
 use pushplan::asset::printable;
 
 /// The content of a cell without a value.
 pub const NONE: &str = "\u{2013}";
 
-/// Side on which a column's cells line up.
+/// Alignment of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {
-    /// Words.
+    /// Left, for words.
     Left,
-    /// Numbers.
+    /// Right, for numbers.
     Right,
 }
 
-/// A column of a table of things: its name, its side, and what it says about a thing.
+/// Column of a table: its name, its alignment, and the function that formats a cell.
 pub type Column<'a, T> = (&'a str, Align, &'a dyn Fn(&T) -> String);
 
-/// A table of short texts.
+/// Table of short texts.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
     columns: Vec<(String, Align)>,
@@ -25,13 +25,13 @@ pub struct Table {
 }
 
 impl Table {
-    /// A table without rows.
+    /// Returns a table without rows.
     pub fn new<'a>(columns: impl IntoIterator<Item = (&'a str, Align)>) -> Self {
         let columns = columns.into_iter().map(|(name, align)| (name.to_owned(), align)).collect();
         Self { columns, rows: Vec::new() }
     }
 
-    /// One row for each of `things`, with what every column says about it.
+    /// Returns a table with one row for each of `things`, formatted by `columns`.
     pub fn of<T>(things: impl IntoIterator<Item = T>, columns: &[Column<T>]) -> Self {
         let mut table = Self::new(columns.iter().map(|(name, align, _)| (*name, *align)));
         for thing in things {
@@ -40,7 +40,7 @@ impl Table {
         table
     }
 
-    /// Adds a row; missing cells stay empty, surplus ones are dropped, and control characters are
+    /// Adds a row. Missing cells stay empty, surplus cells are dropped, and control characters are
     /// written out.
     pub fn row(&mut self, cells: impl IntoIterator<Item = impl Into<String>>) -> &mut Self {
         let mut row: Vec<String> =
@@ -50,17 +50,18 @@ impl Table {
         self
     }
 
-    /// Whether there are no rows.
+    /// Returns `true` if there are no rows.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
 
-    /// Whether there is a header, at least.
+    /// Returns `true` if there is a header.
     pub fn has_columns(&self) -> bool {
         !self.columns.is_empty()
     }
 
-    /// Columns padded with spaces, two between them, no line longer than its last word.
+    /// Formats the table with columns padded by spaces, two between columns, and no trailing
+    /// spaces.
     pub fn to_text(&self) -> String {
         let widths = self.widths();
         let header = self.columns.iter().map(|(name, _)| name.as_str());
@@ -73,7 +74,7 @@ impl Table {
         text
     }
 
-    /// A GitHub table, padded so that its source reads well too.
+    /// Formats the table as GitHub Markdown, padded so that its source is readable too.
     pub fn to_markdown(&self) -> String {
         let widths: Vec<usize> = self.widths().into_iter().map(|width| width.max(3)).collect();
         let wrap = |line: String| format!("| {line} |\n");
@@ -96,7 +97,8 @@ impl Table {
         text
     }
 
-    /// Comma-separated values (RFC 4180, with line feeds alone): the header, then the rows.
+    /// Formats the table as comma-separated values (RFC 4180, but with line feeds): the header,
+    /// then the rows.
     pub fn to_csv(&self) -> String {
         let quoted = |cell: &str| match cell.contains([',', '"', '\n', '\r']) {
             true => format!("\"{}\"", cell.replace('"', "\"\"")),
@@ -108,12 +110,12 @@ impl Table {
         header + &rows.collect::<String>()
     }
 
-    /// Names and sides of the columns.
+    /// Returns the names and alignments of the columns.
     pub(super) fn columns(&self) -> &[(String, Align)] {
         &self.columns
     }
 
-    /// The cells, row by row.
+    /// Returns the cells, row by row.
     pub(super) fn rows(&self) -> &[Vec<String>] {
         &self.rows
     }

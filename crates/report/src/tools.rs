@@ -14,7 +14,7 @@ use super::number::{millimetres, seconds};
 use super::solved::{error_chart, flat, progress_note};
 use super::table::{Align, NONE, Table};
 
-/// What the reader must know, a paragraph each.
+/// Explanatory notes, a paragraph each.
 const NOTES: [&str; 3] = [
     "First choice: the best of all chained sequences of up to three pushes and their stops every \
      5 mm, by prediction alone; not pushing is one of them. Oracle: all sequences played in the \
@@ -32,7 +32,7 @@ const NOTES: [&str; 3] = [
 /// Methods shown for each tool pose alone.
 const ALONE: [Method; 3] = [Method::Oracle, Method::First, Method::Planned];
 
-/// Names of the columns of a trial in CSV; lengths in metres.
+/// Column names of a trial in CSV; lengths in metres.
 const COLUMNS: [(&str, Align); 15] = [
     ("index", Align::Right),
     ("start", Align::Right),
@@ -51,7 +51,7 @@ const COLUMNS: [(&str, Align); 15] = [
     ("tried", Align::Right),
 ];
 
-/// The benchmark in every form.
+/// Returns a report on the benchmark.
 pub fn tools_document(run: &RunManifest, tasks: &[Finished<ToolRecord>]) -> Document {
     let setup = ReferenceSetup::new(Layout::Grid);
     let records: Vec<&ToolRecord> = tasks.iter().map(|task| &task.record).collect();
@@ -105,7 +105,7 @@ pub fn tools_document(run: &RunManifest, tasks: &[Finished<ToolRecord>]) -> Docu
     }
 }
 
-/// The earlier form: how many tasks can be solved, and how many are.
+/// Returns a report on the single-push benchmark: number of solvable and of solved tasks.
 pub fn single_document(report: &SinglePushes) -> Document {
     let model = &report.model;
     let choices = [
@@ -204,7 +204,7 @@ fn time_table(tasks: &[Finished<ToolRecord>]) -> Table {
     table
 }
 
-/// Errors in 3-D with all tool poses, method by method.
+/// Returns the final 3-D errors with all tool poses, method by method.
 fn errors(records: &[&ToolRecord]) -> Vec<(String, Vec<f64>)> {
     Method::ALL
         .into_iter()

@@ -9,7 +9,7 @@ use super::picture::{ScenePicture, Source, Track};
 use super::plan_picture::{moving_figure, space_figures};
 use super::plan_text::plan_line;
 
-/// A picture of a trajectory, whose file is named `name`; `animate` adds one that moves.
+/// Returns a picture of a trajectory, with the file name `name`; `animate` adds an animation.
 pub fn trajectory_figures(file: &TrajectoryFile, name: &str, animate: bool) -> Vec<Figure> {
     let TrajectoryFile { task, tools, plan, trajectory, .. } = file;
     let flat = trajectory.outcome().space.is_none();
@@ -34,7 +34,7 @@ pub fn trajectory_figures(file: &TrajectoryFile, name: &str, animate: bool) -> V
     figures
 }
 
-/// Which source says where the objects went.
+/// Returns the source of a trajectory: prediction or engine.
 fn source(trajectory: &Trajectory) -> Source {
     match trajectory.by.first().kind {
         ModelKind::Simulated { engine, .. } => Source::Simulated(engine),

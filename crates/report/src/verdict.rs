@@ -1,4 +1,4 @@
-//! What replays of a plan show, in words and tables.
+//! Replay results of a plan, as sentences and tables.
 
 use serde_json::json;
 
@@ -15,7 +15,7 @@ use super::number::{degrees, millimetres};
 use super::plan_text::{engine_name, goal_line, outcome_table, plan_line, plan_sections};
 use super::recorded::percent;
 
-/// A plan that was replayed.
+/// Returns a report on a replayed plan.
 pub fn verdict_document(file: &PlanFile, verdict: &Verdict) -> Document {
     let predicted = file.model.as_ref().zip(file.predicted.as_ref());
     let predicted = predicted.map(|(model, outcome)| (model.to_string(), outcome, None));
@@ -33,7 +33,7 @@ pub fn verdict_document(file: &PlanFile, verdict: &Verdict) -> Document {
     }
 }
 
-/// What a reader should know of the nominal replays, once each and with the engines that say so.
+/// Returns the warnings of the nominal replays, each once with the engines that report it.
 pub fn replay_warnings(verdict: &Verdict) -> Vec<String> {
     let mut found: Vec<(&Warning, Vec<&'static str>)> = Vec::new();
     for evidence in nominal(verdict) {
@@ -51,8 +51,8 @@ pub fn replay_warnings(verdict: &Verdict) -> Vec<String> {
     found.into_iter().map(line).collect()
 }
 
-/// Where a plan ends by prediction (which model, where, what goes wrong) and in both engines, and
-/// what the verdict is.
+/// Returns the predicted and the simulated outcomes of a plan, and the verdict. `predicted` is the
+/// model's name, its outcome, and its fault, if any.
 pub(super) fn outcome_section(
     task: &Task,
     predicted: Option<(String, &Outcome, Option<&Warning>)>,
@@ -77,7 +77,7 @@ pub(super) fn outcome_section(
     }
 }
 
-/// What the verdict is, and why, in a sentence.
+/// Formats the verdict and its reason in a sentence.
 pub(super) fn verdict_line(task: &Task, verdict: Option<&Verdict>) -> String {
     let Some(verdict) = verdict else {
         return "not verified, as the prediction misses the goal".to_owned();
@@ -118,7 +118,7 @@ pub(super) fn verdict_line(task: &Task, verdict: Option<&Verdict>) -> String {
     }
 }
 
-/// By how much which goals are missed.
+/// Formats the errors of the missed goals.
 fn misses(task: &Task, end: &Outcome) -> String {
     let first = task.goals.first();
     let share = first.and_then(|goal| goal.covered(&end.state).zip(goal.wanted_share()));
@@ -147,7 +147,7 @@ fn misses(task: &Task, end: &Outcome) -> String {
     }
 }
 
-/// What objects rest on.
+/// Describes the support of objects.
 fn resting(support: &Support) -> String {
     match support {
         Support::Even => "all of their underside".to_owned(),
@@ -157,7 +157,7 @@ fn resting(support: &Support) -> String {
     }
 }
 
-/// How many of the disturbed replays reach the goal.
+/// Formats the share of perturbed replays that reach the goal.
 fn disturbed(verdict: &Verdict) -> String {
     let mut found = Vec::new();
     for engine in Engine::ALL {
@@ -173,7 +173,7 @@ fn disturbed(verdict: &Verdict) -> String {
     }
 }
 
-/// How hard the tool presses when the plan is carried out as written.
+/// Formats the force of the tool when the plan is executed as written.
 fn force_line(verdict: &Verdict) -> Option<String> {
     let forces: Vec<Force> = nominal(verdict).filter_map(|evidence| evidence.force).collect();
     let most = |of: fn(&Force) -> f64| forces.iter().map(of).reduce(f64::max);
@@ -181,7 +181,7 @@ fn force_line(verdict: &Verdict) -> Option<String> {
     Some(format!("about {lasting:.0} N lasting, {peak:.0} N at first touch"))
 }
 
-/// The nominal replays, planar first.
+/// Returns the nominal replays, 2-D first.
 pub(super) fn nominal(verdict: &Verdict) -> impl Iterator<Item = &Evidence> {
     Engine::ALL.into_iter().filter_map(|engine| verdict.nominal(engine))
 }

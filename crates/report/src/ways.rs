@@ -1,4 +1,4 @@
-//! How the tool gets from one push to the next, where it does not go straight.
+//! Detours of the tool between pushes.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use pushplan::{
 
 use super::plan_text::point;
 
-/// A line for each way between pushes that leads around something.
+/// Returns a line for each detour between two pushes.
 pub(super) fn ways(task: &Task, plan: &Plan, tools: &[Arc<Tool>]) -> Vec<String> {
     let Some(tool) = tools.first().filter(|_| !plan.levers()) else { return Vec::new() };
     let pushes: Vec<_> = plan.push_steps().collect();

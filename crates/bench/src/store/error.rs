@@ -1,4 +1,4 @@
-//! What can go wrong with a run on disk.
+//! Errors of runs on disk.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -10,146 +10,147 @@ use pushplan::asset::Faults;
 use super::numbers::Numbers;
 use super::shard::Shard;
 
-/// Why a run could not be begun, resumed, read or merged.
+/// Error of starting, resuming, reading or merging a run.
 #[derive(Debug, Error)]
 pub enum StoreError {
-    /// The caller asked to stop.
+    /// Cancellation by the caller.
     #[error("stopped after {done} of {total} tasks")]
     Cancelled {
-        /// Finished tasks, those of earlier runs included.
+        /// Number of finished tasks, including earlier runs.
         done: usize,
-        /// Tasks of this run.
+        /// Number of tasks of this run.
         total: usize,
     },
-    /// The file system refused.
+    /// Error of the file system.
     #[error("cannot {doing} {}: {source}", path.display())]
     Io {
-        /// What was tried.
+        /// Attempted operation.
         doing: &'static str,
-        /// On what.
+        /// Affected path.
         path: PathBuf,
-        /// Why not.
+        /// Cause.
         source: io::Error,
     },
-    /// A whole file could not be written.
+    /// Error of writing a whole file.
     #[error("{0}")]
     Write(Faults),
-    /// A manifest of something else.
+    /// Invalid manifest.
     #[error("{} is not a manifest of pushplan: {source}", path.display())]
     Manifest {
-        /// The file.
+        /// Path of the manifest.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Parse error.
         source: serde_json::Error,
     },
-    /// The folder holds a run of something else.
+    /// Folder that holds a different run.
     #[error(
         "{} holds another run; choose another folder, or ask for the same:{}",
         path.display(),
         list(differences)
     )]
     OtherRun {
-        /// The folder.
+        /// Path of the folder.
         path: PathBuf,
-        /// What differs, a line each.
+        /// Differences, a line each.
         differences: Vec<String>,
     },
-    /// A file that is not what was written.
+    /// Damaged file.
     #[error("{}:{record}: {why}; move the folder away and run the command again", path.display())]
     Damaged {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// The record, from 1; of lines of text it is the line.
+        /// Number of the record, from 1; for text files the line.
         record: usize,
-        /// What is wrong with it.
+        /// Description of the damage.
         why: String,
     },
-    /// Records without a manifest cannot be told from those of another run.
+    /// Records without a manifest, which cannot be attributed to a run.
     #[error("{} holds records, but no manifest says of what; choose another folder", path.display())]
     Stray {
-        /// The folder.
+        /// Path of the folder.
         path: PathBuf,
     },
-    /// The folder holds no run.
+    /// Folder without a run.
     #[error(
         "{} holds neither data nor a benchmark; `pushplan-learn generate DIR` and `pushplan bench ... \
          --out DIR` make them",
         path.display()
     )]
     Missing {
-        /// The folder.
+        /// Path of the folder.
         path: PathBuf,
     },
-    /// Another process writes to the folder.
+    /// Folder to which another process writes.
     #[error(
         "another pushplan is writing to {}{}; wait for it, or choose another folder",
         path.display(),
         brackets(writer)
     )]
     Busy {
-        /// The folder.
+        /// Path of the folder.
         path: PathBuf,
-        /// Process and host, where the lock says so.
+        /// Process and host, if the lock file contains them.
         writer: Option<String>,
     },
-    /// A record that would not be read as it was written, such as one with an undefined number.
+    /// Record that does not survive a round trip, for example because it contains an undefined
+    /// number.
     #[error("the record of task {index} cannot be kept: {why}")]
     Record {
         /// Index of the task.
         index: usize,
-        /// Why not.
+        /// Cause.
         why: String,
     },
-    /// A run with tasks still to do.
+    /// Run with unfinished tasks.
     #[error(
         "the run in {} has {done} of {total} tasks; run its command again to finish it",
         path.display()
     )]
     Unfinished {
-        /// The folder.
+        /// Path of the folder.
         path: PathBuf,
-        /// Finished tasks.
+        /// Number of finished tasks.
         done: usize,
-        /// Tasks that it should have.
+        /// Number of tasks of the run.
         total: usize,
     },
-    /// The same shard twice.
+    /// Duplicate shard.
     #[error("{} and {} are both shard {shard}; leave one out", first.display(), second.display())]
     DuplicateShard {
-        /// Which shard.
+        /// Duplicated shard.
         shard: Shard,
-        /// A folder.
+        /// First folder.
         first: PathBuf,
-        /// The other one.
+        /// Second folder.
         second: PathBuf,
     },
-    /// Not all shards were given.
+    /// Incomplete set of shards.
     #[error("to merge, all {of} shards are needed; missing: {}", Numbers(missing))]
     MissingShards {
-        /// How many there are.
+        /// Number of shards of the run.
         of: usize,
-        /// Numbers of those that were not given.
+        /// Numbers of the missing shards.
         missing: Vec<usize>,
     },
-    /// The result of a merge would replace a run.
+    /// Folder of a merge that already holds a run.
     #[error("{} holds a run already; merge into another folder", path.display())]
     Occupied {
-        /// The folder.
+        /// Path of the folder.
         path: PathBuf,
     },
-    /// No shard was given.
+    /// Merge without shards.
     #[error("there is nothing to merge")]
     NothingToMerge,
-    /// None of the folders that were asked about holds a run.
+    /// Folders without a run.
     #[error("none of these folders holds a run: {}", folders(paths))]
     NoRun {
-        /// The folders.
+        /// Paths of the folders.
         paths: Vec<PathBuf>,
     },
 }
 
 impl StoreError {
-    /// What the file system's refusal of `doing` something to `path` is here.
+    /// Returns a converter from file-system errors of `doing` something to `path`.
     pub(super) fn io(doing: &'static str, path: &Path) -> impl Fn(io::Error) -> Self {
         move |source| StoreError::Io { doing, path: path.to_owned(), source }
     }

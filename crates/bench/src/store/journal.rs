@@ -1,5 +1,5 @@
-//! The records of a run on disk: appended one after another, each on the disk before the next; a
-//! torn end is dropped, never trusted.
+//! Journal of a run's records on disk. Each record is synced before the next is appended, and a
+//! torn end is dropped.
 
 use std::fs::{File, OpenOptions};
 use std::io::{BufReader, ErrorKind, Write};
@@ -12,10 +12,10 @@ use super::form::{Form, Next};
 use super::lock::FolderLock;
 use super::manifest::RunManifest;
 
-/// Looks at a record: its index, or why it cannot be read.
+/// Callback that decodes a record and returns its index, or a description of the error.
 pub type Look<'a> = dyn FnMut(&[u8]) -> Result<usize, String> + 'a;
 
-/// A run that is being written. Holds the folder's lock.
+/// Journal of a run, which holds the folder's lock.
 #[derive(Debug)]
 pub struct Journal {
     form: Form,
@@ -27,12 +27,13 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Begins a run in the folder `dir`, or goes on with the one that is there: `look` is shown
-    /// each of its records, in order. A torn end is dropped with a note to `watch`.
+    /// Creates a run in the folder `dir`, or resumes the existing one: `look` receives its records,
+    /// in order. A torn end is dropped with a note to `watch`.
     ///
     /// # Errors
-    /// If the folder holds a run with another manifest (the error says what differs) or a damaged
-    /// one, another process writes to it, or it cannot be written.
+    /// Returns an error if the folder holds a run with another manifest (the error lists the
+    /// differences) or a damaged one. Other errors are a lock of another process, and a folder that
+    /// cannot be written.
     pub fn open(
         dir: &Path,
         manifest: RunManifest,
@@ -68,20 +69,20 @@ impl Journal {
         Ok(Self { form, path, file, done: read.count, bytes: read.bytes, _lock: lock })
     }
 
-    /// Number of finished records.
+    /// Returns the number of finished records.
     pub fn done(&self) -> usize {
         self.done
     }
 
-    /// Length of the finished records, bytes.
+    /// Returns the length of the finished records, bytes.
     pub fn bytes(&self) -> u64 {
         self.bytes
     }
 
-    /// Keeps the next records.
+    /// Appends the next records.
     ///
     /// # Errors
-    /// If they cannot be written; what was kept before stays.
+    /// Returns an error if they cannot be written; earlier records are kept.
     pub fn append<'a>(
         &mut self,
         records: impl IntoIterator<Item = &'a [u8]>,
@@ -102,22 +103,22 @@ impl Journal {
     }
 }
 
-/// What a file of records holds.
+/// Summary of a record file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Held {
-    /// Whole records.
+    /// Number of complete records.
     pub count: usize,
-    /// Their length, bytes.
+    /// Length of the complete records, bytes.
     pub bytes: u64,
-    /// Whether bytes that are no whole record follow.
+    /// Whether an incomplete record follows.
     pub torn: bool,
 }
 
-/// Shows `look` the records of a folder's run: those of the first tasks of `manifest`, in order. A
-/// torn end is left out. Writes nothing.
+/// Passes the records of a folder's run to `look`, in order, without writing. A torn end is
+/// omitted.
 ///
 /// # Errors
-/// If any other record is not the one that belongs there.
+/// Returns an error if any other record does not match the task of `manifest` at its position.
 pub fn read_records(
     dir: &Path,
     manifest: &RunManifest,
@@ -149,7 +150,7 @@ pub fn read_records(
                 let wanted = wanted.map_or("no more".to_owned(), |index| format!("record {index}"));
                 return Err(damaged(format!("record {index} where {wanted} belongs")));
             }
-            // A crash may leave a last record of which not all blocks reached the disk.
+            // After a crash, some blocks of the last record may be missing on disk.
             Err(_) if matches!(coming, Next::End) => return Ok(Held { torn: true, ..held }),
             Err(why) => return Err(damaged(why)),
         }

@@ -1,4 +1,4 @@
-//! One writer at a time in a folder.
+//! Exclusive write access to a folder.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{Read, Seek, Write};
@@ -8,32 +8,34 @@ use pushplan::watch::Watch;
 
 use super::error::StoreError;
 
-/// Name of the lock's file, which is there while somebody writes to the folder.
+/// Name of the lock file, which exists while a process writes to the folder.
 const LOCK: &str = ".pushplan-lock";
 
-/// Keeps other processes from writing to a folder, as long as it lives; the system frees the
-/// folder of a process that was killed. The lock is of a file rather than of the folder, as
-/// network file systems lock only what can be opened for writing; it says who writes, and goes
-/// with the lock.
+/// Lock that keeps other processes from writing to a folder; the system releases it if the process
+/// is killed.
+///
+/// The lock is on a file instead of the folder, because network file systems lock only files opened
+/// for writing. The file contains the name of the writer and is removed with the lock.
 #[derive(Debug)]
 pub struct FolderLock {
     folder: PathBuf,
-    /// Dropped after the file was removed, so that nobody locks a file that is about to go.
+    /// Dropped after the removal of the file, so that no process locks a file that is about to be
+    /// removed.
     _file: File,
 }
 
 impl FolderLock {
-    /// Makes the folder if there is none, and locks it. Where the file system knows no locks, and
-    /// where they may not reach another machine, `watch` is told so.
+    /// Creates the folder if it does not exist, and locks it. If the file system does not support
+    /// locks, or not across machines, `watch` receives a note.
     ///
     /// # Errors
-    /// [`StoreError::Busy`] if another process has locked it, [`StoreError::Io`] if it cannot be
-    /// made or written.
+    /// Returns [`StoreError::Busy`] if another process holds the lock, and [`StoreError::Io`] if
+    /// the folder cannot be created or written.
     pub fn take(dir: &Path, watch: &dyn Watch) -> Result<Self, StoreError> {
         fs::create_dir_all(dir).map_err(StoreError::io("create", dir))?;
         let path = dir.join(LOCK);
         loop {
-            // Not truncated: what stands there says who writes.
+            // The file is not truncated because it contains the name of the writer.
             let mut file = OpenOptions::new()
                 .read(true)
                 .write(true)
@@ -51,7 +53,7 @@ impl FolderLock {
                 }
                 Err(TryLockError::Error(_)) => note_no_locks(dir, before, watch),
             }
-            // Who writes is only a help for people; the lock holds without it.
+            // The name of the writer is informative; the lock does not need it.
             let _ = file
                 .set_len(0)
                 .and_then(|()| file.rewind())
@@ -60,7 +62,7 @@ impl FolderLock {
         }
     }
 
-    /// The folder.
+    /// Returns the path of the folder.
     pub fn path(&self) -> &Path {
         &self.folder
     }
@@ -68,23 +70,23 @@ impl FolderLock {
 
 impl Drop for FolderLock {
     fn drop(&mut self) {
-        // While it is still locked. A file that stays locks nothing.
+        // The file is removed while it is still locked. A remaining file locks nothing.
         let _ = fs::remove_file(self.folder.join(LOCK));
     }
 }
 
-/// Who holds the lock of a folder, or was killed while it did, in words; nobody of most folders.
-/// Only looks: a lock taken to find out would refuse somebody else's for that moment.
+/// Returns the process that holds the lock of a folder, or was killed while it did. The file is
+/// only read, because a temporary lock could block another process.
 pub(super) fn writer_of(dir: &Path) -> Option<String> {
     writer(&mut File::open(dir.join(LOCK)).ok()?)
 }
 
-/// This process in words: `process 4711 on node-3`.
+/// Describes this process: `process 4711 on node-3`.
 fn this_process() -> String {
     format!("process {} on {}", std::process::id(), host())
 }
 
-/// Name of this machine, or of the container.
+/// Returns the name of this machine, or of the container.
 fn host() -> String {
     let kernel = fs::read_to_string("/proc/sys/kernel/hostname").ok();
     let named = kernel.or_else(|| ["HOSTNAME", "COMPUTERNAME"].iter().find_map(variable));
@@ -96,17 +98,17 @@ fn variable(name: &&str) -> Option<String> {
     std::env::var(name).ok()
 }
 
-/// What stands in the lock's file, if that is a line of ours.
+/// Returns the content of the lock file, if it is a line in our format.
 fn writer(file: &mut File) -> Option<String> {
     let mut text = String::new();
-    // Longer than any name of a host; what is longer is none.
+    // The limit is longer than any host name.
     file.take(400).read_to_string(&mut text).ok()?;
     let line = text.lines().next()?;
     line.starts_with("process ").then(|| line.to_owned())
 }
 
-/// Whether the path still leads to this file: whoever had it locked may have removed it between
-/// our opening and locking it.
+/// Returns `true` if the path still refers to this file. The previous holder may have removed the
+/// file between our opening and our locking it.
 #[cfg(unix)]
 fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
@@ -122,8 +124,8 @@ fn is_at(_: &File, path: &Path) -> bool {
     path.exists()
 }
 
-/// A file that was left behind with the name of another machine: a process that ended there without
-/// saying so, or a lock that is not seen from here.
+/// Notes a lock file with the name of another machine. Its process ended abnormally, or its lock is
+/// not visible from here.
 fn note_another_machine(dir: &Path, before: Option<String>, watch: &dyn Watch) {
     let here = format!(" on {}", host());
     if let Some(writer) = before.filter(|writer| !writer.ends_with(&here)) {

@@ -1,4 +1,4 @@
-//! What a run measures, `manifest.json`: everything that decides the bytes of its records.
+//! Manifest of a run, `manifest.json`: all settings that determine the bytes of its records.
 
 use std::collections::BTreeMap;
 use std::{fs, path::Path};
@@ -17,34 +17,35 @@ pub(super) const MANIFEST: &str = "manifest.json";
 /// Version of the folder's layout.
 const FORMAT_VERSION: u32 = 1;
 
-/// What a folder of records holds. Two runs with the same manifest have the same records.
+/// Manifest of a folder of records. Runs with equal manifests have equal records.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RunManifest {
     /// Version of the folder's layout.
     pub format_version: u32,
-    /// Version of the program: another one may plan differently.
+    /// Version of the program, because plans may differ between versions.
     pub program: String,
-    /// What is measured or made, such as the name of a benchmark; says what the records hold.
+    /// Kind of job, such as the name of a benchmark, which determines the content of the records.
     pub suite: String,
-    /// Number of tasks, those of all shards together: one record each.
+    /// Number of tasks of all shards together, one record each.
     pub tasks: usize,
     /// Seed of the tasks.
     pub seed: u64,
     /// Name of the effect model.
     pub model: String,
-    /// Digest of its weights, for a network.
+    /// Digest of the weights, for a network.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weights: Option<String>,
-    /// Everything else that decides the records, such as budgets and a digest of the tools.
+    /// Other settings that determine the records, such as budgets and a digest of the tools.
     pub settings: Json,
-    /// Which part this is; `None` for a whole run, whether merged or made in one go.
+    /// Shard; `None` for a whole run, whether merged or made at once.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<Shard>,
 }
 
 impl RunManifest {
-    /// A whole run of `tasks` tasks of a suite, with the named model and without settings.
+    /// Returns the manifest of a whole run of `tasks` tasks of a suite, with the named model and
+    /// without settings.
     pub fn new(suite: &str, tasks: usize, seed: u64, model: &str) -> Self {
         Self {
             format_version: FORMAT_VERSION,
@@ -59,38 +60,38 @@ impl RunManifest {
         }
     }
 
-    /// The same with the digest of a network's weights.
+    /// Returns this manifest with the digest of a network's weights.
     pub fn with_weights(self, digest: Option<String>) -> Self {
         Self { weights: digest, ..self }
     }
 
-    /// The same with settings.
+    /// Returns this manifest with settings.
     pub fn with_settings(self, settings: Json) -> Self {
         Self { settings, ..self }
     }
 
-    /// The same for one shard; the only shard of one is the whole run.
+    /// Returns this manifest for one shard; the only shard of one is the whole run.
     pub fn with_shard(self, shard: Shard) -> Self {
         Self { shard: (shard != Shard::WHOLE).then_some(shard), ..self }
     }
 
-    /// Indices of the tasks to measure, ascending.
+    /// Returns the indices of the tasks to measure, ascending.
     pub fn indices(&self) -> impl ExactSizeIterator<Item = usize> + Clone {
         self.shard.unwrap_or(Shard::WHOLE).indices(self.tasks)
     }
 
-    /// Reads the manifest of a folder that holds a run.
+    /// Reads the manifest of a folder that must hold a run.
     ///
     /// # Errors
-    /// [`StoreError::Missing`] if it holds none; those of [`RunManifest::load`].
+    /// Returns [`StoreError::Missing`] if there is none, and the errors of [`RunManifest::load`].
     pub fn expect(dir: &Path) -> Result<Self, StoreError> {
         Self::load(dir)?.ok_or_else(|| StoreError::Missing { path: dir.to_owned() })
     }
 
-    /// Reads the manifest of a folder; `None` if there is none.
+    /// Reads the manifest of a folder; returns `None` if there is none.
     ///
     /// # Errors
-    /// If it cannot be read or is not one of ours.
+    /// Returns an error if the file cannot be read or is not a valid manifest.
     pub fn load(dir: &Path) -> Result<Option<Self>, StoreError> {
         let path = dir.join(MANIFEST);
         let text = match fs::read(&path) {
@@ -118,7 +119,7 @@ impl RunManifest {
         write_atomic(&path, &text).map_err(StoreError::Write)
     }
 
-    /// What differs from the manifest that was asked for, a line each.
+    /// Returns the differences from the wanted manifest, a line each.
     pub(super) fn differences(&self, wanted: &Self) -> Vec<String> {
         let (there, wanted) = (self.leaves(), wanted.leaves());
         let keys: std::collections::BTreeSet<&String> = there.keys().chain(wanted.keys()).collect();
@@ -132,7 +133,7 @@ impl RunManifest {
             .collect()
     }
 
-    /// Every single value by its path.
+    /// Returns all leaf values by path.
     fn leaves(&self) -> BTreeMap<String, String> {
         fn collect(path: &str, value: &Json, leaves: &mut BTreeMap<String, String>) {
             let below = |key: &str| match path {
@@ -154,7 +155,7 @@ impl RunManifest {
             }
         }
         let mut leaves = BTreeMap::new();
-        // A manifest is strings, numbers and a JSON value, which always serialise.
+        // A manifest consists of strings, numbers and a JSON value, so serialization cannot fail.
         collect("", &serde_json::to_value(self).unwrap_or_default(), &mut leaves);
         leaves
     }

@@ -1,4 +1,4 @@
-//! Merging the shards of a run into one.
+//! Merging of the shards of a run.
 
 use std::path::{Path, PathBuf};
 use std::{collections::BTreeMap, fs};
@@ -14,7 +14,7 @@ use super::manifest::RunManifest;
 use super::shard::Shard;
 use super::times::{TIMES, read_times};
 
-/// The folders of one run: each of another shard, and all of the same thing.
+/// Folders of one run, each with another shard.
 #[derive(Default)]
 pub(super) struct Family {
     whole: Option<RunManifest>,
@@ -22,10 +22,10 @@ pub(super) struct Family {
 }
 
 impl Family {
-    /// Adds a folder, and says which shard it holds.
+    /// Adds a folder and returns its shard.
     ///
     /// # Errors
-    /// If it is of another run than those before, or of the same shard as one of them.
+    /// Returns an error if the folder belongs to a different run, or repeats a shard.
     pub fn add(&mut self, dir: &Path, manifest: &RunManifest) -> Result<Shard, StoreError> {
         let shard = manifest.shard.unwrap_or(Shard::WHOLE);
         let merged = RunManifest { shard: None, ..manifest.clone() };
@@ -45,21 +45,20 @@ impl Family {
         }
     }
 
-    /// How many shards the run has; `None` without any folder.
+    /// Returns the number of shards of the run; `None` without any folder.
     pub fn of(&self) -> Option<usize> {
         self.folders.keys().next().map(|shard| shard.of())
     }
 }
 
-/// Merges finished shards, given in any order, into a run in the folder `out`: the same manifest
-/// and records as one run would have left there. `look` tells the index of a record; it is shown
-/// each of them, shard by shard.
+/// Merges finished shards, in any order, into a run in the folder `out`, with the manifest and
+/// records of an unsplit run. `look` receives each record, shard by shard, and returns its index.
 ///
-/// All records are in memory for a moment, as they are for whoever reads the merged run.
+/// During the merge all records are in memory, as for readers of the merged run.
 ///
 /// # Errors
-/// If a shard is missing, unfinished, damaged, there twice or of another run, or `out` holds a
-/// run already. Nothing is written then.
+/// Returns an error if a shard is missing, unfinished, damaged, duplicated or of another run, or if
+/// `out` already holds a run. Nothing is written then.
 pub fn merge_runs(
     out: &Path,
     shards: &[PathBuf],
@@ -96,26 +95,26 @@ pub fn merge_runs(
     let write = |name: &str, bytes: Vec<u8>| {
         write_atomic(out.join(name), &bytes).map_err(StoreError::Write)
     };
-    // Frames are of runs without times.
+    // Runs in frames have no times.
     if form == Form::Lines {
         write(TIMES, times.into_values().collect::<String>().into_bytes())?;
     }
     write(form.file(), records.into_values().collect::<Vec<_>>().concat())?;
-    // Last, so that a folder with a manifest is a whole run.
+    // The manifest is written last, so that a folder with a manifest holds a whole run.
     whole.save(out)?;
     Ok(whole)
 }
 
-/// A line of records, whatever the record.
+/// Line of records, regardless of the record type.
 #[derive(Deserialize)]
 struct Line {
     index: usize,
 }
 
-/// Tells the index of a line of records, see [`merge_runs`].
+/// Returns the index of a line of records, see [`merge_runs`].
 ///
 /// # Errors
-/// If it is none.
+/// Returns an error if the line has no index.
 pub fn line_index(line: &[u8]) -> Result<usize, String> {
     let line: Line = serde_json::from_slice(line).map_err(|error| error.to_string())?;
     Ok(line.index)

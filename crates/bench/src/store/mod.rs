@@ -1,22 +1,23 @@
-//! Long jobs on disk: a record a task, kept as soon as it is there; resumed, split into shards and
-//! merged again to the same bytes. Benchmarks and training data are both such runs.
+//! Long jobs on disk, such as benchmarks and training data: one record per task, saved immediately.
 //!
-//! A run is a folder:
+//! Runs can be resumed, split into shards and merged again to the same bytes. A run is a folder:
 //!
 //! ```text
-//! manifest.json   what is measured or made: suite, number of tasks, seed, settings, model and the
-//!                 digest of its weights, format version, and the shard, if it is one
-//! records.jsonl   {"index": 0, "record": {...}}, a line a finished task, in order
-//! records.bin     the same for much data: length, record, checksum
+//! manifest.json   kind of job: suite, number of tasks, seed, settings, model and the digest of its
+//!                 weights, format version, and the shard, if it is one
+//! records.jsonl   {"index": 0, "record": {...}}, a line per finished task, in order
+//! records.bin     the records in binary form for large data: length, record, checksum
 //! times.jsonl     {"index": 0, "seconds": {"total": 0.12, ...}}, a line for wall times
 //! ```
-//! `manifest.json` and the records are the same bytes however often a run was interrupted, whether
-//! it was made whole or merged from shards, and for any number of threads. Times differ from run
-//! to run; `times.jsonl` is not part of that promise. One process at a time writes to a folder: while
-//! one does, `.pushplan-lock` is there and says which. Shards have folders of their own, so that no two
-//! machines ever write to one.
 //!
-//! Knows nothing of what a record holds, and draws nothing.
+//! The bytes of `manifest.json` and of the records are reproducible. They do not depend on
+//! interruptions, on shards, or on the number of threads. Wall times in `times.jsonl` differ
+//! between runs.
+//!
+//! Only one process at a time writes to a folder, in which `.pushplan-lock` names the writer.
+//! Shards have separate folders, so that no two machines write to the same one.
+//!
+//! This module is independent of the content of records, and does not draw.
 
 mod digest;
 mod error;

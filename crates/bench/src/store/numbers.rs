@@ -1,8 +1,8 @@
-//! Lists of shards as array jobs take them.
+//! Lists of shards in the format of array jobs.
 
 use std::fmt;
 
-/// Ascending numbers, those in a row as a range: `3,7-9`.
+/// Ascending numbers, with consecutive ones as a range: `3,7-9`.
 pub(super) struct Numbers<'a>(pub &'a [usize]);
 
 impl fmt::Display for Numbers<'_> {

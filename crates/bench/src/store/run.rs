@@ -1,5 +1,5 @@
-//! A run of tasks measured one by one or side by side: what is finished, what is left, and keeping
-//! each as it is done.
+//! Runs of tasks, measured sequentially or in parallel: finished tasks, remaining tasks, and
+//! immediate saving of results.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
@@ -17,34 +17,34 @@ use super::journal::{Journal, read_records};
 use super::manifest::RunManifest;
 use super::times::{Seconds, Times, TimesLine, read_times};
 
-/// What measuring a task gives.
+/// Measurement of one task.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured<R> {
-    /// The result, the same every time.
+    /// Result, which is reproducible.
     pub record: R,
-    /// How long it took, never the same.
+    /// Duration, which is not reproducible.
     pub seconds: Seconds,
 }
 
-/// A finished task.
+/// Finished task.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finished<R> {
     /// Index of the task in the suite.
     pub index: usize,
-    /// Its result.
+    /// Result of the task.
     pub record: R,
-    /// How long it took, where that is known.
+    /// Duration, if known.
     pub seconds: Seconds,
 }
 
-/// A line of the records' file.
+/// Line of the record file.
 #[derive(Serialize, Deserialize)]
 struct RecordLine<R> {
     index: usize,
     record: R,
 }
 
-/// The records of a run, in a folder or only in memory.
+/// Records of a run, in a folder or only in memory.
 #[derive(Debug)]
 pub struct Store<R> {
     manifest: RunManifest,
@@ -53,16 +53,16 @@ pub struct Store<R> {
 }
 
 impl<R: Serialize + DeserializeOwned> Store<R> {
-    /// A run that is kept nowhere.
+    /// Returns a run that is not saved.
     pub fn in_memory(manifest: RunManifest) -> Self {
         Self { manifest, files: None, finished: Vec::new() }
     }
 
-    /// Begins a run in the folder `dir`, or goes on with the one that is there. A torn last line
-    /// is dropped with a note to `watch`, and its task is measured again.
+    /// Creates a run in the folder `dir`, or resumes the existing one. A torn last line is dropped
+    /// with a note to `watch`, and its task is measured again.
     ///
     /// # Errors
-    /// Those of [`Journal::open`].
+    /// Returns the errors of [`Journal::open`].
     pub fn open(dir: &Path, manifest: RunManifest, watch: &dyn Watch) -> Result<Self, StoreError> {
         let mut records = Vec::new();
         let journal = {
@@ -78,10 +78,10 @@ impl<R: Serialize + DeserializeOwned> Store<R> {
         Ok(Self { manifest, files, finished })
     }
 
-    /// Reads a run, finished or not, for reports. Writes nothing.
+    /// Reads a run, finished or not, for reports, without writing.
     ///
     /// # Errors
-    /// If the folder holds none or a damaged one.
+    /// Returns an error if the folder holds no run or a damaged one.
     pub fn load(dir: &Path) -> Result<Self, StoreError> {
         let manifest = RunManifest::expect(dir)?;
         let mut records = Vec::new();
@@ -91,12 +91,12 @@ impl<R: Serialize + DeserializeOwned> Store<R> {
         Ok(Self { manifest, files: None, finished })
     }
 
-    /// Measures every task that is left, in order, and keeps each result as soon as it is there.
-    /// `measure` gets the task's index.
+    /// Measures the remaining tasks, in order, and saves each result immediately. `measure`
+    /// receives the task's index.
     ///
     /// # Errors
-    /// The first error of `measure`; a result that cannot be kept; or that `watch`, asked before
-    /// every task, says to stop. What was finished is kept in every case.
+    /// Returns the first error of `measure`, an error of saving, or a cancellation by `watch`,
+    /// which is polled before every task. Finished tasks are saved in all cases.
     pub fn run<E: From<StoreError>>(
         &mut self,
         watch: &dyn Watch,
@@ -118,12 +118,12 @@ impl<R: Serialize + DeserializeOwned> Store<R> {
         Ok(())
     }
 
-    /// The same with as many tasks side by side as there are `threads`, for tasks that do not keep a
-    /// machine busy one by one. Results are kept in order, each once all before it are there.
+    /// Measures the remaining tasks on `threads` threads, for tasks that do not use all cores by
+    /// themselves. Results are saved in order, each as soon as all earlier ones are available.
     ///
     /// # Errors
-    /// A result that cannot be kept; or that `watch`, asked before every task, says to stop. Then
-    /// tasks that have begun are finished and kept.
+    /// Returns an error of saving, or a cancellation by `watch`, which is polled before every task.
+    /// Running tasks are then completed and saved.
     pub fn run_side_by_side(
         &mut self,
         watch: &dyn Watch,
@@ -139,7 +139,8 @@ impl<R: Serialize + DeserializeOwned> Store<R> {
         let next = AtomicUsize::new(0);
         let (sender, receiver) = mpsc::channel();
         thread::scope(|scope| {
-            // It goes when this closure returns, early or not, and nobody begins another task then.
+            // The receiver is dropped when this closure returns, early or not, which stops the
+            // other threads.
             let receiver = receiver;
             for _ in 0..threads.clamp(1, left.len().max(1)) {
                 let (sender, next, left, measure) = (sender.clone(), &next, &left, &measure);
@@ -173,28 +174,28 @@ impl<R: Serialize + DeserializeOwned> Store<R> {
         })
     }
 
-    /// What is measured.
+    /// Returns the manifest of the run.
     pub fn manifest(&self) -> &RunManifest {
         &self.manifest
     }
 
-    /// The finished tasks, in order.
+    /// Returns the finished tasks, in order.
     pub fn finished(&self) -> &[Finished<R>] {
         &self.finished
     }
 
-    /// What is measured and the finished tasks; releases the folder.
+    /// Returns the manifest and the finished tasks; releases the folder.
     pub fn into_parts(self) -> (RunManifest, Vec<Finished<R>>) {
         (self.manifest, self.finished)
     }
 
-    /// Whether nothing is left to measure.
+    /// Returns `true` if all tasks are finished.
     pub fn is_complete(&self) -> bool {
         self.finished.len() == self.manifest.indices().len()
     }
 
-    /// Keeps a record as it will be read again, so that a report is the same whether or not the
-    /// run was interrupted.
+    /// Saves a record and keeps its deserialized form, so that a report does not depend on
+    /// interruptions.
     fn keep(&mut self, index: usize, measured: Measured<R>) -> Result<(), StoreError> {
         let unkept =
             |error: serde_json::Error| StoreError::Record { index, why: error.to_string() };
@@ -203,7 +204,7 @@ impl<R: Serialize + DeserializeOwned> Store<R> {
         let read: RecordLine<R> = serde_json::from_slice(&line).map_err(unkept)?;
         let times = TimesLine { index, seconds };
         if let Some((journal, file)) = &mut self.files {
-            // Times first, so that every record has some.
+            // Times are written first, so that every record has times.
             file.append(&serde_json::to_string(&times).map_err(unkept)?)?;
             journal.append([line.as_slice()])?;
         }
@@ -212,7 +213,7 @@ impl<R: Serialize + DeserializeOwned> Store<R> {
     }
 }
 
-/// Reads each line into `records`.
+/// Returns a callback that appends each parsed line to `records`.
 fn reading<R: DeserializeOwned>(
     records: &mut Vec<R>,
 ) -> impl FnMut(&[u8]) -> Result<usize, String> {

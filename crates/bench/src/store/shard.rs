@@ -1,4 +1,4 @@
-//! Which part of a benchmark a run measures.
+//! Shards of a benchmark.
 
 use std::fmt;
 use std::str::FromStr;
@@ -6,8 +6,8 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// Shard `number` of `of`: the tasks whose index leaves `number - 1` when divided by `of`, so
-/// that kinds which take turns are spread evenly.
+/// Shard `number` of `of`: the tasks whose index modulo `of` is `number - 1`, so that alternating
+/// kinds of tasks are distributed evenly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(try_from = "Numbers", into = "Numbers")]
 pub struct Shard {
@@ -15,14 +15,14 @@ pub struct Shard {
     of: usize,
 }
 
-/// Numbers that name no shard.
+/// Error of an invalid shard.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("a shard is written i/n, from 1/n to n/n with n at most {most}; `{text}` is not one", most = Shard::MOST)]
 pub struct ShardError {
     text: String,
 }
 
-/// A shard as the manifest holds it.
+/// Shard as stored in the manifest.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Numbers {
@@ -31,16 +31,16 @@ struct Numbers {
 }
 
 impl Shard {
-    /// Most shards of a run: more files than anybody wants to merge.
+    /// Maximum number of shards of a run, a bound for practical merges.
     pub const MOST: usize = 100_000;
 
-    /// The only shard of a run that is not split.
+    /// The only shard of an unsplit run.
     pub const WHOLE: Shard = Shard { number: 1, of: 1 };
 
-    /// Shard `number`, from 1, of `of`.
+    /// Returns shard `number`, from 1, of `of`.
     ///
     /// # Errors
-    /// If there is no such shard.
+    /// Returns an error if there is no such shard.
     pub fn new(number: usize, of: usize) -> Result<Self, ShardError> {
         if (1..=of).contains(&number) && of <= Self::MOST {
             Ok(Self { number, of })
@@ -49,17 +49,17 @@ impl Shard {
         }
     }
 
-    /// Its number, from 1.
+    /// Returns the shard's number, from 1.
     pub fn number(self) -> usize {
         self.number
     }
 
-    /// How many shards there are.
+    /// Returns the number of shards.
     pub fn of(self) -> usize {
         self.of
     }
 
-    /// Indices of its tasks among `count`, ascending.
+    /// Returns the indices of the shard's tasks among `count`, ascending.
     pub fn indices(self, count: usize) -> impl ExactSizeIterator<Item = usize> + Clone {
         (self.number - 1..count.max(self.number - 1)).step_by(self.of)
     }

@@ -1,4 +1,4 @@
-//! How far the shards of a run are.
+//! Progress of a run's shards.
 
 use std::path::PathBuf;
 
@@ -11,44 +11,45 @@ use super::merge::{Family, line_index};
 use super::numbers::Numbers;
 use super::shard::Shard;
 
-/// How far the shards of a run are.
+/// Progress of a run's shards.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RunStatus {
-    /// How many shards there are.
+    /// Number of shards of the run.
     pub of: usize,
-    /// Those that have a folder, in the order of the folders.
+    /// Shards with a folder, in the order of the folders.
     pub shards: Vec<ShardStatus>,
 }
 
-/// How far a shard is.
+/// Progress of a shard.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ShardStatus {
-    /// Which one.
+    /// Shard of the run.
     pub shard: Shard,
-    /// Its folder.
+    /// Folder of the shard.
     pub folder: PathBuf,
-    /// Finished tasks.
+    /// Number of finished tasks.
     pub done: usize,
-    /// Tasks that it should have.
+    /// Number of tasks of the shard.
     pub tasks: usize,
-    /// Process and host that write to it, or that were killed while they did.
+    /// Process and host that write to the folder, or that were killed while they did.
     pub writer: Option<String>,
 }
 
 impl ShardStatus {
-    /// Whether nothing is left to do.
+    /// Returns `true` if all tasks are finished.
     pub fn is_complete(&self) -> bool {
         self.done == self.tasks
     }
 }
 
 impl RunStatus {
-    /// Looks at the shards of one run. A folder that is not there, or in which nothing was begun,
-    /// is that of a missing shard. Writes nothing and needs no lock, so that it may look on while
-    /// others write.
+    /// Reads the progress of the shards of one run. A missing or empty folder belongs to a missing
+    /// shard. The function writes nothing and needs no lock, so it works while other processes
+    /// write.
     ///
     /// # Errors
-    /// If no folder holds a run, one is damaged or of another run, or a shard is there twice.
+    /// Returns an error if no folder holds a run, if one is damaged or of another run, or if a
+    /// shard is duplicated.
     pub fn of(folders: &[PathBuf]) -> Result<Self, StoreError> {
         let (mut family, mut shards) = (Family::default(), Vec::new());
         for folder in folders {
@@ -58,7 +59,7 @@ impl RunStatus {
             let mut indices = manifest.indices();
             let held = read_records(folder, &manifest, form, &mut |record| match form {
                 Form::Lines => line_index(record),
-                // Their checksums were right; what is in them is known to whoever wrote them.
+                // The checksums are valid, and the content is known only to the writer.
                 Form::Frames => Ok(indices.next().unwrap_or(manifest.tasks)),
             })?;
             shards.push(ShardStatus {
@@ -75,7 +76,7 @@ impl RunStatus {
         }
     }
 
-    /// Numbers of the shards that are not finished, ascending.
+    /// Returns the numbers of the unfinished shards, ascending.
     pub fn missing(&self) -> Vec<usize> {
         let finished = |number| {
             self.shards.iter().any(|one| one.is_complete() && one.shard.number() == number)
@@ -83,7 +84,8 @@ impl RunStatus {
         (1..=self.of).filter(|number| !finished(*number)).collect()
     }
 
-    /// The same as array jobs take them, such as `3,7-9`; empty if nothing is missing.
+    /// Returns the unfinished shards in the format of array jobs, such as `3,7-9`; empty if none is
+    /// missing.
     pub fn array(&self) -> String {
         Numbers(&self.missing()).to_string()
     }

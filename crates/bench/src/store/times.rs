@@ -1,4 +1,5 @@
-//! Wall times of a run, `times.jsonl`: apart from the records, as they differ from run to run.
+//! Wall times of a run, `times.jsonl`. They are separate from the records because they differ
+//! between runs.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
@@ -14,17 +15,17 @@ use super::error::StoreError;
 /// Name of the file.
 pub(super) const TIMES: &str = "times.jsonl";
 
-/// Wall times of a task by what they were spent on, seconds.
+/// Wall times of a task by stage, seconds.
 pub type Seconds = BTreeMap<String, f64>;
 
-/// A line of the file.
+/// Line of the file.
 #[derive(Serialize, Deserialize)]
 pub(super) struct TimesLine {
     pub index: usize,
     pub seconds: Seconds,
 }
 
-/// The file, open for appending.
+/// Time file, open for appending.
 #[derive(Debug)]
 pub(super) struct Times {
     file: File,
@@ -32,7 +33,7 @@ pub(super) struct Times {
 }
 
 impl Times {
-    /// Opens the file behind the `kept` lines; whatever else a crash left in it is dropped.
+    /// Opens the file after the `kept` lines; other content, left by a crash, is dropped.
     pub fn open(dir: &Path, kept: &[String]) -> Result<Self, StoreError> {
         let path = dir.join(TIMES);
         write_atomic(&path, kept.concat().as_bytes()).map_err(StoreError::Write)?;
@@ -49,8 +50,8 @@ impl Times {
     }
 }
 
-/// The times of a folder's run, with their lines; what cannot be read is left out, as no result
-/// depends on it.
+/// Returns the times of a folder's run, with their lines. Unreadable lines are omitted because no
+/// result depends on them.
 pub(super) fn read_times(dir: &Path) -> Result<Vec<(TimesLine, String)>, StoreError> {
     let path = dir.join(TIMES);
     let bytes = match fs::read(&path) {

@@ -1,5 +1,5 @@
-//! The first choice for a goal: the best of all chained sequences and their stops, by prediction
-//! alone, as the reference chooses.
+//! First choice for a goal: the best of all chained sequences and stops, by prediction only, as in
+//! the reference.
 
 use pushplan::{
     effect::EffectModel,
@@ -9,27 +9,27 @@ use pushplan::{
 
 use super::{execute::Action, sequences::Sequences, setup::ReferenceSetup};
 
-/// A choice, and where the cylinder is then predicted to rest.
+/// Choice with its predicted error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
-    /// What to do.
+    /// Chosen action.
     pub action: Action,
     /// Predicted distance from the goal, metres; `None` without a prediction.
     pub predicted: Option<f64>,
 }
 
-/// Stops that are rolled out to rest before the first choice is made: free sliding estimates
-/// where one rests to a millimetre, and many sequences end alike.
+/// Number of stops rolled out to rest before the first choice. Free sliding estimates the final
+/// position to a millimetre, and many sequences have similar ends.
 const LOOKED_AT: usize = 16;
 
-/// Not pushing.
+/// Returns the choice not to push.
 pub fn nothing(task: &Task) -> Choice {
     let action = Action { pose: 0, form: PushForm::Chained, pushes: Vec::new() };
     Choice { action, predicted: Some(task.goals[0].error(&task.scene.start())) }
 }
 
-/// The best action of `sequences` with one of `poses` for the goal of `task`, by where `model`
-/// predicts it to come to rest. Not pushing is one of them, so that there is always a choice.
+/// Returns the best action of `sequences` with one of `poses` for the goal of `task`, by the final
+/// position predicted by `model`. Not pushing is included, so that there is always a choice.
 pub fn first_choice(
     setup: &ReferenceSetup,
     model: &dyn EffectModel,
@@ -48,7 +48,7 @@ pub fn first_choice(
     })
 }
 
-/// Where actions are predicted to come to rest; without those that do not.
+/// Returns the predicted errors of actions; actions that do not end at rest are omitted.
 pub fn rested(
     setup: &ReferenceSetup,
     model: &dyn EffectModel,

@@ -1,4 +1,4 @@
-//! What the tool does, as executed in both engines; a choice that occurs twice is played once.
+//! Execution of tool actions in both engines; repeated choices are executed once.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -15,39 +15,39 @@ use pushplan::{
 
 use super::setup::{LIFT, ReferenceSetup};
 
-/// What the tool does: a tool pose and its pushes; without one it stands still.
+/// Tool action: a tool pose and its pushes; without pushes the tool stands still.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Action {
     /// Index of the tool pose.
     pub pose: usize,
-    /// How the pushes start.
+    /// Start rule of the pushes.
     pub form: PushForm,
-    /// In order.
+    /// Pushes in order.
     pub pushes: Vec<Push>,
 }
 
-/// Where the cylinder comes to rest.
+/// Final position of the cylinder.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Landing {
-    /// Metres.
+    /// Position, metres.
     pub at: Vector,
-    /// Whether it is at rest where it is said to be.
+    /// Whether the cylinder is at rest at this position, without failures.
     pub sound: bool,
 }
 
-/// What actions did on one scene, remembered.
+/// Results of executed actions on one scene.
 #[derive(Debug, Default)]
 pub struct Executions {
     known: HashMap<Vec<u64>, Landing>,
 }
 
 impl Action {
-    /// Travel of the tool, metres.
+    /// Returns the travel of the tool, metres.
     pub fn travel(&self) -> f64 {
         self.pushes.iter().fold(0.0, |sum, push| sum + push.length)
     }
 
-    /// The tool's motion.
+    /// Returns the motion of the tool.
     pub fn motion(&self, setup: &ReferenceSetup) -> ToolMotion {
         let tool = Arc::clone(&setup.poses[self.pose]);
         ToolMotion::pushes(tool, LIFT, 0.0, &self.pushes, self.form == PushForm::Placed)
@@ -63,8 +63,8 @@ impl Action {
 }
 
 impl Executions {
-    /// What each of `actions` does in `engine`, in their order; those not known yet are played
-    /// in parallel. The scene of `task` must be the same in every call.
+    /// Returns the results of `actions` in `engine`, in their order; new actions are executed in
+    /// parallel. The scene of `task` must be the same in every call.
     pub fn run(
         &mut self,
         setup: &ReferenceSetup,
@@ -100,7 +100,7 @@ fn play(setup: &ReferenceSetup, task: &Task, engine: Engine, action: &Action) ->
     landing(&simulator.run(scene, &job, Record::Outcome))
 }
 
-/// Where a trajectory leaves the cylinder.
+/// Returns the final position of the cylinder in a trajectory.
 fn landing(trajectory: &Trajectory) -> Landing {
     let state = trajectory.outcome();
     let sound = trajectory.warnings.iter().all(|warning| !warning.forbids_success());

@@ -1,7 +1,8 @@
-//! The goals: where the planar engine brings the cylinder with any tool pose and sequence.
+//! Goals of the benchmark: end positions of the cylinder in the 2-D engine with any tool pose and
+//! sequence.
 //!
-//! Made once and kept in `goals-*.json`, so that every run and every model meets the same tasks;
-//! [`GoalSet::make`] makes them again.
+//! The goals are stored in `goals-*.json`, so that every run and every model gets the same tasks;
+//! [`GoalSet::make`] generates them again.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -15,55 +16,55 @@ use super::{
     setup::{Layout, ReferenceSetup, STEPS},
 };
 
-/// The goals of every layout.
+/// Goals of the layouts.
 const GRID: &str = include_str!("goals-grid.json");
 const SCATTERED: &str = include_str!("goals-scattered.json");
 
-/// What the numbers of a goal file mean; raised when the layout changes.
+/// Version of the goal file format, raised when the layout changes.
 pub const GOALS_VERSION: u32 = 1;
 
-/// Goals lie farther than this from the start and from each other, metres.
+/// Minimum distance of goals from the start and from each other, metres.
 const APART: f64 = 0.05;
 
-/// Positions are kept to a micrometre: far below what anything here can tell apart.
+/// Rounding of positions to a micrometre, far below the accuracy of the benchmark.
 const DIGITS: f64 = 1e6;
 
-/// All tasks of the benchmark.
+/// Tasks of the benchmark.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GoalSet {
-    /// The version of how goals are made.
+    /// Version of the generation.
     pub version: u32,
-    /// How they were made, for a reader of the file.
+    /// Command that generated the goals, for readers of the file.
     pub made_by: String,
-    /// Start by start.
+    /// Goals by start.
     pub starts: Vec<StartGoals>,
 }
 
-/// The goals of one start.
+/// Goals of one start.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StartGoals {
-    /// Where the cylinder stands, metres.
+    /// Position of the cylinder, metres.
     pub start: [f64; 2],
-    /// The goals.
+    /// Goals.
     pub goals: Vec<GoalMade>,
 }
 
-/// A goal and what reaches it.
+/// Goal with the action that reaches it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GoalMade {
-    /// Metres.
+    /// Position, metres.
     pub at: [f64; 2],
-    /// Name of the tool pose that ends there.
+    /// Name of the tool pose.
     pub pose: String,
-    /// Its pushes.
+    /// Directions of the pushes.
     pub pushes: String,
 }
 
 impl GoalSet {
-    /// The goals that every published number is about.
+    /// Returns the shipped goals, to which all published numbers refer.
     ///
     /// # Errors
-    /// Only if the library was built around a damaged file.
+    /// Returns an error only if the library contains a damaged file.
     pub fn shipped(layout: Layout) -> Result<Self, serde_json::Error> {
         serde_json::from_str(match layout {
             Layout::Grid => GRID,
@@ -71,7 +72,7 @@ impl GoalSet {
         })
     }
 
-    /// Makes the goals of all starts.
+    /// Generates the goals of all starts.
     pub fn make(setup: &ReferenceSetup) -> Self {
         let starts = setup.starts.par_iter().map(|&start| StartGoals::make(setup, start));
         Self {
@@ -81,26 +82,27 @@ impl GoalSet {
         }
     }
 
-    /// Number of tasks.
+    /// Returns the number of tasks.
     pub fn len(&self) -> usize {
         self.starts.iter().map(|start| start.goals.len()).sum()
     }
 
-    /// Whether there are no tasks.
+    /// Returns `true` if there are no tasks.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Index of the start and the goal (metres) of task `index`, counted through all starts.
+    /// Returns the index of the start and the goal (metres) of task `index`, counted over all
+    /// starts.
     pub fn task(&self, index: usize) -> Option<(usize, Vector)> {
         let each = self.starts.iter().enumerate();
         let mut all = each.flat_map(|(k, start)| start.goals.iter().map(move |goal| (k, goal)));
         all.nth(index).map(|(start, goal)| (start, Vector::from(goal.at)))
     }
 
-    /// As a file: one goal a line.
+    /// Formats the goals as a file, one goal a line.
     pub fn to_text(&self) -> String {
-        // Numbers and texts cannot fail to be written.
+        // Serialization of numbers and texts cannot fail.
         let json = |value: serde_json::Value| value.to_string();
         let starts: Vec<String> = self
             .starts
@@ -122,9 +124,8 @@ impl GoalSet {
 }
 
 impl StartGoals {
-    /// Plays all sequences with all tool poses that can be set down, and keeps the end points
-    /// that are farther than 5 cm from the start, thinned from the last on until none is within
-    /// 5 cm of another.
+    /// Executes all sequences with all tool poses that can be set down. The end positions more than
+    /// 5 cm from the start become goals, thinned from the last on so that no two are within 5 cm.
     pub fn make(setup: &ReferenceSetup, start: Vector) -> Self {
         let task = setup.task(start, start);
         let planar = Simulated::new(Simulator::planar());
@@ -156,7 +157,7 @@ fn rounded(at: Vector) -> [f64; 2] {
     [at.x, at.y].map(|value| (value * DIGITS).round() / DIGITS + 0.0)
 }
 
-/// `+x -y +x`: the directions of a sequence.
+/// Formats the directions of a sequence: `+x -y +x`.
 fn spelled(action: &Action) -> String {
     let ways: Vec<&str> = action
         .pushes

@@ -1,4 +1,4 @@
-//! Measuring the tasks one by one; those of one start share its rollouts.
+//! Sequential measurement of the tasks; tasks of one start share its rollouts.
 
 use std::sync::Arc;
 
@@ -23,21 +23,21 @@ use super::{
     trials::Trials,
 };
 
-/// Why a task was not measured.
+/// Error of measuring a task.
 #[derive(Debug, Error)]
 pub enum ToolBenchError {
-    /// There is no such task.
+    /// Index without a task.
     #[error("there is no task {index}")]
     NoTask {
-        /// Its index.
+        /// Index of the task.
         index: usize,
     },
-    /// The planner refuses it.
+    /// Error of the planner.
     #[error(transparent)]
     Solve(#[from] SolveError),
 }
 
-/// The benchmark: goals, the model that is measured, and what tasks of the last start share.
+/// Benchmark state: goals, measured model, and shared data of the last start.
 pub struct ToolBench {
     setup: ReferenceSetup,
     goals: GoalSet,
@@ -47,27 +47,27 @@ pub struct ToolBench {
     shared: Option<Shared>,
 }
 
-/// What the tasks of one start share.
+/// Data shared by the tasks of one start.
 pub(super) struct Shared {
     /// Index of the start.
     start: usize,
     /// Indices of the poses that can be set down.
     pub free: Vec<usize>,
-    /// All sequences as the model predicts them.
+    /// Sequences predicted by the model.
     pub predicted: Sequences,
-    /// The same with the planar engine as effect model, beginnings shared.
+    /// Sequences predicted by the 2-D engine as effect model, with shared beginnings.
     pub planar: Sequences,
-    /// The same as the planar engine plays them, each whole.
+    /// Sequences executed in the 2-D engine, each from its beginning.
     pub played: Sequences,
-    /// What was executed so far.
+    /// Results of executed actions.
     pub executions: Executions,
-    /// What `predicted` took.
+    /// Time spent on `predicted`.
     pub spent: Spent,
 }
 
 impl ToolBench {
-    /// Measures `model` on `goals` of `setup` by the protocol of the reference, and `planner` as
-    /// well; `seed` is that of the random choices.
+    /// Returns a benchmark of `model` on `goals` of `setup` by the protocol of the reference, and
+    /// of `planner`; `seed` determines the random choices.
     pub fn new(
         setup: ReferenceSetup,
         goals: GoalSet,
@@ -78,16 +78,16 @@ impl ToolBench {
         Self { setup, goals, model, planner, seed, shared: None }
     }
 
-    /// Number of tasks.
+    /// Returns the number of tasks.
     pub fn tasks(&self) -> usize {
         self.goals.len()
     }
 
-    /// Measures task `index`: every method, for all tool poses together and each alone, on the
-    /// current rayon pool. Tasks of one start share its rollouts if they follow each other.
+    /// Measures task `index` on the current rayon pool: every method, for all tool poses together
+    /// and each alone. Consecutive tasks of one start share its rollouts.
     ///
     /// # Errors
-    /// What the planner refuses; an index without a task.
+    /// Returns errors of the planner, and an error for an index without a task.
     pub fn measure(&mut self, index: usize) -> Result<Measured<ToolRecord>, ToolBenchError> {
         let (start, goal) = self.goals.task(index).ok_or(ToolBenchError::NoTask { index })?;
         let task = self.setup.task(Vector::from(self.goals.starts[start].start), goal);

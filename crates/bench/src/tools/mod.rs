@@ -1,10 +1,9 @@
-//! The reference tool benchmark: which tool, which pushes and where to stop, so that a cylinder
-//! ends at a goal.
+//! The reference tool benchmark: choice of tool, pushes and stop that bring a cylinder to a goal.
 //!
-//! The reference chooses among all chained sequences and stops by prediction alone; that protocol
-//! stands in `sequences` and `choose` on nothing but an effect model, because it measures a model
-//! and is not a way to plan. Other rows show what the planner makes of the same goals with the same
-//! tool poses, through [`pushplan::solve::Planner::solve`].
+//! The reference chooses among all chained sequences and stops by prediction only. `sequences` and
+//! `choose` implement this protocol on top of an effect model alone, because it measures a model
+//! and is not a planner. Other rows show the results of the planner for the same goals and tool
+//! poses, through [`pushplan::solve::Planner::solve`].
 
 mod choose;
 mod execute;

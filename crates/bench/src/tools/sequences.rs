@@ -1,18 +1,17 @@
 //! The reference protocol: all chained sequences of pushes of a task, each with every stop.
 //!
-//! The pushes start from a fixed home and one goes on where the last ended; the tool may stop after
-//! any of a number of equal steps. This is not a planner, and nothing here plans like it: it is how
-//! the reference chooses, so its rows say what a *model* is worth. It needs nothing but an
-//! [`EffectModel`].
+//! The pushes start from a fixed home, and each continues from the end of the last one. The tool
+//! may stop after any of a number of equal steps. This is not a planner but the selection of the
+//! reference, so its rows evaluate a *model*. It needs only an [`EffectModel`].
 //!
-//! Sequences that begin alike share their beginning: for t tool poses and d directions, t (d +
-//! d^2 + d^3) pushes are rolled out for three-push sequences and not 3 t d^3. For an effect
-//! model whose state is poses and velocities alone this is exact: going on from the state kept
-//! at the end of a push is the same computation as never having paused there. A simulator also
-//! remembers contact forces, so its sequences can be played whole instead.
+//! Sequences with a common beginning share it. For t tool poses and d directions, three-push
+//! sequences need t (d + d^2 + d^3) rolled-out pushes instead of 3 t d^3. This is exact for an
+//! effect model whose state consists of poses and velocities only, because resuming from the state
+//! at the end of a push is the same computation. A simulator also has contact forces as state, so
+//! its sequences can be executed from their beginnings instead.
 //!
-//! Where the cylinder comes to rest after a stop is estimated by free sliding, which ranks the
-//! stops; whatever acts on one rolls it out.
+//! The final position of the cylinder after a stop is estimated by free sliding, which ranks the
+//! stops; users of a stop roll it out.
 
 use pushplan::{
     effect::EffectModel,
@@ -24,30 +23,30 @@ use pushplan::{
 
 use super::{execute::Action, setup::ReferenceSetup};
 
-/// All chained sequences of up to the task's number of pushes, for some tool poses.
+/// Chained sequences of up to the task's number of pushes, for some tool poses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sequences {
     situation: Situation,
     /// Index of the goal object.
     object: usize,
-    /// Equal steps of a push after each of which the tool may stop.
+    /// Number of equal steps of a push, after each of which the tool may stop.
     steps: usize,
-    /// Level by level; a sequence of pushes is the way from a root to a branch.
+    /// Pushes, level by level; a sequence is the path from a root to a branch.
     branches: Vec<Branch>,
 }
 
-/// The last push of a sequence.
+/// Last push of a sequence.
 #[derive(Clone, Debug, PartialEq)]
 struct Branch {
     /// Index of the tool pose.
     pose: usize,
     before: Option<usize>,
     push: Push,
-    /// Where the goal object would come to rest had the tool stopped after each step.
+    /// Final pose of the goal object for a stop after each step.
     rests: Vec<Pose>,
 }
 
-/// A state from which sequences go on.
+/// State from which sequences continue.
 struct Node {
     pose: usize,
     branch: Option<usize>,
@@ -55,7 +54,7 @@ struct Node {
     end: Vector,
 }
 
-/// What is rolled out, and by which model.
+/// Tasks and model of the rollouts.
 #[derive(Clone, Copy)]
 pub struct Rolling<'a> {
     pub setup: &'a ReferenceSetup,
@@ -63,12 +62,12 @@ pub struct Rolling<'a> {
     pub model: &'a dyn EffectModel,
     /// Indices of the tool poses.
     pub poses: &'a [usize],
-    /// Equal steps of a push after each of which the tool may stop.
+    /// Number of equal steps of a push, after each of which the tool may stop.
     pub steps: usize,
 }
 
 impl Rolling<'_> {
-    /// Rolls out all sequences, each beginning once.
+    /// Rolls out all sequences, each common beginning once.
     pub fn shared(&self) -> Sequences {
         let mut sequences = self.none();
         let (start, home) = (&sequences.situation.start, self.task.robot.home);
@@ -111,8 +110,8 @@ impl Rolling<'_> {
         sequences
     }
 
-    /// The same, every sequence of the greatest length played from its beginning to rest: exact
-    /// for any model, and 3 d^3 / (d + d^2 + d^3) times as costly for three pushes.
+    /// Executes every sequence of maximum length from its beginning to rest. This is exact for any
+    /// model, and 3 d^3 / (d + d^2 + d^3) times as expensive as [`Self::shared`] for three pushes.
     pub fn whole(&self) -> Sequences {
         let mut sequences = self.none();
         let count = self.task.pushes.max_count as u32;
@@ -136,7 +135,7 @@ impl Rolling<'_> {
         let trajectories = self.roll(&sequences.situation, &jobs);
         let mut before: Vec<Option<usize>> = vec![None; jobs.len()];
         for level in 0..count {
-            // Sequences that begin alike are the same up to there: the first stands for all.
+            // Sequences with a common beginning are equal up to there, so the first represents all.
             let alike = ways.len().pow(count - 1 - level);
             for first in (0..jobs.len()).step_by(alike) {
                 let states = states(&trajectories[first], level as usize);
@@ -177,8 +176,9 @@ impl Rolling<'_> {
 }
 
 impl Sequences {
-    /// The best stop of every sequence and of every beginning of one, the best `count` of them,
-    /// best first, with its score by the estimate of where gliding ends. Only these tool poses.
+    /// Returns the best `count` sequences, best first, each with its best stop and its score by the
+    /// estimated final position. Beginnings of sequences are included, and only the given tool
+    /// poses are considered.
     pub fn best(&self, goal: &Goal, count: usize, poses: &[usize]) -> Vec<(f64, Action)> {
         let mut state = self.situation.start.clone();
         let mut scored: Vec<(f64, usize, usize)> = Vec::with_capacity(self.branches.len());
@@ -198,14 +198,14 @@ impl Sequences {
                 scored.push(best);
             }
         }
-        // Stable, so that of equal ones the shortest sequence comes first.
+        // The sort is stable, so that among equal ones the shortest sequence comes first.
         scored.sort_by(|a, b| a.0.total_cmp(&b.0));
         scored.truncate(count);
         scored.into_iter().map(|(score, branch, step)| (score, self.action(branch, step))).collect()
     }
 
-    /// Where every whole sequence of the greatest length leaves the goal object, pose by pose
-    /// and in the order of directions, the last push changing fastest.
+    /// Returns the final position of the goal object for every sequence of maximum length. The
+    /// order is by pose, then by direction, with the last push varying fastest.
     pub fn ends(&self) -> impl Iterator<Item = (Action, Vector)> {
         let deepest = (0..self.branches.len()).map(|k| self.way(k).count()).max().unwrap_or(0);
         let whole = (0..self.branches.len()).filter(move |&k| self.way(k).count() == deepest);
@@ -216,7 +216,7 @@ impl Sequences {
         })
     }
 
-    /// The sequence that ends with `branch`, cut after its step number `step` (from 0).
+    /// Returns the sequence that ends with `branch`, cut after its step number `step` (from 0).
     fn action(&self, branch: usize, step: usize) -> Action {
         let mut pushes: Vec<Push> = self.way(branch).map(|k| self.branches[k].push).collect();
         pushes.reverse();
@@ -226,7 +226,7 @@ impl Sequences {
         chained(self.branches[branch].pose, pushes)
     }
 
-    /// From `branch` back to its root.
+    /// Iterates from `branch` back to its root.
     fn way(&self, branch: usize) -> impl Iterator<Item = usize> {
         std::iter::successors(Some(branch), |&k| self.branches[k].before)
     }
@@ -236,19 +236,19 @@ fn chained(pose: usize, pushes: Vec<Push>) -> Action {
     Action { pose, form: PushForm::Chained, pushes }
 }
 
-/// What one push of a sequence did, frame by frame.
+/// States during one push of a sequence, frame by frame.
 struct Played<'a> {
-    /// The state before the push, then after every frame.
+    /// State before the push, then after every frame.
     states: &'a [&'a State],
-    /// Frames in which the tool moves.
+    /// Number of frames in which the tool moves.
     moving: usize,
-    /// Whether the states go on until rest.
+    /// Whether the states continue until rest.
     settled: bool,
 }
 
 impl Played<'_> {
-    /// Where the object rests if the tool stops after each of `steps` equal steps; fewer where
-    /// the rollout broke off. Between two frames the state is interpolated.
+    /// Returns the final pose of the object for a stop after each of `steps` equal steps; fewer if
+    /// the rollout ended early. Between two frames the state is interpolated.
     fn rests(&self, sequences: &Sequences) -> Vec<Pose> {
         let Sequences { situation, object, steps, .. } = sequences;
         let (object, steps) = (*object, *steps);
@@ -270,7 +270,7 @@ impl Played<'_> {
     }
 }
 
-/// The states of a stroke: the one before it and those after its frames.
+/// Returns the states of a stroke: before it and after each of its frames.
 fn states(trajectory: &Trajectory, stroke: usize) -> Vec<&State> {
     let frames = &trajectory.frames;
     let first = frames.iter().skip(1).position(|frame| frame.stroke == stroke);
@@ -279,7 +279,7 @@ fn states(trajectory: &Trajectory, stroke: usize) -> Vec<&State> {
     std::iter::once(&frames[first]).chain(own).map(|frame| &frame.state).collect()
 }
 
-/// The state at the share `t` of the way from `a` to `b`, poses and velocities linear.
+/// Interpolates poses and velocities linearly, at the share `t` of the way from `a` to `b`.
 fn between(a: &State, b: &State, t: f64) -> State {
     let mut state = a.clone();
     for (pose, to) in state.poses.iter_mut().zip(&b.poses) {

@@ -1,9 +1,9 @@
 //! The reference layout: tools of four cuboids in seven poses, and one cylinder at 24 starts.
 //!
-//! After the tool experiments of Tekden et al. 2021 ("Object and relation centric
-//! representations for push effect prediction", arXiv 2102.02100). Their robot's hand can touch
-//! the cylinder too; ours holds the tool without a hand. They state no masses and frictions:
-//! those here are of a kitchen object on a wooden table.
+//! The layout follows the tool experiments of Tekden et al. 2021 ("Object and relation centric
+//! representations for push effect prediction", arXiv 2102.02100). Their robot's hand can also
+//! touch the cylinder; ours holds the tool without a hand. They state no masses and frictions; the
+//! values here are typical of a kitchen object on a wooden table.
 
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ use pushplan::{
     task::{Goal, PushForm, PushRules, Task},
 };
 
-/// Stops are offered after this many equal steps of a push: 5 mm each.
+/// Number of equal steps of a push after which stops are offered: 5 mm each.
 pub const STEPS: usize = 40;
 
 /// Travel of a push, metres.
@@ -27,24 +27,24 @@ pub const TRAVEL: f64 = 0.20;
 /// Speed of a push, m/s.
 pub const SPEED: f64 = 0.10;
 
-/// Pushes of a sequence.
+/// Number of pushes of a sequence.
 pub const PUSHES: usize = 3;
 
-/// A task counts as solved within this, metres; the second, coarser mark is [`COARSE`].
+/// Error below which a task counts as solved, metres; the second, coarser threshold is [`COARSE`].
 pub const FINE: f64 = 0.05;
 
-/// The coarser mark, metres.
+/// Coarser error threshold, metres.
 pub const COARSE: f64 = 0.10;
 
-/// A tool pose is skipped for a start that its parts overlap when grown by this, metres.
+/// Growth of the tool's parts in the check that a tool pose is free at a start, metres.
 const GROWN: f64 = 0.025;
 
-/// Height of the tools' underside above the table, metres: parts 0.05 m high with their centres
+/// Height of the tools' underside above the table, metres: parts are 0.05 m high with their centres
 /// 0.05 m above the table.
 pub const LIFT: f64 = 0.025;
 
-/// The starts: four along x and six along y, ends included, over 0.6 x 1.0 m centred 0.425 m in
-/// front of the end effector.
+/// Grid of the starts: four along x and six along y, ends included, over 0.6 x 1.0 m, centred 0.425
+/// m in front of the end effector.
 const GRID: (usize, usize) = (4, 6);
 const GRID_CENTRE: f64 = 0.425;
 const GRID_SIZE: (f64, f64) = (0.6, 1.0);
@@ -55,26 +55,26 @@ const CELL_HALF: f64 = 0.1;
 /// Seed of the scattered starts.
 const SCATTER_SEED: u64 = 7;
 
-/// The tool poses: index into [`reference_tools`], turns of 90 degrees.
+/// Tool poses: index into [`reference_tools`], and rotation in units of 90 degrees.
 const POSES: [(usize, i8); 7] = [(0, 0), (0, -1), (0, 1), (1, 0), (1, -1), (2, 0), (2, 1)];
 
-/// Where the cylinder starts.
+/// Layout of the cylinder's starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Layout {
-    /// On the grid of the reference. Grid, tools and pushes fit together so well that flat faces
-    /// push the cylinder through its centre nearly always.
+    /// Grid of the reference. Grid, tools and pushes are aligned, so that flat faces nearly always
+    /// push the cylinder through its centre.
     Grid,
-    /// Each start moved at random within its own cell of the grid, so that corners and edges
-    /// meet the cylinder too.
+    /// Starts displaced at random within their own grid cells, so that corners and edges touch the
+    /// cylinder too.
     Scattered,
 }
 
 impl Layout {
-    /// Both.
+    /// Both layouts.
     pub const ALL: [Layout; 2] = [Layout::Grid, Layout::Scattered];
 
-    /// Start number `index` of the grid as this layout has it, to a millimetre.
+    /// Returns start number `index` of the grid in this layout, rounded to a millimetre.
     fn place(self, start: Vector, index: usize) -> Vector {
         match self {
             Layout::Grid => start,
@@ -90,21 +90,21 @@ impl Layout {
 /// Tool poses and starts.
 #[derive(Clone, Debug)]
 pub struct ReferenceSetup {
-    /// The seven tool poses, each as a tool of its own that is held without turning it: stick, L
-    /// and inverse L. They are named `stick -90`, with the turn in degrees.
+    /// Tool poses, each as a separate tool that is held without rotation: stick, L and inverse L.
+    /// They are named `stick -90`, with the rotation in degrees.
     pub poses: Vec<Arc<Tool>>,
     /// Positions of the cylinder, metres.
     pub starts: Vec<Vector>,
 }
 
 impl ReferenceSetup {
-    /// Tools, poses and the starts of a layout.
+    /// Returns the tools, poses and starts of a layout.
     pub fn new(layout: Layout) -> Self {
         let tools = reference_tools();
         let posed = |&(tool, quarters): &(usize, i8)| {
             let tool: &Tool = &tools[tool];
             let name = format!("{} {}", tool.name, i32::from(quarters) * 90);
-            // The end effector's pose in the tool frame: the tool is turned the other way.
+            // This is the pose of the end effector in the tool frame, so the rotation is inverted.
             let grip = Pose::new(0.0, 0.0, -f64::from(quarters) * FRAC_PI_2);
             Arc::new(tool.clone().named(name).held_at(grip))
         };
@@ -121,11 +121,11 @@ impl ReferenceSetup {
         Self { poses, starts }
     }
 
-    /// The task of bringing the cylinder from `start` to `goal` (metres) by chained pushes.
+    /// Returns the task of bringing the cylinder from `start` to `goal` (metres) by chained pushes.
     pub fn task(&self, start: Vector, goal: Vector) -> Task {
         let cylinder = Object::cylinder("cylinder", 0.05, 0.10).mass(0.5);
         let scene = Scene::new([cylinder.at(start.x, start.y, 0.0)]);
-        // The end effector stays within what chained sequences need.
+        // The end effector stays within the range of chained sequences.
         let robot = Robot::reaching(0.0, PUSHES as f64 * TRAVEL).without_body();
         Task::new("reference", scene, robot, Goal::new(0, goal.into(), FINE)).pushing(PushRules {
             form: PushForm::Chained,
@@ -138,7 +138,7 @@ impl ReferenceSetup {
         })
     }
 
-    /// Indices of the poses that can be set down with the cylinder at `start`.
+    /// Returns the indices of the poses that can be set down with the cylinder at `start`.
     pub fn free_poses(&self, start: Vector) -> Vec<usize> {
         let task = self.task(start, start);
         let cylinder = &task.scene.objects[0];
@@ -153,14 +153,15 @@ impl ReferenceSetup {
         (0..self.poses.len()).filter(|&k| !overlaps(&self.poses[k])).collect()
     }
 
-    /// Index of the tool pose called `name`.
+    /// Returns the index of the tool pose called `name`.
     pub fn pose(&self, name: &str) -> Option<usize> {
         self.poses.iter().position(|pose| pose.name == name)
     }
 }
 
-/// Three cuboids of 0.14 x 0.08 m in a row, centres at 0.12, 0.26 and 0.40 m from the end
-/// effector, and a fourth: another in the row at 0.54 m, or a head of 0.16 x 0.08 m across.
+/// Returns the reference tools: three cuboids of 0.14 x 0.08 m in a row, centres at 0.12, 0.26 and
+/// 0.40 m from the end effector, and a fourth. The fourth is another in the row at 0.54 m, or a
+/// head of 0.16 x 0.08 m across.
 fn reference_tools() -> Vec<Tool> {
     let handle =
         |name: &str, x: f64| Part::cuboid(name, [0.14, 0.08, 0.05], Pose::new(x, 0.0, 0.0));

@@ -1,9 +1,8 @@
-//! The earlier form of the benchmark: one push of 20 cm, start and goal at random.
+//! The single-push benchmark: one push of 20 cm, with random start and goal.
 //!
-//! The cylinder stands anywhere in 3 m^2 in front of the robot (1.5 m deep, 2 m wide), the goal
-//! lies anywhere in 16 m^2 around it (a square of 4 m), and a task is solved within 10 cm. Most
-//! of these tasks have no solution, so the count of those that have one stands next to the
-//! successes.
+//! The cylinder stands anywhere in 3 m^2 in front of the robot (1.5 m deep, 2 m wide). The goal
+//! lies anywhere in 16 m^2 around it (a square of 4 m), and a task is solved within 10 cm. Most of
+//! these tasks have no solution, so the number of solvable tasks is reported with the successes.
 
 use rand::Rng;
 use rayon::prelude::*;
@@ -25,19 +24,19 @@ use super::{
     setup::{COARSE, Layout, ReferenceSetup, TRAVEL},
 };
 
-/// Depth and width of the place where the cylinder stands, and the goal's square, metres.
+/// Depth and width of the area of starts, and side of the goal's square, metres.
 const DEPTH: f64 = 1.5;
 const WIDTH: f64 = 2.0;
 const SQUARE: f64 = 4.0;
 
-/// No push of 20 cm at this speed moves the cylinder farther than its own travel and this,
-/// metres: it glides for two millimetres.
+/// Bound on the cylinder's displacement beyond the travel of a push, metres; the measured value at
+/// this speed is two millimetres.
 const GLIDE: f64 = 0.05;
 
-/// Distinguishes these tasks from other uses of a seed.
+/// Salt that separates these tasks from other uses of a seed.
 const SALT: u64 = 0x0051;
 
-/// The earlier form, all tasks of a seed.
+/// Result of the single-push benchmark for all tasks of a seed.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SinglePushes {
     /// Name of the effect model.
@@ -46,23 +45,23 @@ pub struct SinglePushes {
     pub seed: u64,
     /// Number of tasks.
     pub tasks: usize,
-    /// Tasks whose goal is near enough that a push could matter.
+    /// Number of tasks whose goal is within reach of a push.
     pub near: usize,
-    /// Tasks that are solved without pushing.
+    /// Number of tasks that are solved without pushing.
     pub nothing: usize,
-    /// Tasks that some push, or none, solves in the planar engine.
+    /// Number of tasks that some push, or none, solves in the 2-D engine.
     pub solvable: usize,
-    /// Tasks that the model predicts to solve.
+    /// Number of tasks that the model predicts to solve.
     pub predicted: usize,
-    /// Tasks that the model's choice solves in the planar engine.
+    /// Number of tasks that the model's choice solves in the 2-D engine.
     pub planar: usize,
-    /// Tasks that the model's choice solves in the 3-D engine.
+    /// Number of tasks that the model's choice solves in the 3-D engine.
     pub spatial: usize,
-    /// Solvable tasks that the model's choice does not solve in the planar engine.
+    /// Number of solvable tasks that the model's choice does not solve in the 2-D engine.
     pub missed: usize,
 }
 
-/// The result of one task, in the order of [`SinglePushes`].
+/// Result of one task, in the order of [`SinglePushes`].
 struct One {
     nothing: bool,
     solvable: bool,
@@ -71,7 +70,7 @@ struct One {
     spatial: bool,
 }
 
-/// Tries `tasks` random tasks of `seed` with `model`, in parallel on the current rayon pool.
+/// Measures `tasks` random tasks of `seed` with `model`, in parallel on the current rayon pool.
 pub fn single_pushes(model: &dyn EffectModel, seed: u64, tasks: usize) -> SinglePushes {
     let setup = ReferenceSetup::new(Layout::Grid);
     let done: Vec<Option<One>> =
@@ -92,7 +91,7 @@ pub fn single_pushes(model: &dyn EffectModel, seed: u64, tasks: usize) -> Single
     }
 }
 
-/// One task; `None` where the goal is out of reach of any push.
+/// Measures one task; returns `None` if the goal is out of reach of any push.
 fn one(setup: &ReferenceSetup, model: &dyn EffectModel, seed: u64, index: usize) -> Option<One> {
     let mut random = generator(seed ^ SALT, index as u64);
     let mut within = |low: f64, size: f64| low + size * random.random::<f64>();
@@ -126,8 +125,8 @@ fn one(setup: &ReferenceSetup, model: &dyn EffectModel, seed: u64, index: usize)
     })
 }
 
-/// The whole push that `model` predicts to end nearest to the goal, and how near; `None` where
-/// not pushing is nearest.
+/// Returns the whole push that `model` predicts to end nearest to the goal, and its error; `None`
+/// if not pushing is nearest.
 fn choose(setup: &ReferenceSetup, model: &dyn EffectModel, task: &Task) -> Option<(Action, f64)> {
     let goal = &task.goals[0];
     let start = task.scene.objects[goal.object].pose.position;

@@ -1,24 +1,24 @@
-//! What a piece of work costs: wall time, and processor time where one thread does it all.
+//! Cost of computations: wall time, and processor time of single-threaded work.
 
 use std::time::Instant;
 
 use super::super::cpu_clock::thread_time;
 
-/// Ends the names of processor times.
+/// Suffix of the names of processor times.
 pub const PROCESSOR: &str = "_processor";
 
 /// Time spent, seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Spent {
-    /// On the wall.
+    /// Wall time.
     pub wall: f64,
-    /// On the processor, if the present pool has one thread and the system tells: other work on
-    /// the machine does not count.
+    /// Processor time, if the current pool has one thread and the system reports it. It does not
+    /// include other work on the machine.
     pub processor: Option<f64>,
 }
 
 impl Spent {
-    /// Does `work` and says what it took.
+    /// Runs `work` and returns its result and cost.
     pub fn on<T>(work: impl FnOnce() -> T) -> (T, Self) {
         let alone = rayon::current_num_threads() == 1;
         let (before, began) = (thread_time().filter(|_| alone), Instant::now());
@@ -30,8 +30,8 @@ impl Spent {
         (done, Self { wall, processor })
     }
 
-    /// This on top of what was spent before; the processor's time only if it was always known,
-    /// or nothing was spent before.
+    /// Adds the cost spent before. The processor time is known only if both are known, or nothing
+    /// was spent before.
     pub fn after(self, before: Self) -> Self {
         let known = before.processor.or((before.wall == 0.0).then_some(0.0));
         let processor = self.processor.and_then(|time| Some(time + known?));

@@ -9,41 +9,41 @@ use super::{
     setup::{COARSE, FINE, ReferenceSetup},
 };
 
-/// How one engine ended.
+/// Results in one engine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EngineErrors {
     /// Distances from the goal, metres.
     pub errors: Option<Summary>,
-    /// Tasks that ended within 5 cm.
+    /// Number of tasks that ended within 5 cm.
     pub fine: usize,
-    /// Tasks that ended within 10 cm.
+    /// Number of tasks that ended within 10 cm.
     pub coarse: usize,
 }
 
-/// One method over all tasks.
+/// Results of one method over all tasks.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ToolRow {
-    /// Who chose.
+    /// Method of the choice.
     pub method: Method,
-    /// The tool pose that it had to take; `None` where it could choose among all.
+    /// Prescribed tool pose; `None` for a free choice.
     pub pose: Option<String>,
     /// Number of tasks.
     pub tasks: usize,
     /// Predicted distances from the goal, metres.
     pub predicted: Option<Summary>,
-    /// In the planar engine.
+    /// Results in the 2-D engine.
     pub planar: EngineErrors,
-    /// In the 3-D engine.
+    /// Results in the 3-D engine.
     pub spatial: EngineErrors,
-    /// Pushes of a plan, on average.
+    /// Mean number of pushes of a plan.
     pub pushes: f64,
-    /// Travel of the tool in a plan, metres, on average.
+    /// Mean travel of the tool in a plan, metres.
     pub travel: f64,
-    /// Plans replayed a task, on average, where any are.
+    /// Mean number of plans replayed per task, if any are.
     pub attempts: Option<f64>,
 }
 
-/// The rows of all methods: all tool poses first, then each alone.
+/// Returns the rows of all methods: all tool poses first, then each alone.
 pub fn summarise(setup: &ReferenceSetup, records: &[&ToolRecord]) -> Vec<ToolRow> {
     let poses = std::iter::once(None).chain((0..setup.poses.len()).map(Some));
     poses
@@ -90,7 +90,7 @@ fn engine<'a>(executed: impl Iterator<Item = &'a Executed> + Clone) -> EngineErr
 mod tests {
     use super::*;
 
-    /// A record with one choice of one method, which ends `error` metres from the goal.
+    /// Returns a record with one choice of one method, which ends `error` metres from the goal.
     fn record(error: f64, sound: bool, attempts: Option<usize>) -> ToolRecord {
         let executed = Executed { error, sound };
         let trial = ToolTrial {

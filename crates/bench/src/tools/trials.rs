@@ -1,5 +1,5 @@
-//! Every method on one task, with all tool poses or one alone: choose, then execute in both
-//! engines.
+//! Trials of every method on one task, with all tool poses or one alone: choose, then execute in
+//! both engines.
 
 use std::sync::Arc;
 
@@ -26,27 +26,27 @@ use super::{
     spent::{PROCESSOR, Spent},
 };
 
-/// The best stops that the oracle plays to rest: which of them is best an estimate of where
-/// gliding ends cannot tell to the last millimetre.
+/// Number of best stops that the oracle executes to rest, because the estimate of the final
+/// position does not rank them to the millimetre.
 const ORACLE: usize = 16;
 
-/// Ways round the circle that the planner's search tries: refinement turns pushes by more than
-/// half their spacing.
+/// Number of directions of the planner's search; refinement rotates pushes by more than half their
+/// spacing.
 const WAYS: usize = 8;
 
-/// Distinguishes the random choices from other uses of a seed.
+/// Salt that separates the random choices from other uses of a seed.
 const SALT: u64 = 0x7001;
 
-/// One task with some of the tool poses.
+/// Trials of one task with some of the tool poses.
 pub(super) struct Trials<'a> {
     setup: &'a ReferenceSetup,
     model: &'a dyn EffectModel,
     planner: &'a Planner,
     task: &'a Task,
     shared: &'a mut Shared,
-    /// The pose that must be taken, if it is not all.
+    /// Prescribed pose, if any.
     pose: Option<usize>,
-    /// Those of them that can be set down at home.
+    /// Allowed poses that can be set down at home.
     poses: Vec<usize>,
 }
 
@@ -63,11 +63,11 @@ impl<'a> Trials<'a> {
         Self { setup, model, planner, task, shared, pose, poses }
     }
 
-    /// Every method. The random choice is the draw number `draw.1` of seed `draw.0`; wall times
-    /// go to `seconds`, where they are wanted.
+    /// Runs every method. The random choice is draw number `draw.1` of seed `draw.0`; wall times
+    /// are added to `seconds`, if given.
     ///
     /// # Errors
-    /// What the planner refuses.
+    /// Returns errors of the planner.
     pub fn run(
         &mut self,
         draw: (u64, u64),
@@ -121,7 +121,7 @@ impl<'a> Trials<'a> {
         self.shared.executions.run(self.setup, self.task, engine, actions)
     }
 
-    /// The wanted position, metres.
+    /// Returns the goal position, metres.
     fn wanted(&self) -> Vector {
         self.task.goals[0].position().unwrap_or_default()
     }
@@ -131,8 +131,8 @@ impl<'a> Trials<'a> {
         Executed { error, sound: landing.sound }
     }
 
-    /// The planner's solution with these tool poses. Its pushes are placed, so that a pose need
-    /// not be free at home.
+    /// Returns the planner's solution with these tool poses. Its pushes are placed, so that a pose
+    /// need not be free at home.
     fn plan(&self) -> Result<Solution, SolveError> {
         let mut task = self.task.clone();
         task.pushes.form = PushForm::Placed;
@@ -145,7 +145,7 @@ impl<'a> Trials<'a> {
         self.planner.solve(&task, &library)
     }
 
-    /// What the planner would do.
+    /// Returns the choice of the planner.
     fn planned(&self, solution: &Solution) -> Option<Choice> {
         let best = solution.best()?;
         let pose = self.setup.pose(best.plan.tool())?;
@@ -154,9 +154,10 @@ impl<'a> Trials<'a> {
         Some(Choice { action, predicted: Some(best.outcome.error()) })
     }
 
-    /// A sequence and a stop, all equally likely; `None` if no pose can be set down.
+    /// Returns a random sequence and stop, uniformly distributed; `None` if no pose can be set
+    /// down.
     fn random(&self, (seed, index): (u64, u64)) -> Option<Choice> {
-        // Another stream for every set of poses.
+        // Each set of poses has its own random stream.
         let stream = self.poses.iter().fold(0u64, |bits, pose| bits | 1 << pose);
         let mut random = generator(seed ^ SALT ^ (stream << 32), index);
         let pose = *self.poses.get(random.random_range(0..self.poses.len().max(1)))?;
@@ -179,12 +180,12 @@ impl<'a> Trials<'a> {
         Some(Choice { action, predicted: None })
     }
 
-    /// The best of the stops that the planar engine brings nearest, as played.
+    /// Returns the best executed choice among the stops nearest to the goal in the 2-D engine.
     fn oracle(&mut self) -> Choice {
         let best = self.shared.played.best(&self.task.goals[0], ORACLE, &self.poses);
         let still = nothing(self.task).action;
         let best = best.into_iter().map(|(_, action)| action);
-        // Stops are ranked by an estimate, the ends of whole sequences are known.
+        // Stops are ranked by an estimate, but the ends of whole sequences are known.
         let goal = self.wanted();
         let ends =
             self.shared.played.ends().filter(|(action, _)| self.poses.contains(&action.pose));
@@ -201,14 +202,13 @@ impl<'a> Trials<'a> {
     }
 }
 
-/// Keeps the times of a task, where they are wanted: wall time, and the processor's where a
-/// single thread does all the work.
+/// Collector of a task's times, if wanted: wall time, and processor time of single-threaded work.
 struct Stopwatch<'a> {
     seconds: Option<&'a mut Seconds>,
 }
 
 impl Stopwatch<'_> {
-    /// What `work` takes on top of `before`.
+    /// Runs `work` and records its cost in addition to `before`.
     fn time<T>(&mut self, what: &str, before: Spent, work: impl FnOnce() -> T) -> T {
         let (done, spent) = Spent::on(work);
         if let Some(seconds) = &mut self.seconds {

@@ -1,4 +1,4 @@
-//! What every benchmark takes.
+//! Common arguments of all benchmarks.
 
 use std::sync::Arc;
 
@@ -25,29 +25,29 @@ pub struct Common {
 }
 
 impl Common {
-    /// The models that are asked for, or else those of the effort.
+    /// Returns the given models, otherwise the models of the effort.
     pub fn models(&self, effort: Effort) -> Models {
         self.model.clone().unwrap_or_else(|| effort.models())
     }
 
-    /// The model that is asked for, or else the network, used only where it can be trusted.
+    /// Loads the given model, otherwise the network, used only within its range.
     ///
     /// # Errors
-    /// Those of [`model::load`].
+    /// Returns the errors of [`model::load`].
     pub fn load_model(&self) -> Result<Arc<dyn EffectModel>, CliError> {
         self.outside.load(&self.model_or_network())
     }
 
-    /// A planner with the models that are asked for, or else those of the effort.
+    /// Returns a planner with the given models, otherwise with the models of the effort.
     ///
     /// # Errors
-    /// Weights that cannot be used.
+    /// Returns an error if the weights cannot be used.
     pub fn planner(&self, effort: Effort) -> Result<PlannerBuilder, CliError> {
         let planner = Planner::with_models(&self.models(effort))?;
         Ok(planner.effort(effort).outside(self.outside.outside()))
     }
 
-    /// The model that is asked for, or else the network: where nothing is planned.
+    /// Returns the given model, otherwise the network, for commands that do not plan.
     pub fn model_or_network(&self) -> ModelSpec {
         self.model.clone().map_or(ModelKind::NETWORK.into(), |models| models.decided)
     }

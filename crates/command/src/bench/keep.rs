@@ -1,4 +1,4 @@
-//! Benchmarks that are kept in a folder: resumed, and measured in parts.
+//! Benchmarks saved in a folder, which can be resumed and split.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -13,11 +13,11 @@ use pushplan::scene::{ModelSpec, Tool};
 use pushplan_bench::store::{Measured, RunManifest, Shard, Store, StoreError, digest};
 use pushplan_report::Document;
 
-/// Names of the files that a report leaves next to the records.
+/// Names of the report files next to the records.
 const PAGE: &str = "report.html";
 const ROWS: &str = "tasks.csv";
 
-/// The section of `--help` for benchmarks that are kept.
+/// Section of `--help` for saved benchmarks.
 pub const HELP: &str = "With --out every finished task is kept as soon as those before it are: \
 after an interruption (Ctrl-C) the same command goes on.
 manifest.json and records.jsonl are then the same bytes as without interruption; times.jsonl holds
@@ -37,15 +37,15 @@ pub struct KeepArgs {
 }
 
 impl KeepArgs {
-    /// Indices of the tasks that this part of a run measures, of `count`.
+    /// Returns the indices of the tasks that this part of a run measures, of `count`.
     pub fn indices(&self, count: usize) -> impl ExactSizeIterator<Item = usize> {
         self.shard.unwrap_or(Shard::WHOLE).indices(count)
     }
 
-    /// Measures what is left of a run, following it on stderr.
+    /// Measures the remaining tasks of a run, with progress on stderr.
     ///
     /// # Errors
-    /// What [`Store::open`] and `measure` refuse, and an interruption.
+    /// Returns the errors of [`Store::open`] and `measure`, and an interruption.
     pub fn measure<R: Serialize + DeserializeOwned>(
         &self,
         session: &Session,
@@ -55,10 +55,10 @@ impl KeepArgs {
         self.kept(session, manifest, |store, following| store.run(following, measure))
     }
 
-    /// The same with one task on each of the session's threads, which share no work.
+    /// Measures the remaining tasks, one on each of the session's threads, without shared work.
     ///
     /// # Errors
-    /// What [`Store::open`] refuses, and an interruption.
+    /// Returns the errors of [`Store::open`], and an interruption.
     pub fn measure_side_by_side<R: Serialize + DeserializeOwned + Send>(
         &self,
         session: &Session,
@@ -99,10 +99,10 @@ impl KeepArgs {
     }
 }
 
-/// Prints a report, and writes its page and rows into the folder of a run, if there is one.
+/// Prints a report, and writes its page and rows into the folder of a run, if any.
 ///
 /// # Errors
-/// If that cannot be written.
+/// Returns an error if the report cannot be written.
 pub fn show(
     form: Form,
     session: &Session,
@@ -116,10 +116,10 @@ pub fn show(
     form.show(session, document)
 }
 
-/// Digest of a network's weights; `None` for a model without any.
+/// Returns a digest of a network's weights; `None` for a model without weights.
 ///
 /// # Errors
-/// If they cannot be read.
+/// Returns an error if the weights cannot be read.
 pub fn weights_digest(spec: &ModelSpec) -> Result<Option<String>, CliError> {
     let Some(weights) = model::weights(spec)? else { return Ok(None) };
     let bytes = weights.to_bytes();
@@ -127,20 +127,20 @@ pub fn weights_digest(spec: &ModelSpec) -> Result<Option<String>, CliError> {
     Ok(Some(digest(&bytes)))
 }
 
-/// Tells a value from all others.
+/// Returns a digest of a value.
 ///
 /// # Errors
-/// If it cannot be written as JSON, which nothing of ours refuses.
+/// Returns an error if the value cannot be written as JSON, which does not occur for our types.
 pub fn value_digest(value: &impl Serialize) -> Result<String, CliError> {
     let text = serde_json::to_vec(value);
     let text = text.map_err(|error| CliError::unexpected("cannot write JSON", &error))?;
     Ok(digest(&text))
 }
 
-/// Tells tools from all others.
+/// Returns a digest of tools.
 ///
 /// # Errors
-/// Those of [`value_digest`].
+/// Returns the errors of [`value_digest`].
 pub fn tools_digest<'a>(tools: impl Iterator<Item = &'a Arc<Tool>>) -> Result<String, CliError> {
     value_digest(&tools.map(|tool| &**tool).collect::<Vec<_>>())
 }

@@ -1,4 +1,4 @@
-//! The page of one task of a benchmark: its plan is replayed as it was measured.
+//! The page of one task of a benchmark: its plan is replayed with the settings of the measurement.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -24,17 +24,17 @@ pub struct PageArgs {
 }
 
 impl PageArgs {
-    /// The task file, if a page is asked for.
+    /// Returns the task file, if a page is wanted.
     pub fn wanted(&self) -> Option<&Path> {
         self.page.as_deref()
     }
 
-    /// Replays the plan of the task in `path`, one of those `solved` in a run, with the seed of its
-    /// disturbed replays, and writes its page.
+    /// Replays the plan of the task in `path` with the run's seed of perturbed replays, and writes
+    /// its page. The task must be among those `solved` in the run.
     ///
     /// # Errors
-    /// A task that the run does not hold, or holds with other results; a page that cannot be
-    /// written.
+    /// Returns an error if the run does not contain the task, or contains it with other results.
+    /// Also returns errors of writing the page.
     pub fn write<'a>(
         &self,
         path: &Path,

@@ -1,4 +1,4 @@
-//! `pushplan bench merge` and `report`: runs that are kept in folders.
+//! `pushplan bench merge` and `report`: runs saved in folders.
 
 use std::path::{Path, PathBuf};
 
@@ -47,22 +47,22 @@ pub struct ReportArgs {
     form: Form,
 }
 
-/// A suite whose runs are kept, and what is shown of them.
+/// Suite with saved runs, and the functions that report on them.
 pub struct Kept {
     suite: &'static str,
-    /// None where only the command that measures has all that a report needs.
+    /// Report function; `None` if only the measuring command has the data of a report.
     document: Option<Show>,
     solved: fn(&Path) -> Result<Option<SolvedRun>, CliError>,
 }
 
-/// Makes the report of the runs in folders.
+/// Function that creates the report of the runs in folders.
 pub type Show = fn(&[PathBuf]) -> Result<Document, CliError>;
 
-/// What a run is of, the seed of its disturbed replays, and its solved tasks.
+/// Manifest of a run, the seed of its perturbed replays, and its solved tasks.
 type SolvedRun = (RunManifest, u64, Vec<SolvedTask>);
 
 impl Kept {
-    /// The runs of a suite.
+    /// Returns the functions for the runs of a suite.
     pub const fn of<S: Suite>() -> Self {
         Self {
             suite: S::NAME,
@@ -75,19 +75,20 @@ impl Kept {
         }
     }
 
-    /// Runs of which `document` is made by itself, if it can be made of what is kept at all.
+    /// Returns the functions for runs with a separate `document`; `None` if their records are not
+    /// sufficient for a report.
     pub const fn apart(suite: &'static str, document: Option<Show>) -> Self {
         Self { suite, document, solved: |_| Ok(None) }
     }
 }
 
-/// The suites of this command.
+/// Suites of this command.
 pub const SUITES: [Kept; 2] = [Kept::of::<TasksArgs>(), Kept::of::<ToolsArgs>()];
 
-/// Merges shards of one of these `suites` and shows what they hold together.
+/// Merges shards of one of these `suites` and shows the result.
 ///
 /// # Errors
-/// Folders that are not the shards of one run, or hold another suite.
+/// Returns an error if the folders are not the shards of one run, or belong to an unknown suite.
 pub fn merge(args: &MergeArgs, suites: &[Kept], session: &Session) -> Result<(), CliError> {
     let (out, shards) = (&args.out, &args.shards);
     let kept = shards.first().map(|first| known(suites, first)).transpose()?;
@@ -107,7 +108,8 @@ pub fn merge(args: &MergeArgs, suites: &[Kept], session: &Session) -> Result<(),
 /// Shows runs of one of these `suites`.
 ///
 /// # Errors
-/// Folders that hold no such run; a page of a run without plans.
+/// Returns an error if the folders contain no such run, or if a page of a run without plans is
+/// wanted.
 pub fn report(args: &ReportArgs, suites: &[Kept], session: &Session) -> Result<(), CliError> {
     let mut document = document(suites, &args.runs)?;
     if let Some(out) = &args.out {
@@ -119,7 +121,7 @@ pub fn report(args: &ReportArgs, suites: &[Kept], session: &Session) -> Result<(
     keep::show(args.form, session, &document, args.out.as_deref())
 }
 
-/// The report of one suite's runs.
+/// Returns the report of one suite's runs.
 fn document(suites: &[Kept], runs: &[PathBuf]) -> Result<Document, CliError> {
     let mut names = Vec::new();
     for dir in runs {
@@ -146,7 +148,7 @@ fn document(suites: &[Kept], runs: &[PathBuf]) -> Result<Document, CliError> {
     }
 }
 
-/// The suite of the run in a folder.
+/// Returns the suite of the run in a folder.
 fn known<'a>(suites: &'a [Kept], dir: &Path) -> Result<&'a Kept, CliError> {
     let name = RunManifest::expect(dir)?.suite;
     suites.iter().find(|kept| kept.suite == name).ok_or_else(|| {
@@ -157,7 +159,7 @@ fn known<'a>(suites: &'a [Kept], dir: &Path) -> Result<&'a Kept, CliError> {
     })
 }
 
-/// The page of one task of the run.
+/// Writes the page of one task of the run.
 fn page(
     args: &ReportArgs,
     suites: &[Kept],

@@ -1,4 +1,4 @@
-//! `pushplan bench status`: which shards of a run are missing.
+//! `pushplan bench status`: missing shards of a run.
 
 use std::path::PathBuf;
 

@@ -1,5 +1,5 @@
-//! Benchmarks behind one trait: whoever says what the cases are and measures one of them has runs that
-//! are kept, resumed, split, merged and shown.
+//! Common trait of benchmarks. An implementation defines the cases and measures one; resuming,
+//! splitting, merging and reports are shared.
 
 use std::path::PathBuf;
 
@@ -14,67 +14,67 @@ use pushplan_report::Document;
 
 use super::keep::{self, KeepArgs};
 
-/// A benchmark by its arguments.
+/// Benchmark, defined by its arguments.
 pub trait Suite: Args {
-    /// Its name in manifests.
+    /// Name in manifests.
     const NAME: &'static str;
 
-    /// What is kept of a case.
+    /// Record of a case.
     type Record: Serialize + DeserializeOwned + Send;
 
-    /// What decides the records, and what measures one of them; `keep` says which are asked for.
+    /// Returns the manifest and the measurement of the cases; `keep` selects a part of them.
     ///
     /// # Errors
-    /// Arguments that do not fit together; files and models that cannot be read.
+    /// Returns an error for inconsistent arguments, and for files and models that cannot be read.
     fn cases<'a>(
         &'a self,
         keep: &KeepArgs,
         session: &'a Session,
     ) -> Result<Cases<'a, Self::Record>, CliError>;
 
-    /// The report of one run; of several side by side where the suite compares them.
+    /// Returns the report of one run, or of several side by side if the suite supports it.
     ///
     /// # Errors
-    /// Runs that cannot be compared.
+    /// Returns an error for runs that cannot be compared.
     fn document(runs: &[Run<Self::Record>]) -> Result<Document, CliError>;
 
-    /// The solved tasks of a run and the seed of their disturbed replays, where it has plans.
+    /// Returns the seed of the perturbed replays and the solved tasks of a run, if it has plans.
     fn solved(_: &Run<Self::Record>) -> Option<(u64, Vec<SolvedTask>)> {
         None
     }
 }
 
-/// What a run is of, and what it has measured.
+/// Manifest and finished cases of a run.
 pub type Run<R> = (RunManifest, Vec<Finished<R>>);
 
-/// What decides the records of a run, and what measures them.
+/// Manifest of a run and the measurement of its cases.
 pub struct Cases<'a, R> {
     /// Suite, number of cases, seed, settings.
     pub manifest: RunManifest,
-    /// What measures a case.
+    /// Measurement of a case.
     pub measure: Measure<'a, R>,
 }
 
-/// What measures a case.
+/// Measurement of a case.
 pub enum Measure<'a, R> {
-    /// One after another, each on all threads of the session.
+    /// Sequential measurement, each case on all threads of the session.
     InTurn(Box<dyn FnMut(usize) -> Result<Measured<R>, CliError> + 'a>),
-    /// One on each of the session's threads, which share no work.
+    /// Parallel measurement, one case on each of the session's threads, without shared work.
     SideBySide(Box<dyn Fn(usize) -> Measured<R> + Sync + 'a>),
 }
 
-/// The arguments of a suite, with those that all of them have.
+/// Arguments of a suite and the common arguments of all suites.
 #[derive(Debug)]
 pub struct SuiteArgs<S> {
-    /// What is measured.
+    /// Arguments of the suite.
     pub suite: S,
-    /// Where results are kept.
+    /// Folder and shard of the results.
     pub keep: KeepArgs,
-    /// How they are shown.
+    /// Output format.
     pub form: Form,
 }
 
-/// Written out, since what is derived would say of every suite what is said of this struct.
+/// Implemented by hand, because a derived help would show this struct's docs for every suite.
 impl<S: Args> Args for SuiteArgs<S> {
     fn augment_args(command: Command) -> Command {
         let command = S::augment_args(command);
@@ -104,10 +104,11 @@ impl<S: FromArgMatches> FromArgMatches for SuiteArgs<S> {
 }
 
 impl<S: Suite> SuiteArgs<S> {
-    /// Measures what is left of the run and shows all of it.
+    /// Measures the remaining cases of the run and shows all of them.
     ///
     /// # Errors
-    /// Those of [`Suite::cases`] and of measuring; an interruption; results that cannot be written.
+    /// Returns the errors of [`Suite::cases`] and of measuring, an interruption, and errors of
+    /// writing results.
     pub fn run(&self, session: &Session) -> Result<(), CliError> {
         let Cases { manifest, measure } = self.suite.cases(&self.keep, session)?;
         let store = match measure {
@@ -121,18 +122,18 @@ impl<S: Suite> SuiteArgs<S> {
     }
 }
 
-/// The runs in folders.
+/// Loads the runs in folders.
 ///
 /// # Errors
-/// Folders that hold no such run.
+/// Returns an error if a folder contains no such run.
 pub fn load<R: Serialize + DeserializeOwned>(dirs: &[PathBuf]) -> Result<Vec<Run<R>>, CliError> {
     dirs.iter().map(|dir| Ok(Store::<R>::load(dir)?.into_parts())).collect()
 }
 
-/// The only run, of a suite whose runs are not compared.
+/// Returns the only run, for a suite whose runs are not compared.
 ///
 /// # Errors
-/// Several of them.
+/// Returns an error for several runs.
 pub fn only<R>(runs: &[Run<R>]) -> Result<&Run<R>, CliError> {
     match runs {
         [run] => Ok(run),

@@ -64,10 +64,10 @@ enum FormName {
     Single,
 }
 
-/// Runs the benchmark, or what else is asked for in its place.
+/// Runs the benchmark, or the single pushes or the generation of goals if selected.
 ///
 /// # Errors
-/// Those of [`SuiteArgs::run`]; goals that cannot be written.
+/// Returns the errors of [`SuiteArgs::run`], and errors of writing goals.
 pub fn run(args: &SuiteArgs<ToolsArgs>, session: &Session) -> Result<(), CliError> {
     let tools = &args.suite;
     if let Some(file) = &tools.make_goals {
@@ -95,7 +95,7 @@ pub fn run(args: &SuiteArgs<ToolsArgs>, session: &Session) -> Result<(), CliErro
 }
 
 impl ToolsArgs {
-    /// The model of all rows.
+    /// Returns the model of all rows.
     fn spec(&self) -> ModelSpec {
         self.model.clone().map_or(ModelKind::NETWORK.into(), |models| models.decided)
     }
@@ -119,7 +119,7 @@ impl Suite for ToolsArgs {
         let effort = self.effort;
         let models = self.model.clone().unwrap_or_else(|| effort.models());
         let planner = Planner::with_models(&models)?
-            // Disturbed replays tell how robust a plan is and change nothing in its choice.
+            // Perturbed replays measure the robustness of a plan without affecting its choice.
             .settings(Settings { disturbed: 0, ..effort.settings() })
             .seed(self.seed)
             .outside(self.outside.outside())

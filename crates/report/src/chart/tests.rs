@@ -20,7 +20,7 @@ fn points_that_cannot_be_shown_are_left_out() {
     let svg = chart.to_svg();
     assert!(!svg.contains("NaN") && !svg.contains("inf"));
     assert!(svg.contains(">a<") && !svg.contains(">b<"));
-    // Two points and the one in the legend.
+    // Two points of the series and one in the legend.
     assert_eq!(svg.matches("<circle").count(), 3);
 }
 

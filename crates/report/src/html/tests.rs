@@ -29,7 +29,7 @@ fn no_name_breaks_out_of_the_page_and_nothing_is_loaded() {
     let page = document.to_html();
     assert!(!page.contains("<script") && !page.contains("src=\""), "{page}");
     assert_eq!(page.matches("<td").count(), 4);
-    // Clip paths are named for the whole page, so each chart needs its own.
+    // Clip path identifiers are global to the page, so each chart needs its own.
     for k in 1..=2 {
         assert_eq!(page.matches(&format!("id=\"plot-{k}\"")).count(), 1);
         assert_eq!(page.matches(&format!("url(#plot-{k})")).count(), 1);

@@ -1,4 +1,4 @@
-//! What was believed before and after every push of a run, or every observation of a recording.
+//! Belief over the pushes of a run, or over the observations of a recording.
 
 use pushplan::scene::Physics;
 use pushplan_act::act::Trace;
@@ -6,7 +6,7 @@ use pushplan_act::belief::{Belief, JointType, Numbers};
 
 use super::data::{Believed, Joined};
 
-/// Names of the types, and the probabilities of those of every pair.
+/// Returns the names of the joint types, and the type probabilities of every pair.
 pub fn joints(trace: &Trace) -> (Vec<String>, Vec<Joined>) {
     let objects = &trace.task.scene.objects;
     let types = JointType::ALL.iter().map(ToString::to_string).collect();
@@ -28,7 +28,7 @@ pub fn joints(trace: &Trace) -> (Vec<String>, Vec<Joined>) {
     (types, trace.pairs.iter().copied().enumerate().filter_map(joined).collect())
 }
 
-/// Masses and friction values that the task does not know.
+/// Returns the masses and friction values that the task declares unknown.
 pub fn numbers(trace: &Trace) -> Vec<Believed> {
     let unknown = trace.task.unknown;
     let truth = trace.truth.as_ref().map(|truth| Physics::stated(&truth.scene));
@@ -62,9 +62,9 @@ pub fn numbers(trace: &Trace) -> Vec<Believed> {
     found
 }
 
-/// What was believed of the objects called `names` after a number of observations: these numbers,
-/// names of the types, and the probabilities of those of every pair, which were `before` at first.
-/// Where nothing changed an observation is left out.
+/// Returns the belief about the objects called `names` over time: observation counts, names of the
+/// joint types, and the type probabilities of every pair. `before` holds the initial probabilities.
+/// Observations without a change are left out.
 pub fn over_time(
     belief: &Belief,
     before: &[[f64; 4]],

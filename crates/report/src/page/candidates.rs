@@ -1,4 +1,4 @@
-//! Every way to push that the search considered, as grids of direction by offset.
+//! Pushes considered by the search, as grids of direction by offset.
 
 use std::collections::BTreeMap;
 
@@ -7,14 +7,14 @@ use pushplan::solve::Solution;
 
 use super::data::{Candidates, Grid};
 
-/// More cells than this are left out, those of longer sequences first: they would make the page
-/// slow to load, and nobody looks at ten thousand.
+/// Maximum number of cells on a page, because more would make it slow to load. Cells of longer
+/// sequences are dropped first.
 const MOST_CELLS: usize = 6000;
 
-/// Scores beyond this are shown as this, in units of the tolerance.
+/// Largest score shown, in units of the tolerance; higher scores are clamped.
 const WORST: f64 = 999.0;
 
-/// The grids of a search; `None` if it considered nothing.
+/// Returns the grids of a search; `None` if no push was considered.
 pub fn candidates(solution: &Solution) -> Option<Candidates> {
     let all = &solution.candidates;
     let mut reasons: Vec<Infeasible> = all.iter().filter_map(|push| push.refused).collect();
@@ -34,7 +34,7 @@ pub fn candidates(solution: &Solution) -> Option<Candidates> {
     (shown > 0).then_some(Candidates { reasons, grids, considered: all.len(), shown })
 }
 
-/// Why most of the pushes cannot be made.
+/// Returns the most frequent reason why pushes are infeasible.
 pub fn frequent(pushes: &[&ScoredPush]) -> Option<Infeasible> {
     let mut counts: BTreeMap<Infeasible, usize> = BTreeMap::new();
     for reason in pushes.iter().filter_map(|push| push.refused) {
@@ -43,8 +43,8 @@ pub fn frequent(pushes: &[&ScoredPush]) -> Option<Infeasible> {
     counts.into_iter().max_by_key(|(_, count)| *count).map(|(reason, _)| reason)
 }
 
-/// `pushes` are those of one tool, grip yaw and length of sequence, in the order of directions,
-/// parts and offsets.
+/// Builds a grid of `pushes`, which share tool, grip yaw and sequence length and are ordered by
+/// direction, part and offset.
 fn grid(solution: &Solution, pushes: &[ScoredPush], reasons: &[Infeasible]) -> Grid {
     let first = pushes[0];
     let mut directions: Vec<f64> = Vec::new();

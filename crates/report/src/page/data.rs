@@ -1,87 +1,88 @@
-//! What a plan page holds, as its script reads it.
+//! Data of a plan page, in the format of its script.
 //!
-//! Lengths are whole hundredths of a millimetre, angles and times whole ten-thousandths of a radian
-//! and a second: short, and finer than anything that is shown.
+//! Lengths are integers in hundredths of a millimetre. Angles and times are integers in
+//! ten-thousandths of a radian and of a second. This is short, and finer than anything that is
+//! shown.
 
 use serde::Serialize;
 use serde_json::Value as Json;
 
 use pushplan::geometry::{Pose, Vector};
 
-/// A length in metres, in hundredths of a millimetre.
+/// Converts a length in metres to hundredths of a millimetre.
 pub fn length(metres: f64) -> i64 {
     (metres * 1e5).round() as i64
 }
 
-/// An angle in radians or a time in seconds, in ten-thousandths.
+/// Converts an angle in radians or a time in seconds to ten-thousandths.
 pub fn fine(value: f64) -> i64 {
     (value * 1e4).round() as i64
 }
 
-/// A position or an extent.
+/// Converts a position or an extent.
 pub fn point(vector: Vector) -> [i64; 2] {
     [length(vector.x), length(vector.y)]
 }
 
-/// Position and heading.
+/// Converts a pose to position and heading.
 pub fn pose(pose: &Pose) -> [i64; 3] {
     [length(pose.position.x), length(pose.position.y), fine(pose.heading)]
 }
 
-/// A whole page.
+/// Data of a whole page.
 #[derive(Serialize)]
 pub struct Data {
     /// Name of the task.
     pub task: String,
     /// The task's description.
     pub description: String,
-    /// How it ended, in a line; the title of the file says it.
+    /// Outcome in one line, also part of the file's title.
     #[serde(skip)]
     pub headline: String,
-    /// What screened and what decided, in a sentence; empty where nothing was searched for.
+    /// Screening and final model in a sentence; empty without a search.
     pub models: String,
     pub stage: Stage,
-    /// The measured quantity over time, where that is not the distance from the goal.
+    /// Quantity plotted over time, if it is not the distance from the goal.
     pub measure: Option<Measure>,
     pub tools: Vec<Tool>,
-    /// Best first; at least one.
+    /// Plans, best first; at least one.
     pub plans: Vec<Plan>,
     /// Names of the columns of [`Plan::cells`].
     pub columns: Vec<&'static str>,
-    /// The tools that were offered, the chosen one first.
+    /// Offered tools, the chosen one first.
     pub choice: Vec<Choice>,
     pub candidates: Option<Candidates>,
-    /// Of a run: its pushes, and what was believed meanwhile.
+    /// Pushes of a run and the belief over time.
     pub run: Option<Run>,
-    /// What lowers the trust in all this, a line each.
+    /// Warnings, a line each.
     pub warnings: Vec<String>,
     pub file: File,
-    /// A drawing as SVG, in place of the table from above.
+    /// Drawing as SVG, in place of the top view.
     #[serde(skip)]
     pub drawing: Option<String>,
 }
 
-/// What is on the table, and what must come where.
+/// Scene and goals.
 #[derive(Serialize)]
 pub struct Stage {
     pub objects: Vec<Body>,
     pub obstacles: Vec<Body>,
-    /// What is to be kept out of.
+    /// Keep-out regions.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub regions: Vec<Body>,
-    /// Middle and full extents of a table that ends.
+    /// Centre and full extents of a finite table.
     pub table: Option<[[i64; 2]; 2]>,
-    /// Smallest and largest.
+    /// Smallest and largest reach.
     pub reach: Vec<i64>,
-    /// All goals; a recording has none.
+    /// Goals; empty for a recording.
     pub goals: Vec<Goal>,
 }
 
-/// What is measured over time.
+/// Quantity plotted over time.
 #[derive(Serialize)]
 pub struct Measure {
     pub name: &'static str,
-    /// The same with its unit.
+    /// Name with unit, for the axis.
     pub axis: &'static str,
 }
 
@@ -90,13 +91,13 @@ pub struct Body {
     pub name: String,
     pub shape: Outline,
     pub height: i64,
-    /// Height of the underside above where it stands.
+    /// Height of the underside above the body's origin.
     #[serde(skip_serializing_if = "is_zero")]
     pub under: i64,
-    /// What is fixed on it.
+    /// Solids fixed to this body.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub more: Vec<Body>,
-    /// Where it stands at the start.
+    /// Pose at the start.
     pub at: [i64; 3],
 }
 
@@ -104,42 +105,42 @@ fn is_zero(value: &i64) -> bool {
     *value == 0
 }
 
-/// What a body covers on the table, in its own frame.
+/// Footprint of a body, in its own frame.
 #[derive(Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outline {
-    /// A disc of this radius.
+    /// Disc of this radius.
     Disc(i64),
-    /// Corners in order.
+    /// Polygon, corners in order.
     Polygon(Vec<[i64; 2]>),
 }
 
 #[derive(Serialize)]
 pub struct Goal {
-    /// Indices of the objects that it may move, its own first.
+    /// Indices of the objects that the goal may move, its own first.
     pub objects: Vec<usize>,
     pub at: [i64; 2],
-    /// Zero where no place is asked for, and for a region.
+    /// Position tolerance; zero for a region and for a goal without a position.
     pub tolerance: i64,
-    /// Regions that a centre must be in, or must leave.
+    /// Regions that a centre must enter or leave.
     pub areas: Vec<Area>,
-    /// Wanted heading and its tolerance, where one is asked for.
+    /// Wanted heading and its tolerance, if the goal has one.
     pub heading: Option<[i64; 2]>,
-    /// Headings are told from those a full turn away by being nearest to this one, where a joint has limits.
+    /// Midpoint of the joint limits, used to unwrap headings to the nearest turn.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub middle: Option<i64>,
-    /// Into how many equal turns a full turn falls after each of which the object looks the same.
+    /// Order of the object's rotational symmetry.
     pub alike: usize,
-    /// The same in words.
+    /// Goal in words.
     pub words: String,
 }
 
-/// A region of a goal.
+/// Region of a goal.
 #[derive(Serialize)]
 pub struct Area {
     pub shape: Outline,
     pub at: [i64; 3],
-    /// `true` if a centre must leave it.
+    /// Whether a centre must leave the region.
     pub leave: bool,
 }
 
@@ -147,26 +148,26 @@ pub struct Area {
 pub struct Tool {
     pub name: String,
     pub parts: Vec<Body>,
-    /// The end effector in the tool frame.
+    /// Pose of the end effector in the tool frame.
     pub grip: [i64; 3],
-    /// As in its file.
+    /// Tool as in its file.
     pub file: Json,
 }
 
-/// How good a plan is, in a word.
+/// Status of a plan, in one word.
 #[derive(Clone, Copy, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Standing {
     Passed,
     Fragile,
     Failed,
-    /// Not replayed, or nobody asked.
+    /// Not replayed.
     Open,
-    /// Of a run: reached as far as can be seen.
+    /// Run: goal reached according to the observations.
     Reached,
-    /// Of a run: given up.
+    /// Run: given up.
     GivenUp,
-    /// Of a recording: it was watched.
+    /// Recording: observed.
     Inferred,
 }
 
@@ -174,29 +175,29 @@ pub enum Standing {
 pub struct Plan {
     /// Index of the first tool.
     pub tool: usize,
-    /// Indices of all of them.
+    /// Indices of all tools.
     pub tools: Vec<usize>,
-    /// What it is, in a line.
+    /// Description, in one line.
     pub name: String,
     pub standing: Standing,
-    /// The verdict, in a line.
+    /// Verdict, in one line.
     pub verdict: String,
-    /// Its row in the table of plans.
+    /// Row in the table of plans.
     pub cells: Vec<String>,
     pub strokes: Vec<Stroke>,
     /// Height of the tool's underside.
     pub lift: i64,
-    /// The hand at the grip.
+    /// Hand at the grip.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hand: Option<Body>,
     pub replays: Vec<Replay>,
-    /// Where the goal's object ended in the disturbed replays.
+    /// Final positions of the goal's object in the perturbed replays.
     pub ends: Vec<End>,
-    /// The command that makes these replays again; empty where none can.
+    /// Command that repeats these replays; empty if there is none.
     pub command: String,
-    /// The script that does; empty where none can.
+    /// Script that repeats these replays; empty if there is none.
     pub python: String,
-    /// As in its file.
+    /// Plan as in its file.
     pub file: Json,
 }
 
@@ -207,43 +208,45 @@ pub struct Stroke {
     /// Pose of the tool frame at the start and at the end.
     pub from: [i64; 3],
     pub to: [i64; 3],
-    /// Whether the tool comes down for it, from anywhere.
+    /// Whether the tool is lowered for this stroke, from an arbitrary position.
     pub lowered: bool,
 }
 
-/// The source of a replay or a prediction.
+/// Source of a replay or a prediction.
 #[derive(Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Layer {
     Predicted,
     Planar,
     Spatial,
-    /// What was seen of a world.
+    /// Observation of a world.
     Seen,
-    /// What really happened in a simulated one.
+    /// Ground truth of a simulated world.
     Real,
 }
 
-/// A trajectory, column by column. A column holds its first value and then differences; one that
-/// never changes holds one value. Poses have three: x, y and heading; those in space eight: z and the
-/// quaternion x, y, z, w of the turn, too.
+/// Trajectory, column by column.
+///
+/// A column holds its first value, then differences; a constant column holds one value. Planar
+/// poses have three columns: x, y and heading. Poses in space have eight: the planar ones, z, and
+/// the quaternion x, y, z, w of the rotation.
 #[derive(Serialize)]
 pub struct Replay {
     pub layer: Layer,
-    /// Name of what computed it.
+    /// Name of the model or engine.
     pub by: String,
-    /// Whether the goal is reached at the end, and nothing went wrong on the way.
+    /// Whether the goal is reached at the end, without a failure during execution.
     pub reached: bool,
     pub time: Vec<i64>,
     /// Index of the first frame of every stroke.
     pub strokes: Vec<usize>,
     pub tool: Vec<Vec<i64>>,
     pub objects: Vec<Vec<Vec<i64>>>,
-    /// What is measured, frame by frame, see [`Data::measure`].
+    /// Measured quantity, frame by frame, see [`Data::measure`].
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub measure: Vec<i64>,
-    /// Of every frame the relations that the network reads: two nodes, and the kind. Nodes are objects,
-    /// the parts of the tool and obstacles; kinds are contact, fixed, revolute and prismatic.
+    /// Relations that the network receives in every frame: two nodes and the kind. Nodes are
+    /// objects, tool parts and obstacles; kinds are contact, fixed, revolute and prismatic.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub graph: Vec<Vec<[usize; 3]>>,
 }
@@ -255,33 +258,33 @@ pub struct End {
     pub reached: bool,
 }
 
-/// A tool, and why it was or was not chosen.
+/// A tool, and the reason why it was chosen or rejected.
 #[derive(Serialize)]
 pub struct Choice {
     pub tool: String,
-    /// Pushes that were considered with it.
+    /// Number of pushes considered with this tool.
     pub considered: usize,
-    /// How many of those could not be made.
+    /// Number of considered pushes that are infeasible.
     pub refused: usize,
-    /// The best that is predicted for it, in units of the tolerance.
+    /// Best predicted score, in units of the tolerance.
     pub best: String,
     pub why: String,
-    /// Index of its best plan, if one is on the page.
+    /// Index of the tool's best plan, if one is on the page.
     pub plan: Option<usize>,
 }
 
-/// Every way to push that the search considered.
+/// Pushes considered by the search.
 #[derive(Serialize)]
 pub struct Candidates {
-    /// Why pushes could not be made; cells name them by index.
+    /// Reasons for infeasible pushes; cells refer to them by index.
     pub reasons: Vec<String>,
     pub grids: Vec<Grid>,
-    /// How many there were, and how many of them are on the page.
+    /// Number of considered pushes, and number of pushes on the page.
     pub considered: usize,
     pub shown: usize,
 }
 
-/// The ways to push with one tool, held one way, as the last of a number of pushes.
+/// Pushes considered as the last of a sequence, with one tool and one grip.
 #[derive(Serialize)]
 pub struct Grid {
     /// Name of the tool.
@@ -289,42 +292,44 @@ pub struct Grid {
     pub pushes: usize,
     /// Grip yaw in degrees.
     pub yaw: String,
-    /// Name of the part that makes contact, over a number of cells of a row; empty where a push
-    /// goes on from where the last one ended.
+    /// Name of the contacting part and the number of cells that it spans in a row. The name is
+    /// empty for a push that continues from the end of the last one.
     pub faces: Vec<(String, usize)>,
     /// Headings of the rows, degrees.
     pub directions: Vec<f64>,
-    /// Row by row: lateral offset in millimetres.
+    /// Lateral offset in millimetres, row by row.
     pub offsets: Vec<i64>,
-    /// Row by row: see [`Grid::NOT_TRIED`].
+    /// Result, row by row; see [`Grid::NOT_TRIED`].
     pub cells: Vec<i64>,
 }
 
 impl Grid {
-    /// Of a cell that was neither rolled out nor refused. Otherwise a cell holds the score in
-    /// hundredths of the tolerance, or the index of why it cannot be made, less [`Grid::REFUSED`].
+    /// Value of a cell that was neither rolled out nor rejected.
+    ///
+    /// Other cells hold the score in hundredths of the tolerance, or, if infeasible, the index
+    /// of the reason, counted down from [`Grid::REFUSED`].
     pub const NOT_TRIED: i64 = -1;
-    /// Of a cell such that something cannot pass.
+    /// Value of a cell whose push is obstructed.
     pub const BLOCKED: i64 = -2;
-    /// Of a cell that cannot be made for the first reason; those of the others follow downwards.
+    /// Value of an infeasible cell with the first reason; further reasons follow downwards.
     pub const REFUSED: i64 = -10;
 }
 
-/// The pushes of a run or a recording, and what was believed meanwhile.
+/// Pushes of a run or a recording, and the belief over time.
 #[derive(Serialize)]
 pub struct Run {
-    /// What it is, in a word.
+    /// Kind of record, in one word.
     pub kind: &'static str,
-    /// When beliefs change, in a sentence.
+    /// Explanation of when the belief changes, in a sentence.
     pub words: &'static str,
-    /// What is known in the end.
+    /// Final results.
     pub found: Vec<Found>,
     /// Names of the columns of [`Made::cells`].
     pub columns: Vec<String>,
-    /// Which of them hold numbers.
+    /// Whether each column is numeric.
     pub numeric: Vec<bool>,
     pub made: Vec<Made>,
-    /// When what is believed changes, the start first.
+    /// Times at which the belief changes, the start first.
     pub times: Vec<i64>,
     /// Names of the types of joints.
     pub types: Vec<String>,
@@ -332,46 +337,46 @@ pub struct Run {
     pub numbers: Vec<Believed>,
 }
 
-/// A table of what is known in the end.
+/// Table of final results.
 #[derive(Serialize)]
 pub struct Found {
     pub title: String,
     pub columns: Vec<String>,
-    /// Which of them hold numbers.
+    /// Whether each column is numeric.
     pub numeric: Vec<bool>,
     pub rows: Vec<Vec<String>>,
 }
 
-/// What was pushed in one go.
+/// Continuous pushing sequence.
 #[derive(Serialize)]
 pub struct Made {
-    /// When it begins.
+    /// Start time.
     pub at: i64,
     pub cells: Vec<String>,
 }
 
-/// What is believed about the joint of two objects.
+/// Belief about the joint of two objects.
 #[derive(Serialize)]
 pub struct Joined {
     pub name: String,
-    /// At each of [`Run::times`] the probabilities of the types, in thousandths.
+    /// Type probabilities at each of [`Run::times`], in thousandths.
     pub shares: Vec<[i64; 4]>,
-    /// Index of the true type, where that is known.
+    /// Index of the true type, if known.
     pub really: Option<usize>,
 }
 
-/// What is believed of a number.
+/// Belief about a number.
 #[derive(Serialize)]
 pub struct Believed {
     pub name: String,
     pub unit: &'static str,
-    /// At each of [`Run::times`] mean and standard deviation, in thousandths.
+    /// Mean and standard deviation at each of [`Run::times`], in thousandths.
     pub values: Vec<[i64; 2]>,
-    /// The true value, where that is known.
+    /// True value, if known.
     pub really: Option<i64>,
 }
 
-/// What plan files on the page share.
+/// Common content of the plan files on the page.
 #[derive(Serialize)]
 pub struct File {
     pub schema_version: u32,

@@ -1,4 +1,4 @@
-//! The file: data, style and script in one document that loads nothing.
+//! The HTML file: data, style and script in one document without external resources.
 
 use pushplan_page::{BODY, SCRIPT, SOLID, STYLE};
 use pushplan_three::THREE;
@@ -7,35 +7,34 @@ use crate::svg::escape;
 
 use super::data::Data;
 
-/// Where the table from above is drawn.
+/// Placeholder of the top view.
 const STAGE: &str = "<figure class=\"stage\" id=\"stage\">";
 
-/// SHA-256 of [`SCRIPT`] and [`STYLE`], base 64: all that the browser may run or apply. A test
-/// compares them, so that no release needs a hash function.
+/// SHA-256 of [`SCRIPT`] and [`STYLE`], base 64, for the content security policy. A test compares
+/// the hashes, so that a release needs no hash function.
 const SCRIPT_HASH: &str = "3VRyIp8Cd8+fWzFaoBXzwayz0hNGde1Dd2yJ7jHj9jw=";
 const STYLE_HASH: &str = "u7EzjcKpkdT4aibEyFyU17AosQ01L3krmKju702UC+s=";
 
-/// SHA-256 of [`SOLID`], and of three.js as it is when it is unpacked.
+/// SHA-256 of [`SOLID`], and of three.js after decompression.
 const SOLID_HASH: &str = "G/ZsZZa5wJDEg9dqfiOflBi+BlOdAMz55hjb7jtJ2j8=";
 const THREE_HASH: &str = "1DAXuURetgEpYc3wVeanFNbtMNUCQJJKMDFxE8xxJxc=";
 
-/// What a page shows of the table.
+/// Views of the table on a page.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PageView {
-    /// A drawing from above.
+    /// Drawing from above.
     #[default]
     Above,
-    /// The same, and a scene in 3-D that can be looked at from all sides. It makes a page 200 KB
-    /// larger.
+    /// Drawing from above and an interactive 3-D scene, which adds 200 KB to the page.
     Solid,
 }
 
-/// The page.
+/// Returns the page as HTML.
 pub fn page(data: &Data, view: PageView) -> String {
-    // Data cannot fail to be written: it holds no maps with odd keys.
+    // Serialization cannot fail because the data has no maps with unusual keys.
     let json = serde_json::to_string(data).unwrap_or_default();
     let title = escape(&format!("{}: {}", data.task, data.headline));
-    // As a picture of its own, which the page's style does not reach.
+    // The drawing is a separate image, which the style of the page does not affect.
     let drawing = data
         .drawing
         .as_ref()
@@ -68,7 +67,7 @@ pub fn page(data: &Data, view: PageView) -> String {
     )
 }
 
-/// SVG as it may stand in an address within an attribute.
+/// Percent-encodes SVG for a data URL within an attribute.
 fn in_address(svg: &str) -> String {
     let mut written = String::with_capacity(svg.len() + svg.len() / 4);
     for letter in svg.chars() {
@@ -86,7 +85,7 @@ fn in_address(svg: &str) -> String {
     written
 }
 
-/// JSON in which nothing ends a script or begins a comment.
+/// Escapes JSON so that it can neither end a script nor start a comment.
 fn inert(json: &str) -> String {
     json.replace('<', "\\u003c").replace('\u{2028}', "\\u2028").replace('\u{2029}', "\\u2029")
 }

@@ -1,4 +1,4 @@
-//! The page of a recording: what was seen, and what is believed after it, on the same clock.
+//! The page of a recording: observations and the resulting belief, on one clock.
 
 use serde_json::Value as Json;
 
@@ -15,8 +15,9 @@ use super::recipe::Recipe;
 use super::replay::replay_of;
 use super::stage;
 
-/// The page of a recording and of what is believed after it; before it that was `before`, of every pair
-/// in the order of [`Belief::pairs`]. `document` says the same in tables, `recipe` infers it again.
+/// Returns the page of a recording and its belief. `before` holds the initial probabilities, in the
+/// order of [`Belief::pairs`]. `document` contains the belief as tables, and `recipe` repeats the
+/// inference.
 pub fn recording_page(
     recording: &Recording,
     (before, belief): (&[[f64; 4]], &Belief),
@@ -83,7 +84,7 @@ pub fn recording_page(
     html::page(&data, view)
 }
 
-/// The tables of a document; one that follows its title has none of its own.
+/// Returns the tables of a document; a table without a title gets a default one.
 fn found(document: &Document) -> Vec<Found> {
     let shown = document.sections.iter().filter(|section| !section.table.is_empty());
     let table = |section: &Section| {
@@ -101,7 +102,7 @@ fn found(document: &Document) -> Vec<Found> {
     shown.map(table).collect()
 }
 
-/// What was seen, frame by frame; a stroke lasts until the tool is lifted.
+/// Returns the observations, frame by frame; a stroke lasts until the tool is lifted.
 fn frames(recording: &Recording) -> Vec<Frame> {
     let mut stroke = 0;
     let frame = |recorded: &RecordedFrame| {
@@ -117,7 +118,7 @@ fn frames(recording: &Recording) -> Vec<Frame> {
     recording.frames.iter().map(frame).collect()
 }
 
-/// From where the tool is set down to where it is lifted.
+/// Returns the strokes, each from lowering to lifting the tool.
 fn strokes(recording: &Recording) -> Vec<Stroke> {
     let mut strokes: Vec<Stroke> = Vec::new();
     for frame in &recording.frames {

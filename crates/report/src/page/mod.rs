@@ -1,9 +1,10 @@
-//! The plan page: one HTML file that plays a plan, or a run, with everything known about it. It
-//! needs no server and no network, and tells the browser to load nothing. On request it contains
-//! three.js, which shows the same in 3-D.
+//! The plan page: one HTML file that plays a plan, or a run, with all related information.
 //!
-//! `data` says what goes into the file, `html` puts it together with the script and the style; the
-//! other files fill the data from what there is to show.
+//! The page needs no server and no network, and its content security policy forbids loading. On
+//! request it contains three.js for a 3-D view.
+//!
+//! `data` defines the content of the file and `html` combines it with the script and the style. The
+//! other modules fill the data from their sources.
 
 mod believed;
 mod candidates;

@@ -1,4 +1,4 @@
-//! How to make a page's replays again: a command line, and a script in Python.
+//! Recipes to repeat a page's replays: a command line and a Python script.
 
 use std::path::Path;
 
@@ -9,23 +9,23 @@ use pushplan::{
     task::{Plan, Push, PushForm},
 };
 
-/// Where a task was read.
+/// Source of a task.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TaskSource {
-    /// A file, as people name it.
+    /// File, with its path as shown to users.
     File(String),
-    /// One of the shipped tasks.
+    /// Example, one of the shipped tasks.
     Example(String),
 }
 
 impl TaskSource {
-    /// The file at `path`.
+    /// Returns the source for the file at `path`.
     pub fn of(path: impl AsRef<Path>) -> Self {
         Self::File(path.as_ref().display().to_string())
     }
 
-    /// The words of a command line that name it.
+    /// Returns the command-line arguments that name the source.
     fn words(&self) -> Vec<String> {
         match self {
             Self::File(path) => vec![quoted(path)],
@@ -40,32 +40,32 @@ impl Default for TaskSource {
     }
 }
 
-/// Files and models that a page was made from, as people name them.
+/// Files and models from which a page was made, as shown to users.
 #[derive(Clone, Debug, Default)]
 pub struct Origin {
-    /// The task.
+    /// Source of the task.
     pub task: TaskSource,
-    /// Folder of the tools that were chosen from instead of the shipped ones.
+    /// Folder of tools that replaces the shipped ones.
     pub tools: Option<String>,
-    /// Folder of further tools.
+    /// Folder of additional tools.
     pub more_tools: Option<String>,
-    /// The models that predicted, where they must be named.
+    /// Models of the prediction, if they must be named.
     pub model: Option<Models>,
 }
 
-/// A setting of a run.
+/// Setting of a run.
 #[derive(Clone, Debug)]
 pub struct Setting {
-    /// The option of the command.
+    /// Command-line option.
     pub option: &'static str,
-    /// The keyword in Python, if there is one.
+    /// Keyword argument in Python, if there is one.
     pub keyword: Option<&'static str>,
-    /// What it is set to.
+    /// Value of the setting.
     pub value: String,
 }
 
 impl Setting {
-    /// The keyword and its value; `None` where Python cannot set it.
+    /// Formats the Python keyword argument; `None` if Python does not support the setting.
     fn given(&self) -> Option<String> {
         let value = match self.value.parse::<f64>() {
             Ok(_) => self.value.clone(),
@@ -75,25 +75,26 @@ impl Setting {
     }
 }
 
-/// How the replays are made again.
+/// Instructions to repeat replays.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Recipe {
-    /// For a shell; empty where it cannot do the same.
+    /// Shell command; empty if there is none.
     pub command: String,
-    /// For Python with the package `pushplan`; empty where it cannot do the same.
+    /// Python script with the package `pushplan`; empty if there is none.
     pub python: String,
 }
 
 impl Origin {
-    /// Of a plan: `pushplan predict` of its pushes, and a script that replays them in both engines.
+    /// Returns the recipe of a plan: `pushplan predict` for its pushes, and a script that replays
+    /// them in both engines.
     ///
-    /// A plan without pushes has none to predict, and the task is solved instead.
+    /// If the plan has no pushes, the recipe solves the task instead.
     pub fn plan(&self, plan: &Plan) -> Recipe {
         Recipe { command: self.command(plan), python: self.script(plan) }
     }
 
-    /// Of a run in a world, which is a file or a number; `settings` are those that were not as
-    /// usual.
+    /// Returns the recipe of a run in `world`, a file or a number. `settings` are the non-default
+    /// settings.
     pub fn run(&self, world: &str, settings: &[Setting]) -> Recipe {
         let mut words = ["pushplan", "run"].map(str::to_owned).to_vec();
         words.extend(self.task.words());
@@ -102,7 +103,7 @@ impl Origin {
         for setting in settings {
             words.extend([setting.option.to_owned(), quoted(&setting.value)]);
         }
-        // Python takes a world of its own or a number.
+        // Python accepts a world object or a number.
         let (mut lines, tools) = self.loads();
         let mut given = vec!["task".to_owned(), world.to_owned()];
         given.extend(tools.map(str::to_owned));
@@ -181,8 +182,8 @@ impl Origin {
         lines.join("\n")
     }
 
-    /// The lines that load tools and task, and the name of the tools where they are not the shipped
-    /// ones.
+    /// Returns the lines that load tools and task, and the name of the tools if they are not the
+    /// shipped ones.
     fn loads(&self) -> (Vec<String>, Option<&'static str>) {
         let mut lines = vec!["import pushplan".to_owned(), String::new()];
         let shipped = "pushplan.ToolLibrary.shipped()".to_owned();
@@ -204,7 +205,7 @@ impl Origin {
 }
 
 impl Recipe {
-    /// Of the replays of a plan file.
+    /// Returns the recipe for the replays of a plan file.
     pub fn of_plan_file(path: &str) -> Self {
         let load = format!("plan = pushplan.Plan.load({})", literal(path));
         Self {
@@ -213,8 +214,8 @@ impl Recipe {
         }
     }
 
-    /// Of what is believed of a recording; `settings` are those that were not as usual, `ranges` those
-    /// that masses may be in, kg.
+    /// Returns the recipe for the belief of a recording. `settings` are the non-default settings;
+    /// `ranges` are the candidate mass ranges, kg.
     pub fn of_recording(path: &str, settings: &[Setting], ranges: &[Span]) -> Self {
         let mut words = ["pushplan", "infer", &quoted(path)].map(str::to_owned).to_vec();
         for setting in settings {
@@ -238,15 +239,15 @@ impl Recipe {
     }
 }
 
-/// Whether a plan is pushes of one tool, held in one way: what several tools do in turn has no command of its
-/// own.
+/// Returns `true` if the plan consists of pushes with one tool and one grip; no command repeats
+/// plans with several tools.
 fn has_one_grip(plan: &Plan) -> bool {
     let yaw = plan.grip_yaw();
     let turned = plan.push_steps().any(|step| step.grip_yaw != yaw);
     !plan.levers() && plan.tools().len() == 1 && !turned
 }
 
-/// Whether a push of a plan goes on where the one before it ended, to the last digit.
+/// Returns `true` if a push continues exactly from the end of the push before it.
 fn goes_on(plan: &Plan, push: usize) -> bool {
     plan.form() == PushForm::Chained && push > 0
 }
@@ -260,12 +261,12 @@ fn python_push(push: &Push, goes_on: bool) -> String {
     format!("pushplan.Push({start}, {direction}, length={length}, speed={speed})")
 }
 
-/// A text as Python reads it: JSON's way to write one is Python's, too.
+/// Formats a text as a Python literal; JSON string syntax is valid Python.
 fn literal(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }
 
-/// A word quoted for a POSIX shell.
+/// Quotes a word for a POSIX shell.
 fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+".contains(c);
     match !word.is_empty() && word.chars().all(plain) {

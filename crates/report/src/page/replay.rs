@@ -10,17 +10,18 @@ use pushplan::{
 use super::data::{End, Layer, Replay, fine, length, point};
 use crate::graph::{Graph, GraphRelation};
 
-/// The trajectory of `by`, judged as `reached` or not; nothing without a finite frame.
+/// Returns the packed trajectory with its verdict `reached`; `None` without a finite frame.
 pub fn replay(layer: Layer, trajectory: &Trajectory, reached: bool) -> Option<Replay> {
     replay_of(layer, trajectory.by.to_string(), &trajectory.frames, reached)
 }
 
-/// The frames that can be shown.
+/// Returns the frames that can be shown.
 pub fn sound(frames: &[Frame]) -> impl Iterator<Item = &Frame> {
     frames.iter().filter(|frame| frame.state.is_finite() && frame.tool.is_finite())
 }
 
-/// The same of frames that `by` stands for.
+/// Returns packed frames of the source `by`, with the verdict `reached`; `None` without a finite
+/// frame.
 pub fn replay_of(layer: Layer, by: String, frames: &[Frame], reached: bool) -> Option<Replay> {
     let frames: Vec<&Frame> = sound(frames).collect();
     let objects = frames.first()?.state.poses.len();
@@ -51,11 +52,12 @@ pub fn replay_of(layer: Layer, by: String, frames: &[Frame], reached: bool) -> O
     })
 }
 
-/// The relations of every frame of what a model says that `job` does, see [`Replay::graph`].
+/// Returns the relations of every frame of the trajectory predicted for `job`, see
+/// [`Replay::graph`].
 pub fn graph(scene: &Scene, job: &Job, trajectory: &Trajectory) -> Vec<Vec<[usize; 3]>> {
     let relations = |frame: usize| -> Option<Vec<[usize; 3]>> {
         let graph = Graph::at(scene, job, trajectory, frame)?;
-        // Those that are there in both directions once.
+        // Relations in both directions are kept once.
         let mut relations: Vec<[usize; 3]> = Vec::new();
         for GraphRelation { receiver, sender, kind, .. } in graph.relations {
             let one = [receiver.min(sender), receiver.max(sender), kind as usize];
@@ -68,7 +70,7 @@ pub fn graph(scene: &Scene, job: &Job, trajectory: &Trajectory) -> Vec<Vec<[usiz
     (0..).map_while(relations).collect()
 }
 
-/// The nominal replays of a verdict that were recorded, and whether they reach the goal.
+/// Returns the recorded nominal replays of a verdict, and whether they reach the goal.
 pub fn replays(verdict: &Verdict) -> impl Iterator<Item = (Layer, &Trajectory, bool)> {
     Engine::ALL.into_iter().filter_map(|engine| {
         let evidence = verdict.nominal(engine)?;
@@ -76,7 +78,7 @@ pub fn replays(verdict: &Verdict) -> impl Iterator<Item = (Layer, &Trajectory, b
     })
 }
 
-/// Where the goal's object ends in the disturbed replays.
+/// Returns the final positions of the goal's object in the perturbed replays.
 pub fn ends(task: &Task, verdict: &Verdict) -> Vec<End> {
     let end = |evidence: &Evidence| {
         let pose = evidence.outcome.state.poses.get(task.goals[0].object)?;
@@ -90,7 +92,7 @@ pub fn ends(task: &Task, verdict: &Verdict) -> Vec<End> {
     all.filter_map(end).collect()
 }
 
-/// What a trajectory is shown as.
+/// Returns the layer in which a trajectory is shown.
 pub fn layer_of(trajectory: &Trajectory) -> Layer {
     match &trajectory.by {
         by if *by == ModelKind::PLANAR.into() => Layer::Planar,
@@ -106,7 +108,7 @@ fn layer(engine: Engine) -> Layer {
     }
 }
 
-/// The first value and then differences; one value if there is no other.
+/// Encodes values as the first value and differences; a constant sequence keeps one value.
 pub fn packed(values: impl Iterator<Item = i64>) -> Vec<i64> {
     let mut packed = differences(values);
     if packed.iter().skip(1).all(|step| *step == 0) {
@@ -115,7 +117,7 @@ pub fn packed(values: impl Iterator<Item = i64>) -> Vec<i64> {
     packed
 }
 
-/// The first value and then differences.
+/// Encodes values as the first value and differences.
 pub fn differences(values: impl Iterator<Item = i64>) -> Vec<i64> {
     let mut before = 0;
     let step = |value: i64| value.wrapping_sub(std::mem::replace(&mut before, value));

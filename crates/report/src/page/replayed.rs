@@ -1,4 +1,4 @@
-//! The pages of one plan: replayed for a verdict, or predicted next to simulated.
+//! Pages of one plan: replayed for a verdict, or predicted next to simulated.
 
 use std::sync::Arc;
 
@@ -21,8 +21,8 @@ use super::recipe::Recipe;
 use super::replay::{ends, graph, layer_of, replay, replays, sound};
 use super::{space, stage};
 
-/// The page of a plan that was replayed. `predicted` is what its effect model says, if that was
-/// asked; `recipe` makes the replays again.
+/// Returns the page of a replayed plan. `predicted` is the trajectory of its effect model, if it
+/// was computed, and `recipe` repeats the replays.
 pub fn verdict_page(
     file: &PlanFile,
     predicted: Option<&Trajectory>,
@@ -49,7 +49,7 @@ pub fn verdict_page(
     html::page(&making.data, view)
 }
 
-/// A trajectory as it is shown; in space where something of it left the plane.
+/// Returns a trajectory as shown on the page; in space if an object leaves the plane.
 pub(super) fn shown_replay(
     task: &Task,
     (plan, tools): (&Plan, &[Arc<Tool>]),
@@ -60,13 +60,13 @@ pub(super) fn shown_replay(
     }
     let mut replay = replay(layer, trajectory, reached)?;
     let goal = &task.goals[0];
-    // The page measures distances from a place; from anything else they are told.
+    // The script measures distances from a position only, so other errors are included.
     let marks = goal.shown(&task.scene).marks;
     let measured = marks.iter().filter(|mark| matches!(mark, Mark::Disc { .. })).count() == 1;
     if !measured || goal.is_relation() || goal.relative().is_some() {
         replay.measure = sound(&trajectory.frames).map(|f| length(goal.error(&f.state))).collect();
     }
-    // The parts of one tool are its nodes.
+    // With a single tool, the graph's part nodes are the parts of that tool.
     if let (Layer::Predicted, Some([motion])) = (layer, plan.slides(tools).as_deref()) {
         let job = Job::stated(&task.scene, motion.clone());
         replay.graph = graph(&task.scene, &job, trajectory);
@@ -78,7 +78,8 @@ fn is_in_space(task: &Task, plan: &Plan) -> bool {
     task.in_space() || plan.levers()
 }
 
-/// The page of pushes as several models see them, each frame by frame; `recipe` makes it again.
+/// Returns the page of pushes predicted by several models, frame by frame; `recipe` repeats the
+/// predictions.
 pub fn prediction_page(
     task: &Task,
     tools: &[Arc<Tool>],
@@ -99,7 +100,7 @@ pub fn prediction_page(
             (true, false) => "misses the goal".to_owned(),
         };
         ends.push(format!("{} {end}", trajectory.by));
-        // A model that hands a job to an engine is still the one that predicts.
+        // A model that delegates a job to an engine still counts as the predicting model.
         let own = layer_of(trajectory);
         let twice = trajectories[k + 1..].iter().any(|other| layer_of(other) == own);
         let layer = if twice { Layer::Predicted } else { own };
@@ -121,7 +122,7 @@ pub fn prediction_page(
     html::page(&making.data, view)
 }
 
-/// How good a plan is by its verdict.
+/// Returns the status of a plan according to its verdict.
 pub fn standing(verdict: &Verdict) -> Standing {
     match (verdict.passed, verdict.works()) {
         (true, _) => Standing::Passed,
@@ -130,14 +131,14 @@ pub fn standing(verdict: &Verdict) -> Standing {
     }
 }
 
-/// A page in the making.
+/// Page under construction.
 pub struct Making<'a> {
     task: &'a Task,
     pub data: Data,
 }
 
 impl<'a> Making<'a> {
-    /// A page without plans.
+    /// Returns a page without plans.
     pub fn of(task: &'a Task, headline: String) -> Self {
         let data = Data {
             task: task.name.clone(),
@@ -159,7 +160,7 @@ impl<'a> Making<'a> {
         Self { task, data }
     }
 
-    /// Index of a tool, whose file this is; it is added if it is new.
+    /// Returns the index of a tool with this file; a new tool is added.
     pub fn tool(&mut self, tool: &Tool, file: Json) -> usize {
         let known = self.data.tools.iter().position(|known| known.name == tool.name);
         known.unwrap_or_else(|| {
@@ -168,13 +169,13 @@ impl<'a> Making<'a> {
         })
     }
 
-    /// A drawing of what leaves the plane, by the replay of a verdict.
+    /// Returns a drawing of the 3-D replay of a verdict.
     pub fn drawing(&self, plan: &Plan, tools: &[Arc<Tool>], verdict: &Verdict) -> Option<String> {
         let replay = verdict.nominal(Engine::Spatial)?.trajectory.as_ref()?;
         self.drawn(plan, tools, replay, &verdict_line(self.task, Some(verdict)))
     }
 
-    /// A drawing of what leaves the plane, with a line below its title.
+    /// Returns a drawing of a 3-D motion, with a line below its title.
     fn drawn(
         &self,
         plan: &Plan,
@@ -192,7 +193,7 @@ impl<'a> Making<'a> {
         figures.first().map(|figure| figure.to_svg())
     }
 
-    /// Adds a plan, whose replays and verdict are to be filled in.
+    /// Adds a plan; the caller sets its replays and verdict.
     pub fn plan(&mut self, tools: &[Arc<Tool>], plan: &Plan, recipe: Recipe) -> &mut data::Plan {
         let file = PlanFile::new(self.task.clone(), tools.to_vec(), plan.clone());
         let mut file = serde_json::to_value(&file).unwrap_or_default();
@@ -242,7 +243,7 @@ impl<'a> Making<'a> {
     }
 }
 
-/// The strokes of a motion with the tool of this index.
+/// Returns the strokes of a motion with the tool of this index.
 pub fn strokes(motion: &ToolMotion, tool: usize) -> Vec<Stroke> {
     let mut lowered = true;
     let stroke = |stroke: &pushplan::task::Stroke| Stroke {

@@ -1,5 +1,5 @@
-//! The page of a run: its pushes one after another on one clock, what was predicted when each was
-//! chosen, what happened, and what was believed meanwhile.
+//! The page of a run: successive pushes on one clock, with the prediction at selection, the
+//! outcome, and the belief over time.
 
 use serde_json::Value as Json;
 
@@ -22,8 +22,8 @@ use super::replay::replay_of;
 use super::replayed::{Making, strokes};
 use super::stage;
 
-/// The page of a run. `real` is what really happened in every step, where the world was simulated;
-/// otherwise what was seen is shown. `recipe` makes the run again.
+/// Returns the page of a run. `real` is the ground truth of every step in a simulated world;
+/// otherwise the observations are shown. `recipe` repeats the run.
 pub fn run_page(trace: &Trace, real: &[Trajectory], recipe: Recipe, view: PageView) -> String {
     let mut making = Making::of(&trace.task, headline(trace));
     let motions: Vec<ToolMotion> = trace.steps.iter().map(Step::motion).collect();
@@ -76,7 +76,7 @@ fn run(trace: &Trace, starts: &[f64]) -> Run {
     }
 }
 
-/// Pushes and tools, in a line.
+/// Describes pushes and tools in one line.
 fn name(trace: &Trace) -> String {
     let mut tools: Vec<&str> = Vec::new();
     for step in &trace.steps {
@@ -98,13 +98,13 @@ fn name(trace: &Trace) -> String {
     format!("{pushes} with {}{probes}", tools.join(" and "))
 }
 
-/// Steps one after another: what is known of each, and when it begins.
+/// Successive steps with their trajectories and start times.
 struct Clock {
     predicted: Vec<Vec<Frame>>,
-    /// What really happened, or else what was seen.
+    /// Ground truth, or observations without it.
     came: Vec<Vec<Frame>>,
     layer: Layer,
-    /// When every step begins, and finally when all is over, seconds.
+    /// Start time of every step, then the end of the run, seconds.
     starts: Vec<f64>,
     /// Index of the first stroke of every step.
     strokes: Vec<usize>,
@@ -130,7 +130,7 @@ impl Clock {
         Self { predicted, came, layer, starts, strokes: first }
     }
 
-    /// The frames of every step on one clock. Objects at rest stay so until the next push.
+    /// Joins the frames of every step on one clock. Objects at rest stay so until the next push.
     fn joined(&self, parts: &[Vec<Frame>]) -> Vec<Frame> {
         let mut all: Vec<Frame> = Vec::new();
         for (k, part) in parts.iter().enumerate() {
@@ -166,7 +166,7 @@ fn replays(trace: &Trace, clock: &Clock) -> Vec<data::Replay> {
     replays
 }
 
-/// What was seen of a step, frame by frame: an object that is not seen stays where it was.
+/// Returns the observations of a step, frame by frame; unobserved objects keep their last pose.
 fn seen(trace: &Trace, step: usize, motion: &ToolMotion) -> Vec<Frame> {
     let mut state = thought(trace, step);
     let frame = |time: f64, state: &State| {
@@ -191,7 +191,7 @@ fn seen(trace: &Trace, step: usize, motion: &ToolMotion) -> Vec<Frame> {
     frames
 }
 
-/// Where everything was thought to be before a step.
+/// Returns the estimated state before a step.
 fn thought(trace: &Trace, step: usize) -> State {
     if let Some(before) = step.checked_sub(1) {
         return trace.steps[before].state.clone();

@@ -1,4 +1,4 @@
-//! The page of a solved task: its plans, its tools, and what the search went through.
+//! The page of a solved task: its plans, its tools, and the considered pushes.
 
 use crate::number::millimetres;
 use crate::plan_text::{engine_name, plan_line};
@@ -23,8 +23,8 @@ use super::replayed::{Making, shown_replay, standing};
 /// Names of the columns of the table of plans.
 const COLUMNS: [&str; 6] = ["plan", "predicted", "planar", "3-D", "disturbed", "what came of it"];
 
-/// The page of a solution. `nominal` holds the replays of its first plan, also where that was not
-/// worth verifying; `recipe` says how a plan's replays are made again.
+/// Returns the page of a solution. `nominal` holds the replays of the first plan, even if it was
+/// not verified; `recipe` returns the recipe for a plan's replays.
 pub fn solution_page(
     task: &Task,
     solution: &Solution,
@@ -40,7 +40,7 @@ pub fn solution_page(
         let replayed = if k == 0 { Some(nominal) } else { verdict };
         let mut list = Vec::new();
         let predicted = (Layer::Predicted, &ranked.predicted, ranked.outcome.reached);
-        // Of what leaves the plane only the end is predicted.
+        // For motions that leave the plane only the end is predicted.
         let predicted = Some(predicted)
             .filter(|(_, shown, _)| ranked.outcome.state.space.is_none() || shown.frames.len() > 1);
         let shown = predicted.into_iter().chain(replayed.into_iter().flat_map(replays));
@@ -56,7 +56,7 @@ pub fn solution_page(
     }
     making.data.columns = COLUMNS.to_vec();
     making.data.models = format!("Plans were {}.", models_words(task, solution));
-    // Of lever-ups nothing but the plans is kept.
+    // For lever-ups only the plans are kept.
     if solution.statistics.levers.is_none() {
         making.data.choice = choice(solution);
     }
@@ -85,7 +85,8 @@ fn cells(ranked: &RankedPlan, replayed: Option<&Verdict>, why: String) -> Vec<St
     vec![plan_line(&ranked.plan), error(Some(&ranked.outcome)), planar, spatial, disturbed, why]
 }
 
-/// Disturbed replays that reach the goal, and all of them, in the engine in which fewer do.
+/// Returns the number of perturbed replays that reach the goal, the number of replays, and the
+/// engine, for the engine with the lower share.
 fn fewest(verdict: &Verdict) -> Option<(usize, usize, Engine)> {
     let counts = Engine::ALL.map(|engine| {
         let reached = verdict.disturbed(engine).filter(|evidence| evidence.outcome.reached);
@@ -95,8 +96,8 @@ fn fewest(verdict: &Verdict) -> Option<(usize, usize, Engine)> {
     made.min_by(|a, b| (a.0 * b.1).cmp(&(b.0 * a.1)))
 }
 
-/// The result of the plan of rank `k`: for the first its verdict, for the others why they are not
-/// first.
+/// Describes the result of the plan of rank `k`: the verdict for the first plan, otherwise the
+/// reason why it is not first.
 fn why(task: &Task, solution: &Solution, k: usize) -> String {
     let ranked = &solution.plans[k];
     let Some(verdict) = &ranked.verdict else {
@@ -121,7 +122,7 @@ fn why(task: &Task, solution: &Solution, k: usize) -> String {
     }
 }
 
-/// Every tool that was offered, those with a plan first, then by what is predicted for them.
+/// Returns all offered tools: those with a plan first, then by predicted score.
 fn choice(solution: &Solution) -> Vec<Choice> {
     let mut found: Vec<(Option<usize>, f64, Choice)> = Vec::new();
     for (index, tool) in solution.tools.iter().enumerate() {
@@ -146,7 +147,7 @@ fn choice(solution: &Solution) -> Vec<Choice> {
     found.into_iter().map(|(.., choice)| choice).collect()
 }
 
-/// Why a tool was not chosen, or that it was.
+/// Explains why a tool was chosen or rejected.
 fn lost(
     solution: &Solution,
     plan: Option<usize>,

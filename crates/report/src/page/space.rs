@@ -1,5 +1,5 @@
-//! What a page holds of plans in space: their strokes, and replays in which everything has six
-//! degrees of freedom.
+//! Page data of plans in space: strokes, and replays in which every body has six degrees of
+//! freedom.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use pushplan::{
 use super::data::{Layer, Measure, Replay, Stroke, fine, length, pose};
 use super::replay::{differences, packed};
 
-/// A stroke for each step, with the tools' indices on the page.
+/// Returns a stroke for each step, with the tool's index on the page.
 pub fn strokes(plan: &Plan, tools: &[Arc<Tool>], index: &dyn Fn(&str) -> usize) -> Vec<Stroke> {
     let stroke = |(k, step): (usize, &Step)| {
         let ends = match (step, tools.iter().find(|tool| tool.name == step.tool())) {
@@ -29,7 +29,7 @@ pub fn strokes(plan: &Plan, tools: &[Arc<Tool>], index: &dyn Fn(&str) -> usize) 
     plan.steps.iter().enumerate().map(stroke).collect()
 }
 
-/// What is measured over time.
+/// Returns the quantity plotted over time.
 pub fn measure(plan: &Plan) -> Measure {
     match plan.levers() {
         true => Measure { name: "Edge raised", axis: "edge raised, mm" },
@@ -37,7 +37,7 @@ pub fn measure(plan: &Plan) -> Measure {
     }
 }
 
-/// A trajectory in space, judged as `reached` or not; nothing without a frame.
+/// Returns the packed trajectory in space with its verdict `reached`; `None` without a frame.
 pub fn replay(
     layer: Layer,
     task: &Task,
@@ -61,7 +61,7 @@ pub fn replay(
     let tool = |frame: &Frame| match (plan.steps.get(frame.stroke), frame.blade) {
         (_, Some(blade)) => blade,
         (Some(Step::Push(step)), None) => Pose3::upright(frame.tool, step.lift),
-        // Laid aside, out of sight below the table.
+        // An unused tool is stored below the table, out of sight.
         _ => Pose3::upright(frame.tool, -1.0),
     };
     let edge = edge(task, plan, tools);
@@ -83,7 +83,7 @@ pub fn replay(
     })
 }
 
-/// The object that is levered first, and the lever point in its frame.
+/// Returns the first levered object, and the lever point in its frame.
 fn edge(task: &Task, plan: &Plan, tools: &[Arc<Tool>]) -> Option<(usize, Vector3)> {
     let step = plan.lever_steps().next()?;
     let tool = tools.iter().find(|tool| tool.name == step.tool)?;
@@ -93,14 +93,14 @@ fn edge(task: &Task, plan: &Plan, tools: &[Arc<Tool>]) -> Option<(usize, Vector3
     Some((step.lever.plate, plate.start().local_point(point)))
 }
 
-/// Columns of poses in space: x and y, no heading, z, and the quaternion of the turn.
+/// Returns the columns of poses in space: x, y, no heading, z, and the quaternion of the rotation.
 fn columns(poses: impl Iterator<Item = Pose3>) -> Vec<Vec<i64>> {
     let mut last = [0.0; 4];
     let rows: Vec<[i64; 8]> = poses
         .map(|pose| {
             let mut turn = pose.quaternion();
-            // The same turn has two; the nearer one keeps what is drawn between frames from
-            // whirling around.
+            // A rotation has two quaternions. The one nearer to the last keeps interpolated frames
+            // from spinning.
             if turn.iter().zip(last).map(|(a, b)| a * b).sum::<f64>() < 0.0 {
                 turn = turn.map(|part| -part);
             }

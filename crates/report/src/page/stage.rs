@@ -1,4 +1,4 @@
-//! The table with what stands on it, and the tools.
+//! Page data of the table, its bodies, and the tools.
 
 use serde_json::Value as Json;
 
@@ -11,7 +11,7 @@ use pushplan::{
 
 use super::data::{Area, Body, Goal, Outline, Stage, Tool, fine, length, point, pose};
 
-/// Scene, reach and goal of a task.
+/// Returns scene, reach and goals of a task.
 pub fn stage(task: &Task) -> Stage {
     let shown = task.shown_goals();
     let goal = |goal: &ShownGoal| drawn(goal, task);
@@ -22,7 +22,7 @@ pub fn stage(task: &Task) -> Stage {
     }
 }
 
-/// The marks of a goal as the page draws them.
+/// Converts the marks of a goal for the page.
 fn drawn(shown: &ShownGoal, task: &Task) -> Goal {
     let mut goal = Goal {
         objects: shown.objects.clone(),
@@ -36,7 +36,7 @@ fn drawn(shown: &ShownGoal, task: &Task) -> Goal {
     };
     for mark in &shown.marks {
         match mark {
-            // In space something else is measured than the distance.
+            // In space another quantity than the distance is measured.
             Mark::Disc { radius, .. } if !task.in_space() => goal.tolerance = length(*radius),
             Mark::Area(area) => goal.areas.push(region(area, false)),
             Mark::Outside(area) => goal.areas.push(region(area, true)),
@@ -55,15 +55,15 @@ fn region(area: &task::Area, leave: bool) -> Area {
     Area { shape: outline(&area.shape), at: pose(&area.pose), leave }
 }
 
-/// The same as JSON, for whoever draws it elsewhere as the page does.
+/// Returns scene, reach and goals of a task as JSON, for drawing outside the page.
 pub fn task_stage(task: &Task) -> Json {
-    // It holds no maps with odd keys.
+    // Serialization cannot fail because the data has no maps with unusual keys.
     serde_json::to_value(stage(task)).unwrap_or_default()
 }
 
-/// What stands on a table, with nothing to be done.
+/// Returns the bodies on a table, without goals.
 pub fn table(scene: &Scene) -> Stage {
-    // What leaves the plane moves as one, with all its solids; in the plane each has a pose of its own.
+    // In space the solids of a compound object move as one; in the plane each has its own pose.
     let in_space = scene.in_space();
     let solids = scene.objects.iter().enumerate();
     let objects = solids.filter(|(_, object)| !(in_space && object.is_part()));
@@ -104,7 +104,7 @@ pub fn table(scene: &Scene) -> Stage {
     }
 }
 
-/// A tool as it is drawn, and as in its file.
+/// Converts a tool for drawing, with its file.
 pub fn tool(tool: &scene::Tool, file: Json) -> Tool {
     let parts = tool.parts().iter().map(|part| Body {
         name: part.name.clone(),
@@ -116,7 +116,7 @@ pub fn tool(tool: &scene::Tool, file: Json) -> Tool {
     });
     let mut parts: Vec<Body> = parts.collect();
     parts.extend(tool.blade().map(|Blade { length: long, width, thickness, .. }| Body {
-        // About its middle.
+        // The blade's frame is at its centre.
         name: "blade".to_owned(),
         shape: outline(&Shape::Cuboid { size: [long, width, thickness] }),
         height: length(thickness),
@@ -127,7 +127,7 @@ pub fn tool(tool: &scene::Tool, file: Json) -> Tool {
     Tool { name: tool.name.clone(), parts, grip: pose(&tool.grip), file }
 }
 
-/// The hand that holds a tool, about its grip; of what is levered nothing is said of it.
+/// Returns the hand that holds a tool, about its grip; `None` for levering.
 pub fn hand(task: &Task, tool: &scene::Tool, plan: &Plan) -> Option<Body> {
     if task.in_space() || plan.levers() {
         return None;
@@ -147,7 +147,7 @@ pub fn hand(task: &Task, tool: &scene::Tool, plan: &Plan) -> Option<Body> {
     })
 }
 
-/// What is fixed on an object.
+/// Converts a solid that is fixed to an object.
 fn slab(slab: &Slab) -> Body {
     Body {
         name: String::new(),

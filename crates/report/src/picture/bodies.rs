@@ -11,13 +11,13 @@ use pushplan::{
 
 use super::{legend::Sample, palette, view::View};
 
-/// Objects that end nearer than this to their start, metres, and turned by less than
-/// [`STILL_TURN`] have not moved: a second outline would only blur the first.
+/// Smallest displacement of an object that is drawn as moved, metres, unless it turns by
+/// [`STILL_TURN`]. A second outline would only blur the first.
 const STILL: f64 = 5e-4;
-/// Radians, about half a degree.
+/// Smallest rotation that is drawn, radians, about half a degree.
 const STILL_TURN: f64 = 0.01;
 
-/// The ring that the end effector can stand in, with the robot's base in its middle.
+/// Draws the annulus within reach of the end effector, with the robot's base in its centre.
 pub fn reach(svg: &mut Svg, view: &View, robot: &Robot) {
     let base = view.map(Vector::zeros());
     svg.circle(base, view.length(robot.reach_max), palette::REACH_AREA);
@@ -29,7 +29,7 @@ pub fn reach(svg: &mut Svg, view: &View, robot: &Robot) {
     svg.text(base + Vector::new(0.0, 18.0), "robot", font);
 }
 
-/// The areas where a goal's object may come to rest.
+/// Draws the areas in which a goal's object may end at rest.
 pub fn goal_area(svg: &mut Svg, view: &View, goal: &ShownGoal) {
     for mark in &goal.marks {
         if !matches!(mark, Mark::Outside(_)) {
@@ -38,7 +38,7 @@ pub fn goal_area(svg: &mut Svg, view: &View, goal: &ShownGoal) {
     }
 }
 
-/// The rims of those areas, a cross in their middle, and all other marks.
+/// Draws the rims of the goal areas, a cross in their middle, and all other marks.
 pub fn goal(svg: &mut Svg, view: &View, goal: &ShownGoal) {
     let centre = view.map(goal.centre);
     let dashed = palette::GOAL_RIM.dashed("6 3");
@@ -57,7 +57,7 @@ pub fn goal(svg: &mut Svg, view: &View, goal: &ShownGoal) {
     for mark in &goal.marks {
         match mark {
             Mark::Headings { heading, tolerance, symmetry, .. } => {
-                // Long enough to be seen beyond a small tolerance circle.
+                // The wedge must be visible beyond a small tolerance circle.
                 let length = radius.unwrap_or(0.0).max(34.0) + 10.0;
                 wedges(svg, (centre, length), (*heading, *tolerance, *symmetry));
             }
@@ -70,7 +70,7 @@ pub fn goal(svg: &mut Svg, view: &View, goal: &ShownGoal) {
     }
 }
 
-/// A mark that covers an area.
+/// Draws a mark that covers an area.
 fn area(svg: &mut Svg, view: &View, mark: &Mark, style: Style) {
     match mark {
         Mark::Disc { centre, radius } => {
@@ -89,7 +89,7 @@ fn area(svg: &mut Svg, view: &View, mark: &Mark, style: Style) {
     }
 }
 
-/// A wedge for each heading that counts, and an arrow along the wanted one.
+/// Draws a wedge for each accepted heading, and an arrow along the wanted one.
 fn wedges(
     svg: &mut Svg,
     (centre, length): (Vector, f64),
@@ -105,14 +105,14 @@ fn wedges(
     svg.arrow(centre, at(heading), 8.0, palette::GOAL, 1.6);
 }
 
-/// Lines from the end of a goal's object to the places that it missed.
+/// Draws lines from the end of a goal's object to the missed positions.
 pub fn miss(svg: &mut Svg, view: &View, goal: &ShownGoal, end: Vector) {
     for to in goal.marks.iter().filter_map(|mark| mark.missed(end)) {
         svg.line(view.map(end), view.map(to), palette::GOAL_MISS);
     }
 }
 
-/// What stands on the table and does not move, and the regions to keep out of.
+/// Draws the obstacles on the table and the keep-out regions.
 pub fn fixed(svg: &mut Svg, view: &View, scene: &Scene) {
     for region in &scene.keep_out {
         svg.open_titled(&format!("{}: {}", region.name, region.words()));
@@ -126,7 +126,7 @@ pub fn fixed(svg: &mut Svg, view: &View, scene: &Scene) {
     });
 }
 
-/// What is fixed above the table, to be drawn over what passes below it.
+/// Draws the obstacles above the table, over the bodies that pass below them.
 pub fn overhead(svg: &mut Svg, view: &View, scene: &Scene) {
     scene.obstacles.iter().filter(|obstacle| obstacle.z > 0.0).for_each(|obstacle| {
         svg.open_titled(&format!("{}, {:.3} m above the table", obstacle.name, obstacle.z));
@@ -135,7 +135,7 @@ pub fn overhead(svg: &mut Svg, view: &View, scene: &Scene) {
     });
 }
 
-/// The names of what [`fixed`] and [`overhead`] draw.
+/// Draws the names of the obstacles and keep-out regions.
 pub fn names_of_fixed(svg: &mut Svg, view: &View, scene: &Scene) {
     for obstacle in &scene.obstacles {
         name(svg, view, &obstacle.name, &obstacle.shape(), &obstacle.pose);
@@ -145,7 +145,7 @@ pub fn names_of_fixed(svg: &mut Svg, view: &View, scene: &Scene) {
     }
 }
 
-/// What a legend says of them.
+/// Returns the legend entries of obstacles and keep-out regions.
 pub fn legend_of_fixed(scene: &Scene) -> impl Iterator<Item = (Sample, String)> {
     let standing = scene.obstacles.iter().any(|obstacle| obstacle.z == 0.0);
     let above = scene.obstacles.iter().any(|obstacle| obstacle.z > 0.0);
@@ -158,7 +158,7 @@ pub fn legend_of_fixed(scene: &Scene) -> impl Iterator<Item = (Sample, String)> 
     there.map(|(_, style, words)| (Sample::Area(style), words.to_owned()))
 }
 
-/// An object where it stood at the start.
+/// Draws an object at its start.
 pub fn object(svg: &mut Svg, view: &View, object: &Object, is_goal: bool) {
     let style = if is_goal { palette::GOAL_OBJECT } else { palette::OTHER_OBJECT };
     svg.open_titled(&format!("{}: {:.3} kg", object.name, object.mass));
@@ -168,7 +168,7 @@ pub fn object(svg: &mut Svg, view: &View, object: &Object, is_goal: bool) {
     svg.close();
 }
 
-/// Whether an object that ended at `end` is seen to have moved.
+/// Returns `true` if an object that ended at `end` visibly moved.
 pub fn moved(object: &Object, end: &Pose) -> bool {
     let turned = wrap_angle(end.heading - object.pose.heading).abs() > STILL_TURN
         && !object.shape.is_cylinder();
@@ -176,19 +176,19 @@ pub fn moved(object: &Object, end: &Pose) -> bool {
     (shifted || turned) && end.is_finite()
 }
 
-/// An object where it ended.
+/// Draws an object at its end.
 pub fn final_object(svg: &mut Svg, view: &View, object: &Object, pose: &Pose, style: Style) {
     view.footprint(svg, &object.shape.footprint(), pose, style);
     heading_mark(svg, view, &object.shape, pose, style);
 }
 
-/// A name in the middle of a body if it fits there, else above it.
+/// Draws a name in the middle of a body if it fits there, otherwise above it.
 pub fn name(svg: &mut Svg, view: &View, name: &str, shape: &Shape, pose: &Pose) {
     let font = Font::new(12.0, palette::INK).bold().anchored(Anchor::Middle).halo();
     let centre = view.map(pose.position);
     let half = Vector::new((-pose.heading).cos(), (-pose.heading).sin());
     let extent = |direction| view.length(shape.footprint().extent(direction));
-    // Half extents of the body along the page's own axes.
+    // Half extents of the body along the axes of the page.
     let across = extent(Vector::new(half.x, half.y));
     let up = extent(Vector::new(-half.y, half.x));
     let fits = font.width(name) < 2.0 * across - 6.0 && up > 9.0;
@@ -196,7 +196,7 @@ pub fn name(svg: &mut Svg, view: &View, name: &str, shape: &Shape, pose: &Pose) 
     svg.text(centre - Vector::new(0.0, rise), name, font);
 }
 
-/// A line from the centre of an object to its outline ahead; a cylinder has no front.
+/// Draws a line from the centre of an object to its outline ahead; a cylinder has no front.
 fn heading_mark(svg: &mut Svg, view: &View, shape: &Shape, pose: &Pose, style: Style) {
     let ahead = match shape {
         Shape::Cylinder { .. } => return,

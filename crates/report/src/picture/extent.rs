@@ -1,4 +1,4 @@
-//! What a picture must show, as a box on the table.
+//! Bounding box of a picture's content on the table.
 
 use pushplan::geometry::Vector;
 use pushplan::{
@@ -9,11 +9,11 @@ use pushplan::{
 
 use super::view::Bounds;
 
-/// Ways are followed this far beyond the scene, metres; a wild prediction must not shrink
-/// everything else to a dot.
+/// Margin beyond the scene within which paths count, metres, so that a wild prediction does not
+/// shrink the rest to a dot.
 const FOLLOW: f64 = 1.0;
 
-/// Everything that must be seen.
+/// Content that must be visible.
 pub struct Extent<'a> {
     pub scene: &'a Scene,
     pub goals: Vec<ShownGoal>,

@@ -1,4 +1,4 @@
-//! Joints: a bar for a fixed one, a pin for a revolute one, a slot for a prismatic one.
+//! Joint symbols: a bar for a fixed joint, a pin for a revolute one, a slot for a prismatic one.
 
 use crate::svg::{Style, Svg};
 use pushplan::geometry::{ContactPoint, Pose, Vector, contact_points, perpendicular};
@@ -6,29 +6,29 @@ use pushplan::scene::{Joint, JointKind, Object, Span};
 
 use super::view::View;
 
-/// Two faces whose gaps at both ends differ by less lie flat against each other, metres.
+/// Maximum difference of the gaps at both ends of two faces that count as flush, metres.
 const FLAT: f64 = 5e-3;
 
-/// How a kind of joint is drawn, pixels.
+/// Symbol of a joint type, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Symbol {
-    /// A thick short bar across the gap.
+    /// Thick short bar across the gap.
     Bar,
-    /// A pin where the axis stands.
+    /// Pin at the axis.
     Pin,
     /// Two rails along the axis.
     Slot,
 }
 
 impl Symbol {
-    /// Every symbol with what it stands for.
+    /// Symbols with their meanings.
     pub const ALL: [(Symbol, &'static str); 3] = [
         (Symbol::Bar, "fixed joint"),
         (Symbol::Pin, "revolute joint"),
         (Symbol::Slot, "prismatic joint"),
     ];
 
-    /// The symbol of a joint.
+    /// Returns the symbol of a joint.
     pub fn of(joint: &Joint) -> Self {
         match joint.kind {
             JointKind::Fixed => Symbol::Bar,
@@ -37,7 +37,7 @@ impl Symbol {
         }
     }
 
-    /// Draws the symbol at a place of the page, along a unit vector of the page, across a gap of
+    /// Draws the symbol at a position of the page, along a unit vector of the page, across a gap of
     /// `gap` pixels.
     pub fn draw(self, svg: &mut Svg, at: Vector, along: Vector, gap: f64, colour: &'static str) {
         let rim = "#ffffff";
@@ -62,7 +62,7 @@ impl Symbol {
     }
 }
 
-/// A joint with its objects at `poses`.
+/// Draws a joint with its objects at `poses`.
 pub fn joint(
     svg: &mut Svg,
     view: &View,
@@ -83,7 +83,7 @@ pub fn joint(
     };
     let gap = view.length((to - from).dot(&along.try_normalize(1e-9).unwrap_or(Vector::x())).abs());
     let at = view.map(place);
-    // The page's y points down.
+    // The page's y axis points down.
     let along = Vector::new(along.x, -along.y).try_normalize(1e-9).unwrap_or(Vector::x());
     svg.open_titled(&words(objects, joint));
     if Symbol::of(joint) == Symbol::Pin {
@@ -95,8 +95,7 @@ pub fn joint(
     svg.close();
 }
 
-/// Where the two objects are nearest to each other, on each of them; the middles of faces that
-/// lie flat against each other.
+/// Returns the closest points of the two objects, one on each; for flush faces, their midpoints.
 fn nearest(objects: &[Object], joint: &Joint, poses: &[Pose]) -> (Vector, Vector) {
     let [first, second] = joint.between;
     let footprint = |index: usize| objects[index].shape.footprint();
@@ -112,7 +111,7 @@ fn nearest(objects: &[Object], joint: &Joint, poses: &[Pose]) -> (Vector, Vector
     }
 }
 
-/// What the joint is, for a reader who points at it.
+/// Describes the joint for a tooltip.
 fn words(objects: &[Object], joint: &Joint) -> String {
     let [first, second] = joint.between.map(|index| &objects[index].name);
     let (kind, unit, scale) = match joint.kind {

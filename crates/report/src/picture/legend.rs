@@ -1,4 +1,4 @@
-//! The legend below the plot: samples with words, flowing over as many rows as they need.
+//! The legend below the plot: samples with words, in as many rows as needed.
 
 use crate::svg::{Font, Style, Svg};
 use pushplan::geometry::Vector;
@@ -9,22 +9,22 @@ const ROW: f64 = 21.0;
 const SAMPLE: f64 = 26.0;
 const FONT: Font = Font::new(12.0, palette::INK);
 
-/// The sign next to the words.
+/// Sample next to the words.
 #[derive(Clone, Copy, Debug)]
 pub enum Sample {
-    /// A small box.
+    /// Small box.
     Area(Style),
-    /// A circle, as for the goal.
+    /// Circle, as for the goal.
     Ring(Style),
-    /// A line with an outlined disc at its end, as for a way.
+    /// Line with an outlined disc at its end, as for a path.
     Way(Style),
-    /// A numbered push.
+    /// Numbered push.
     Push,
-    /// A joint.
+    /// Joint symbol.
     Joint(Symbol),
 }
 
-/// Height of the legend in pixels when it may be `width` pixels wide.
+/// Returns the height of the legend in pixels for a width of `width` pixels.
 pub fn height(entries: &[(Sample, String)], width: f64) -> f64 {
     places(entries, width).last().map_or(0.0, |at| at.y + ROW)
 }

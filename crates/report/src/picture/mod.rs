@@ -1,7 +1,6 @@
-//! A picture of a scene from above: what stood where, what the tool did, where things ended
-//! by prediction and by simulation, and the goal.
+//! Top view of a scene: start poses, tool motions, predicted and simulated ends, and the goal.
 //!
-//! It draws what it is given and computes nothing: no rollouts, no verdicts.
+//! The pictures only draw given data: they compute no rollouts and no verdicts.
 
 mod bodies;
 mod extent;

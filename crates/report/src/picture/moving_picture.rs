@@ -1,7 +1,7 @@
-//! A picture that moves: tool and objects along a recorded trajectory, in an endless loop.
+//! Animation of tool and objects along a recorded trajectory, in an endless loop.
 //!
-//! An animated SVG that needs nothing but itself and moves where an image may (READMEs on the
-//! usual forges, chat, slides). Where nothing moves it shows the end of the motion.
+//! The animated SVG is self-contained and plays as an image (READMEs on the usual forges, chat,
+//! slides). Viewers without animation show the end of the motion.
 
 use crate::keyframes::{Key, short};
 use crate::number::millimetres;
@@ -27,30 +27,30 @@ use super::{
     view::View,
 };
 
-/// Pixels next to the plot.
+/// Margin next to the plot, pixels.
 const BESIDE: f64 = 16.0;
-/// Pixels between plot and legend: the progress bar and the line that says what happens.
+/// Height of the strip between plot and legend for progress bar and caption, pixels.
 const STRIP: f64 = 42.0;
 
-/// What to animate.
+/// Content of an animation.
 #[derive(Clone, Debug)]
 pub struct MovingPicture<'a> {
-    /// First line, bold.
+    /// Title, bold.
     pub title: String,
-    /// Whose pushes, in a few words.
+    /// Short description of the pushes.
     pub plan: String,
-    /// Who says what happens.
+    /// Source of the trajectory.
     pub source: Source,
-    /// Objects at their start, obstacles, where which object must come, and the end effector's reach.
+    /// Task with objects, obstacles, goals and the end effector's reach.
     pub task: &'a Task,
-    /// What the tools do.
+    /// Motions of the tools.
     pub motions: &'a [ToolMotion],
-    /// What happens, frame by frame.
+    /// Trajectory to animate.
     pub trajectory: &'a Trajectory,
 }
 
 impl MovingPicture<'_> {
-    /// The picture as an SVG document.
+    /// Returns the animation as an SVG document.
     pub fn to_svg(&self) -> String {
         let timeline = Timeline::of(&strokes::all(self.motions), self.trajectory);
         let mut view = View::fit(self.extent().bounds(), Vector::new(BESIDE, 0.0));
@@ -127,7 +127,7 @@ impl MovingPicture<'_> {
         view.scale_bar(&mut stage.svg);
     }
 
-    /// The way of object `k`, drawn as it goes.
+    /// Draws the path of object `k`, progressively with its motion.
     fn way(&self, stage: &mut Stage, k: usize) {
         let place = |frame: &Frame| stage.view.map(frame.state.poses[k].position);
         let points: Vec<Vector> = self.frames().map(place).collect();
@@ -149,7 +149,7 @@ impl MovingPicture<'_> {
         stage.svg.drawn_line(&class, &points, style);
     }
 
-    /// Moves the classes of object `k`: `o` shifts, `r` turns.
+    /// Animates the classes of object `k`: `o` for translation, `r` for rotation.
     fn animate(&self, stage: &mut Stage, k: usize) {
         let view = stage.view;
         let keys = self.keys(&stage.timeline, |_, frame| {
@@ -163,7 +163,7 @@ impl MovingPicture<'_> {
         }
     }
 
-    /// Opens two groups that move and turn with object `k`.
+    /// Opens two groups that translate and rotate with object `k`.
     fn open_object(&self, stage: &mut Stage, k: usize, end: &Pose) {
         let cylinder = self.task.scene.objects[k].shape.is_cylinder();
         let turned = if cylinder { 0.0 } else { clockwise(end) };
@@ -172,7 +172,7 @@ impl MovingPicture<'_> {
         stage.svg.open_moved(&format!("r{k}"), Vector::zeros(), turned);
     }
 
-    /// Every joint moves with its first object, in whose frame it is given.
+    /// Draws every joint with the motion of its first object, in whose frame it is defined.
     fn joints(&self, stage: &mut Stage, ends: &[Pose]) {
         let objects = &self.task.scene.objects;
         for joint in &self.task.scene.joints {
@@ -191,18 +191,19 @@ impl MovingPicture<'_> {
         Story { task, strokes: strokes::all(motions), trajectory }
     }
 
-    /// The frames that can be drawn.
+    /// Returns the frames that can be drawn.
     fn frames(&self) -> impl Iterator<Item = &Frame> {
         self.trajectory.frames.iter().filter(|frame| frame.state.is_finite())
     }
 
-    /// Where the objects end.
+    /// Returns the final poses of the objects.
     fn ends(&self) -> Vec<Pose> {
         let start = || self.task.scene.objects.iter().map(|object| object.pose).collect();
         self.frames().last().map_or_else(start, |frame| frame.state.poses.clone())
     }
 
-    /// A value of every frame; what stands still while the tool is lifted is said at both ends.
+    /// Returns a keyframe of `value` for every frame; while the tool is lifted, both ends of the
+    /// pause have a keyframe.
     fn keys<const N: usize>(
         &self,
         timeline: &Timeline,

@@ -1,4 +1,4 @@
-//! The tool of a moving picture: it comes down, pushes, goes up, over and down again.
+//! The tool of an animation: it is lowered, pushes, is lifted, moves over and is lowered again.
 
 use crate::keyframes::{Key, short};
 use pushplan::geometry::{Pose, Vector};
@@ -11,10 +11,10 @@ use super::{
     timeline::LIFT,
 };
 
-/// How much larger a tool looks that is lifted towards the viewer.
+/// Scale of a lifted tool, which is nearer to the viewer.
 const LIFTED: f64 = 1.05;
 
-/// The tools along their motions.
+/// Draws the tools along their motions.
 pub fn tools(stage: &mut Stage, made: &[Made]) {
     let mut shown: Vec<&Tool> = Vec::new();
     for (tool, _) in made {
@@ -25,7 +25,7 @@ pub fn tools(stage: &mut Stage, made: &[Made]) {
     }
 }
 
-/// The tool of number `index` along its motion.
+/// Draws the tool of number `index` along its motion.
 fn one(stage: &mut Stage, made: &[Made], tool: &Tool, index: usize) {
     let (places, lift) = keys(stage, made, tool);
     let class = |name: &str| match index {
@@ -54,7 +54,7 @@ fn one(stage: &mut Stage, made: &[Made], tool: &Tool, index: usize) {
     stage.close(3);
 }
 
-/// Each push's arrow while it is made.
+/// Draws the arrow of each push during the push.
 pub fn arrows(stage: &mut Stage, made: &[Made]) {
     for (k, (span, made)) in stage.timeline.strokes.clone().iter().zip(made).enumerate() {
         stage.open_between(&format!("a{k}"), span.start - LIFT, span.end, false);
@@ -64,7 +64,8 @@ pub fn arrows(stage: &mut Stage, made: &[Made]) {
     }
 }
 
-/// Poses of the end effector that holds `tool` by time; opacity and size of the tool.
+/// Returns the poses over time of the end effector that holds `tool`, and the tool's opacity and
+/// scale.
 fn keys(stage: &Stage, made: &[Made], tool: &Tool) -> (Vec<(f64, Pose)>, Vec<Key<2>>) {
     let (up, gone) = ([palette::TOOL_LIFTED, LIFTED], [0.0, LIFTED]);
     let mut places: Vec<(f64, Pose)> = Vec::new();
@@ -72,7 +73,7 @@ fn keys(stage: &Stage, made: &[Made], tool: &Tool) -> (Vec<(f64, Pose)>, Vec<Key
     let mut held = false;
     for (span, (of, stroke)) in stage.timeline.strokes.iter().zip(made) {
         if of.name != tool.name {
-            // Another one is taken.
+            // Another tool is picked up.
             if let (true, Some(&(before, _))) = (held, places.last()) {
                 lift.push(Key { at: before, value: [1.0, 1.0] });
                 lift.push(Key { at: before + LIFT, value: gone });

@@ -1,5 +1,5 @@
-//! Colours of the scene picture, far enough apart for colour-blind readers, and doubled by dashes
-//! and fills, so that none carries a meaning alone.
+//! Colours of the scene picture, distinguishable by colour-blind readers. Dashes and fills repeat
+//! the meaning of each colour.
 
 use crate::svg::{Font, Style};
 
@@ -13,7 +13,7 @@ pub const SPATIAL: &str = "#1864ab";
 pub const GOOD: &str = "#2b8a3e";
 pub const BAD: &str = "#c92a2a";
 
-/// Lines below the title.
+/// Font of the lines below the title.
 pub const NOTE: Font = Font::new(12.5, FAINT_INK);
 
 pub const PLOT: Style = Style::fill("#fbfcfd").outlined("#dee2e6", 1.0);
@@ -22,7 +22,7 @@ pub const GRID_STRONG: Style = Style::stroke("#d3d9df", 1.0);
 pub const REACH_AREA: Style = Style::fill("#4dabf7").opacity(0.06);
 pub const REACH_RIM: Style = Style::stroke("#4dabf7", 1.2).dashed("2 4");
 pub const OBSTACLE: Style = Style::fill("url(#hatch)").outlined("#495057", 1.4);
-/// What is above the table hides nothing below it.
+/// Obstacles above the table are outlined only, so that they do not hide bodies below them.
 pub const OVERHEAD: Style = Style::stroke("#495057", 1.6).dashed("9 4");
 pub const KEEP_OUT: Style =
     Style::fill("#fa5252").outlined("#c92a2a", 1.2).dashed("3 3").opacity(0.25);
@@ -36,17 +36,17 @@ pub const GOAL_MISS: Style = Style::stroke(GOAL, 1.2).dashed("1 4");
 pub const TOOL_FILL: &str = "#d0ab83";
 pub const PROGRESS: Style = Style::fill(SPATIAL);
 pub const PROGRESS_BED: Style = Style::fill("#e9ecef");
-/// Opacity of where an object stood in a picture that moves.
+/// Opacity of an object's start pose in an animation.
 pub const START: f64 = 0.3;
 /// Opacity of the tool before and after a push.
 pub const TOOL_BEFORE: f64 = 0.28;
 pub const TOOL_AFTER: f64 = 0.72;
-/// The same of one that moves, and of one that is lifted over what lies below it.
+/// Opacity of a moving tool, and of a tool lifted over bodies.
 pub const TOOL_AT_WORK: f64 = 0.9;
 pub const TOOL_LIFTED: f64 = 0.4;
 pub const TOOL_HOLD: Style = Style::stroke(TOOL, 2.4);
 
-/// Diagonal lines for what cannot move.
+/// Hatching for immovable bodies.
 pub const HATCH: &str = "<pattern id=\"hatch\" width=\"7\" height=\"7\" \
     patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate(45)\">\
     <rect width=\"7\" height=\"7\" fill=\"#e9ecef\"/>\

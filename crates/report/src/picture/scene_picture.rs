@@ -1,4 +1,4 @@
-//! The whole picture: title, plot, legend.
+//! The complete scene picture: title, plot, legend.
 
 use std::fmt;
 
@@ -19,18 +19,18 @@ use super::{
     view::View,
 };
 
-/// Pixels left of the plot, for the axis numbers.
+/// Margins left and right of the plot, pixels; the left one holds the axis numbers.
 const LEFT: f64 = 46.0;
 const RIGHT: f64 = 16.0;
 
-/// Which source says where the objects went.
+/// Source of an object's path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
-    /// The effect model that chose the plan.
+    /// Effect model that chose the plan.
     Predicted,
-    /// A replay in an engine.
+    /// Replay in an engine.
     Simulated(Engine),
-    /// Who looked.
+    /// Observer.
     Seen,
 }
 
@@ -46,36 +46,36 @@ impl fmt::Display for Source {
     }
 }
 
-/// Ways of the objects by one source.
+/// Paths of the objects from one source.
 #[derive(Clone, Copy, Debug)]
 pub struct Track<'a> {
-    /// Who says so.
+    /// Source of the trajectory.
     pub source: Source,
-    /// Frame by frame; one frame alone still shows where things ended.
+    /// Trajectory; a single frame is enough to show the final poses.
     pub trajectory: &'a Trajectory,
 }
 
-/// What to draw. Only the scene is needed; everything else is drawn where it is given.
+/// Content of a scene picture. Only the scene is required.
 #[derive(Clone, Debug)]
 pub struct ScenePicture<'a> {
-    /// First line, bold.
+    /// Title, bold.
     pub title: String,
-    /// Lines below it.
+    /// Lines below the title.
     pub notes: Vec<String>,
-    /// Objects at their start, obstacles.
+    /// Scene with objects at their start, and obstacles.
     pub scene: &'a Scene,
-    /// Goal circles, and which objects are drawn as those that matter.
+    /// Goals, whose objects are highlighted.
     pub goals: Vec<ShownGoal>,
-    /// Reach of the end effector.
+    /// Robot whose reach is drawn.
     pub robot: Option<&'a Robot>,
-    /// Tool outlines and push arrows.
+    /// Motions drawn as tool outlines and push arrows.
     pub motions: &'a [ToolMotion],
-    /// Ways and ends of the objects; later ones are drawn over earlier ones.
+    /// Paths and ends of the objects; later ones are drawn over earlier ones.
     pub tracks: Vec<Track<'a>>,
 }
 
 impl ScenePicture<'_> {
-    /// The picture as an SVG document.
+    /// Returns the picture as an SVG document.
     pub fn to_svg(&self) -> String {
         let mut view = View::fit(self.extent().bounds(), Vector::new(LEFT, 0.0));
         let notes: Vec<String> =
@@ -124,7 +124,7 @@ impl ScenePicture<'_> {
         bodies::fixed(svg, view, self.scene);
         let made = strokes::all(self.motions);
         strokes::tool(svg, view, &made);
-        // Over the tool, which often ends where the object was.
+        // Objects are drawn over the tool, which often ends where the object started.
         for (k, object) in self.scene.objects.iter().enumerate() {
             bodies::object(svg, view, object, self.is_goal(k));
         }

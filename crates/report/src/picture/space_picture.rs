@@ -1,5 +1,5 @@
-//! A picture of what leaves the plane: from above, and from the side along the edge that is levered,
-//! with ghosts from the start to rest, or moving.
+//! Picture of a motion that leaves the plane: views from above, and from the side along the levered
+//! edge. It shows ghosts from the start to rest, or an animation.
 
 use std::sync::Arc;
 
@@ -14,60 +14,60 @@ use pushplan::{
 use super::view::{Bounds, View};
 use super::{bodies, palette};
 
-/// Free space beside and above the plots, pixels.
+/// Free space beside and below the plots, pixels.
 const LEFT: f64 = 52.0;
 const RIGHT: f64 = 16.0;
 const BELOW: f64 = 40.0;
 
-/// Largest and smallest plot, pixels, and what is free around what it shows, metres.
+/// Largest and smallest plot, pixels, and margin around its content, metres.
 const LARGEST: Vector = Vector::new(760.0, 420.0);
 const SMALLEST: Vector = Vector::new(560.0, 160.0);
 const MARGIN: f64 = 0.02;
 
-/// Ghosts between the start and rest.
+/// Number of ghosts between the start and rest.
 const GHOSTS: usize = 7;
 
-/// Metres of motion that a turn by one radian counts as.
+/// Displacement equivalent to a rotation by one radian, metres.
 const TURN: f64 = 0.05;
 
-/// Corners of what is round.
+/// Number of corners of a polygon that approximates a circle.
 const ROUND: usize = 16;
 
-/// Most frames of an animation, and the frames of its pause after them.
+/// Maximum number of frames of an animation, and number of frames of its final pause.
 const PICTURES: usize = 90;
 const PAUSE: usize = 12;
 
-/// A plan as it was replayed.
+/// Content of a picture in space: a replayed plan.
 pub struct SpacePicture<'a> {
-    /// Above everything.
+    /// Title.
     pub title: String,
-    /// Below it, a line each.
+    /// Lines below the title.
     pub notes: Vec<String>,
-    /// Where.
+    /// Scene.
     pub scene: &'a Scene,
-    /// What is done, with the tools that it names.
+    /// Plan.
     pub plan: &'a Plan,
-    /// The tools.
+    /// Tools of the plan.
     pub tools: &'a [Arc<Tool>],
-    /// What for.
+    /// Goal of the plan.
     pub goal: &'a Goal,
-    /// What happened, in space.
+    /// Trajectory in space.
     pub trajectory: &'a Trajectory,
 }
 
-/// A solid as its corners in space.
+/// Corners of a solid in space.
 type Corners = Vec<Vector3>;
 
-/// Onto which plane space is seen.
+/// Projection of space onto a plane.
 type Seen<'a> = &'a dyn Fn(&Vector3) -> Vector;
 
 impl SpacePicture<'_> {
-    /// The picture as an SVG document.
+    /// Returns the picture as an SVG document.
     pub fn to_svg(&self) -> String {
         self.drawn(&self.ghosts(), None)
     }
 
-    /// The picture as an SVG document that moves in an endless loop, with nothing but itself.
+    /// Returns the picture as an animated, self-contained SVG document in an endless loop.
     pub fn to_moving_svg(&self) -> String {
         let frames: Vec<&Frame> = self.trajectory.frames.iter().collect();
         let step = frames.len().div_ceil(PICTURES).max(1);
@@ -81,7 +81,7 @@ impl SpacePicture<'_> {
 
     fn drawn(&self, frames: &[&Frame], moving: Option<f64>) -> String {
         let above = |p: &Vector3| p.xy();
-        // Without a lever-up, from the front.
+        // Without a lever-up, the side view is from the front.
         let (frame, floor) = self.levered().unwrap_or_default();
         let frame = frame.inverse();
         let beside = move |p: &Vector3| {
@@ -110,13 +110,13 @@ impl SpacePicture<'_> {
         svg.finish()
     }
 
-    /// The first lever-up's frame, and how high the object lies then, metres.
+    /// Returns the frame of the first lever-up, and the height of the object at that time, metres.
     fn levered(&self) -> Option<(Pose3, f64)> {
         let (step, plate) = self.first()?;
         Some((step.lever.frame_on(&plate), plate.z))
     }
 
-    /// The first lever-up, and its object as it is planned.
+    /// Returns the first lever-up, and its object at the planned pose.
     fn first(&self) -> Option<(&LeverStep, Plate)> {
         let step = self.plan.lever_steps().next()?;
         let mut plate = Plate::of(self.scene, step.lever.plate);
@@ -124,7 +124,7 @@ impl SpacePicture<'_> {
         Some((step, plate))
     }
 
-    /// Start, some frames between, and rest: evenly by how far the object moved.
+    /// Returns the start, some frames between, and rest, at equal distances of the object's motion.
     fn ghosts(&self) -> Vec<&Frame> {
         let frames = &self.trajectory.frames;
         let mut ways = vec![0.0];
@@ -145,7 +145,7 @@ impl SpacePicture<'_> {
         chosen.into_iter().filter_map(|k| frames.get(k)).collect()
     }
 
-    /// Where an object is in a frame.
+    /// Returns the pose of an object in a frame.
     fn pose(&self, object: usize, frame: &Frame) -> Pose3 {
         let state = &frame.state;
         let seen = || state.poses.get(object).map(|pose| (pose, &self.scene.objects[object]));
@@ -201,7 +201,7 @@ impl SpacePicture<'_> {
             false => palette::OTHER_OBJECT,
         };
         if let Some(seconds) = moving {
-            // The tool moves under what it carries.
+            // The tool is drawn below the bodies that it carries.
             let parts = frames.iter().map(|frame| self.tool(frame).len()).max().unwrap_or(0);
             for part in 0..parts {
                 let ways: Vec<Vec<Vector>> = frames
@@ -242,7 +242,7 @@ impl SpacePicture<'_> {
         svg.close();
     }
 
-    /// The obstacle that must be left, and where to.
+    /// Draws the obstacle that must be left, and the goal position.
     fn goal_above(&self, svg: &mut Svg, view: &View) {
         svg.open_clipped("goal-above", view.corner, view.size);
         let goal = self.goal.shown(self.scene);
@@ -251,7 +251,7 @@ impl SpacePicture<'_> {
         let goal = ShownGoal { marks, ..goal };
         bodies::goal_area(svg, view, &goal);
         bodies::goal(svg, view, &goal);
-        // The lever point, and the way that the blade goes.
+        // The arrow shows the lever point and the path of the blade.
         if let Some((step, plate)) = self.first() {
             let frame = plate.pose * lever_frame(plate.corners(), step.lever.place);
             let back = frame.point(Vector::new(-0.03, 0.0));
@@ -265,7 +265,7 @@ impl SpacePicture<'_> {
         svg.close();
     }
 
-    /// How high the edge must come.
+    /// Draws the height that the edge must reach.
     fn goal_beside(&self, svg: &mut Svg, view: &View) {
         let marks = self.goal.shown(self.scene).marks.into_iter();
         let height = |mark| if let Mark::Height(z) = mark { Some(z) } else { None };
@@ -284,7 +284,7 @@ impl SpacePicture<'_> {
         plate.slabs.iter().map(solid).collect()
     }
 
-    /// What moves of the tool that is at work.
+    /// Returns the moving parts of the active tool.
     fn tool(&self, frame: &Frame) -> Vec<Corners> {
         let Some(step) = self.plan.steps.get(frame.stroke) else { return Vec::new() };
         let Some(tool) = self.tools.iter().find(|tool| tool.name == step.tool()) else {
@@ -307,7 +307,7 @@ impl SpacePicture<'_> {
     }
 }
 
-/// Corners of what a solid covers.
+/// Returns the corners of a solid's footprint.
 fn around(footprint: &Footprint) -> Vec<Vector> {
     match footprint {
         Footprint::Disc { radius } => (0..ROUND)

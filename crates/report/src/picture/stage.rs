@@ -1,4 +1,4 @@
-//! A moving picture in the making: what is drawn, what moves, when.
+//! Animation under construction: drawing, keyframes, and timeline.
 
 use crate::keyframes::{Key, Keyframes, short};
 use crate::svg::Svg;
@@ -6,14 +6,14 @@ use pushplan::geometry::{Pose, Vector};
 
 use super::{timeline::Timeline, view::View};
 
-/// The eye sees nothing smaller, pixels and degrees.
+/// Smallest visible change, pixels and degrees.
 pub const SEEN: f64 = 0.2;
-/// Fading in and out at both ends of the loop, seconds.
+/// Duration of fading at both ends of the loop, seconds.
 const FADE: f64 = 0.35;
-/// Soft edge of what is seen for a time, seconds.
+/// Duration of fading of temporary elements, seconds.
 const EDGE: f64 = 0.15;
 
-/// A moving picture in the making.
+/// Animation under construction.
 pub struct Stage {
     pub svg: Svg,
     pub loops: Keyframes,
@@ -22,7 +22,7 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// An empty picture of `size` pixels.
+    /// Returns an empty picture of `size` pixels.
     pub fn new(size: Vector, title: &str, view: View, timeline: Timeline) -> Self {
         let mut loops = Keyframes::new(timeline.total);
         let end = timeline.total;
@@ -31,13 +31,13 @@ impl Stage {
         Self { svg: Svg::new(size.x, size.y, title), loops, view, timeline }
     }
 
-    /// Opens a group that fades out and in where the loop jumps back to its start.
+    /// Opens a group that fades out and in at the jump to the start of the loop.
     pub fn open_layer(&mut self) {
         self.svg.open_shown("layer", 1.0);
     }
 
-    /// Opens a group that is seen from `since` to `until`, seconds, and in a picture that does
-    /// not move if `still`.
+    /// Opens a group that is visible from `since` to `until`, seconds. `still` makes it visible
+    /// without animation.
     pub fn open_between(&mut self, class: &str, since: f64, until: f64, still: bool) {
         let end = self.timeline.total;
         let keys = [
@@ -57,24 +57,24 @@ impl Stage {
         (0..count).for_each(|_| self.svg.close());
     }
 
-    /// The finished document.
+    /// Returns the finished document.
     pub fn finish(mut self) -> String {
         self.svg.style(&self.loops.finish());
         self.svg.finish()
     }
 }
 
-/// A shift in pixels.
+/// Formats a translation in pixels.
 pub fn shift([x, y]: [f64; 2]) -> String {
     format!("transform:translate({}px,{}px)", short(x, 1), short(y, 1))
 }
 
-/// A turn in degrees.
+/// Formats a rotation in degrees.
 pub fn turn([degrees]: [f64; 1]) -> String {
     format!("transform:rotate({}deg)", short(degrees, 1))
 }
 
-/// Degrees clockwise on the page, whose y points down.
+/// Returns the heading in degrees clockwise on the page, whose y axis points down.
 pub fn clockwise(pose: &Pose) -> f64 {
     -pose.heading.to_degrees()
 }

@@ -1,4 +1,4 @@
-//! What a moving picture says: what happens now, how much is over, how it ended.
+//! Captions of an animation: the current action, the progress, and the outcome.
 
 use crate::keyframes::{Key, short};
 use crate::number::millimetres;
@@ -13,7 +13,7 @@ use super::{palette, stage::Stage, strokes::Made, timeline::LIFT};
 
 const CAPTION: Font = Font::new(14.0, palette::INK).bold();
 
-/// What there is to say.
+/// Content of the captions.
 pub struct Story<'a> {
     pub task: &'a Task,
     pub strokes: Vec<Made<'a>>,
@@ -21,7 +21,7 @@ pub struct Story<'a> {
 }
 
 impl Story<'_> {
-    /// How much of the motion is over, along the lower edge of the plot.
+    /// Draws the progress bar along the lower edge of the plot.
     pub fn progress(&self, stage: &mut Stage) {
         let corner = stage.view.corner + Vector::new(0.0, stage.view.size.y);
         let size = Vector::new(stage.view.size.x, 4.0);
@@ -37,7 +37,8 @@ impl Story<'_> {
         stage.close(2);
     }
 
-    /// What happens now, with its first letter at `at`; a still picture shows the end.
+    /// Writes captions of the current action, starting at `at`; a still picture shows the last
+    /// caption.
     pub fn captions(&self, stage: &mut Stage, at: Vector) {
         let rest = stage.timeline.rest();
         let name =
@@ -65,7 +66,7 @@ impl Story<'_> {
         stage.close(1);
     }
 
-    /// A ring that runs away from the goal when it is reached.
+    /// Draws a ring that expands from the goal when it is reached.
     pub fn reached(&self, stage: &mut Stage) {
         if !self.is_reached() {
             return;
@@ -90,7 +91,7 @@ impl Story<'_> {
         stage.close(2);
     }
 
-    /// How it ended, behind a tick or a cross.
+    /// Writes the outcome behind a tick or a cross.
     fn ending(&self, svg: &mut Svg, at: Vector) {
         let Some(last) = self.trajectory.frames.last() else { return };
         let error = millimetres(self.goal().error(&last.state));
@@ -110,7 +111,7 @@ impl Story<'_> {
         svg.text(at + Vector::new(24.0, 0.0), &words, Font { colour, ..CAPTION });
     }
 
-    /// The first goal.
+    /// Returns the first goal.
     fn goal(&self) -> &Goal {
         &self.task.goals[0]
     }

@@ -1,4 +1,4 @@
-//! The tool at both ends of every stroke, the end effector's way, and the objects' ways.
+//! The tool at both ends of every stroke, and the paths of the end effector and the objects.
 
 use crate::svg::{Anchor, Font, Style, Svg};
 use pushplan::geometry::{Footprint, Pose, Vector, contact_points};
@@ -10,10 +10,10 @@ use pushplan::{
 
 use super::{palette, view::View};
 
-/// A stroke and the tool that makes it.
+/// Stroke and its tool.
 pub type Made<'a> = (&'a Tool, &'a Stroke);
 
-/// All strokes of motions in turn.
+/// Returns all strokes of the motions, in order.
 pub fn all(motions: &[ToolMotion]) -> Vec<Made<'_>> {
     let mut made = Vec::new();
     for motion in motions {
@@ -22,18 +22,18 @@ pub fn all(motions: &[ToolMotion]) -> Vec<Made<'_>> {
     made
 }
 
-/// Names of the tools, each once.
+/// Returns the names of the tools, without repetition.
 pub fn tools(motions: &[ToolMotion]) -> String {
     let mut names: Vec<&str> = motions.iter().map(|motion| motion.tool.name.as_str()).collect();
     names.dedup();
     names.join(", ")
 }
 
-/// The tool at the start (faint) and end (strong) of every stroke.
+/// Draws the tool at the start (faint) and end (strong) of every stroke.
 pub fn tool(svg: &mut Svg, view: &View, strokes: &[Made]) {
-    // All starts below all ends, so that no end is dimmed.
+    // All starts are drawn below all ends, so that no end is dimmed.
     for (k, (tool, stroke)) in strokes.iter().enumerate() {
-        // A chained stroke starts where the last one ended, which is drawn already.
+        // A chained stroke starts at the end of the last one, which is drawn already.
         if k == 0 || strokes[k - 1].1.settle {
             silhouette(svg, view, tool, &stroke.from, palette::TOOL_BEFORE);
         }
@@ -46,20 +46,20 @@ pub fn tool(svg: &mut Svg, view: &View, strokes: &[Made]) {
     }
 }
 
-/// Numbered arrows along the end effector's way, with the grip at every end.
+/// Draws numbered arrows along the end effector's path, with the grip at every end.
 pub fn pushes(svg: &mut Svg, view: &View, strokes: &[Made]) {
-    // All numbers over all arrows.
+    // All numbers are drawn over all arrows.
     strokes.iter().for_each(|made| arrow(svg, view, made));
     strokes.iter().enumerate().for_each(|(k, made)| number(svg, view, made, k));
 }
 
-/// The way of the end effector in a push.
+/// Draws the path of the end effector in a push.
 pub fn arrow(svg: &mut Svg, view: &View, (tool, stroke): &Made) {
     let [from, to] = [&stroke.from, &stroke.to].map(|pose| grip(view, tool, pose));
     svg.arrow(from, to, 12.0, palette::INK, 2.2);
 }
 
-/// The number of push `k` at its start.
+/// Draws the number of push `k` at its start.
 fn number(svg: &mut Svg, view: &View, (tool, stroke): &Made, k: usize) {
     let at = grip(view, tool, &stroke.from);
     svg.circle(at, 9.0, Style::fill(palette::INK).outlined("#ffffff", 1.5));
@@ -71,7 +71,7 @@ fn grip(view: &View, tool: &Tool, at: &Pose) -> Vector {
     view.map((*at * tool.grip).position)
 }
 
-/// The way of object `index`, with a dot at its end.
+/// Draws the path of object `index`, with a dot at its end.
 pub fn path(svg: &mut Svg, view: &View, trajectory: &Trajectory, index: usize, style: Style) {
     let points: Vec<Vector> = trajectory
         .frames
@@ -83,11 +83,11 @@ pub fn path(svg: &mut Svg, view: &View, trajectory: &Trajectory, index: usize, s
     svg.polyline(&points, style);
 }
 
-/// The parts as one piece: wide outlines first, fills over them, so that only the outer rim of
-/// the outlines is left.
+/// Draws the parts as one piece: wide outlines first, then fills, so that only the outer rim of the
+/// outlines remains.
 pub fn silhouette(svg: &mut Svg, view: &View, tool: &Tool, pose: &Pose, opacity: f64) {
     svg.open_faded(opacity);
-    // The fill's own thin rim closes the hairlines between parts.
+    // The thin rim of the fill closes the hairlines between parts.
     let fill = Style::fill(palette::TOOL_FILL).outlined(palette::TOOL_FILL, 0.6);
     for style in [Style::stroke(palette::TOOL, 3.2), fill] {
         for (k, part) in tool.parts().iter().enumerate() {
@@ -97,7 +97,7 @@ pub fn silhouette(svg: &mut Svg, view: &View, tool: &Tool, pose: &Pose, opacity:
     svg.close();
 }
 
-/// A line from the end effector to the nearest part, for tools held away from their parts.
+/// Draws a line from the end effector to the nearest part, for tools held away from their parts.
 pub fn hold(svg: &mut Svg, view: &View, tool: &Tool, pose: &Pose) {
     let grip = *pose * tool.grip;
     let point = Footprint::Disc { radius: 0.0 };

@@ -1,48 +1,49 @@
-//! When what happens in a moving picture: recorded time stretched, with pauses for the eye.
+//! Timing of an animation: recorded time, scaled, with pauses for the viewer.
 
 use pushplan::outcome::{Frame, Trajectory};
 
 use super::strokes::Made;
 
-/// Before the first push, seconds: objects and goal are found, then the tool comes down.
+/// Pause before the first push, seconds, in which the viewer finds objects and goal and the tool is
+/// lowered.
 const BEFORE: f64 = 1.1;
-/// Between two placed pushes, seconds: the tool goes up, over, and down.
+/// Pause between two placed pushes, seconds, in which the tool moves over.
 const BETWEEN: f64 = 1.1;
-/// After everything rests, seconds: long enough to read how near it ended.
+/// Pause after rest, seconds, long enough to read the final error.
 const AFTER: f64 = 2.6;
-/// The tool going up or down, seconds.
+/// Duration of lifting or lowering the tool, seconds.
 pub const LIFT: f64 = 0.3;
-/// Motion longer than this, seconds, is shown faster: nobody watches a README for a minute.
+/// Maximum duration of the shown motion, seconds; longer motion is accelerated.
 const LONGEST: f64 = 9.0;
-/// How much faster.
+/// Available playback rates.
 const RATES: [f64; 6] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0];
 
-/// One stroke in the picture's time, seconds since the start of the loop.
+/// A stroke in animation time, seconds since the start of the loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
-    /// The tool starts to move.
+    /// Start of the tool's motion.
     pub start: f64,
-    /// The tool stands where the stroke ends, and everything rests if it is a settled one.
+    /// End of the tool's motion, or, for a settled stroke, the time when everything rests.
     pub end: f64,
-    /// Whether the tool comes down for it.
+    /// Whether the tool is lowered for this stroke.
     pub lowered: bool,
-    /// Recorded time at its start, seconds.
+    /// Recorded time at the start of the stroke, seconds.
     recorded: f64,
 }
 
-/// The times of a loop.
+/// Times of a loop.
 #[derive(Clone, Debug)]
 pub struct Timeline {
-    /// The strokes that were carried out.
+    /// Executed strokes.
     pub strokes: Vec<Span>,
-    /// Recorded seconds in a second of the picture.
+    /// Playback rate: recorded seconds per second of the animation.
     pub rate: f64,
     /// Length of the loop, seconds.
     pub total: f64,
 }
 
 impl Timeline {
-    /// The times of a recorded motion.
+    /// Computes the timeline of a recorded motion.
     pub fn of(made: &[Made], trajectory: &Trajectory) -> Self {
         let frames = &trajectory.frames;
         let recorded = frames.last().map_or(0.0, |frame| frame.time);
@@ -68,7 +69,7 @@ impl Timeline {
         Self { strokes, rate, total }
     }
 
-    /// How fast the motion is shown, in words.
+    /// Describes the playback rate.
     pub fn pace(&self) -> String {
         match self.rate {
             1.0 => "in real time".to_owned(),
@@ -76,12 +77,12 @@ impl Timeline {
         }
     }
 
-    /// When everything has come to rest.
+    /// Returns the time at which all bodies are at rest.
     pub fn rest(&self) -> f64 {
         self.total - AFTER
     }
 
-    /// When a recorded frame is shown.
+    /// Returns the time at which a recorded frame is shown.
     pub fn at(&self, frame: &Frame) -> f64 {
         self.strokes
             .get(frame.stroke)
@@ -101,7 +102,7 @@ mod tests {
         task::{Push, ToolMotion},
     };
 
-    /// Two pushes of a second each, recorded at their ends alone.
+    /// Returns the timeline of two pushes of a second each, recorded at their ends only.
     fn timeline(placed: bool, speed: f64) -> Timeline {
         let part = Part::cuboid("bar", [0.1, 0.1, 0.05], Pose::default());
         let tool = Tool::new("bar", [part]).unwrap();

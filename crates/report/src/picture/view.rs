@@ -1,4 +1,4 @@
-//! From the table to the page: bounds, scale, grid and scale bar.
+//! Mapping from the table to the page: bounds, scale, grid and scale bar.
 
 use crate::svg::{Anchor, Font, Style, Svg};
 use pushplan::geometry::{Footprint, Pose, Vector};
@@ -7,12 +7,12 @@ use super::palette;
 
 /// Largest plot, pixels: fits a README column and a laptop screen.
 const LARGEST: Vector = Vector::new(820.0, 600.0);
-/// Smallest plot, pixels: room for a title and a legend.
+/// Smallest plot, pixels: enough for a title and a legend.
 const SMALLEST: Vector = Vector::new(560.0, 300.0);
-/// Free space around the content, metres.
+/// Margin around the content, metres.
 const MARGIN: f64 = 0.05;
 
-/// A growing box around everything that must be seen, metres.
+/// Growing bounding box of the content that must be visible, metres.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
     pub low: Vector,
@@ -39,13 +39,13 @@ impl Bounds {
         }
     }
 
-    /// Whether `point` is at most `margin` metres outside.
+    /// Returns `true` if `point` is at most `margin` metres outside.
     pub fn holds(&self, point: Vector, margin: f64) -> bool {
         (0..2).all(|k| (self.low[k] - margin..=self.high[k] + margin).contains(&point[k]))
     }
 }
 
-/// The mapping from metres on the table (y up) to pixels (y down).
+/// Mapping from metres on the table (y up) to pixels (y down).
 #[derive(Clone, Copy, Debug)]
 pub struct View {
     low: Vector,
@@ -89,7 +89,7 @@ impl View {
             + Vector::new((point.x - self.low.x) * self.scale, (self.high.y - point.y) * self.scale)
     }
 
-    /// Metres to pixels.
+    /// Converts metres to pixels.
     pub fn length(&self, metres: f64) -> f64 {
         metres * self.scale
     }
@@ -107,13 +107,13 @@ impl View {
         }
     }
 
-    /// The same scale about the origin of a body's own frame.
+    /// Returns a view of the same scale about the origin of a body's own frame.
     pub fn centred(&self) -> Self {
         let zero = Vector::zeros();
         Self { low: zero, high: zero, corner: zero, size: zero, scale: self.scale }
     }
 
-    /// Grid lines every step.
+    /// Draws grid lines at every step.
     pub fn grid_lines(&self, svg: &mut Svg) {
         let end = self.corner + self.size;
         for k in self.steps(self.low.x, self.high.x) {
@@ -126,12 +126,12 @@ impl View {
         }
     }
 
-    /// Grid lines every step, with numbers along the left and lower edge.
+    /// Draws grid lines at every step, with numbers along the left and lower edge.
     pub fn grid(&self, svg: &mut Svg) {
         self.grid_named(svg, "x, m", "y, m");
     }
 
-    /// The same with names of the axes.
+    /// Draws grid lines and numbers, with the given names of the axes.
     pub fn grid_named(&self, svg: &mut Svg, across: &str, up: &str) {
         self.grid_lines(svg);
         let step = self.grid_step();
@@ -146,7 +146,7 @@ impl View {
         }
         for k in self.steps(self.low.y, self.high.y).filter(|k| k % 2.0 == 0.0) {
             let y = self.map(Vector::new(0.0, k * step)).y;
-            // The top is left to the axis' name.
+            // The top is reserved for the name of the axis.
             if y > self.corner.y + 24.0 {
                 let at = Vector::new(self.corner.x - 7.0, y + 4.0);
                 svg.text(at, &label(k * step), font.anchored(Anchor::End));
@@ -157,13 +157,13 @@ impl View {
         svg.text(top, up, font.anchored(Anchor::End));
     }
 
-    /// The numbers of the grid lines between two coordinates.
+    /// Returns the numbers of the grid lines between two coordinates.
     fn steps(&self, low: f64, high: f64) -> impl Iterator<Item = f64> + use<> {
         let step = self.grid_step();
         ((low / step).ceil() as i64..=(high / step).floor() as i64).map(|k| k as f64)
     }
 
-    /// A bar of one grid step in the lower right corner of the plot.
+    /// Draws a bar of one grid step in the lower right corner of the plot.
     pub fn scale_bar(&self, svg: &mut Svg) {
         let step = self.grid_step();
         let end = self.corner + self.size - Vector::new(16.0, 16.0);
@@ -178,7 +178,7 @@ impl View {
         svg.text((start + end) * 0.5 - Vector::new(0.0, 7.0), &text, font);
     }
 
-    /// Between 40 and 100 pixels, a round number of metres.
+    /// Returns the grid step: a round number of metres, between 40 and 100 pixels.
     fn grid_step(&self) -> f64 {
         let wanted = 40.0 / self.scale;
         let power = 10f64.powf(wanted.log10().floor());
@@ -190,7 +190,7 @@ impl View {
     }
 }
 
-/// The corners of a footprint, or those of a disc's bounding square, in the world frame.
+/// Returns the corners of a footprint, or of a disc's bounding square, in the world frame.
 pub fn outline(footprint: &Footprint, pose: &Pose) -> Vec<Vector> {
     let around = |half: Vector, pose: &Pose| {
         let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];

@@ -9,7 +9,7 @@ use pushplan::{
     sim::Simulator,
 };
 
-/// A start with goals that need corners and edges.
+/// Index of a start with goals that need corners and edges.
 const START: usize = 9;
 
 fn setup() -> (ReferenceSetup, Task, Vec<usize>) {
@@ -64,10 +64,10 @@ fn the_best_stops_are_where_they_are_said_to_be() {
     assert_eq!(made.len(), 12);
     for (score, made) in scores.iter().zip(made) {
         let (said, done) = (score * task.goals[0].tolerance(), made.predicted.unwrap_or(f64::NAN));
-        // Gliding on is estimated as free, and half a frame by a straight line.
+        // Sliding is estimated as free, and half a frame by linear interpolation.
         assert!((said - done).abs() < 1.5e-3, "{said} against {done}");
     }
-    // No other stop is better: whole sequences are a coarse check of that.
+    // Whole sequences are a coarse check that no other stop is better.
     let ends = whole.ends().map(|(_, end)| (end - task.goals[0].place(&task.scene.start())).norm());
     let nearest = ends.fold(f64::INFINITY, f64::min);
     assert!(scores[0] * task.goals[0].tolerance() <= nearest);

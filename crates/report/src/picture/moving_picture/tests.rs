@@ -9,7 +9,7 @@ use pushplan::{
     task::{Goal, Push},
 };
 
-/// Two boxes of which the first goes through `ways`, a place for each frame.
+/// Draws two boxes of which the first follows `ways`, one position per frame.
 fn picture_of(ways: &[[f64; 2]], placed: bool, warnings: Vec<Warning>) -> String {
     let object = |name: &str, x: f64| Object::cuboid(name, [0.1, 0.06, 0.1]).at(x, 0.0, 0.0);
     let scene =
@@ -72,13 +72,13 @@ fn the_ending_says_whether_the_goal_is_reached() {
 
 #[test]
 fn objects_stand_still_while_the_tool_is_lifted() {
-    // The second push of three seconds' pause more begins where the first has left the box.
+    // With a pause of three seconds, the second push begins where the first left the box.
     let keys = |placed| {
         let svg = picture_of(&WAYS, placed, Vec::new());
         let rest = svg.split("@keyframes o0{").nth(1).expect("an animation").to_owned();
         rest.split('\n').next().expect("a line").matches("translate").count()
     };
-    // The same even motion without a pause takes fewer keys.
+    // Uniform motion without a pause needs fewer keyframes.
     assert!(keys(true) > keys(false), "{} {}", keys(true), keys(false));
 }
 
