@@ -82,7 +82,7 @@ impl fmt::Display for Fault {
     }
 }
 
-/// All faults of one or more files; never empty when returned as an error.
+/// Returns all faults of one or more files; never empty when returned as an error.
 #[derive(Clone, Default, PartialEq, Eq)]
 pub struct Faults(pub Vec<Fault>);
 

@@ -52,7 +52,7 @@ impl fmt::Display for Kind {
 /// is given, it must contain the tools that a task names.
 ///
 /// # Errors
-/// All faults of the file, each with its place.
+/// Returns all faults of the file, each with its place.
 pub fn check(path: impl AsRef<Path>, library: Option<&ToolLibrary>) -> Result<Kind, Faults> {
     let (file, text) = read_text(path.as_ref())?;
     let kind = recognise(&file, &text)?;

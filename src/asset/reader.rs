@@ -45,7 +45,7 @@ impl Node {
     /// Parses a text.
     ///
     /// # Errors
-    /// One fault if the text is not valid in its language.
+    /// Returns one fault if the text is not valid in its language.
     pub fn parse(source: Source) -> Result<Self, Faults> {
         let Source { file, text, language } = source;
         if language == Language::Yaml && text.len() > MAX_YAML_BYTES {

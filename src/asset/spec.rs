@@ -1,6 +1,6 @@
 //! Specification of files: keys, kinds of values, ranges and descriptions.
 //!
-//! One specification serves the strict check (`strict.rs`), the JSON schema for editors
+//! A single specification serves the strict check (`strict.rs`), the JSON schema for editors
 //! (`schema.rs`) and human readers, who see its descriptions in both.
 
 use super::node::Node;
@@ -94,7 +94,7 @@ pub(super) const ANGLE: Value =
     Value::Number(Range { what: "an angle in degrees", low: -360.0, high: 360.0, advice: DEGREES });
 
 /// Limit of a revolute joint. Near half a turn, left and right coincide, and a simulator can no
-/// longer tell the two limits apart.
+/// longer distinguish the two limits.
 pub(super) const ANGLE_LIMIT: Value = Value::Number(Range {
     what: "a limit in degrees",
     low: -340.0,

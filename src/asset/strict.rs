@@ -29,7 +29,7 @@ impl<'a> Ledger<'a> {
     /// Checks that no fault has been added so far.
     ///
     /// # Errors
-    /// All faults added so far.
+    /// Returns all faults added so far.
     pub fn sound(&self) -> Result<(), Faults> {
         if self.found.is_empty() {
             return Ok(());

@@ -109,7 +109,7 @@ impl Tool {
     /// Reads a tool file.
     ///
     /// # Errors
-    /// All faults of the file, each with its place.
+    /// Returns all faults of the file, each with its place.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, Faults> {
         let (file, text) = super::read_text(path.as_ref())?;
         Self::parse(&text, &file)
@@ -118,7 +118,7 @@ impl Tool {
     /// Reads a tool from `text`; `file` is its name in faults.
     ///
     /// # Errors
-    /// All faults of the text, each with its place.
+    /// Returns all faults of the text, each with its place.
     pub fn parse(text: &str, file: &str) -> Result<Self, Faults> {
         let source = Source::yaml(file, text);
         let mut root = Node::parse(source)?;

@@ -101,7 +101,7 @@ impl Ledger {
         self.faults.extend_from_slice(faults);
     }
 
-    /// Adds faults that do not affect the import, as a single note.
+    /// Adds faults that do not affect the import in a single note.
     pub fn pass_over(&mut self, faults: &[Fault], of: &str) {
         let Some(first) = faults.first() else { return };
         let place = first.place.map_or(String::new(), |at| format!("{}:{}:", at.line, at.column));
@@ -138,7 +138,7 @@ impl Ledger {
     /// Checks that there is no fault.
     ///
     /// # Errors
-    /// All faults so far.
+    /// Returns all faults so far.
     pub fn sound(self) -> Result<Self, Faults> {
         if self.faults.is_empty() { Ok(self) } else { Err(self.faults()) }
     }

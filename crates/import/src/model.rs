@@ -182,7 +182,7 @@ pub enum Outline {
 }
 
 impl Motion {
-    /// Combines this motion with that of one more joint.
+    /// Combines this motion with the motion of a further joint.
     pub fn and(self, next: Motion) -> Self {
         match (self, next) {
             (Motion::Fixed, next) => next,

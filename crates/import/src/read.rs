@@ -55,7 +55,7 @@ impl Default for Reading {
 /// extension. Returns the model, its language and notes on omitted content.
 ///
 /// # Errors
-/// All faults of the file, each with its place.
+/// Returns all faults of the file, each with its place.
 pub fn read(
     path: impl AsRef<Path>,
     reading: &Reading,
@@ -72,7 +72,7 @@ pub fn read(
 /// Reads an MJCF or URDF text that names no other files; `file` is its name in faults.
 ///
 /// # Errors
-/// All faults of the text, each with its place.
+/// Returns all faults of the text, each with its place.
 pub fn parse(text: &str, file: &str) -> Result<(Model, Language, Vec<String>), Faults> {
     parsed(text, file, &Files::default())
 }

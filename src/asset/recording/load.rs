@@ -24,7 +24,7 @@ impl Recording {
     /// Reads a recording, in JSON if the file's name ends in `.json`, otherwise in YAML.
     ///
     /// # Errors
-    /// All faults of the file, each with its place.
+    /// Returns all faults of the file, each with its place.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, Faults> {
         let (file, text) = read_text(path.as_ref())?;
         Self::parse(&text, &file)
@@ -34,7 +34,7 @@ impl Recording {
     /// name of a recording without `name`.
     ///
     /// # Errors
-    /// All faults of the text, each with its place.
+    /// Returns all faults of the text, each with its place.
     pub fn parse(text: &str, file: &str) -> Result<Self, Faults> {
         let source = Source::of(file, text);
         let mut root = Node::parse(source)?;

@@ -57,7 +57,7 @@ impl PlanFile {
     /// Reads a plan file.
     ///
     /// # Errors
-    /// All faults of the file, each with its place.
+    /// Returns all faults of the file, each with its place.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, Faults> {
         let (file, text) = read_text(path.as_ref())?;
         Self::parse(&text, &file)
@@ -66,7 +66,7 @@ impl PlanFile {
     /// Parses the text of a plan file; `file` is its name in faults.
     ///
     /// # Errors
-    /// All faults of the text, each with its place.
+    /// Returns all faults of the text, each with its place.
     pub fn parse(text: &str, file: &str) -> Result<Self, Faults> {
         let text = &without_earlier_ends(text);
         let mut opened = Opened::new(file, text, &PLAN_FILE)?;

@@ -31,7 +31,7 @@ impl<'a> Opened<'a> {
     /// Parses `text` according to the specification `value`.
     ///
     /// # Errors
-    /// One fault if the text is not JSON; all other faults are in the ledger.
+    /// Returns one fault if the text is not JSON; all other faults are in the ledger.
     pub fn new(file: &'a str, text: &'a str, value: &Value) -> Result<Self, Faults> {
         let source = Source::json(file, text);
         let mut root = Node::parse(source)?;

@@ -34,7 +34,7 @@ impl TrajectoryFile {
     /// Reads a trajectory file.
     ///
     /// # Errors
-    /// All faults of the file, each with its place.
+    /// Returns all faults of the file, each with its place.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, Faults> {
         let (file, text) = read_text(path.as_ref())?;
         Self::parse(&text, &file)
@@ -43,7 +43,7 @@ impl TrajectoryFile {
     /// Parses the text of a trajectory file; `file` is its name in faults.
     ///
     /// # Errors
-    /// All faults of the text, each with its place.
+    /// Returns all faults of the text, each with its place.
     pub fn parse(text: &str, file: &str) -> Result<Self, Faults> {
         let mut opened = Opened::new(file, text, &TRAJECTORY_FILE)?;
         opened.ledger.sound()?;

@@ -7,7 +7,7 @@ use crate::asset::strict::Ledger;
 use crate::asset::take::name_of;
 use crate::scene::{Object, Obstacle, PairFriction, Surface};
 
-/// Minimum friction with the table; below it, an object hardly comes to rest.
+/// Minimum friction with the table; below it, an object hardly stops.
 const LEAST_ON_TABLE: f64 = 0.05;
 
 /// Words for the contact partners that have no name of their own.

@@ -23,7 +23,7 @@ impl Task {
     /// Reads a task file. [`Task::tools`] checks whether the named tools exist.
     ///
     /// # Errors
-    /// All faults of the file, each with its place.
+    /// Returns all faults of the file, each with its place.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, Faults> {
         let (file, text) = crate::asset::read_text(path.as_ref())?;
         Self::parse(&text, &file)
@@ -33,7 +33,7 @@ impl Task {
     /// of a task without `name`.
     ///
     /// # Errors
-    /// All faults of the text, each with its place.
+    /// Returns all faults of the text, each with its place.
     pub fn parse(text: &str, file: &str) -> Result<Self, Faults> {
         parse_with(text, file, None)
     }
@@ -111,7 +111,7 @@ impl Task {
 /// reported at its place together with all other faults.
 ///
 /// # Errors
-/// All faults of the file, each with its place.
+/// Returns all faults of the file, each with its place.
 pub fn load_task(path: impl AsRef<Path>, library: &ToolLibrary) -> Result<Task, Faults> {
     let (file, text) = crate::asset::read_text(path.as_ref())?;
     parse_task(&text, &file, library)
@@ -120,7 +120,7 @@ pub fn load_task(path: impl AsRef<Path>, library: &ToolLibrary) -> Result<Task, 
 /// Reads a task from `text`, as [`load_task`] does from a file; `file` is its name in faults.
 ///
 /// # Errors
-/// All faults of the text, each with its place.
+/// Returns all faults of the text, each with its place.
 pub fn parse_task(text: &str, file: &str, library: &ToolLibrary) -> Result<Task, Faults> {
     parse_with(text, file, Some(library))
 }

@@ -19,7 +19,7 @@ use super::spec::WORLD;
 /// Reads a world file; missing values are taken from `task`.
 ///
 /// # Errors
-/// All faults of the file, each with its place.
+/// Returns all faults of the file, each with its place.
 pub fn load_world(path: impl AsRef<Path>, task: &Task) -> Result<Truth, Faults> {
     let (file, text) = read_text(path.as_ref())?;
     let source = Source::of(&file, &text);

@@ -15,12 +15,12 @@ use super::upright::{Base, Rough, STRAIGHT, Upright};
 use super::weighed::Weighed;
 
 /// Distance from the middle below which a centre of mass counts as centred, metres. For rough
-/// outlines, [`ROUGHLY`] applies in addition, as a share of their size.
+/// outlines, [`ROUGHLY`] applies in addition, relative to their size.
 const OFF_CENTRE: f64 = 1e-6;
 const ROUGHLY: f64 = 0.02;
 
 /// Relative difference from pushplan's assumptions that deserves a note: height of the centre of
-/// mass above or below the middle, as a share of the height, or moment of inertia.
+/// mass above or below the middle (relative to the height), or moment of inertia.
 const WORTH_A_NOTE: f64 = 0.1;
 
 /// Fill ratio above which a mesh counts as equal to its enclosing prism.

@@ -18,7 +18,7 @@ const FEW: usize = 8;
 /// Number of grid cells along the longer side of the covered area.
 const CELLS: f64 = 160.0;
 
-/// Maximum additional area of a merge, as a share of the covered area.
+/// Maximum additional area of a merge, relative to the covered area.
 const MORE: f64 = 0.01;
 
 /// Maximum difference in top height of merged solids, relative to the higher one.
@@ -150,7 +150,7 @@ impl Grid {
         found
     }
 
-    /// Returns the area of a convex outline outside the body, as a share of the body's area.
+    /// Returns the area of a convex outline outside the body, relative to the body's area.
     fn beyond(&self, outline: &[Vector]) -> f64 {
         let free = self.under(outline).into_iter().filter(|k| !self.held[*k]).count();
         free as f64 / self.count as f64

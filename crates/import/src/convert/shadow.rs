@@ -1,4 +1,4 @@
-//! Projection of a body of any form onto the table, as a disc or a polygon with few corners.
+//! Projection of a body of any form onto the table: a disc or a polygon with few corners.
 
 use std::f64::consts::{PI, TAU};
 
