@@ -11,8 +11,8 @@ use super::fault::{Fault, Faults};
 /// and then renamed. The old content stays until the new content is complete.
 ///
 /// # Errors
-/// Returns one fault if, for example, the folder is missing or read-only or the disk is full. No temporary
-/// file remains.
+/// Returns one fault if, for example, the folder is missing or read-only or the disk is full. No
+/// temporary file remains.
 pub fn write_atomic(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), Faults> {
     let path = path.as_ref();
     let fault = |error: std::io::Error| Faults::from(Fault::io(path, "write the file", &error));
