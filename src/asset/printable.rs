@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 /// Escapes every character that a terminal would interpret instead of display. Escaped are control
 /// characters except the tab, and characters that change the writing direction. They are written as
-/// `\u001b`, as in JSON. Line feeds are escaped, too, so that one line stays one line.
+/// `\u001b`, as in JSON. Line feeds are also escaped, so that one line stays one line.
 pub fn printable(text: &str) -> Cow<'_, str> {
     if !text.contains(obeyed) {
         return Cow::Borrowed(text);

@@ -127,7 +127,7 @@ impl Ledger {
     /// Returns the result with all notes.
     ///
     /// # Errors
-    /// All faults, if any.
+    /// Returns all faults, if any.
     pub fn finish<T>(self, made: Option<T>) -> Result<(T, Vec<String>), Faults> {
         match made {
             Some(made) if self.faults.is_empty() => Ok((made, self.notes)),
