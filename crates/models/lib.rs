@@ -1,12 +1,14 @@
 //! Trained weights of [pushplan](https://crates.io/crates/pushplan), as safetensors files that its
-//! library reads. They are a crate of their own because they are most of what there is to download and
-//! change less often than the code; the card beside each says what it was trained on and how exact it is.
+//! library reads.
+//!
+//! They are a separate crate because they are most of the download and change less often than the
+//! code. The model card beside each file describes its training data and its accuracy.
 
-/// The propagation network that predicts pushes, `brdpn.md`.
+/// Propagation network that predicts pushes, `brdpn.md`.
 pub const BRDPN: &[u8] = include_bytes!("brdpn.safetensors");
 
-/// The belief regulator, `regulator.md`.
+/// Belief regulator, `regulator.md`.
 pub const REGULATOR: &[u8] = include_bytes!("regulator.safetensors");
 
-/// The network that corrects predicted lever-ups, `lever.md`.
+/// Network that corrects predicted lever-ups, `lever.md`.
 pub const LEVER: &[u8] = include_bytes!("lever.safetensors");

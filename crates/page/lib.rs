@@ -1,14 +1,16 @@
-//! What [pushplan](https://crates.io/crates/pushplan) writes next to its results so that others can play them:
-//! style and scripts of its pages, for plans, runs and recordings in a browser, and scripts that play exported
-//! scenes in MuJoCo.
+//! Files that [pushplan](https://crates.io/crates/pushplan) writes next to its results so that
+//! others can play them.
+//!
+//! They are the style and scripts of its pages, for plans, runs and recordings in a browser, and
+//! scripts that play exported scenes in MuJoCo.
 
-/// The page's looks.
+/// Style sheet of the page.
 pub const STYLE: &str = include_str!("page.css");
 
-/// What stands on the page before the script fills it.
+/// Body of the page, before the script fills it.
 pub const BODY: &str = include_str!("page.html");
 
-/// What the page does. One script, so that one hash allows it and nothing else.
+/// Script of the page, a single one, so that one hash allows it and nothing else.
 pub const SCRIPT: &str = concat!(
     include_str!("script/elements.js"),
     include_str!("script/shapes.js"),
@@ -26,14 +28,14 @@ pub const SCRIPT: &str = concat!(
     include_str!("script/controls.js"),
 );
 
-/// The 3-D view, which three.js draws.
+/// Script of the 3-D view, drawn with three.js.
 pub const SOLID: &str = include_str!("script/solid.js");
 
-/// Plays exported plans in MuJoCo, in Python.
+/// Python script that plays exported plans in MuJoCo.
 pub const REPLAY: &str = concat!(include_str!("mujoco/replay.py"), include_str!("mujoco/judge.py"));
 
-/// Plays exported motions in MuJoCo frame by frame, in Python, with the help of [`REPLAY`].
+/// Python script that plays exported motions in MuJoCo frame by frame; it uses [`REPLAY`].
 pub const FRAMES: &str = include_str!("mujoco/frames.py");
 
-/// Plays exported lever-ups in MuJoCo, in Python.
+/// Python script that plays exported lever-ups in MuJoCo.
 pub const LEVER: &str = concat!(include_str!("mujoco/lever.py"), include_str!("mujoco/judge.py"));

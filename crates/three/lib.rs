@@ -1,5 +1,6 @@
-//! The part of [three.js](https://threejs.org) that draws the 3-D view of
-//! [pushplan](https://crates.io/crates/pushplan)'s pages, for a page that needs no network.
+//! Part of [three.js](https://threejs.org) that draws the 3-D view of
+//! [pushplan](https://crates.io/crates/pushplan)'s pages, embedded so that a page needs no network.
 
-/// Minified, gzipped and in base 64; a browser unpacks it. Its global name is `THREE`.
+/// Minified script, compressed with gzip and encoded in base 64, which a browser unpacks; its
+/// global name is `THREE`.
 pub const THREE: &str = include_str!("three.min.js.gz.base64");

@@ -1,4 +1,4 @@
-//! Files of tools with blades.
+//! Tool files with a blade.
 
 use crate::scene::{Blade, Tool};
 
@@ -7,10 +7,10 @@ use super::spec::{FRICTION, Key, Range, SIZE, Value};
 use super::strict::Ledger;
 use super::take::{name_of, number_or};
 
-/// What a file of a tool with a blade may hold.
+/// Specification of a blade tool file.
 pub(super) static BLADE_TOOL: Value = Value::Map(BLADE_TOOL_KEYS);
 
-/// The keys of a tool with a blade.
+/// Keys of a blade tool file.
 pub(super) const BLADE_TOOL_KEYS: &[Key] = &[
     Key::required("name", Value::Name, "The tool's name, unique in its folder."),
     Key::optional("description", Value::Text, "One line for people; by default empty."),
@@ -43,12 +43,12 @@ pub(super) const BLADE_TOOL_KEYS: &[Key] = &[
     ),
 ];
 
-/// Whether a tool file is one of a tool with a blade.
+/// Returns `true` if a tool file describes a tool with a blade.
 pub(super) fn is_blade_tool(root: &Node) -> bool {
     root.get("blade").is_some()
 }
 
-/// Applies the rules that span several keys; `None` if anything needed is missing.
+/// Applies the rules that span several keys; returns `None` if a required value is missing.
 pub(super) fn blade_tool_of(root: &Node, ledger: &mut Ledger) -> Option<Tool> {
     let node = root.get("blade")?;
     let number = |key| node.get(key)?.number();

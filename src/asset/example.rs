@@ -1,4 +1,4 @@
-//! The tasks shipped with the program, which need no files.
+//! Tasks shipped with the program, embedded so that no files are needed.
 
 use crate::task::Task;
 
@@ -6,7 +6,7 @@ use super::fault::{Fault, Faults, did_you_mean};
 use super::library::ToolLibrary;
 use super::task::parse_with;
 
-/// Their files in `tasks`, without the ending.
+/// Files in `tasks`, without the extension.
 macro_rules! shipped {
     ($($file:literal)*) => {
         &[$(($file, include_str!(concat!("../../tasks/", $file, ".yaml")))),*]
@@ -75,32 +75,32 @@ const SHIPPED: &[(&str, &str)] = shipped! {
 };
 
 impl Task {
-    /// A shipped task; [`Task::examples`] lists them. Needs no files.
+    /// Returns a shipped task by name; no files are needed. [`Task::examples`] lists the names.
     ///
     /// # Errors
-    /// If there is none of this name.
+    /// No shipped task has this name.
     pub fn example(name: &str) -> Result<Self, Faults> {
         read(name, None)
     }
 
-    /// Names of the shipped tasks: those of pushes, then those of levering.
+    /// Returns the names of the shipped tasks: pushing tasks first, then levering tasks.
     pub fn examples() -> impl Iterator<Item = &'static str> {
         SHIPPED.iter().map(|(file, _)| name_of(file))
     }
 }
 
-/// A shipped task, with the tools it names checked against `library`.
+/// Returns a shipped task and checks its tool names against `library`.
 ///
 /// # Errors
-/// If there is none of this name; names of tools that `library` does not have.
+/// No shipped task has this name, or `library` lacks a tool that the task names.
 pub fn load_example(name: &str, library: &ToolLibrary) -> Result<Task, Faults> {
     read(name, Some(library))
 }
 
-/// The text of a shipped task.
+/// Returns the text of a shipped task.
 ///
 /// # Errors
-/// If there is none of this name.
+/// No shipped task has this name.
 pub fn example_text(name: &str) -> Result<&'static str, Faults> {
     match SHIPPED.iter().find(|(file, _)| name_of(file) == name) {
         Some((_, text)) => Ok(text),
@@ -116,7 +116,7 @@ fn read(name: &str, library: Option<&ToolLibrary>) -> Result<Task, Faults> {
     parse_with(example_text(name)?, &format!("{name}.yaml"), library)
 }
 
-/// The last part of its path.
+/// Returns the last component of the path.
 fn name_of(file: &'static str) -> &'static str {
     file.rsplit('/').next().unwrap_or(file)
 }

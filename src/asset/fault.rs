@@ -1,22 +1,22 @@
-//! Faults of user files: where, what was expected and found, and what to try.
+//! Faults in user files: place, expected and found content, and advice.
 
 use std::fmt;
 use std::path::Path;
 
 use super::printable::printable;
 
-/// A line and a column, both counted from one.
+/// Line and column, both counted from one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Place {
-    /// Line.
+    /// Line number.
     pub line: usize,
     /// Column, in characters.
     pub column: usize,
 }
 
 impl Place {
-    /// Where serde_json means in `text`: it counts bytes, and gives column 0 of the next line for
-    /// the end of a line.
+    /// Converts an error position of serde_json in `text`. serde_json counts bytes and reports the
+    /// end of a line as column 0 of the next line.
     pub(super) fn in_json(text: &str, line: usize, column: usize) -> Self {
         let line = line.max(1);
         let words = |line: usize| text.split('\n').nth(line - 1).unwrap_or_default();
@@ -29,26 +29,26 @@ impl Place {
     }
 }
 
-/// One thing that is wrong with a file.
+/// Single fault in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
-    /// The file as the user named it.
+    /// File name as given by the user.
     pub file: String,
-    /// Where in the file; `None` if the fault is of the file as a whole.
+    /// Position in the file; `None` if the fault concerns the whole file.
     pub place: Option<Place>,
-    /// What was expected and what was found.
+    /// Expected and found content.
     pub message: String,
-    /// What to try; may be empty.
+    /// Suggested fix; may be empty.
     pub advice: String,
 }
 
 impl Fault {
-    /// A fault of the whole of `file`.
+    /// Creates a fault that concerns the whole of `file`.
     pub fn of_file(file: &str, message: impl Into<String>, advice: impl Into<String>) -> Self {
         Self { file: file.into(), place: None, message: message.into(), advice: advice.into() }
     }
 
-    /// A file that cannot be read or written.
+    /// Creates a fault for a file that cannot be read or written.
     pub fn io(path: &Path, doing: &str, error: &std::io::Error) -> Self {
         use std::io::ErrorKind;
         let advice = match error.kind() {
@@ -68,7 +68,7 @@ impl Fault {
 }
 
 impl fmt::Display for Fault {
-    /// As lines for a terminal: words of the file stay words, see [`printable`].
+    /// Formats the fault for a terminal, with text of the file escaped by [`printable`].
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", printable(&self.file))?;
         if let Some(place) = self.place {
@@ -82,7 +82,7 @@ impl fmt::Display for Fault {
     }
 }
 
-/// Everything that is wrong with one or more files; never empty when returned as an error.
+/// Returns all faults of one or more files; never empty when returned as an error.
 #[derive(Clone, Default, PartialEq, Eq)]
 pub struct Faults(pub Vec<Fault>);
 
@@ -98,7 +98,7 @@ impl fmt::Display for Faults {
     }
 }
 
-/// The text of [`Display`](fmt::Display), so that it reads well when it leaves `main`.
+/// Delegates to [`Display`](fmt::Display), so that an error returned from `main` is readable.
 impl fmt::Debug for Faults {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)
@@ -113,12 +113,14 @@ impl From<Fault> for Faults {
     }
 }
 
-/// Advice that names the known word nearest to `word`, or else all of them.
+/// Returns advice that names the known word nearest to `word`, or lists all known words if none is
+/// near.
 pub(super) fn did_you_mean<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     let known: Vec<&str> = known.into_iter().collect();
     let nearest = known.iter().map(|k| (edit_distance(word, k), *k)).min();
     match nearest {
-        // A third of the letters wrong still looks like a slip rather than another word.
+        // Up to a third of the letters may differ; beyond that it is another word, not a typing
+        // error.
         Some((distance, name)) if distance <= 1 + name.chars().count() / 3 => {
             format!("did you mean `{name}`?")
         }
@@ -130,7 +132,7 @@ pub(super) fn did_you_mean<'a>(word: &str, known: impl IntoIterator<Item = &'a s
     }
 }
 
-/// `a`, `a or b`, `a, b or c`.
+/// Formats a list as `a`, `a or b` or `a, b or c`.
 pub(super) fn one_of(words: &[String]) -> String {
     match words {
         [] => String::new(),
@@ -139,7 +141,7 @@ pub(super) fn one_of(words: &[String]) -> String {
     }
 }
 
-/// Returns the number of single-letter insertions, deletions, replacements and swaps of neighbours that
+/// Returns the number of insertions, deletions, replacements and swaps of adjacent letters that
 /// turn `a` into `b`, ignoring case.
 fn edit_distance(a: &str, b: &str) -> usize {
     strsim::osa_distance(&a.to_lowercase(), &b.to_lowercase())
@@ -164,7 +166,7 @@ mod tests {
             let Place { line, column } = Place::in_json("\"\u{e9}\u{e9}x\n\"y\"", line, column);
             (line, column)
         };
-        // Bytes: a quote, two letters of two bytes, an x.
+        // Byte offsets: a quote, two letters of two bytes each, an x.
         assert_eq!([place(1, 1), place(1, 6), place(2, 2)], [(1, 1), (1, 4), (2, 2)]);
         assert_eq!(place(2, 0), (1, 5), "the end of the first line");
         assert_eq!(place(1, 0), (1, 5), "an end without a beginning");

@@ -1,20 +1,21 @@
-//! One entry per key of a type: what it holds, how it is read and written, and which values are faults.
+//! Table of the keys of a type: meaning, reader, writer and check of each key.
 
 use serde_json::{Map, Value as Json};
 
 use super::node::Node;
 use super::spec::Key;
 
-/// A key of the files of a `T`.
+/// Key of the files of a `T`.
 pub(super) struct Field<T: 'static> {
-    /// Name, kind of value, range and meaning: what the strict check, the schema and the book show.
+    /// Name, kind of value, range and meaning, as shown by the strict check, the schema and the
+    /// book.
     pub key: Key,
-    /// Puts a value into a `T`, from the map that holds the key and the value's node; `None` if it is
-    /// faulty.
+    /// Stores a value in a `T`, given the map that holds the key and the value's node; returns
+    /// `None` if the value is faulty.
     pub read: fn(&Node, &Node, &mut T) -> Option<()>,
-    /// Value of the key in a file; `None` where a file does without.
+    /// Returns the value to write; `None` if the file omits the key.
     pub write: fn(&T) -> Option<Json>,
-    /// Message on a value, set in code, that no computation can use.
+    /// Returns a message if the value, when set in code, cannot be used in computations.
     pub fault: fn(&T) -> Option<&'static str>,
 }
 
@@ -29,7 +30,8 @@ pub(super) const fn keys<T, const N: usize>(fields: &[Field<T>; N]) -> [Key; N] 
     keys
 }
 
-/// Reads the keys that a map has into `value`; `None` if a required one is missing, or one is faulty.
+/// Reads the keys present in a map into `value`; returns `None` if a required key is missing or a
+/// value is faulty.
 pub(super) fn read<T>(fields: &[Field<T>], map: &Node, mut value: T) -> Option<T> {
     for field in fields {
         match map.get(field.key.name) {
@@ -41,20 +43,20 @@ pub(super) fn read<T>(fields: &[Field<T>], map: &Node, mut value: T) -> Option<T
     Some(value)
 }
 
-/// Puts a value, unless it is faulty, into its place.
+/// Stores a value in `place` unless it is faulty.
 pub(super) fn set<V>(place: &mut V, value: Option<V>) -> Option<()> {
     *place = value?;
     Some(())
 }
 
-/// Writes a value as the map that [`read`] takes.
+/// Writes a value as a map that [`read`] accepts.
 pub(super) fn write<T>(fields: &[Field<T>], value: &T) -> Json {
     let name = |field: &Field<T>| field.key.name.to_owned();
     let pair = |field: &Field<T>| Some((name(field), (field.write)(value)?));
     Json::Object(fields.iter().filter_map(pair).collect::<Map<_, _>>())
 }
 
-/// Returns the first key whose value no computation can use, with the message.
+/// Returns the first key whose value cannot be used in computations, with the message.
 pub(super) fn fault<T>(fields: &[Field<T>], value: &T) -> Option<(&'static str, &'static str)> {
     fields.iter().find_map(|field| Some((field.key.name, (field.fault)(value)?)))
 }

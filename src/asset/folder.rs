@@ -1,10 +1,10 @@
-//! The files of a folder that are read together.
+//! Listing of the files in a folder that are read together.
 
 use std::path::{Path, PathBuf};
 
 use super::fault::Fault;
 
-/// The files of `folder` with one of these endings, sorted.
+/// Returns the files of `folder` with one of the given extensions, sorted.
 pub(super) fn files_in(folder: &Path, endings: &[&str]) -> Result<Vec<PathBuf>, Fault> {
     let wanted = |path: &PathBuf| {
         let end = path.extension().unwrap_or_default();
@@ -13,11 +13,11 @@ pub(super) fn files_in(folder: &Path, endings: &[&str]) -> Result<Vec<PathBuf>, 
     Ok(entries(folder)?.into_iter().filter(wanted).collect())
 }
 
-/// The recordings and trajectories (`.json`, `.yaml` and `.yml` files) of `folder` and of the
-/// folders in it, folder by folder, all sorted; those that are links to folders are not followed.
+/// Returns the recordings and trajectories (`.json`, `.yaml` and `.yml` files) of `folder` and its
+/// subfolders, grouped by folder and sorted. Symbolic links to folders are not followed.
 ///
 /// # Errors
-/// A folder that cannot be read, or in which there are none.
+/// A folder cannot be read, or no such file is found.
 pub fn recordings_in(folder: &Path) -> Result<Vec<(PathBuf, Vec<PathBuf>)>, Fault> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_owned()];
@@ -38,7 +38,7 @@ pub fn recordings_in(folder: &Path) -> Result<Vec<(PathBuf, Vec<PathBuf>)>, Faul
     Ok(found)
 }
 
-/// What is in a folder, sorted.
+/// Returns the entries of a folder, sorted.
 fn entries(folder: &Path) -> Result<Vec<PathBuf>, Fault> {
     let listing = |error: std::io::Error| Fault::io(folder, "read the folder", &error);
     let entries = std::fs::read_dir(folder).map_err(listing)?;

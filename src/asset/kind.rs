@@ -1,4 +1,4 @@
-//! Recognising and checking any user file.
+//! Recognition and checking of any user file.
 
 use std::fmt;
 use std::path::Path;
@@ -15,22 +15,22 @@ use super::saved::{PlanFile, TrajectoryFile};
 use super::text::{Source, read_text};
 use super::{spec::Key, task, tool, world};
 
-/// What a file is.
+/// Kind of a user file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// A tool file.
+    /// Tool file.
     Tool,
-    /// A task file.
+    /// Task file.
     Task,
-    /// A plan file.
+    /// Plan file.
     Plan,
-    /// A trajectory file.
+    /// Trajectory file.
     Trajectory,
-    /// A recording.
+    /// Recording.
     Recording,
-    /// A world file.
+    /// World file.
     World,
-    /// A run that was kept.
+    /// Saved run.
     Run,
 }
 
@@ -48,11 +48,11 @@ impl fmt::Display for Kind {
     }
 }
 
-/// Recognises the file at `path` by its content and checks all of it, unless it is a run; the tools
-/// that a task names must be in `library`, if one is given.
+/// Recognises the file at `path` by its content and checks it fully, except for a run. If `library`
+/// is given, it must contain the tools that a task names.
 ///
 /// # Errors
-/// All faults of the file, each with its place.
+/// Returns all faults of the file, each with its place.
 pub fn check(path: impl AsRef<Path>, library: Option<&ToolLibrary>) -> Result<Kind, Faults> {
     let (file, text) = read_text(path.as_ref())?;
     let kind = recognise(&file, &text)?;
@@ -62,9 +62,9 @@ pub fn check(path: impl AsRef<Path>, library: Option<&ToolLibrary>) -> Result<Ki
         Kind::Plan => PlanFile::parse(&text, &file).map(|_| kind),
         Kind::Trajectory => TrajectoryFile::parse(&text, &file).map(|_| kind),
         Kind::Recording => Recording::parse(&text, &file).map(|_| kind),
-        // What it says about a task's objects can be checked only together with the task.
+        // Entries on a task's objects can be checked only together with the task.
         Kind::World => world::check_world(&text, &file).map(|()| kind),
-        // Only recognised: what acts reads it.
+        // Recognised only; crate `act` reads the content.
         Kind::Run => Ok(kind),
     }
 }
@@ -78,7 +78,8 @@ fn recognise(file: &str, text: &str) -> Result<Kind, Faults> {
         Some("run") => return Ok(Kind::Run),
         _ => {}
     }
-    // By the number of keys that fit, so that a misspelled one does not hide what was meant.
+    // Decided by the number of matching keys, so that a misspelled key does not hide the intended
+    // kind.
     let fitting = |keys: &[Key]| keys.iter().filter(|key| root.get(key.name).is_some()).count();
     let kinds = [
         (fitting(tool::TOOL_KEYS).max(fitting(BLADE_TOOL_KEYS)), Kind::Tool),

@@ -1,4 +1,4 @@
-//! A collection of tools: those shipped with the program, those of folders, those made in code.
+//! Collection of tools: shipped tools, tools from folders and tools built in code.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -9,7 +9,7 @@ use crate::scene::Tool;
 use super::fault::{Fault, Faults};
 use super::folder::files_in;
 
-/// The tools shipped with the program, as file name and text.
+/// Shipped tools, as file name and text.
 const SHIPPED: &[(&str, &str)] = &[
     ("tools/finger.yaml", include_str!("../../tools/finger.yaml")),
     ("tools/fork.yaml", include_str!("../../tools/fork.yaml")),
@@ -26,7 +26,8 @@ const SHIPPED: &[(&str, &str)] = &[
     ("tools/wedge.yaml", include_str!("../../tools/wedge.yaml")),
 ];
 
-/// Tools with unique names, sorted by name: those that push, and apart from them those with blades.
+/// Collection of tools with unique names, sorted by name; pushing tools and blade tools are kept
+/// apart.
 ///
 /// ```
 /// use pushplan::{Part, Pose, Tool, ToolLibrary};
@@ -39,34 +40,34 @@ const SHIPPED: &[(&str, &str)] = &[
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct ToolLibrary {
-    /// Those that push.
+    /// Pushing tools.
     tools: Vec<Arc<Tool>>,
-    /// Those that lever: no task of pushes is offered them.
+    /// Blade tools, for levering only; pushing tasks never use them.
     blades: Vec<Arc<Tool>>,
 }
 
 impl ToolLibrary {
-    /// The tools shipped with the program; needs no files.
+    /// Returns the tools shipped with the program; no files are needed.
     ///
     /// # Errors
-    /// None in a released program: its tests read every shipped tool.
+    /// Never in a released program, because its tests read every shipped tool.
     pub fn embedded() -> Result<Self, Faults> {
         Self::default().and(SHIPPED.iter().map(|(file, text)| (*file, Tool::parse(text, file))))
     }
 
-    /// Every `.yaml` or `.yml` file of the folder `path`.
+    /// Reads every `.yaml` or `.yml` file of the folder `path`.
     ///
     /// # Errors
-    /// All faults of all files; a folder that cannot be read or holds no tool; two tools of one
-    /// name.
+    /// Returns all faults of all files. Also fails if the folder cannot be read or holds no tool,
+    /// or if two tools have one name.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, Faults> {
         Self::default().with_folder(path)
     }
 
-    /// These tools and one more.
+    /// Adds a tool.
     ///
     /// # Errors
-    /// If the library has a tool of this name already.
+    /// The library already has a tool of this name.
     pub fn with(mut self, tool: impl Into<Arc<Tool>>) -> Result<Self, Faults> {
         let tool = tool.into();
         let name = tool.name.clone();
@@ -77,10 +78,10 @@ impl ToolLibrary {
         Err(Fault::of_file(&format!("tool `{name}`"), message, "rename one of the two").into())
     }
 
-    /// These tools and those of every `.yaml` or `.yml` file of the folder `path`.
+    /// Adds the tools of every `.yaml` or `.yml` file of the folder `path`.
     ///
     /// # Errors
-    /// As [`ToolLibrary::load`]; a file whose tool has the name of one that is here already.
+    /// The errors of [`ToolLibrary::load`]; also a tool whose name is already in the library.
     pub fn with_folder(self, path: impl AsRef<Path>) -> Result<Self, Faults> {
         let path = path.as_ref();
         let files = files_in(path, &["yaml", "yml"])?;
@@ -93,34 +94,34 @@ impl ToolLibrary {
         self.and(names.iter().map(String::as_str).zip(files.iter().map(Tool::load)))
     }
 
-    /// The tool called `name`.
+    /// Returns the tool called `name`.
     pub fn get(&self, name: &str) -> Option<&Arc<Tool>> {
         [&self.tools, &self.blades]
             .into_iter()
             .find_map(|tools| Some(&tools[place(tools, name).ok()?]))
     }
 
-    /// All tools with blades, sorted by name.
+    /// Returns all blade tools, sorted by name.
     pub fn blades(&self) -> &[Arc<Tool>] {
         &self.blades
     }
 
-    /// All tools that push, sorted by name.
+    /// Iterates over the pushing tools, sorted by name.
     pub fn iter(&self) -> std::slice::Iter<'_, Arc<Tool>> {
         self.tools.iter()
     }
 
-    /// Number of tools that push.
+    /// Returns the number of pushing tools.
     pub fn len(&self) -> usize {
         self.tools.len()
     }
 
-    /// Whether there is no tool that pushes.
+    /// Returns `true` if there is no pushing tool.
     pub fn is_empty(&self) -> bool {
         self.tools.is_empty()
     }
 
-    /// Adds a tool; whether its name was free.
+    /// Adds a tool; returns `false` if its name is already taken.
     fn insert(&mut self, tool: Arc<Tool>) -> bool {
         let free = self.get(&tool.name).is_none();
         let tools = if tool.pushes() { &mut self.tools } else { &mut self.blades };
@@ -130,7 +131,7 @@ impl ToolLibrary {
         free
     }
 
-    /// These tools and those read from files, with all faults of all files.
+    /// Adds tools read from files; returns all faults of all files.
     fn and<'a>(
         mut self,
         read: impl IntoIterator<Item = (&'a str, Result<Tool, Faults>)>,
@@ -158,7 +159,7 @@ impl ToolLibrary {
     }
 }
 
-/// Where the tool called `name` is among `tools`, or would have to be.
+/// Returns the index of the tool called `name` in `tools`, or its insertion index.
 fn place(tools: &[Arc<Tool>], name: &str) -> Result<usize, usize> {
     tools.binary_search_by(|tool| tool.name.as_str().cmp(name))
 }

@@ -1,10 +1,10 @@
-//! Reading and writing user files: tools, tasks, plans, trajectories, recordings.
+//! Reading and writing of user files: tools, tasks, plans, trajectories, recordings.
 //!
-//! Strict, with source positions and all faults of a file at once; the only room that names
-//! the YAML crate. A file is read in three steps: its text becomes a tree of nodes that know
-//! their place (`node`, `reader`), the tree is checked against what such a file may hold (`spec`,
-//! `strict`), and the rules that span several keys are applied while the domain's type is
-//! built (`tool`, `task`, `saved`). Nothing is simulated here and nothing is drawn.
+//! Reading is strict: all faults of a file are reported at once, with source positions. This is the
+//! only module that names the YAML crate. A file is read in three steps. Its text becomes a tree of
+//! nodes with places (`node`, `reader`). The tree is checked against the specification of the file
+//! (`spec`, `strict`). Rules that span several keys are applied while the domain type is built
+//! (`tool`, `task`, `saved`). Nothing is simulated or drawn here.
 
 mod arm;
 mod blade;

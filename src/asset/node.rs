@@ -1,42 +1,42 @@
-//! A file's text as a tree of numbered nodes, whatever its language.
+//! Tree of numbered nodes that represents a YAML or JSON text.
 
 use std::fmt;
 
-/// A value of a file's text, numbered in reading order so that its place can be found.
+/// Value in a file, numbered in reading order so that its place can be found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
-    /// Its number in reading order.
+    /// Number in reading order.
     pub id: usize,
-    /// Its value.
+    /// Content of the node.
     pub content: Content,
 }
 
-/// The value of a node.
+/// Content of a node.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Content {
     /// Null, or a key without a value.
     Nothing,
-    /// True or false.
+    /// Boolean.
     Switch(bool),
-    /// A number without fraction.
+    /// Integer.
     Whole(i128),
     /// Any other number.
     Number(f64),
-    /// A text.
+    /// Text.
     Text(String),
-    /// A list of values.
+    /// List of values.
     List(Vec<Node>),
-    /// Keys with their values, in the order of the text.
+    /// Key-value pairs, in the order of the text.
     Map(Vec<(Node, Node)>),
 }
 
 impl Node {
-    /// The value under `key`, if this is a map that has it.
+    /// Returns the value under `key`, if this is a map that has the key.
     pub fn get(&self, key: &str) -> Option<&Node> {
         self.pairs().iter().find(|(k, _)| k.text() == Some(key)).map(|(_, value)| value)
     }
 
-    /// The pairs of a map; empty for anything else.
+    /// Returns the pairs of a map; empty for other values.
     pub fn pairs(&self) -> &[(Node, Node)] {
         match &self.content {
             Content::Map(pairs) => pairs,
@@ -44,7 +44,7 @@ impl Node {
         }
     }
 
-    /// The items of a list; empty for anything else.
+    /// Returns the items of a list; empty for other values.
     pub fn items(&self) -> &[Node] {
         match &self.content {
             Content::List(items) => items,
@@ -52,7 +52,7 @@ impl Node {
         }
     }
 
-    /// The text, if it is one.
+    /// Returns the text, if the value is text.
     pub fn text(&self) -> Option<&str> {
         match &self.content {
             Content::Text(text) => Some(text),
@@ -60,7 +60,7 @@ impl Node {
         }
     }
 
-    /// True or false, if it is one of them.
+    /// Returns the boolean, if the value is one.
     pub fn switch(&self) -> Option<bool> {
         match self.content {
             Content::Switch(value) => Some(value),
@@ -68,7 +68,7 @@ impl Node {
         }
     }
 
-    /// The number, if it is one.
+    /// Returns the number, if the value is one.
     pub fn number(&self) -> Option<f64> {
         match self.content {
             Content::Whole(value) => Some(value as f64),
@@ -79,7 +79,7 @@ impl Node {
 }
 
 impl fmt::Display for Content {
-    /// What a fault message says was found.
+    /// Describes the value for the "found …" part of a fault message.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Content::Nothing => f.write_str("nothing"),

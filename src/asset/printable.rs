@@ -1,10 +1,10 @@
-//! Text of a user's file on its way to a terminal.
+//! Escaping of user text for output on a terminal.
 
 use std::borrow::Cow;
 
-/// `text` with every character that a terminal would obey rather than show written as `\u001b`,
-/// which is also how JSON writes it: control characters but for the tab, and those that turn the
-/// direction of writing. A line feed is one of them: what is one line stays one.
+/// Escapes every character that a terminal would interpret instead of display. Escaped are control
+/// characters except the tab, and characters that change the writing direction. They are written as
+/// `\u001b`, as in JSON. Line feeds are also escaped, so that one line stays one line.
 pub fn printable(text: &str) -> Cow<'_, str> {
     if !text.contains(obeyed) {
         return Cow::Borrowed(text);

@@ -1,10 +1,10 @@
-//! Values put back into the keys of files, the counterpart of `take`.
+//! Conversion of values to the keys of files, the counterpart of `take`.
 
 use serde_json::{Value as Json, json};
 
 use crate::geometry::{Pose, Shape, Vector};
 
-/// Returns a solid as in a file.
+/// Returns a solid as it is written in a file.
 pub(super) fn shape(shape: &Shape) -> Json {
     match *shape {
         Shape::Cylinder { radius, height } => {
@@ -18,7 +18,8 @@ pub(super) fn shape(shape: &Shape) -> Json {
     }
 }
 
-/// A solid of an object with room for a blade: its mass lies where its solids do, about the frame of all.
+/// Returns a solid of a compound object with clearance for a blade. Its `origin` is written instead
+/// of its centre of mass, because the mass refers to the frame of the compound object.
 pub(super) fn drawn(solid: &Shape) -> Json {
     let mut json = shape(solid);
     if let Some(prism) = json.get_mut("prism").and_then(Json::as_object_mut)
@@ -36,17 +37,17 @@ pub(super) fn posed(mut fields: Json, pose: &Pose) -> Json {
     fields
 }
 
-/// Returns the two numbers of a vector.
+/// Returns the two components of a vector.
 pub(super) fn vector(vector: Vector) -> [f64; 2] {
     [vector.x, vector.y]
 }
 
-/// The angle in degrees that reads back as exactly `radians`: the roundest such number, so
-/// that a plan made from a file is verified with the same bits. An angle that came from no
-/// file may have none; it then reads back as a neighbouring number.
+/// Returns the roundest angle in degrees that converts back to exactly `radians`, so that a plan
+/// made from a file is verified bit for bit. An angle that did not come from a file may have no
+/// such number; a neighbouring number is returned then.
 pub(super) fn degrees(radians: f64) -> f64 {
     let plain = radians.to_degrees();
-    // A full turn and more looks the same.
+    // Angles beyond a full turn are reduced to an equivalent one.
     let plain = if plain.abs() > 360.0 { plain % 360.0 } else { plain };
     let round = (plain * 1e9).round() / 1e9;
     let (mut up, mut down) = (plain, plain);

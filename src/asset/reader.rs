@@ -1,10 +1,10 @@
-//! YAML or JSON text as a tree of nodes, and the place of a node.
+//! Parsing of YAML or JSON text into a tree of nodes, and lookup of a node's place.
 //!
-//! The crates that read both tell positions only in their errors. So nodes are numbered in the
-//! order in which they are read, and the place of one is found by reading the text again and
-//! failing on purpose at its number. That costs one more parse per fault and nothing for a good
-//! file, and the positions are the parser's own (YAML: where the value begins; JSON: where the
-//! parser stood, which is the value's last character or first bracket).
+//! Both parsers report positions only in their errors. Nodes are therefore numbered in reading
+//! order. The place of a node is found by parsing the text again and failing on purpose at its
+//! number. This costs one more parse per fault and nothing for a valid file. The positions are the
+//! parser's own: in YAML the start of the value, in JSON the value's last character or first
+//! bracket.
 
 use std::cell::Cell;
 use std::fmt;
@@ -17,22 +17,24 @@ use super::fault::{Fault, Faults, Place};
 use super::node::{Content, Node};
 use super::text::{Language, Source};
 
-/// The longest YAML text that is read, bytes: far above any task, and small enough that a wrong
-/// file is refused at once.
+/// Maximum size of a YAML text, bytes: far above any task, and small enough to refuse a wrong file
+/// at once.
 const MAX_YAML_BYTES: usize = 1 << 18;
 
-/// The most values that a YAML text may hold; anchors and aliases can write many with few
-/// letters.
+/// Maximum number of values in a YAML text, because anchors and aliases can expand a few letters to
+/// many values.
 const MAX_YAML_NODES: usize = 100_000;
 
-/// The most bytes of words that a YAML text may hold: aliases repeat long ones as well.
+/// Maximum total size of words in a YAML text, bytes, because aliases also repeat long words.
 const MAX_YAML_WORDS: usize = 1 << 20;
 
-/// Lists and maps within each other: a trajectory file, the deepest there is, has nine.
+/// Maximum nesting depth of lists and maps; the deepest file format, the trajectory, has nine
+/// levels.
 const MAX_DEPTH: usize = 32;
 
-/// Brackets, dashes and colons of a YAML text that are read before their depth is checked. The
-/// parser's time grows with the square of the depth: this many levels take it some 30 ms.
+/// Number of brackets, dashes and colons of a YAML text that are read before their depth is
+/// checked. The parser's time grows with the square of the depth: this number of levels takes some
+/// 30 ms.
 const OPENERS_AT_ONCE: usize = 2000;
 
 const TAGS: &str = "tags such as `!name` have no meaning here";
@@ -40,10 +42,10 @@ const TAGS: &str = "tags such as `!name` have no meaning here";
 const DEEP: &str = "lists and maps are nested too deeply";
 
 impl Node {
-    /// Reads a text.
+    /// Parses a text.
     ///
     /// # Errors
-    /// One fault if it is not of its language.
+    /// Returns one fault if the text is not valid in its language.
     pub fn parse(source: Source) -> Result<Self, Faults> {
         let Source { file, text, language } = source;
         if language == Language::Yaml && text.len() > MAX_YAML_BYTES {
@@ -57,21 +59,21 @@ impl Node {
     }
 }
 
-/// Returns the place of node `id` of a text.
+/// Returns the place of node `id` in a text.
 pub fn locate(source: Source, id: usize) -> Option<Place> {
     read(source, id).err()?.place
 }
 
-/// Why and where reading stopped.
+/// Reason and place at which parsing stopped.
 struct Failure {
     message: String,
     place: Option<Place>,
 }
 
 impl Failure {
-    /// What is wrong with the text, and what to try.
+    /// Converts the failure to a fault with advice.
     fn explain(self, Source { file, text, language }: Source) -> Fault {
-        // The place is said once, in front.
+        // The place is reported separately, so it is cut from the message.
         let message = self.message.split(" at line ").next().unwrap_or_default();
         let advice = if message.contains(TAGS) {
             "write the value without a tag"
@@ -97,26 +99,26 @@ impl Failure {
     }
 }
 
-/// Refuses a YAML text nested so deeply that its parser, which reads a text to the end before it
-/// gives any of it, would take minutes. So the parser is given the beginning of the text, then
-/// more and more of it, and the depth of each part is looked at before the next is read.
+/// Refuses a YAML text that is nested so deeply that parsing would take minutes. The YAML parser
+/// reads a text to its end before it returns any node. Therefore the parser receives increasing
+/// prefixes of the text, and the depth of each prefix is checked before the next one is parsed.
 fn check_depth(source: Source) -> Result<(), Failure> {
     if source.language == Language::Json {
-        // Its parser gives every value as it comes, and so stops by itself.
+        // The JSON parser returns each value as it is read, so the depth limit stops it.
         return Ok(());
     }
     let mut broken = None;
     for cut in cuts(source.text, OPENERS_AT_ONCE) {
         let part = Source { text: &source.text[..cut], ..source };
         let Err(failure) = read(part, usize::MAX) else { continue };
-        // A text that is cut off fails in the parser itself. What is refused for what it says
-        // (nesting, tags, a second document) more text could not mend.
+        // A truncated text fails in the parser itself. A failure of another kind (nesting, tags, a
+        // second document) remains when more text is added.
         let parsed = serde_yaml::from_str::<IgnoredAny>(part.text);
         let cut_off = parsed.is_err_and(|error| error.to_string() == failure.message);
         if !cut_off || failure.place.is_none() {
             return Err(failure);
         }
-        // More text did not move the end: the parser never comes past this place.
+        // The end did not move although text was added: the parser never gets past this place.
         if broken.replace(failure.place) == Some(failure.place) {
             break;
         }
@@ -124,9 +126,9 @@ fn check_depth(source: Source) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Ends of the parts of a text with `count` openers each. A level of YAML takes a bracket, a dash,
-/// a question mark or a colon at least, so none of them is deeper than the one before by more
-/// than twice that many.
+/// Returns the ends of prefixes of a text with `count` more openers each. A YAML level takes at
+/// least a bracket, a dash, a question mark or a colon. Each prefix is therefore deeper than the
+/// previous one by at most twice that number.
 fn cuts(text: &str, count: usize) -> impl Iterator<Item = usize> {
     let bytes = text.as_bytes();
     let spaced = |at: usize| bytes.get(at + 1).is_none_or(u8::is_ascii_whitespace);
@@ -173,8 +175,8 @@ fn read(source: Source, stop: usize) -> Result<Node, Failure> {
     }
 }
 
-/// Where the second document of a YAML text begins: the one thing that its parser refuses without
-/// a place.
+/// Returns the start of the second document in a YAML text, the only error that the parser reports
+/// without a place.
 fn second_document(text: &str) -> Place {
     let mut lines = text.lines().enumerate();
     let begun = lines.by_ref().find(|(_, line)| {
@@ -186,7 +188,7 @@ fn second_document(text: &str) -> Place {
     Place { line, column: 1 }
 }
 
-/// Whether a value of a JSON text is written as Python writes numbers that are not finite.
+/// Returns `true` if a JSON text contains a non-finite number in Python's notation.
 fn names_no_number(text: &str) -> bool {
     ["NaN", "Infinity"].iter().any(|word| {
         text.match_indices(word)
@@ -199,9 +201,9 @@ struct Reader<'a> {
     next: &'a Cell<usize>,
     stop: usize,
     limit: usize,
-    /// Bytes of words so far, and how many there may be.
+    /// Bytes of words so far, and their maximum.
     words: (&'a Cell<usize>, usize),
-    /// Lists and maps around the value.
+    /// Number of lists and maps around the value.
     depth: usize,
 }
 
@@ -218,7 +220,7 @@ impl Reader<'_> {
         Ok(id)
     }
 
-    /// The number of a list or map, and the reader of what is in it.
+    /// Returns the number of a list or map, and the reader of its content.
     fn enter<E: de::Error>(self) -> Result<(usize, Self), E> {
         let id = self.number()?;
         let depth = self.depth + 1;

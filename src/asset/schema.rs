@@ -1,4 +1,4 @@
-//! JSON schemas (draft 2020-12) of the user's files, for editors.
+//! JSON schemas (draft 2020-12) of user files, for editors.
 
 use serde_json::{Map, Value as Json, json};
 
@@ -6,12 +6,12 @@ use super::spec::{Key, Value};
 use super::strict::describe;
 use super::text::LONGEST_NAME;
 
-/// What holds for a whole tool file.
+/// Description of tool files.
 const TOOL_RULES: &str = "One rigid piece of upright solids, held at its grip, that pushes; or a flat \
 `blade`, held at the end of its shaft, that levers. Lengths are in metres, angles in degrees. Unknown \
 keys are faults.";
 
-/// What holds for a whole task file.
+/// Description of task files.
 const TASK_RULES: &str = "A scene, a robot, the tools and pushes that it allows, and a goal. \
 Lengths are in metres, masses in kilograms, angles in degrees. The table is the plane z = 0; x \
 points forward from the robot, whose base is the origin. The friction coefficient of any pair, \
@@ -26,50 +26,50 @@ obstacles, and a blade goes level under an edge, pointing inward, and turns abou
 edge goes up. The blade is held at the other end of its shaft, which stays within the reach. \
 Unknown keys are faults.";
 
-/// What holds for a whole world file.
+/// Description of world files.
 const WORLD_RULES: &str = "What is really there where a task does not know it, for `pushplan run`: \
 what is not said here is as the task states it, and no planner sees it. Lengths are in metres, masses in \
 kilograms, angles in degrees. Unknown keys are faults.";
 
-/// The schema of tool files.
+/// Returns the schema of tool files.
 pub fn tool_schema() -> Json {
     let mut schema = document("pushplan tool", &super::tool::TOOL_FILE);
     schema["description"] = json!(TOOL_RULES);
     schema
 }
 
-/// The schema of task files.
+/// Returns the schema of task files.
 pub fn task_schema() -> Json {
     let mut schema = document("pushplan task", &super::task::TASK);
     schema["description"] = json!(TASK_RULES);
     schema
 }
 
-/// The schema of plan files.
+/// Returns the schema of plan files.
 pub fn plan_schema() -> Json {
     document("pushplan plan", &super::saved::PLAN_FILE)
 }
 
-/// The schema of trajectory files.
+/// Returns the schema of trajectory files.
 pub fn trajectory_schema() -> Json {
     document("pushplan trajectory", &super::saved::TRAJECTORY_FILE)
 }
 
-/// The schema of recordings, with the format in words.
+/// Returns the schema of recordings, with the description of the format.
 pub fn recording_schema() -> Json {
     let mut schema = document("pushplan recording", &super::recording::RECORDING);
     schema["description"] = json!(super::RECORDING_FORMAT);
     schema
 }
 
-/// The schema of world files.
+/// Returns the schema of world files.
 pub fn world_schema() -> Json {
     let mut schema = document("pushplan world", &super::world::WORLD);
     schema["description"] = json!(WORLD_RULES);
     schema
 }
 
-/// Lets a schema allow what the other one does as well.
+/// Extends schema `one` so that it also accepts everything that `other` accepts.
 fn merge(one: &mut Json, other: Json) {
     if *one == other {
         return;
@@ -97,7 +97,7 @@ fn merge(one: &mut Json, other: Json) {
         one["maxItems"] = json!(c.max(d));
         merge(&mut one["items"], other["items"].clone());
     } else {
-        // Only the words differ, or one is as good as the other for an editor.
+        // Only the descriptions differ, or the schemas are equivalent for an editor.
         let words = one["description"].take();
         let mut other = other;
         let more = other["description"].take();
@@ -162,10 +162,10 @@ fn schema(value: &Value) -> Json {
     }
 }
 
-/// What no name holds: every character of ASCII, Latin-1 and general punctuation that is neither a
-/// letter nor a digit, `-` or `_`. Classes of letters such as `\p{L}` are unknown to Python and, without a flag
-/// that schemas cannot set, to JavaScript; so a pattern names what is left out. It lets through
-/// some signs of other scripts, which the reader then refuses.
+/// Ranges of characters excluded from names: every character of ASCII, Latin-1 and general
+/// punctuation except letters, digits, `-` and `_`. Classes of letters such as `\p{L}` are unknown
+/// to Python. JavaScript needs a flag for them that schemas cannot set. The pattern therefore lists
+/// the excluded characters. It accepts some signs of other scripts, which the reader then refuses.
 const NOT_IN_NAMES: [(char, char); 15] = [
     ('\0', ','),
     ('.', '/'),
@@ -184,7 +184,7 @@ const NOT_IN_NAMES: [(char, char); 15] = [
     ('\u{3000}', '\u{3004}'),
 ];
 
-/// A pattern that Python's `re` and ECMA-262 without flags read alike.
+/// Returns a pattern with equal meaning in Python's `re` and in ECMA-262 without flags.
 fn name_pattern() -> String {
     let escaped = |c: char| format!("\\u{:04x}", u32::from(c));
     let ranges = NOT_IN_NAMES.map(|(from, to)| format!("{}-{}", escaped(from), escaped(to)));

@@ -1,4 +1,5 @@
-//! Solids in files: cylinders, cuboids and prisms, these with corners and centre of mass in a frame of the file's own.
+//! Solids in files: cylinders, cuboids and prisms. Corners and centre of mass of a prism are given
+//! in the file's own frame.
 
 use crate::geometry::{ConvexPolygon, MAX_CORNERS, PolygonError, Pose, Shape, Vector, centroid};
 
@@ -7,34 +8,34 @@ use super::spec::{EXTENTS, Key, POSITION, SIZE, Value};
 use super::strict::Ledger;
 use super::take::{pose, triple, vector};
 
-/// A solid standing upright.
+/// Upright solid.
 pub(super) const SHAPE: Value = Value::Variant(&[
     Key::optional("cylinder", CYLINDER, "An upright cylinder; no default."),
     Key::optional("cuboid", CUBOID, "A cuboid with its faces along its own axes; no default."),
     Key::optional("prism", PRISM, "An upright prism on a convex polygon; no default."),
 ]);
 
-/// A solid standing upright, with the point of it that a position names.
+/// Upright solid, with the reference point of `position`.
 pub(super) const PLACED_SHAPE: Value = Value::Variant(&[
     Key::optional("cylinder", CYLINDER, "An upright cylinder; no default."),
     Key::optional("cuboid", CUBOID, "A cuboid with its faces along its own axes; no default."),
     Key::optional("prism", PLACED_PRISM, "An upright prism on a convex polygon; no default."),
 ]);
 
-/// The extents of a cylinder.
+/// Extents of a cylinder.
 pub(super) const CYLINDER: Value = Value::Map(&[
     Key::required("radius", SIZE, "Radius in metres."),
     Key::required("height", SIZE, "Height in metres."),
 ]);
 
-/// The extents of a cuboid.
+/// Extents of a cuboid.
 pub(super) const CUBOID: Value =
     Value::Map(&[Key::required("size", EXTENTS, "Full extents [x, y, z] in metres.")]);
 
-/// What a file may say of a prism.
+/// Specification of a prism.
 const PRISM: Value = Value::Map(&[CORNERS, HEIGHT, CENTRE]);
 
-/// What a file may say of a prism whose position may be that of another point.
+/// Specification of a prism whose `position` may refer to another point than the centre of mass.
 const PLACED_PRISM: Value = Value::Map(&[
     CORNERS,
     HEIGHT,
@@ -63,7 +64,7 @@ const CENTRE: Key = Key::optional(
      body's position is where this is.",
 );
 
-/// The solid under `shape`.
+/// Returns the solid under `shape`.
 pub(super) fn shape(node: &Node) -> Option<Shape> {
     if let Some(cylinder) = node.get("cylinder") {
         let radius = cylinder.get("radius")?.number()?;
@@ -75,23 +76,23 @@ pub(super) fn shape(node: &Node) -> Option<Shape> {
     Some(Shape::Cuboid { size: triple(node.get("cuboid")?, "size")? })
 }
 
-/// The pose of a body whose `shape` may state the point that its position names.
+/// Returns the pose of a body whose `shape` may state the reference point of `position`.
 pub(super) fn placed(node: &Node) -> Option<Pose> {
     let pose = pose(node)?;
     let shift = node.get("shape").map_or(Some(Vector::zeros()), self::shift)?;
-    // Most state none, and adding nothing would still round.
+    // Without a stated reference point, adding a zero shift would still round.
     let moved = shift != Vector::zeros();
     Some(if moved { Pose { position: pose.point(shift), ..pose } } else { pose })
 }
 
-/// The prism, if nothing of it is missing or faulty.
+/// Returns the prism unless a value is missing or faulty.
 fn prism(node: &Node) -> Option<Shape> {
     let base = base(&corners(node)?, centre(node)?).ok()?;
     Some(Shape::Prism { base, height: node.get("height")?.number()? })
 }
 
-/// Where the origin of a body of that `shape` lies in the frame in which the file describes it: a
-/// prism's centre of mass.
+/// Returns the origin of a body of the given `shape` in the frame of the file: a prism's centre of
+/// mass.
 pub(super) fn origin(shape: &Node) -> Option<Vector> {
     match shape.get("prism") {
         Some(node) => Some(centre(node)?.unwrap_or(centroid(&corners(node)?))),
@@ -99,8 +100,8 @@ pub(super) fn origin(shape: &Node) -> Option<Vector> {
     }
 }
 
-/// Where the origin of a body of that `shape` lies from the point that a position names: elsewhere for a
-/// prism that states one.
+/// Returns the origin of a body of the given `shape` relative to the reference point of `position`;
+/// nonzero only for a prism that states an `origin`.
 pub(super) fn shift(shape: &Node) -> Option<Vector> {
     match shape.get("prism").and_then(|prism| prism.get("origin")) {
         Some(named) => Some(origin(shape)? - vector(named)?),
@@ -108,14 +109,14 @@ pub(super) fn shift(shape: &Node) -> Option<Vector> {
     }
 }
 
-/// Notes what makes the `shape` of a body no convex prism.
+/// Reports a fault if the `shape` of a body is not a convex prism.
 pub(super) fn check(shape: Option<&Node>, ledger: &mut Ledger) {
     if let Some(node) = shape.and_then(|shape| shape.get("prism")) {
         check_base(node, ledger);
     }
 }
 
-/// Notes what makes the corners of `node` no convex polygon.
+/// Reports a fault if the corners of `node` do not form a convex polygon.
 pub(super) fn check_base(node: &Node, ledger: &mut Ledger) {
     let (Some(corners), Some(centre)) = (corners(node), centre(node)) else { return };
     let Err(error) = base(&corners, centre) else { return };
@@ -144,14 +145,14 @@ fn base(corners: &[Vector], centre: Option<Vector>) -> Result<ConvexPolygon, Pol
     }
 }
 
-/// The corners; none where their list was faulty.
+/// Returns the corners; `None` if their list is faulty.
 fn corners(node: &Node) -> Option<Vec<Vector>> {
     let corners: Vec<Vector> =
         node.get("corners")?.items().iter().map(vector).collect::<Option<_>>()?;
     (!corners.is_empty()).then_some(corners)
 }
 
-/// The centre of mass, if one is stated; the outer `None` if it is faulty.
+/// Returns the stated centre of mass, if any; the outer `None` if it is faulty.
 fn centre(node: &Node) -> Option<Option<Vector>> {
     match node.get("centre_of_mass") {
         Some(centre) => Some(Some(vector(centre)?)),

@@ -1,11 +1,11 @@
-//! What a file may hold: keys, kinds of values, ranges and their meaning.
+//! Specification of files: keys, kinds of values, ranges and descriptions.
 //!
-//! One description serves three readers: the strict check (`strict.rs`), the JSON schema for
-//! editors (`schema.rs`) and people, who meet its words in both.
+//! A single specification serves the strict check (`strict.rs`), the JSON schema for editors
+//! (`schema.rs`) and human readers, who see its descriptions in both.
 
 use super::node::Node;
 
-/// A key of a map.
+/// Key of a map.
 #[derive(Clone, Copy)]
 pub(super) struct Key {
     pub name: &'static str,
@@ -25,49 +25,49 @@ impl Key {
     }
 }
 
-/// A kind of value.
+/// Kind of a value.
 #[derive(Clone, Copy)]
 pub(super) enum Value {
-    /// Anything; the type that it is read into decides what it must be.
+    /// Any value; the target type checks it.
     Anything,
-    /// No value, where that has a meaning.
+    /// Null, for keys where null has a meaning.
     Nothing,
-    /// True or false.
+    /// Boolean.
     Switch,
     /// Free text.
     Text,
-    /// A short word that messages and other keys can refer to.
+    /// Short word that messages and other keys can refer to.
     Name,
-    /// One of these words.
+    /// Word from a list.
     Word(&'static [&'static str]),
-    /// Any number of the range.
+    /// Number in a range.
     Number(Range),
-    /// A whole number of the range.
+    /// Integer in a range.
     Count(Range),
-    /// Between `min` and `max` items.
+    /// List of `min` to `max` items.
     List { of: &'static Value, items: &'static str, min: usize, max: usize },
-    /// A map with these keys and no others.
+    /// Map with these keys and no others.
     Map(&'static [Key]),
-    /// A map with exactly one of these keys.
+    /// Map with exactly one of these keys.
     Variant(&'static [Key]),
-    /// The first that fits the kind of the value.
+    /// First alternative whose kind matches the value.
     Either(&'static [Value]),
-    /// One of these: the beginning of the value tells which.
+    /// Alternative selected by the beginning of the value.
     Told { by: fn(&Node) -> &'static Value, of: &'static [&'static Value] },
 }
 
-/// Numbers from `low` to `high`, both included.
+/// Interval from `low` to `high`, both included.
 #[derive(Clone, Copy)]
 pub(super) struct Range {
-    /// What the number is, with its unit.
+    /// Name of the quantity, with its unit.
     pub what: &'static str,
     pub low: f64,
     pub high: f64,
-    /// What to try when a number is outside.
+    /// Suggested fix for a number outside the range.
     pub advice: &'static str,
 }
 
-/// A list of exactly `n` numbers.
+/// Returns a list of exactly `n` numbers.
 pub(super) const fn numbers(of: &'static Value, n: usize) -> Value {
     Value::List { of, items: "numbers", min: n, max: n }
 }
@@ -75,26 +75,26 @@ pub(super) const fn numbers(of: &'static Value, n: usize) -> Value {
 const METRES: &str = "lengths are in metres: 50 mm is 0.05";
 const DEGREES: &str = "angles are in degrees: a quarter turn is 90";
 
-/// An extent of a body: from a coin's thickness to a room.
+/// Extent of a body, from the thickness of a coin to a room.
 pub(super) const SIZE: Value =
     Value::Number(Range { what: "a size in metres", low: 0.001, high: 10.0, advice: METRES });
 
-/// A coordinate.
+/// Coordinate.
 pub(super) const COORDINATE: Value =
     Value::Number(Range { what: "a coordinate in metres", low: -10.0, high: 10.0, advice: METRES });
 
-/// A position on the table.
+/// Position on the table.
 pub(super) const POSITION: Value = numbers(&COORDINATE, 2);
 
 /// Full extents.
 pub(super) const EXTENTS: Value = numbers(&SIZE, 3);
 
-/// A turn or direction.
+/// Rotation or direction.
 pub(super) const ANGLE: Value =
     Value::Number(Range { what: "an angle in degrees", low: -360.0, high: 360.0, advice: DEGREES });
 
-/// The end of a joint's turns. Near half a turn left and right meet, and a simulator no longer
-/// knows which limit is near.
+/// Limit of a revolute joint. Near half a turn, left and right coincide, and a simulator can no
+/// longer distinguish the two limits.
 pub(super) const ANGLE_LIMIT: Value = Value::Number(Range {
     what: "a limit in degrees",
     low: -340.0,
@@ -102,12 +102,12 @@ pub(super) const ANGLE_LIMIT: Value = Value::Number(Range {
     advice: "limits are in degrees from the start; leave them out where a joint turns freely",
 });
 
-/// The end of a joint's shifts.
+/// Limit of a prismatic joint.
 pub(super) const SHIFT_LIMIT: Value =
     Value::Number(Range { what: "a limit in metres", low: -10.0, high: 10.0, advice: METRES });
 
-/// A friction value. Below 0.05 a body would slide on for seconds after a push, and without
-/// friction it never stops; no dry pair of materials is above 2.
+/// Friction value. Below 0.05 a body would slide for seconds after a push, and without friction it
+/// never stops. No dry pair of materials is above 2.
 pub(super) const FRICTION: Value = Value::Number(Range {
     what: "a friction value",
     low: 0.05,
@@ -115,7 +115,7 @@ pub(super) const FRICTION: Value = Value::Number(Range {
     advice: "wood on wood is about 0.4, rubber about 0.8; without friction nothing comes to rest",
 });
 
-/// A mass.
+/// Mass.
 pub(super) const MASS: Value = Value::Number(Range {
     what: "a mass in kg",
     low: 0.001,
@@ -123,7 +123,7 @@ pub(super) const MASS: Value = Value::Number(Range {
     advice: "masses are in kilograms: 250 g is 0.25",
 });
 
-/// A force.
+/// Force.
 pub(super) const FORCE: Value = Value::Number(Range {
     what: "a force in newtons",
     low: 0.1,

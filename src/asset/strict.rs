@@ -1,4 +1,4 @@
-//! The strict check of a tree against what a file may hold, and the ledger of faults.
+//! Strict check of a tree against the specification of a file, and the ledger of faults.
 
 use super::fault::{Fault, Faults, Place, did_you_mean, one_of};
 use super::node::{Content, Node};
@@ -6,10 +6,11 @@ use super::reader::locate;
 use super::spec::{Key, Range, Value};
 use super::text::{LONGEST_NAME, Source, is_in_names};
 
-/// More faults than this are counted rather than shown; a wrong file would bury the reader.
+/// Maximum number of faults shown; further faults are only counted, because a wrong file would
+/// produce too many.
 const MAX_SHOWN: usize = 50;
 
-/// Collects faults by node; places are looked up at the end.
+/// Collection of faults by node; places are looked up at the end.
 pub(super) struct Ledger<'a> {
     source: Source<'a>,
     found: Vec<(usize, String, String)>,
@@ -20,15 +21,15 @@ impl<'a> Ledger<'a> {
         Self { source, found: Vec::new() }
     }
 
-    /// Notes a fault at `node`.
+    /// Adds a fault at `node`.
     pub fn fault(&mut self, node: &Node, message: impl Into<String>, advice: impl Into<String>) {
         self.found.push((node.id, message.into(), advice.into()));
     }
 
-    /// Whether nothing was wrong so far.
+    /// Checks that no fault has been added so far.
     ///
     /// # Errors
-    /// All faults noted so far.
+    /// Returns all faults added so far.
     pub fn sound(&self) -> Result<(), Faults> {
         if self.found.is_empty() {
             return Ok(());
@@ -36,13 +37,14 @@ impl<'a> Ledger<'a> {
         Self { source: self.source, found: self.found.clone() }.finish(None)
     }
 
-    /// `value` if it exists and nothing was wrong.
+    /// Returns `value` if it exists and no fault was added.
     pub fn finish<T>(mut self, value: Option<T>) -> Result<T, Faults> {
         if let (Some(value), true) = (value, self.found.is_empty()) {
             return Ok(value);
         }
         if self.found.is_empty() {
-            // Whatever leaves a value missing notes a fault; this is for a rule that forgot to.
+            // A missing value normally has a fault; this is the fallback for a rule that added
+            // none.
             let fault = Fault {
                 file: self.source.file.into(),
                 place: Some(Place { line: 1, column: 1 }),
@@ -73,8 +75,8 @@ impl<'a> Ledger<'a> {
     }
 }
 
-/// Checks `node` against `value` and notes every fault. What is faulty is emptied, so that
-/// later rules can work on all that is sound and none repeats a fault.
+/// Checks `node` against `value` and adds every fault. Faulty values are emptied, so that later
+/// rules can use all valid values and no fault is repeated.
 pub(super) fn check(node: &mut Node, value: &Value, ledger: &mut Ledger) {
     match value {
         Value::Anything => {}
@@ -115,7 +117,7 @@ pub(super) fn check(node: &mut Node, value: &Value, ledger: &mut Ledger) {
         }
         Value::Told { by, .. } => check(node, by(node), ledger),
         Value::Either(values) => match values.iter().find(|value| same_kind(node, value)) {
-            // A wrong word may stand for one of the other ways to write the value.
+            // A wrong word may be a misspelling of another form of the value.
             Some(Value::Word(words)) if !words.iter().any(|word| node.text() == Some(word)) => {
                 reject(node, value, ledger);
             }
@@ -126,7 +128,7 @@ pub(super) fn check(node: &mut Node, value: &Value, ledger: &mut Ledger) {
     }
 }
 
-/// Keys by which other programs tilt things.
+/// Keys by which other programs tilt objects.
 const TILTS: [&str; 12] = [
     "axis",
     "euler",
@@ -142,8 +144,8 @@ const TILTS: [&str; 12] = [
     "rpy",
 ];
 
-/// Checks the keys of a map and the values of the known ones; returns the advice given for
-/// the unknown ones.
+/// Checks the keys of a map and the values of the known keys; returns the advice for the unknown
+/// keys.
 fn check_keys(node: &mut Node, keys: &[Key], ledger: &mut Ledger) -> Vec<String> {
     let mut unknown = Vec::new();
     let mut seen = Vec::new();
@@ -172,7 +174,7 @@ fn check_keys(node: &mut Node, keys: &[Key], ledger: &mut Ledger) -> Vec<String>
     unknown
 }
 
-/// What to say of a key by which something is tilted, where things stand.
+/// Returns the advice for a key that tilts an upright body.
 fn tilted(name: &str, keys: &[Key]) -> Option<String> {
     let stands = keys.iter().any(|key| ["yaw_deg", "radius"].contains(&key.name));
     (stands && TILTS.contains(&name)).then(|| {
@@ -209,7 +211,7 @@ fn check_range(node: &mut Node, range: &Range, ledger: &mut Ledger) {
     }
 }
 
-/// Notes that `node` is not a `value`, and empties it.
+/// Adds the fault that `node` is not a `value`, and empties the node.
 fn reject(node: &mut Node, value: &Value, ledger: &mut Ledger) {
     let numeric = matches!(value, Value::Number(_) | Value::Count(_));
     let number = node.text().filter(|_| numeric).and_then(|text| text.trim().parse::<f64>().ok());
@@ -242,7 +244,7 @@ fn reject(node: &mut Node, value: &Value, ledger: &mut Ledger) {
     node.content = Content::Nothing;
 }
 
-/// What to try instead of the word `text` where one of `values` was expected.
+/// Returns the advice for the word `text` where one of `values` was expected.
 fn either_advice(text: &str, values: &[Value]) -> String {
     let words = values.iter().flat_map(|value| match value {
         Value::Word(words) => *words,
@@ -276,7 +278,7 @@ fn same_kind(node: &Node, value: &Value) -> bool {
     }
 }
 
-/// What was expected, in words.
+/// Describes the expected value.
 pub(super) fn describe(value: &Value) -> String {
     let names = |keys: &[Key]| -> Vec<String> {
         keys.iter().map(|key| format!("`{}`", key.name)).collect()

@@ -1,4 +1,4 @@
-//! Files of what was learnt about a table: small, checked, and never of another network.
+//! Files of table fits: small, checked, and bound to one network.
 
 use std::path::Path;
 
@@ -11,26 +11,26 @@ use super::fault::{Fault, Faults, Place};
 use super::text::read_text;
 use super::write_atomic;
 
-/// Version of the form of these files.
+/// Version of the file format.
 const FIT_VERSION: u32 = 1;
 
-/// What `kind` says in them.
+/// Value of the key `kind`.
 const KIND: &str = "table_fit";
 
-/// What is looked at first: another version may have other keys.
+/// Header that is read first, because another version may have other keys.
 #[derive(Deserialize)]
 struct Form {
     schema_version: u32,
     kind: String,
 }
 
-/// The whole file, and what plan files carry.
+/// Content of the file, also embedded in plan files.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::asset) struct Whole {
     schema_version: u32,
     kind: String,
-    /// Of `fit` as it is written, hexadecimal.
+    /// Checksum of `fit` as written, hexadecimal.
     checksum: String,
     fit: TableFit,
 }
@@ -43,20 +43,20 @@ impl Whole {
 }
 
 impl TableFit {
-    /// Reads a file that [`TableFit::write`] wrote.
+    /// Reads a file written by [`TableFit::write`].
     ///
     /// # Errors
-    /// A file that cannot be read, is of another kind or version, is damaged, or holds numbers that
-    /// no fit has.
+    /// The file cannot be read, has another kind or version, is damaged, or holds numbers that are
+    /// impossible in a fit.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, Faults> {
         let (file, text) = read_text(path.as_ref())?;
         Self::parse(&text, &file).map_err(Faults::from)
     }
 
-    /// Reads a file's text; `file` names it in faults.
+    /// Parses the text of a file; `file` is its name in faults.
     ///
     /// # Errors
-    /// As [`TableFit::load`].
+    /// The errors of [`TableFit::load`].
     pub fn parse(text: &str, file: &str) -> Result<Self, Fault> {
         let again = "make it again with `pushplan fit RECORDINGS --save-fit FILE`";
         let broken = |error: serde_json::Error| {
@@ -90,28 +90,28 @@ impl TableFit {
         }
     }
 
-    /// The file's text.
+    /// Returns the text of the file.
     pub fn to_json(&self) -> String {
         serde_json::to_string(&Whole::of(self)).unwrap_or_default() + "\n"
     }
 
-    /// Writes the file; a partial one is never left behind.
+    /// Writes the file; a partial file is never left behind.
     ///
     /// # Errors
-    /// A path that cannot be written.
+    /// The path cannot be written.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), Faults> {
         write_atomic(path, self.to_json().as_bytes())
     }
 
-    /// Checksum of all its numbers, hexadecimal.
+    /// Returns the checksum of all numbers, hexadecimal.
     pub fn checksum(&self) -> String {
         format!("{:016x}", checksum(serde_json::to_string(self).unwrap_or_default().as_bytes()))
     }
 }
 
-/// What of it no fit has.
+/// Describes the first value that is impossible in a fit, if any.
 fn unsound(fit: &TableFit) -> Option<&'static str> {
-    // No correction of a frame is longer than a metre.
+    // No correction of a frame exceeds a metre.
     const LARGEST: f64 = 100.0;
     let small = |value: &f64| value.abs() <= LARGEST;
     let positive = |value: f64| (0.0..=LARGEST).contains(&value);

@@ -1,48 +1,49 @@
-//! Taking values out of checked nodes. What the check emptied gives `None`, silently: its
-//! fault is already noted.
+//! Extraction of values from checked nodes. A value emptied by the check gives `None` without a
+//! further fault, because its fault is already reported.
 
 use crate::geometry::{Pose, Vector};
 
 use super::node::Node;
 use super::strict::Ledger;
 
-/// The value of `name`.
+/// Returns the value of `name`.
 pub(super) fn name_of(node: &Node) -> Option<&str> {
     node.get("name")?.text()
 }
 
-/// The number under `key`, `default` if there is no such key, `None` if it is faulty.
+/// Returns the number under `key`, `default` if the key is missing, or `None` if the number is
+/// faulty.
 pub(super) fn number_or(node: &Node, key: &str, default: f64) -> Option<f64> {
     node.get(key).map_or(Some(default), Node::number)
 }
 
-/// The angle under `key` in radians, `default` degrees if there is no such key.
+/// Returns the angle under `key` in radians; the default is `default` degrees.
 pub(super) fn angle(node: &Node, key: &str, default: f64) -> Option<f64> {
     number_or(node, key, default).map(f64::to_radians)
 }
 
-/// The angle written in degrees, in radians.
+/// Converts an angle written in degrees to radians.
 pub(super) fn angle_of(node: &Node) -> Option<f64> {
     node.number().map(f64::to_radians)
 }
 
-/// The first two numbers of a list.
+/// Returns the first two numbers of a list.
 pub(super) fn vector(node: &Node) -> Option<Vector> {
     let items = node.items();
     Some(Vector::new(items.first()?.number()?, items.get(1)?.number()?))
 }
 
-/// The value of `position`, metres.
+/// Returns the value of `position`, metres.
 pub(super) fn position(node: &Node) -> Option<Vector> {
     vector(node.get("position")?)
 }
 
-/// The pose given by `position` and `yaw_deg`.
+/// Returns the pose given by `position` and `yaw_deg`.
 pub(super) fn pose(node: &Node) -> Option<Pose> {
     Some(Pose { position: position(node)?, heading: angle(node, "yaw_deg", 0.0)? })
 }
 
-/// The three numbers under `key`.
+/// Returns the three numbers under `key`.
 pub(super) fn triple(node: &Node, key: &str) -> Option<[f64; 3]> {
     match node.get(key)?.items() {
         [x, y, z] => Some([x.number()?, y.number()?, z.number()?]),
@@ -50,7 +51,7 @@ pub(super) fn triple(node: &Node, key: &str) -> Option<[f64; 3]> {
     }
 }
 
-/// Notes every name that an earlier node already has.
+/// Reports every name that an earlier node already has.
 pub(super) fn unique_names<'a>(
     nodes: impl IntoIterator<Item = &'a Node>,
     kind: &str,

@@ -1,4 +1,4 @@
-//! The text of a file, with the name that faults give it and the language it is in.
+//! Text of a file, with its name in faults and its language.
 
 use std::fs::File;
 use std::io::Read;
@@ -8,10 +8,10 @@ use crate::checksum::checksum;
 
 use super::fault::Fault;
 
-/// The largest file that is read, bytes; a trajectory of hundreds of objects is smaller.
+/// Maximum size of a file, bytes; a trajectory of hundreds of objects is smaller.
 const MAX_BYTES: u64 = 1 << 28;
 
-/// The language of a text.
+/// Language of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Language {
     Yaml,
@@ -27,52 +27,52 @@ impl Language {
     }
 }
 
-/// A text, its name and its language.
+/// Text with its name and language.
 #[derive(Clone, Copy, Debug)]
 pub struct Source<'a> {
-    /// The name that faults give it.
+    /// Name used in faults.
     pub file: &'a str,
-    /// The text itself.
+    /// Text of the file.
     pub text: &'a str,
     pub(super) language: Language,
 }
 
 impl<'a> Source<'a> {
-    /// A text in YAML.
+    /// Creates a source in YAML.
     pub fn yaml(file: &'a str, text: &'a str) -> Self {
         Self { file, text, language: Language::Yaml }
     }
 
-    /// JSON if the file's name ends in `.json`, else YAML.
+    /// Creates a source in JSON if the file's name ends in `.json`, otherwise in YAML.
     pub fn of(file: &'a str, text: &'a str) -> Self {
         let json = Path::new(file).extension().is_some_and(|end| end.eq_ignore_ascii_case("json"));
         if json { Self::json(file, text) } else { Self::yaml(file, text) }
     }
 
-    /// A text in JSON.
+    /// Creates a source in JSON.
     pub fn json(file: &'a str, text: &'a str) -> Self {
         Self { file, text, language: Language::Json }
     }
 }
 
-/// Most characters of a name.
+/// Maximum number of characters in a name.
 pub(super) const LONGEST_NAME: usize = 64;
 
-/// Returns true if a name may hold `c`.
+/// Returns `true` if a name may contain `c`.
 pub fn is_in_names(c: char) -> bool {
     c.is_alphanumeric() || c == '-' || c == '_'
 }
 
-/// The name of what a file holds that gives none: the `stem` of the file, with a dash for whatever
-/// a name cannot hold.
+/// Returns a name for the content of a file without a `name` key: the `stem` of the file, with a
+/// dash for every invalid character.
 pub fn named_after(stem: &str) -> String {
     let dashed = |c: char| if is_in_names(c) { c } else { '-' };
     let name: String = stem.chars().map(dashed).take(LONGEST_NAME).collect();
     if name.is_empty() { "unnamed".to_owned() } else { name }
 }
 
-/// The same for what results are named after: names that are cut or dashed end in a checksum, so that
-/// two files do not write over each other's results.
+/// Returns a name for results derived from `stem`. A name that was truncated or changed ends in a
+/// checksum, so that two files do not overwrite each other's results.
 pub fn apart_by_name(stem: &str) -> String {
     let name = named_after(stem);
     if name == stem {
@@ -83,15 +83,15 @@ pub fn apart_by_name(stem: &str) -> String {
     format!("{kept}-{sum}")
 }
 
-/// The file's name for messages, and its text.
+/// Reads a file; returns its name for messages and its text.
 ///
 /// # Errors
-/// If it cannot be read, is not UTF-8 or far too long.
+/// The file cannot be read, is not UTF-8 or is far too long.
 pub fn read_text(path: &Path) -> Result<(String, String), Fault> {
     let fault = |error: std::io::Error| Fault::io(path, "read the file", &error);
     let name = path.display().to_string();
     let mut text = String::new();
-    // Read through a limit rather than trust the length that a device or pipe claims.
+    // The read is limited, because the length claimed by a device or pipe cannot be trusted.
     File::open(path)
         .map_err(fault)?
         .take(MAX_BYTES + 1)

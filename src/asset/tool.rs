@@ -15,16 +15,16 @@ use super::strict::{Ledger, check};
 use super::take::{angle, name_of, pose, position, triple, unique_names};
 use super::text::Source;
 
-/// What a tool file may hold.
+/// Specification of a pushing tool file.
 pub(super) static TOOL: Value = Value::Map(TOOL_KEYS);
 
-/// What a file of a tool of either kind may hold.
+/// Specification of a tool file of either kind.
 pub(super) static TOOL_FILE: Value = Value::Told { by: of, of: &[&TOOL, &BLADE_TOOL] };
 
-/// The most parts that a tool may have.
+/// Maximum number of parts of a tool.
 pub const MAX_PARTS: usize = 32;
 
-/// The keys of a tool.
+/// Keys of a pushing tool file.
 pub(super) const TOOL_KEYS: &[Key] = &[
     Key::required("name", Value::Name, "The tool's name, unique in its folder."),
     Key::optional("description", Value::Text, "One line for people; by default empty."),
@@ -89,16 +89,16 @@ const PART_KEYS: &[Key] = &[
 ];
 
 impl Tool {
-    /// The tool in the keys of its file, which [`Tool::parse`] reads back.
+    /// Returns the tool as JSON with the keys of its file; [`Tool::parse`] reads it back.
     pub fn to_json(&self) -> serde_json::Value {
         super::saved::emit::tool(self)
     }
 
-    /// The tool as a YAML file that [`Tool::parse`] reads back. It is the same tool to the bit if its
-    /// angles came from a file or are round in degrees.
+    /// Returns the tool as a YAML file that [`Tool::parse`] reads back. The result is identical bit
+    /// for bit if the angles came from a file or are round in degrees.
     ///
     /// # Errors
-    /// If the tool holds what no file can.
+    /// The tool holds a value that a file cannot represent.
     pub fn to_yaml(&self) -> Result<String, Faults> {
         serde_yaml::to_string(&self.to_json()).map_err(|error| {
             let message = format!("the tool cannot be written as YAML: {error}");
@@ -109,16 +109,16 @@ impl Tool {
     /// Reads a tool file.
     ///
     /// # Errors
-    /// All faults of the file, each with its place.
+    /// Returns all faults of the file, each with its place.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, Faults> {
         let (file, text) = super::read_text(path.as_ref())?;
         Self::parse(&text, &file)
     }
 
-    /// Reads a tool from `text`; `file` names it in faults.
+    /// Reads a tool from `text`; `file` is its name in faults.
     ///
     /// # Errors
-    /// All faults of the text, each with its place.
+    /// Returns all faults of the text, each with its place.
     pub fn parse(text: &str, file: &str) -> Result<Self, Faults> {
         let source = Source::yaml(file, text);
         let mut root = Node::parse(source)?;
@@ -129,12 +129,12 @@ impl Tool {
     }
 }
 
-/// What a file may hold that begins like this one.
+/// Returns the specification for the kind of tool that `root` describes.
 fn of(root: &Node) -> &'static Value {
     if is_blade_tool(root) { &BLADE_TOOL } else { &TOOL }
 }
 
-/// Applies the rules that span several keys; `None` if anything needed is missing.
+/// Applies the rules that span several keys; returns `None` if a required value is missing.
 pub(super) fn tool_of(root: &Node, ledger: &mut Ledger) -> Option<Tool> {
     if is_blade_tool(root) {
         return blade_tool_of(root, ledger);
@@ -189,7 +189,7 @@ fn part(node: &Node) -> Option<Part> {
     Some(Part { name, shape, pose: pose(node)? })
 }
 
-/// A part's solid is given once.
+/// Checks that the solid of a part is given exactly once.
 fn one_solid(part: &Node, ledger: &mut Ledger) {
     match (part.get("size"), part.get("shape")) {
         (Some(_), Some(shape)) => {
@@ -210,7 +210,7 @@ fn is_key(key: &Node) -> bool {
     PART_KEYS.iter().any(|known| key.text() == Some(known.name))
 }
 
-/// The pairs joined by hand, by index.
+/// Returns the explicitly joined pairs of parts, by index.
 fn joints(root: &Node, parts: &Node, ledger: &mut Ledger) -> Vec<[usize; 2]> {
     let names: Vec<&str> = parts.items().iter().map(|part| name_of(part).unwrap_or("")).collect();
     let mut pairs = Vec::new();

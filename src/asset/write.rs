@@ -1,4 +1,4 @@
-//! Writing files so that a partial one never appears under the final name.
+//! Atomic writing of files: a partial file never appears under the final name.
 
 use std::io::Write;
 use std::path::Path;
@@ -7,12 +7,12 @@ use tempfile::NamedTempFile;
 
 use super::fault::{Fault, Faults};
 
-/// Writes `bytes` to `path`: into a temporary file in the same folder, flushed to the disk and
-/// then renamed, so that the old content stays until the new one is whole.
+/// Writes `bytes` to `path` through a temporary file in the same folder, which is flushed to disk
+/// and then renamed. The old content stays until the new content is complete.
 ///
 /// # Errors
-/// One fault if the folder is missing or read-only, the disk is full, and so on; nothing is
-/// left behind then.
+/// Returns one fault if, for example, the folder is missing or read-only or the disk is full. No
+/// temporary file remains.
 pub fn write_atomic(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), Faults> {
     let path = path.as_ref();
     let fault = |error: std::io::Error| Faults::from(Fault::io(path, "write the file", &error));
@@ -22,7 +22,7 @@ pub fn write_atomic(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), Faults> 
     };
     let mut builder = tempfile::Builder::new();
     builder.prefix(".pushplan-");
-    // Temporary files are private by default; results are for everybody whom the umask allows.
+    // Temporary files are private by default; results get the permissions that the umask allows.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     let mut file: NamedTempFile = builder.tempfile_in(folder).map_err(fault)?;

@@ -1,4 +1,4 @@
-//! The house keeps its order: who may import whom, what a file begins with, how long it grows.
+//! Architecture rules: permitted imports, required file headers, maximum file length.
 
 use std::collections::HashSet;
 use std::fs;
@@ -11,14 +11,15 @@ mod reading;
 
 use reading::{code_of, imports, names, sources};
 
-/// The rooms of a crate in order, each with those that it imports from: all of them stand before it.
-/// What is not listed is not allowed, and what nobody needs any more is struck from the list.
+/// Modules of a crate in order, each with the modules it may import, all of which stand before it.
+/// An import that is not listed is not allowed, and an unused entry must be removed.
 type Rooms = &'static [(&'static str, &'static str)];
 
-/// The folder of a crate, the prefix of its rooms in [`DOORS`], and the rooms; one without rooms is a room itself.
+/// Folder of a crate, prefix of its modules in [`DOORS`], and its modules; a crate without modules
+/// counts as a module itself.
 const HOUSES: [(&str, &str, Rooms); 12] = [
     ("src", "", &ROOMS),
-    // Below the core, which it knows nothing of.
+    // Below the core, on which it does not depend.
     ("crates/kernel/src", "kernel", &[]),
     (
         "crates/act/src",
@@ -79,13 +80,13 @@ const ROOMS: [(&str, &str); 15] = [
     ("rollout", "geometry scene task outcome contact graph"),
     ("effect", "geometry scene task outcome sim graph network rollout"),
     ("plan", "geometry scene task outcome effect"),
-    // Not `plan`: the check shares no code with what it checks.
+    // Without `plan`, because the check shares no code with the search.
     ("verify", "geometry scene task outcome sim"),
     ("solve", "geometry scene task outcome asset sim effect plan verify"),
 ];
 
-/// Crates that carry the core outward, each with those of them and the rooms of the core that it imports
-/// from: extras stand before what imports them, so none of them imports the command.
+/// Extra crates on top of the core, each with the extras and the modules of the core it may import.
+/// Extras stand before their importers, so no extra imports the command.
 const EXTRAS: [(&str, &str, &str); 8] = [
     ("import", "", "geometry scene task asset"),
     ("arm", "import", "geometry scene task asset"),
@@ -109,8 +110,8 @@ const EXTRAS: [(&str, &str, &str); 8] = [
     ),
 ];
 
-/// Crates that only these rooms may name: whatever is behind such a door can be replaced without
-/// touching anything else.
+/// Crates that only the given modules may name, so that each can be replaced without changes
+/// elsewhere.
 const DOORS: [(&str, &str); 31] = [
     ("parry2d_f64", "geometry"),
     ("parry3d_f64", "geometry arm"),
@@ -151,10 +152,10 @@ const DOORS: [(&str, &str); 31] = [
     ("signal_hook", "command"),
 ];
 
-/// Where Rust files are.
+/// Folders of Rust files.
 const ROOTS: [&str; 4] = ["src", "tests", "examples", "crates"];
 
-/// Longer files must be listed here with the reason.
+/// Maximum number of lines of a file; exceptions must be listed below with the reason.
 const LONGEST: usize = 400;
 const LONG_FILES: [(&str, &str); 0] = [];
 
@@ -264,7 +265,7 @@ fn crates_are_named_behind_their_doors_only() {
     assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
 }
 
-/// Whatever stands in no room counts as well: examples, tests, and what Cargo is told.
+/// Files outside modules also count: examples, tests and Cargo manifests.
 #[test]
 fn crates_do_not_know_what_is_above_them() {
     let extras: Vec<&str> = EXTRAS.iter().map(|(name, ..)| *name).collect();
@@ -280,7 +281,7 @@ fn crates_do_not_know_what_is_above_them() {
             let manifest = Path::new(ROOT).join(folder.trim_end_matches("src")).join("Cargo.toml");
             let cargo = fs::read_to_string(manifest).unwrap_or_default();
             for name in unknown {
-                // A dependency: profiles may name what they compile in another way.
+                // Only dependencies count, because profiles may name packages in their own way.
                 let known = cargo.contains(&format!("\npushplan-{name} = {{ path"));
                 assert!(!known, "the manifest of {folder} names {name}");
                 for (path, text) in sources(folder) {
@@ -356,7 +357,8 @@ fn folders_begin_with_a_table_of_contents() {
     }
 }
 
-/// The crate is a room if it has none; else `src/plan/qp.rs` is in the room `plan`, and a file with the name of a room is one; `src/lib.rs` and
+/// Returns the module of a file: a crate without modules is one itself. Otherwise `src/plan/qp.rs`
+/// is in the module `plan`, and a file with the name of a module is that module. `src/lib.rs` and
 /// `src/main.rs` are in none.
 fn room_of(path: &Path) -> Option<String> {
     let (folder, _, rooms) = HOUSES.iter().find(|(folder, ..)| path.starts_with(folder))?;

@@ -1,4 +1,4 @@
-//! Robots that are arms: their files, what they can do, plans with the motion of their joints.
+//! Robot arms: their files, their limits, and plans with joint trajectories.
 
 use std::fs;
 use std::path::Path;
@@ -19,7 +19,7 @@ use crate::ROOT;
 use crate::mujoco_python::python;
 use crate::program::{run, stderr};
 
-/// Six joints: a turn of the base, shoulder, elbow, and a wrist of three.
+/// Six joints: rotation of the base, shoulder, elbow, and a wrist with three joints.
 const URDF: &str = r#"<robot name="six">
   <link name="foot"><collision><geometry><cylinder radius="0.06" length="0.1"/></geometry>
     <origin xyz="0 0 0.05"/></collision></link>
@@ -61,7 +61,7 @@ goal: {object: can, position: [0.55, 0.1], tolerance: 0.02}
 
 const ROBOT: &str = "{urdf: six.urdf, flange: tool0, tool_mount: {length: 0.1}}";
 
-/// A folder with the arm and a task of a robot.
+/// Creates a folder with the arm and a task of a robot.
 fn folder(robot: &str) -> TempDir {
     pushplan_arm::install();
     let folder = TempDir::new().expect("a folder");
@@ -101,11 +101,11 @@ fn a_plan_of_an_arm_carries_its_joints_and_verifies_without_the_urdf() {
     assert_eq!(joints.pushes.len(), file.plan.steps.len());
     let arm = file.task.arm.as_deref().and_then(|arm| arm.downcast::<pushplan_arm::Arm>());
     let arm = arm.expect("an arm");
-    // It begins and ends at home, where the next plan begins.
+    // The trajectory begins and ends at home, where the next plan begins.
     assert_eq!(joints.points[0].positions, arm.home);
     assert_eq!(joints.points[joints.points.len() - 1].positions, arm.home);
 
-    // A joint that is a little off, and one that is too fast, are seen.
+    // A small joint error and an excessive joint speed are detected.
     let judged = |change: &dyn Fn(&mut pushplan::scene::JointTrajectory)| {
         let mut changed = joints.clone();
         change(&mut changed);
@@ -139,7 +139,7 @@ fn the_tool_of_an_arm_comes_back_from_its_scene() {
     assert_eq!(run(&["export", &plan, "--out", &out]).status.code(), Some(0));
     let scene = at(folder, "mjcf/push.xml");
     let file = PlanFile::load(&plan).expect("a plan");
-    // By default, by its name, and where MuJoCo has written the scene: with what is ours at the end.
+    // By default, by name, and after MuJoCo rewrote the scene with pushplan's data at the end.
     let text = fs::read_to_string(&scene).expect("a scene");
     let (begin, end) = (text.find("<custom>"), text.find("</custom>"));
     let ours = &text[begin.expect("begin")..end.expect("end") + "</custom>".len()];
@@ -152,7 +152,7 @@ fn the_tool_of_an_arm_comes_back_from_its_scene() {
         let output = run(&all);
         assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", stderr(&output));
         let tool = Tool::load(&tool).expect("a tool");
-        // Flush parts are one solid.
+        // Flush parts become one solid.
         let [part] = tool.parts() else { panic!("{tool:?}") };
         let Shape::Cuboid { size } = part.shape else { panic!("{part:?}") };
         let off = size.iter().zip([0.56, 0.08, 0.05]).map(|(size, own)| (size - own).abs());
@@ -183,7 +183,7 @@ fn joints_are_exported_for_ros_and_as_a_table() {
     assert_eq!(table.lines().count(), points.len() + 1);
     assert!(table.lines().all(|line| line.split(',').count() == 13));
 
-    // A robot that is only a reach has no joints.
+    // A robot defined only by its reach has no joints.
     write(folder, "push.yaml", &TASK.replace("ROBOT", "{reach: {min: 0.2, max: 0.8}}"));
     assert_eq!(solve(folder).status.code(), Some(0));
     let output = run(&["export", &plan, "--format", "trajectory", "--out", &out]);
@@ -199,7 +199,7 @@ fn servos_of_a_panda_carry_plans_out_in_mujoco() {
         .expect("a copy");
     let robot = "{urdf: panda.urdf, flange: panda_link8, tool_mount: {length: 0.12}}";
     let (out, scenes) = (at(folder, "out"), at(folder, "mjcf"));
-    // Pushed on, pulled back past a wall, turned.
+    // Pushed forward, pulled back past a wall, and rotated.
     let can = TASK.replace("robot: ROBOT", &format!("robot: {robot}"));
     let wall = "  obstacles: [{name: wall, size: [0.03, 0.1, 0.06], position: [0.36, 0.1]}]\nrobot";
     let back = can.replace("\nrobot", &format!("\n{wall}"));
@@ -217,7 +217,7 @@ fn servos_of_a_panda_carry_plans_out_in_mujoco() {
         let output = run(&["export", &plan, "--out", &scenes]);
         assert_eq!(output.status.code(), Some(0), "{name}: {}", stderr(&output));
     }
-    // The arm is no object when such a scene comes back.
+    // The arm does not become an object when such a scene is imported.
     let output = run(&[
         "import",
         &at(folder, "mjcf/on.xml"),
@@ -239,7 +239,7 @@ fn servos_of_a_panda_carry_plans_out_in_mujoco() {
         let result: Json = serde_json::from_str(line).expect("JSON");
         assert_eq!(result["reached"], true, "{result:#}");
         let number = |key: &str| result[key].as_f64().expect("a number");
-        // Servos follow to within a third of a degree, and so the tool does what our engines see it do.
+        // Servos follow to within a third of a degree, so the tool moves as in pushplan's engines.
         assert!(number("joints_off") < 6e-3, "{result:#}");
         assert!(number("difference") < 0.01, "{result:#}");
     }
@@ -247,7 +247,7 @@ fn servos_of_a_panda_carry_plans_out_in_mujoco() {
 
 #[test]
 fn what_no_pose_can_do_is_no_plan_and_says_so() {
-    // A shelf over the can, under which the tool would fit and the arm does not.
+    // A shelf above the can leaves room for the tool but not for the arm.
     let folder = folder(ROBOT);
     let folder = folder.path();
     let shelf = "  obstacles:\n    - {name: shelf, size: [0.5, 0.7, 0.02], position: [0.5, 0.1, 0.17]}\nrobot";
@@ -256,7 +256,7 @@ fn what_no_pose_can_do_is_no_plan_and_says_so() {
     assert_ne!(output.status.code(), Some(0));
 }
 
-/// What is wrong with a task, and where.
+/// Returns the faults of a task with their places.
 fn faults(robot: &str) -> String {
     let folder = folder(robot);
     let faults = Task::load(folder.path().join("push.yaml")).expect_err("faults");

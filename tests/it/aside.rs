@@ -1,8 +1,8 @@
-//! What stands in the way is moved aside first.
+//! Obstructing objects are cleared first.
 
 use pushplan::{Effort, PlanStatus, Planner, Solution, Task, ToolLibrary};
 
-/// A can whose place is taken by a crate, with a wall behind.
+/// Task of a can whose goal is occupied by a crate, with a wall behind.
 const TAKEN: &str = include_str!("../../tasks/taken-place.yaml");
 
 fn task(change: impl Fn(&str) -> String) -> Task {
@@ -28,7 +28,7 @@ fn the_crate_leaves_the_place_before_the_can_comes() {
     let last = best.plan.steps.len() - 1;
     let before = frames.iter().take_while(|frame| frame.stroke < last).count() - 1;
     let end = frames.len() - 1;
-    // The crate goes first and is not touched again; the can goes with the last push.
+    // The crate moves first and is not touched again; the can moves with the last push.
     assert!(moved(1, 0, before) > 0.1 && moved(1, before, end) < 0.005);
     assert!(moved(0, 0, before) < 0.005 && moved(0, before, end) > 0.2);
 }

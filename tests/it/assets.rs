@@ -17,7 +17,7 @@ use pushplan::{scene::Tool, task::Task};
 
 use crate::ROOT;
 
-/// A folder of the repository.
+/// Returns a folder of the repository.
 fn folder(name: &str) -> PathBuf {
     Path::new(ROOT).join(name)
 }
@@ -85,7 +85,7 @@ fn the_reference_tools_have_the_reference_geometry() {
     }
 }
 
-/// Every task file; pictures lie next to some of them.
+/// Returns every task file; pictures are stored next to some of them.
 pub fn shipped_tasks() -> Vec<PathBuf> {
     tasks_in("tasks")
 }

@@ -12,18 +12,18 @@ use pushplan::{
 
 use crate::fixtures::hand_push;
 
-/// A cylinder of 5 cm radius.
+/// Returns a cylinder of 5 cm radius.
 fn can(name: &str, x: f64, y: f64) -> Object {
     Object::cylinder(name, 0.05, 0.1).at(x, y, 0.0)
 }
 
-/// Two cans beside each other across the push, the first one straight in front of the hand.
+/// Returns two cans side by side across the push, the first straight in front of the hand.
 fn pair(kind: JointKind) -> Scene {
     let objects = vec![can("a", 0.12, 0.0), can("b", 0.12, 0.101)];
     Scene::new(objects).with_joint([0, 1], kind)
 }
 
-/// A round hand pushes 0.3 m along x.
+/// Returns a push of 0.3 m along x by a round hand.
 fn job(scene: &Scene) -> Job {
     Job::stated(scene, hand_push(Vector::zeros(), 0.0, 0.3, 0.1))
 }
@@ -32,8 +32,8 @@ fn roll(model: &dyn EffectModel, scene: &Scene) -> Trajectory {
     model.rollout(scene, &[job(scene)], Record::Frames).remove(0)
 }
 
-/// Told that joints are guesses it used to end twice and more as far off as with the same geometry
-/// taken for known.
+/// Joints marked as guesses used to cause more than twice the error of the same joints taken as
+/// known.
 #[test]
 fn the_network_plays_a_guessed_joint_like_a_known_one() {
     let network = EffectModels::build(&"network".parse().expect("a model")).expect("its weights");

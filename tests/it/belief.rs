@@ -1,4 +1,4 @@
-//! Joints are found from how objects move, in simulated pushes whose truth is known.
+//! Joints are inferred from the motion of objects in simulated pushes with known ground truth.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use pushplan_act::belief::{Belief, BeliefSettings, JointType};
 use crate::believing::{EXACT, believed};
 use crate::program::{run, stderr};
 
-/// Two boxes side by side, 4 mm apart, that a finger pushes off their middle.
+/// Returns two boxes side by side, 4 mm apart, that a finger pushes off-centre.
 pub fn pair(joint: Option<JointKind>) -> (Scene, ToolMotion) {
     let cuboid = |name: &str, y| Object::cuboid(name, [0.08, 0.06, 0.05]).at(0.5, y, 0.0);
     let mut scene = Scene::new([cuboid("first", 0.0), cuboid("second", 0.064)]);
@@ -28,7 +28,7 @@ pub fn pair(joint: Option<JointKind>) -> (Scene, ToolMotion) {
     (scene, ToolMotion::pushes(Arc::new(tool), 0.0, 0.0, &[push], false))
 }
 
-/// Two cylinders side by side, 4 mm apart, likewise.
+/// Returns two cylinders side by side, 4 mm apart, pushed in the same way.
 pub fn cylinders(joint: Option<JointKind>) -> (Scene, ToolMotion) {
     let cylinder = |name: &str, y| Object::cylinder(name, 0.035, 0.05).at(0.5, y, 0.0);
     let mut scene = Scene::new([cylinder("first", 0.0), cylinder("second", 0.074)]);
@@ -50,7 +50,7 @@ fn hinge() -> JointKind {
 }
 
 fn slide() -> JointKind {
-    // Not along the push, which would move one of the two alone as if they were free.
+    // An axis along the push would let one of the two move alone, as if they were free.
     JointKind::Prismatic { axis: Vector::new(0.6, 0.8), limits: None }
 }
 
@@ -74,7 +74,7 @@ fn every_type_of_joint_is_found_in_both_engines_with_and_without_noise() {
     }
 }
 
-/// The belief's anchor is where the two objects have carried it, and its axis too.
+/// The inferred anchor and axis match the positions to which the two objects have moved them.
 #[test]
 fn anchors_and_axes_are_found() {
     for joint in [hinge(), slide()] {
@@ -154,8 +154,8 @@ fn beliefs_are_the_same_bits_for_any_number_of_threads() {
     }
 }
 
-/// Three cylinders around each other, two of them joined, and a finger that pushes them off their
-/// middle; `side` is -1 for the mirror image.
+/// Returns three cylinders around each other, two of them joined, that a finger pushes off-centre;
+/// `side` is -1 for the mirror image.
 fn group(side: f64) -> (Scene, ToolMotion) {
     let can = |name: &str, x, y| Object::cylinder(name, 0.035, 0.05).at(x, side * y, 0.0);
     let mut scene = Scene::new([
@@ -225,7 +225,7 @@ fn the_heavier_of_two_that_meet_is_told_by_which_gives_way() {
         let straight =
             Push { start: Vector::new(0.44, 0.0), direction: 0.0, length: 0.3, speed: 0.1 };
         let motion = ToolMotion::pushes(motion.tool, 0.0, 0.0, &[straight], false);
-        // The second stands in the way of the first, a little aside.
+        // The second object obstructs the first, slightly off-centre.
         scene.objects[1].pose = Pose::new(0.6, 0.02, 0.0);
         scene.objects.iter_mut().zip(masses).for_each(|(object, mass)| object.mass = mass);
         let recording = recorded(&scene, &motion, Engine::Planar);
@@ -245,7 +245,7 @@ fn the_heavier_of_two_that_meet_is_told_by_which_gives_way() {
         }
         let [ratio] = shares.ratios[..] else { panic!("they met: {shares:?}") };
         assert_eq!(ratio.between, [0, 1]);
-        // What is planned with follows.
+        // The scene used for planning changes accordingly.
         let planned = belief.map().masses;
         assert_eq!(planned[0] < planned[1], ratio.log[0] < 0.0, "{planned:?} {ratio:?}");
         ratio.log[0]

@@ -1,4 +1,4 @@
-//! What is believed of a recording that is seen with noise.
+//! Beliefs inferred from recordings with noise.
 
 use pushplan::effect::Prior;
 use pushplan::geometry::Vector;
@@ -10,11 +10,11 @@ use rand_pcg::Pcg64;
 
 pub const EXACT: Noise = Noise { position: 0.0, heading: 0.0 };
 
-/// What is believed after all of a recording that was seen with this noise.
+/// Returns the belief after a whole recording with this noise.
 pub fn believed(recording: &Recording, noise: Noise, seed: u64) -> Belief {
     let mut rng = Pcg64::seed_from_u64(seed);
     let mut normal = |sd: f64| {
-        // Sums of twelve even numbers are nearly normal.
+        // Sums of twelve uniform numbers are nearly normal.
         sd * ((0..12).map(|_| rng.random::<f64>()).sum::<f64>() - 6.0)
     };
     let mut scene = recording.scene.clone();

@@ -1,5 +1,5 @@
-//! Benchmark runs on disk: resumed, split and merged to the same bytes, and nothing damaged is
-//! trusted.
+//! Benchmark runs on disk: resumed, split and merged runs give identical bytes, and damaged files
+//! are detected.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use pushplan_bench::store::{Form, Measured, RunManifest, Seconds, Store, StoreEr
 use serde_json::json;
 use tempfile::TempDir;
 
-/// A result with numbers that only survive if they are written in full.
+/// Result with numbers that survive only if they are written in full.
 type Record = (String, f64, Option<f64>);
 
 const TASKS: usize = 11;
@@ -52,7 +52,7 @@ fn merged_shards_are_the_same_bytes_as_one_run() {
     assert_eq!(merge_runs(&merged, &shards).expect("a merge"), manifest());
     assert_eq!(compared(&merged), compared(&whole));
     assert_eq!(read(&merged, "times.jsonl"), read(&whole, "times.jsonl"));
-    // It is a run like any other, with nothing left to do.
+    // A merged run is complete and can be used like any other.
     assert_eq!(measure(&merged, manifest(), &Stopping::after(0)).expect("a run").len(), TASKS);
     let error = merge_runs(&merged, &shards).expect_err("a run is there");
     assert!(matches!(error, StoreError::Occupied { .. }), "{error}");
@@ -103,7 +103,7 @@ fn shards_that_do_not_make_one_run_are_not_merged() {
     let error = refused(&[first, &halves]).to_string();
     assert!(error.contains("one of 2 shards, the first one of 3"), "{error}");
 
-    // A shard whose last record is torn is one task short.
+    // A shard with a truncated last record lacks one task.
     shorten(&second.join("records.jsonl"), 3);
     match refused(&[first, second, third]) {
         StoreError::Unfinished { path, done, total } => {
@@ -137,7 +137,7 @@ fn a_torn_last_line_is_measured_again_however_much_of_it_is_there() {
         assert_eq!(compared(&torn), compared(&whole), "{kept} bytes");
         assert_eq!(read(&torn, "times.jsonl"), read(&whole, "times.jsonl"), "{kept} bytes");
     }
-    // Whole blocks that never reached the disk are read as zeros.
+    // Blocks that never reached the disk are read as zeros.
     let mut zeros = records.as_bytes()[..last].to_vec();
     zeros.extend([0; 20]);
     zeros.push(b'\n');
@@ -239,7 +239,7 @@ fn tasks_side_by_side_leave_the_same_bytes_whatever_comes_first() {
         let mut interrupted = 0;
         loop {
             let watch = Stopping::after(4);
-            // Every other task ends after its successor, if that begins at all.
+            // Every other task ends after its successor, if the successor has begun.
             let out_of_order = |index: usize| {
                 begun.lock().expect("a list").push(index);
                 let waits = threads > 1 && index.is_multiple_of(2) && index + 1 < TASKS;
@@ -276,7 +276,7 @@ fn merge_runs(out: &Path, shards: &[PathBuf]) -> Result<RunManifest, StoreError>
     pushplan_bench::store::merge_runs(out, shards, Form::Lines, &mut line_index)
 }
 
-/// A result that depends on the index alone.
+/// Returns a result that depends only on the index.
 fn task(index: usize) -> Result<Measured<Record>, StoreError> {
     let value = index as f64;
     let record =
@@ -292,7 +292,7 @@ fn measure(dir: &Path, manifest: RunManifest, watch: &dyn Watch) -> Result<Tasks
     Ok(store.finished().to_vec())
 }
 
-/// Runs until `watch` says to stop, and adds the indices that were measured to `all`.
+/// Runs until `watch` cancels, and adds the measured indices to `all`.
 fn measure_counting(
     dir: &Path,
     manifest: RunManifest,
@@ -307,7 +307,7 @@ fn measure_counting(
     })
 }
 
-/// Folders with every shard of the run.
+/// Creates folders with every shard of the run.
 fn shards(folder: &Path, of: usize) -> Vec<PathBuf> {
     (1..=of)
         .map(|number| {
@@ -319,7 +319,7 @@ fn shards(folder: &Path, of: usize) -> Vec<PathBuf> {
         .collect()
 }
 
-/// The files that are the same for every way to the same run.
+/// Returns the files that are identical for every way to the same run.
 fn compared(dir: &Path) -> [String; 2] {
     ["manifest.json", "records.jsonl"].map(|name| read(dir, name))
 }
@@ -333,7 +333,7 @@ fn shorten(path: &Path, by: usize) {
     fs::write(path, &bytes[..bytes.len() - by]).expect("a file");
 }
 
-/// Says to stop once some tasks were measured, and keeps notes.
+/// Observer that cancels after a number of tasks and collects notes.
 struct Stopping {
     limit: usize,
     measured: AtomicUsize,

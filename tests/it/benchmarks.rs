@@ -1,4 +1,4 @@
-//! Benchmarks from the command line: kept, interrupted, split, merged and shown.
+//! Benchmarks from the command line: stored, interrupted, split, merged and shown.
 
 use std::fs;
 use std::path::Path;
@@ -107,13 +107,13 @@ fn tasks_that_ask_for_no_place_are_kept() {
     assert!(kept.contains("\"tolerance\":null"), "{kept}");
 }
 
-/// The files that are the same for every way to the same run.
+/// Returns the files that are identical for every way to the same run.
 fn compared(dir: &Path) -> [String; 2] {
     ["manifest.json", "records.jsonl"]
         .map(|name| fs::read_to_string(dir.join(name)).expect("a file of the run"))
 }
 
-/// What the benchmark of some tasks prints, without the network, which is not looked at here.
+/// Returns the output of the benchmark of some tasks, without the network.
 fn tasks(options: &[&str]) -> Vec<u8> {
     let output = bench_tasks(options);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));

@@ -1,5 +1,5 @@
-//! The book says what is so: its links lead somewhere, its commands are taken, its files load, and
-//! its tables of keys are those of the schemas.
+//! The book is consistent with the program: its links are valid, its commands are accepted, its
+//! files load, and its tables of keys match the schemas.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,10 +12,10 @@ use crate::ROOT;
 use crate::pages::blocks;
 use crate::program::{run, stderr};
 
-/// Writes the tables of keys anew.
+/// Command that regenerates the tables of keys.
 const UPDATE: &str = "PUSHPLAN_BOOK=write cargo test --release --test it -- book";
 
-/// A page with its path below `book/src`.
+/// Page with its path below `book/src`.
 type Page = (String, String);
 
 #[test]
@@ -39,7 +39,7 @@ fn every_page_is_in_the_summary_and_every_link_leads_somewhere() {
             let target = if to.is_empty() { PathBuf::from(&path) } else { folder.join(&to) };
             let name = plain(&target);
             let is_page = name.ends_with(".md");
-            // A page outside of the book would be a link to nothing in its HTML.
+            // A page outside of the book would become a broken link in its HTML.
             if !source().join(&name).exists() || is_page && !listed.contains(&name) {
                 wrong.push(format!("{path}: {to}"));
             } else if is_page && !anchor.is_empty() && !headings(&read(&name)).contains(&anchor) {
@@ -56,7 +56,7 @@ fn every_page_is_in_the_summary_and_every_link_leads_somewhere() {
     assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
 }
 
-/// Those of programs are looked at in `pages`; scripts of the repository are there.
+/// Commands of programs are checked in `pages`; scripts must exist in the repository.
 #[test]
 fn its_commands_are_known() {
     for (path, text) in own_pages() {
@@ -66,7 +66,7 @@ fn its_commands_are_known() {
                 let program = words.next().unwrap_or_default();
                 let known = ["pip", "pushplan", "pushplan-learn", "pushplan-lab"];
                 let known = known.contains(&program) || Path::new(ROOT).join(program).is_file();
-                // Of Python our own modules alone.
+                // For Python, only modules of the package count.
                 let mut module =
                     || words.nth(1).is_some_and(|module| module.starts_with("pushplan."));
                 let known = known || program == "python" && module();
@@ -95,7 +95,7 @@ fn its_files_are_right() {
                 Tool::parse(&block, &path).unwrap_or_else(|faults| panic!("{faults}"));
                 tools += 1;
             } else {
-                // A world is one of a task: the one on the same page.
+                // A world is checked with the task on the same page.
                 let task = blocks(&text, "yaml").remove(0);
                 let folder = tempfile::tempdir().expect("a folder");
                 let [world, task] =
@@ -144,7 +144,7 @@ fn its_tables_of_keys_are_those_of_the_schemas() {
     }
 }
 
-/// The keys of a schema and of those below them, a row each.
+/// Adds the keys of a schema and of its nested schemas, one row each.
 fn rows(schema: &Json, above: &str, table: &mut String) {
     for alternative in schema["anyOf"].as_array().into_iter().flatten() {
         rows(alternative, above, table);
@@ -158,7 +158,7 @@ fn rows(schema: &Json, above: &str, table: &mut String) {
         let meaning = value["description"].as_str().unwrap_or_default().replace('|', "\\|");
         let meaning = meaning.split_whitespace().collect::<Vec<_>>().join(" ");
         let path = format!("{above}{key}");
-        // Of several that have the same key the first tells it.
+        // If several alternatives have the same key, the first describes it.
         if table.contains(&format!("\n| `{path}`")) {
             continue;
         }
@@ -175,7 +175,7 @@ fn headings_become_anchors_as_browsers_know_them() {
     assert_eq!(links("[a](b.md#c) ![d](e.svg) [f](https://g) `[x](y)`").len(), 2);
 }
 
-/// The book's own pages: those of measured numbers have tests of their own.
+/// Returns the book's own pages; pages of measured results have separate tests.
 fn own_pages() -> Vec<Page> {
     let listed: Vec<String> = links(&read("SUMMARY.md")).into_iter().map(|(to, _)| to).collect();
     let own = listed.into_iter().filter(|path| !path.contains('/')).collect::<Vec<_>>();
@@ -194,7 +194,7 @@ fn read(path: &str) -> String {
     fs::read_to_string(source().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
-/// Links within the book, with their anchors; none of code.
+/// Returns the links within the book, with their anchors, outside of code.
 fn links(text: &str) -> Vec<(String, String)> {
     let mut found = Vec::new();
     let mut code = false;
@@ -202,7 +202,7 @@ fn links(text: &str) -> Vec<(String, String)> {
         if line.starts_with("```") {
             code = !code;
         }
-        // What stands between single backquotes is code as well.
+        // Text between single backquotes is code.
         let words: String = line.split('`').step_by(2).collect::<Vec<_>>().join("code");
         let targets = words.split("](").skip(1).filter_map(|rest| rest.split(')').next());
         for target in targets.filter(|target| !code && !target.contains("://")) {
@@ -213,7 +213,7 @@ fn links(text: &str) -> Vec<(String, String)> {
     found
 }
 
-/// Anchors of a page's headings.
+/// Returns the anchors of a page's headings.
 fn headings(text: &str) -> Vec<String> {
     let (mut found, mut code) = (Vec::<String>::new(), false);
     for line in text.lines() {
@@ -228,7 +228,7 @@ fn headings(text: &str) -> Vec<String> {
     found
 }
 
-/// A path without `..`, with slashes.
+/// Normalises a path: no `..`, and forward slashes.
 fn plain(path: &Path) -> String {
     let mut parts: Vec<String> = Vec::new();
     for part in path.components() {

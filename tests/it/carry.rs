@@ -1,5 +1,5 @@
-//! Plans of many pushes: things are carried along legs, one after another, and a run goes on from push to
-//! push.
+//! Plans of many pushes: objects are transported along legs, one after another, and a run continues
+//! across pushes.
 
 use pushplan::asset::ToolLibrary;
 use pushplan::watch::Unwatched;
@@ -71,7 +71,7 @@ pushes: {length: 0.3, max_count: 12, grip_yaws_deg: [0, 90]}
 goal: {object: crate, position: [0.95, 0.00], tolerance: 0.02}
 ";
 
-/// The shipped tools, and an upright plate that comes from above.
+/// Returns the shipped tools and an upright plate that comes from above.
 fn library() -> ToolLibrary {
     let shape = Shape::Cuboid { size: [0.03, 0.06, 0.06] };
     let plate = Tool::new("plate", [Part::new("plate", shape, Pose::default())]);
@@ -82,7 +82,7 @@ fn task(text: &str) -> Task {
     Task::parse(text, "task.yaml").unwrap_or_else(|faults| panic!("{faults}"))
 }
 
-/// A run in which everything is as the task says, with errors of what is seen.
+/// Returns a run in a world that matches the task, with observation noise.
 fn run(task: &Task) -> Trace {
     let (library, planner) = (library(), Planner::for_effort(Effort::Draft).unwrap().build());
     let truth = hidden(task, &library, 1).unwrap();
@@ -110,7 +110,7 @@ fn a_run_goes_on_however_many_pushes_are_left() {
         let trace = run(&task);
         assert_eq!(trace.end, Some(End::Reached), "{}", task.description);
         assert!(trace.steps.len() >= least, "{}: {}", task.description, trace.steps.len());
-        // The first pushes begin no plan: that would be too long.
+        // The first pushes do not start a plan, which would be too long.
         assert_eq!(trace.steps[0].why, Why::Approach, "{}", task.description);
     }
 }

@@ -1,4 +1,4 @@
-//! The command as a user sees it: words, exit codes, files.
+//! The command from a user's view: output, exit codes, files.
 
 use std::path::Path;
 use std::process::Stdio;
@@ -12,7 +12,7 @@ use pushplan_bench::store::FolderLock;
 use crate::ROOT;
 use crate::program::{command, run, stderr};
 
-/// The transcripts in `tests/cmd`, with what was printed and the exit codes.
+/// Transcripts in `tests/cmd`, with output and exit codes.
 #[test]
 fn transcripts() {
     trycmd::TestCases::new().case(format!("{ROOT}/tests/cmd/*.md")).default_bin_name("pushplan");
@@ -48,7 +48,7 @@ fn results_are_the_same_for_any_number_of_threads_and_progress_stays_off_stdout(
     assert_eq!(one, run("3"));
 }
 
-/// More than that nobody finds their way among.
+/// More commands would be hard to navigate.
 #[test]
 fn there_are_at_most_twelve_commands() {
     let command = pushplan_command::command();
@@ -112,7 +112,7 @@ fn a_simulation_leaves_files_that_check_finds_fine() {
 
 #[test]
 fn a_folder_that_cannot_be_written_is_said_before_anything_is_computed() {
-    // A file where the folder should be: refused to everybody, root as well.
+    // A file in place of the folder causes a failure for every user, including root.
     let folder = TempDir::new().expect("a folder");
     let taken = folder.path().join("taken");
     std::fs::write(&taken, "").expect("a file");
@@ -140,7 +140,7 @@ fn a_full_disk_is_an_error_and_not_a_panic() {
 #[test]
 fn a_plan_that_cannot_be_written_is_printed_all_the_same() {
     let folder = TempDir::new().expect("a folder");
-    // A folder where the plan should go: refused to everybody, root as well.
+    // A folder in place of the plan causes a failure for every user, including root.
     std::fs::create_dir(folder.path().join("pull-back.plan.json")).expect("a folder");
     let out = folder.path().to_str().expect("UTF-8");
     let output = run(&["solve", "tasks/pull-back.yaml", "--effort", "draft", "--out", out]);
@@ -180,7 +180,8 @@ fn control_characters_of_a_file_never_reach_the_terminal() {
             assert!(!text.chars().any(|c| c.is_control() && c != '\n'), "{text:?}");
         }
     }
-    // What the files hold is named after the file as far as a name can be, and told from other such names.
+    // Results are named after the file as far as valid names allow, and distinct from similar
+    // names.
     let plan = |name: &String| name.starts_with("red--31m--2J-") && name.ends_with(".plan.json");
     assert!(files(folder.path()).iter().any(plan));
     let output = run(&["check", path, bad]);
@@ -237,7 +238,7 @@ fn a_solved_task_leaves_a_plan_that_verifies_and_the_same_files_for_any_number_o
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert_eq!(files(&page), ["pull-back.verify.html"]);
 
-    // The same plan without its last centimetres misses the goal.
+    // The same plan with shorter pushes misses the goal.
     let text = String::from_utf8(one.0).expect("UTF-8");
     let mut json: Json = serde_json::from_str(&text).expect("JSON");
     let length = json["plan"]["steps"][0]["push"]["length"].as_f64().expect("a length");
@@ -288,7 +289,7 @@ fn results_of_one_kind_or_task_do_not_write_over_those_of_another() {
     std::fs::write(&trace, &text[..text.len() / 2]).expect("half of it");
     assert_eq!(run(&["check", &trace]).status.code(), Some(3));
 
-    // Nor do two runs at once.
+    // Two simultaneous runs are also refused.
     let _lock = FolderLock::take(Path::new(&out), &Unwatched).expect("a free folder");
     let busy = run(&["run", "tasks/pull-back.yaml", "--world", "1", "--out", &out]);
     assert!(
@@ -298,7 +299,7 @@ fn results_of_one_kind_or_task_do_not_write_over_those_of_another() {
     );
 }
 
-/// Names of the files in a folder, sorted.
+/// Returns the names of the files in a folder, sorted.
 fn files(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).expect("a folder");
     let mut names: Vec<String> = entries

@@ -1,4 +1,4 @@
-//! The closed loop: hidden truths are found out or coped with, whatever is seen of them.
+//! Closed loop: ground truth is inferred or tolerated, for any quality of observation.
 
 use std::path::{Path, PathBuf};
 
@@ -31,7 +31,7 @@ pub fn shipped(name: &str) -> Task {
     load_task(path, &library()).unwrap_or_else(|faults| panic!("{faults}"))
 }
 
-/// Every shipped task that does not know its scene.
+/// Returns every shipped task with unknown properties.
 fn tasks_with_unknowns() -> Vec<Task> {
     let paths = super::assets::shipped_tasks();
     let tasks = paths.iter().map(|path| load_task(path, &library()).expect("a task"));
@@ -83,7 +83,7 @@ fn tasks_that_say_so_need_a_probe() {
     }
 }
 
-/// Stops after a number of steps.
+/// Observer that cancels after a number of steps.
 struct After(usize, std::sync::atomic::AtomicUsize);
 
 impl Watch for After {
@@ -117,7 +117,7 @@ fn a_run_that_is_stopped_goes_on_to_the_same_bits_and_threads_change_nothing() {
     assert_eq!(json(&interrupted(&runner, &task)), json(&trace));
 }
 
-/// A run in the first drawn world that is stopped after one push and goes on from its file.
+/// Returns a run in the first drawn world, cancelled after one push and resumed from its file.
 pub fn interrupted(runner: &Runner, task: &Task) -> Trace {
     let mut kept = String::new();
     let (mut stopped, mut world) = drawn(task, 1);
@@ -127,19 +127,19 @@ pub fn interrupted(runner: &Runner, task: &Task) -> Trace {
     };
     let ended = runner.run(&mut stopped, &mut world, &mut keep, &After(1, Default::default()));
     assert!(matches!(ended, Err(ActError::Stopped { pushes: 1 })), "{ended:?}");
-    // The world is lost with the process; only the file is left.
+    // The world is lost with the process; only the file remains.
     let mut again: Trace = serde_json::from_str(&kept).expect("a trace");
     let (_, mut world) = drawn(task, 1);
     runner.run(&mut again, &mut world, &mut |_| Ok(()), &Unwatched).expect("the rest");
     again
 }
 
-/// Spoils what is seen of a world.
+/// World whose observations are corrupted.
 struct Spoilt<F: FnMut(usize, &mut Vec<Look>)> {
     world: SimulatedWorld,
     acts: usize,
     spoil: F,
-    /// Objects that nobody sees at rest.
+    /// Objects that are never observed at rest.
     unseen: Vec<usize>,
 }
 
@@ -185,7 +185,7 @@ fn what_is_seen_late_seldom_swapped_or_wrong_is_ridden_out() {
     ended.expect("put in order");
     assert_eq!((trace.end, &notes(&trace.steps)[0]), (Some(End::Reached), &Note::OutOfOrder));
 
-    // Nothing at all during the motion and at rest: the table is looked at again.
+    // Without any observation during the motion and at rest, the table is observed again.
     let (ended, trace) = spoilt(&task, Vec::new(), |_, looks| looks.clear());
     ended.expect("looked at again");
     assert_eq!(trace.end, Some(End::Reached));
@@ -241,7 +241,8 @@ fn samples_keep_what_is_known_and_vary_what_is_not() {
     let belief = about(unknown);
     let samples: Vec<Physics> = (0..400).map(|k| belief.sample(&mut generator(5, k))).collect();
     assert!(samples.iter().all(|one| one.masses == stated.masses && one.feet == stated.feet));
-    // Half of near pairs are joined, in equal shares: see the belief's prior.
+    // Half of the near pairs are joined, with equal shares of the joint types: see the belief's
+    // prior.
     let share = |is: &dyn Fn(&JointKind) -> bool| {
         let count = samples.iter().filter(|one| one.joints.iter().any(|joint| is(&joint.kind)));
         count.count() as f64 / samples.len() as f64
@@ -261,7 +262,7 @@ fn samples_keep_what_is_known_and_vary_what_is_not() {
 fn masses_and_frictions_are_learnt_from_pushes() {
     let task = shipped("unknown-slide");
     let mut stated = task.scene.clone();
-    // Half as much friction on the table as stated shows in how far things turn and slide.
+    // Half of the stated table friction changes how far objects rotate and slide.
     stated.table_friction = 0.34;
     stated.objects[0].support = Support::Corners;
     let truth =

@@ -1,4 +1,4 @@
-//! What a task says of more than its goal: where nothing may come, and what may fall.
+//! Constraints of a task beyond its goal: regions to keep out of, and objects that may fall.
 
 use pushplan::asset::ToolLibrary;
 use pushplan::solve::{Effort, PlanStatus, Planner, Solution};
@@ -17,7 +17,7 @@ fn solved(task: &Task) -> Solution {
     planner.solve(task, &ToolLibrary::embedded().expect("the shipped tools")).expect("a sound task")
 }
 
-/// A can that goes straight ahead by itself.
+/// Can that needs only a straight push ahead.
 const CAN: &str = "
 scene:
   objects: [{name: can, shape: {cylinder: {radius: 0.03, height: 0.08}}, mass: 0.4, friction: 0.4, position: [0.45, 0]}]
@@ -27,13 +27,13 @@ pushes: {directions: 8, length: 0.3}
 goal: {object: can, position: [0.7, 0], tolerance: 0.02}
 ";
 
-/// The same with regions that are kept out of.
+/// Returns the task with regions to keep out of.
 fn keeping_out(regions: &str) -> Task {
     task(&format!("{CAN}keep_out: [{regions}]\n"))
 }
 
-/// How far the goal's object gets from the straight way to its goal, metres, and how often it or
-/// the tool is in `region`.
+/// Returns the largest distance of the goal's object from the straight path to its goal, metres,
+/// and the numbers of frames in which it or the tool is in `region`.
 fn followed(solution: &Solution, region: &Region) -> (f64, usize, usize) {
     let best = solution.best().expect("a plan");
     let verdict = best.verdict.as_ref().expect("replays");
@@ -74,7 +74,7 @@ fn what_is_kept_out_of_is_gone_around_by_those_who_are_to() {
     let (aside, object, _) = followed(&found, region);
     assert!(aside > 0.02 && object == 0, "{aside}, {object} frames inside");
 
-    // Beside the end of the tool's way.
+    // Beside the end of the tool's path.
     let there = "[0.62, 0.03], for: [tool]";
     let tool = circle("tool").replace("[0.575, 0], for: [tool]", there);
     let tool = keeping_out(&tool.replace("radius: 0.04", "radius: 0.02"));
@@ -84,7 +84,7 @@ fn what_is_kept_out_of_is_gone_around_by_those_who_are_to() {
     assert_eq!(found.status, PlanStatus::Solved);
     assert_eq!(followed(&found, region).2, 0);
 
-    // A hand that is not to come near pushes with what reaches far.
+    // If the hand must keep its distance, a long tool is used.
     let hand = keeping_out(&circle("hand").replace("radius: 0.04", "radius: 0.3"));
     let found = solved(&hand);
     assert_eq!(found.status, PlanStatus::Solved);
@@ -128,7 +128,7 @@ fn regions_of_every_outline_are_written_and_read() {
     assert!(fault(bent).contains("convex"), "{}", fault(bent));
 }
 
-/// A box with a cap before it, which is pushed over the table's end.
+/// Box with a cap in front of it, which is pushed over the table's end.
 const CAP: &str = "
 scene:
   table: {size: [0.5, 1], position: [0.45, 0]}

@@ -1,11 +1,11 @@
-//! Goals of coverage, Push-T's measure: how much of its outline at the goal an object covers.
+//! Goals of coverage, Push-T's measure: share of its outline at the goal that an object covers.
 
 use pushplan::solve::PlanStatus;
 use pushplan::{scene::Engine, task::Task};
 
 use crate::judged::{file, solved, works_in_mujoco};
 
-/// A box, or a T of two solids; `goal` is its coverage.
+/// Returns a task with a box, or a T of two solids; `goal` is its coverage.
 fn task(object: &str, goal: &str) -> Task {
     let text = format!(
         "
@@ -51,7 +51,7 @@ fn enough_of_the_outline_is_covered_in_every_engine() {
     }
 }
 
-/// A square covers all of its outline after a quarter turn, a T after none but a full one.
+/// A square covers all of its outline after a quarter turn, a T only after a full one.
 #[test]
 fn headings_that_look_the_same_cover_the_same() {
     let square = "shape: {cuboid: {size: [0.1, 0.1, 0.06]}}";

@@ -1,4 +1,4 @@
-//! Tools that are proposed for tasks which no shipped one solves.
+//! Proposals of tools for tasks that no shipped tool solves.
 
 use std::fs;
 use std::sync::Arc;
@@ -13,7 +13,8 @@ use pushplan_design::{Design, DesignSettings, design};
 
 use crate::program::{run, stderr};
 
-/// A can behind a slot in a wall, 3 cm wide, that no hand reaches over: the narrowest shipped handle needs 4 cm.
+/// Can behind a slot in a wall, 3 cm wide, that no hand reaches over; the narrowest shipped handle
+/// needs 4 cm.
 const SLOT: &str = "
 scene:
   objects:
@@ -41,12 +42,12 @@ fn a_tool_is_proposed_that_passes_where_no_shipped_one_does() {
     assert_eq!(design.known.status, PlanStatus::NoPlan);
     assert_eq!(design.status(), PlanStatus::Solved);
     let tool = design.proposal.as_ref().map(|proposal| &proposal.tool).unwrap();
-    // A bar does, so none of several parts is proposed.
+    // A single bar suffices, so no tool of several parts is proposed.
     assert_eq!(tool.outline().len(), 1, "{}", tool.to_yaml().unwrap());
     let read = Tool::parse(&tool.to_yaml().unwrap(), "tool.yaml").unwrap();
     assert_eq!(read, **tool);
 
-    // Whoever makes the tool of its file gets the same answer.
+    // The tool read back from its file gives the same result.
     let library = ToolLibrary::embedded().unwrap().with(Arc::new(read)).unwrap();
     let planner = Planner::for_effort(Effort::Standard).unwrap().build();
     let solution = planner.solve(&task, &library).unwrap();

@@ -1,4 +1,4 @@
-//! Joints to the world, and the goals that speak of them.
+//! Joints to the world, and goals that use them.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -15,7 +15,7 @@ use pushplan::{
 
 use crate::judged::{file, solved, works_in_mujoco};
 
-/// A door that is ajar before a cabinet, and a drawer beside it.
+/// Door that is ajar in front of a cabinet, and a drawer beside it.
 const FURNITURE: &str = "
 scene:
   objects:
@@ -41,8 +41,8 @@ fn task(text: &str) -> Task {
     Task::parse(text, "furniture.yaml").expect("a task")
 }
 
-/// Where everything is after this push with the stick: x and y of the end effector at its start, and
-/// its length.
+/// Returns the state after a push with the stick, given the end effector's start position and the
+/// length.
 fn pushed(task: &Task, model: &dyn EffectModel, [x, y]: [f64; 2], length: f64) -> State {
     let library = ToolLibrary::embedded().expect("tools");
     let stick = library.get("stick").expect("a stick");
@@ -78,8 +78,8 @@ fn doors_turn_about_their_hinges_and_drawers_slide_alike_in_every_model() {
     for end in &ends {
         assert!((hinge(end) - start).norm() < 1e-4, "the hinge stays: {}", hinge(end));
         let turned = (end.poses[0].heading - 25f64.to_radians()).to_degrees();
-        // By geometry alone: the tool's corner at (0.55, -0.06) lies on the door's inner face, 1 cm from
-        // its middle, and the door slides on a little after that.
+        // By geometry alone: the tool's corner at (0.55, -0.06) touches the door's inner face, 1 cm
+        // from its middle, and the door then slides slightly further.
         let (x, y) = (0.55 - start.x, -0.06 - start.y);
         let open = (y.atan2(x) + std::f64::consts::PI + (0.01 / x.hypot(y)).asin()).to_degrees();
         assert!((turned + 25.0 - open).abs() < 0.3, "{turned} is not {}", open - 25.0);
@@ -118,7 +118,7 @@ fn faults_of_joints_to_the_world_are_told() {
     assert!(text.contains("`position` needs a `tolerance`"), "{text}");
 }
 
-/// A door that opens by up to 225 degrees counter-clockwise, of which it stands free.
+/// Door without obstacles that opens by up to 225 degrees counter-clockwise.
 const WIDE: &str = "
 scene:
   objects:
@@ -130,14 +130,15 @@ tools: [stick, l-hook]
 goal: {object: door, joint_deg: 200, heading_tolerance_deg: 10}
 ";
 
-/// The y, metres, at which a stick that comes from the robot's right meets the door, open by `turn` degrees.
-/// Its end covers 8 to 16 cm beyond the hinge along x.
+/// Returns the y, metres, at which a stick from the robot's right meets the door, open by `turn`
+/// degrees. Its end covers 8 to 16 cm beyond the hinge along x.
 fn face(turn: f64) -> f64 {
     let (sin, cos) = (turn - 180.0).to_radians().sin_cos();
     [0.08, 0.16].map(|x| (x * sin - 0.01) / cos).into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// How far such a stick opens the door by moving to `y`, degrees; it was open by `from` before.
+/// Returns the angle by which such a stick opens the door by moving to `y`, degrees; the initial
+/// angle is `from`.
 fn opened(task: &Task, model: &dyn EffectModel, from: f64, y: f64) -> f64 {
     let library = ToolLibrary::embedded().expect("tools");
     let stick = library.get("stick").expect("a stick");
@@ -188,14 +189,15 @@ fn what_a_joint_lets_turn_is_off_by_the_way_that_its_limits_leave() {
         ("[-10, 225]", 190.0, 0.0),
         ("[-10, 225]", 190.0, 215.0),
         ("[-10, 225]", 190.0, -5.0),
-        // A little beyond a limit it is still told from what is beyond the other one.
+        // Slightly beyond a limit, the position is still distinguished from positions beyond the
+        // other limit.
         ("[-10, 225]", 190.0, -14.0),
         ("[-225, 10]", -190.0, 5.0),
         ("[-170, 170]", -150.0, 160.0),
         ("[0, 340]", 335.0, 0.0),
         ("[-20, 150]", 120.0, -10.0),
     ] {
-        // Sights do not count turns.
+        // Observations do not count full turns.
         for counted in [0.0, 360.0, -360.0] {
             let off = off(limits, wanted, now, counted);
             assert!((off - (now - wanted)).abs() < 1e-9, "{limits} {wanted} {now}: {off}");
@@ -203,7 +205,7 @@ fn what_a_joint_lets_turn_is_off_by_the_way_that_its_limits_leave() {
     }
 }
 
-/// Opened by more than half a turn, closed the other way, and in several pushes.
+/// Doors opened by more than half a turn, in the other direction, and in several pushes.
 #[test]
 fn doors_are_opened_the_way_that_their_limits_leave() {
     let mut pushes = Vec::new();
@@ -219,7 +221,7 @@ fn doors_are_opened_the_way_that_their_limits_leave() {
         for engine in Engine::ALL {
             let verdict = best.verdict.as_ref().expect("replayed");
             let end = &verdict.nominal(engine).expect("replayed").outcome.state.poses[0];
-            // Headings are counted on.
+            // Headings count full turns.
             assert!((end.heading.to_degrees() - wanted).abs() < 10.0, "{wanted}: {}", end.heading);
         }
         works_in_mujoco(&file(&task, &solution));
@@ -227,7 +229,7 @@ fn doors_are_opened_the_way_that_their_limits_leave() {
     assert!(pushes.iter().any(|count| *count > 1), "{pushes:?}");
 }
 
-/// Pushed on, this door would be pressed against its limit.
+/// A stronger push would press this door against its limit.
 #[test]
 fn a_door_is_not_slammed_where_a_lighter_push_does() {
     let text = "

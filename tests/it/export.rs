@@ -1,4 +1,4 @@
-//! Plans for other programs: what is written, and what MuJoCo makes of it.
+//! Export of plans: the written files, and their replay in MuJoCo.
 
 mod mujoco;
 
@@ -17,8 +17,8 @@ use pushplan::{
 use pushplan_export::{REPLAY_SCRIPT, mjcf};
 use tempfile::TempDir;
 
-/// A plan for a task and a tool given as text: pushes of these starts (metres), directions
-/// (degrees), lengths (metres) and speeds (m/s).
+/// Returns a plan for a task and a tool given as text, with pushes of these starts (metres),
+/// directions (degrees), lengths (metres) and speeds (m/s).
 fn plan(task: &str, tool: &str, form: PushForm, pushes: &[([f64; 2], f64, f64, f64)]) -> PlanFile {
     let task = Task::parse(task, "task.yaml").unwrap_or_else(|faults| panic!("{faults}"));
     let tool = Tool::parse(tool, "tool.yaml").unwrap_or_else(|faults| panic!("{faults}"));
@@ -83,7 +83,7 @@ goal: {object: a, position: [0.60, 0.0], tolerance: 0.02}
     let start = text.find("<body name=\"object/a\"").expect("the first object");
     let end = text.find("    <body name=\"tool\"").expect("the tool");
     assert_snapshot!(text[start..end]);
-    // Neighbours on a joint touch each other, objects of one body do not.
+    // Neighbours connected by a joint collide, objects of one body do not.
     let touches =
         |a: &str, b: &str| text.contains(&format!("geom1=\"object/{a}\" geom2=\"object/{b}\""));
     assert!(touches("b", "c") && touches("c", "d") && touches("a", "c") && !touches("a", "b"));
@@ -128,7 +128,7 @@ fn the_command_writes_a_scene_for_each_plan_and_the_script() {
     }
     let output = export(&paths[..2], &out);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
-    // The task's name is that of its file.
+    // The task's name is the name of its file.
     let written = PlanFile::load(&paths[0]).unwrap();
     assert_eq!(fs::read_to_string(out.join("a.xml")).unwrap(), mjcf(&written).unwrap());
     assert!(out.join("b.xml").exists());

@@ -1,5 +1,5 @@
-//! What a user of the library sees: errors that read as text, tools that can be added, results
-//! that can be written.
+//! The library from a user's view: errors that read as text, tools that can be added, results that
+//! can be written.
 
 use std::path::Path;
 
@@ -25,7 +25,7 @@ fn bar(name: &str) -> Tool {
     Tool::new(name, [Part::cuboid("bar", [0.04, 0.2, 0.05], Pose::default())]).unwrap()
 }
 
-/// The wall-clock times are the only part that may differ.
+/// Removes the wall-clock times, the only part that may differ.
 fn timeless(mut solution: Solution) -> Solution {
     solution.statistics.timing = Default::default();
     solution
@@ -72,7 +72,7 @@ fn a_lever_up_is_planned_verified_and_written_like_a_push() {
     let best = solution.best().unwrap();
     let [Step::LeverUp(step)] = &best.plan.steps[..] else { panic!("{:?}", best.plan) };
     assert_eq!(step.tool, "screwdriver");
-    // The model predicts it like any motion, and who does not know it declines.
+    // The model supports this motion, and a model that does not support it declines.
     let motions = best.plan.motions(&best.tools).unwrap();
     let job = Job::stated(&task.scene, motions[0].clone());
     assert_ne!(planner.model().trust(&task.scene, &job), Trust::NotMine);
@@ -123,7 +123,7 @@ fn tools_are_added_to_a_library_unless_their_name_is_taken() {
 fn a_solution_survives_being_written_as_json() {
     let library = ToolLibrary::embedded().unwrap();
     let mut solution = planner().solve(&tasks()[0], &library).unwrap();
-    // What a replay shows frame by frame is not written: it can be played again.
+    // Frames of replays are not written, because they can be recomputed.
     for plan in &mut solution.plans {
         let evidence = plan.verdict.iter_mut().flat_map(|verdict| &mut verdict.evidence);
         evidence.for_each(|evidence| evidence.trajectory = None);

@@ -1,5 +1,5 @@
-//! What simulated pushes were made with is found again, slow pushes do not depend on their speed,
-//! and frictions of pairs are honoured by every model.
+//! Parameters of simulated pushes are recovered, slow pushes do not depend on their speed, and pair
+//! frictions apply in every model.
 
 use std::f64::consts::TAU;
 
@@ -16,7 +16,7 @@ use pushplan::{
 use pushplan_act::fit::{Fit, FitSettings, fit};
 use pushplan_act::judge::Trial;
 
-/// A finger of 4 mm radius pushes from `start` at `speed`, m/s, by `length` metres.
+/// Returns a push by a finger of 4 mm radius from `start` at `speed`, m/s, by `length` metres.
 fn finger_push(start: Vector, direction: f64, length: f64, speed: f64) -> ToolMotion {
     let finger =
         Part::new("finger", Shape::Cylinder { radius: 0.004, height: 0.05 }, Pose::default());
@@ -25,7 +25,7 @@ fn finger_push(start: Vector, direction: f64, length: f64, speed: f64) -> ToolMo
     ToolMotion::pushes(std::sync::Arc::new(tool), 0.0, 0.0, &[push], false)
 }
 
-/// Slow pushes against all sides of a box that rests at `spread`, recorded in `simulator`.
+/// Returns slow pushes against all sides of a box with support `spread`, recorded in `simulator`.
 fn recorded(simulator: &Simulator, spread: f64, friction: f64, count: usize) -> Vec<Trial> {
     (0..count)
         .map(|k| {
@@ -41,7 +41,7 @@ fn recorded(simulator: &Simulator, spread: f64, friction: f64, count: usize) -> 
                 0 => (size[0] / 2.0, size[1] / 2.0),
                 _ => (size[1] / 2.0, size[0] / 2.0),
             };
-            // From 0.2 to 0.8 of the half side, on either side, slanted to either side.
+            // From 0.2 to 0.8 of the half side, on either side, at an angle to either side.
             let share = 0.2 + 0.6 * ((k / 4) as f64 * 0.37).fract();
             let sign = if k % 3 == 0 { -1.0 } else { 1.0 };
             let along = Pose::new(0.0, 0.0, direction);
@@ -60,15 +60,16 @@ fn fitted(model: &dyn EffectModel, trials: &[Trial]) -> Fit {
     fit(model, trials, &settings, &Unwatched).expect("something moves")
 }
 
-/// The truth lies within the posterior's width and what the prior gets wrong by itself: the same
-/// points, free to tilt, act as if they lay 0.05 farther out.
+/// Asserts that the ground truth is within the posterior's width plus the error of the analytic
+/// model. Support points that are free to tilt act as if they were 0.05 farther out.
 fn holds(fit: &Fit, spread: f64, friction: f64) {
     for (found, truth) in [(&fit.spread, spread), (&fit.friction, friction)] {
         let off = (found.mean - truth).abs();
         assert!(off < 2.0 * found.deviation + 0.045, "{truth}: {found:?}, noise {}", fit.noise);
         assert!(found.told && found.deviation < 0.1, "{found:?}");
     }
-    // Medians: a push that forks may end far off with the true numbers, too.
+    // Medians are compared, because a push near a bifurcation may have a large error even with the
+    // true parameters.
     let others = fit.even.median.min(fit.corners.median);
     assert!(fit.best.median < 0.7 * others, "{:?} {:?} {:?}", fit.best, fit.even, fit.corners);
 }
@@ -105,7 +106,7 @@ fn pushes_that_move_nothing_are_no_ground_for_a_fit() {
     assert!(fit(&Prior::default(), &trials, &FitSettings::default(), &Unwatched).is_none());
 }
 
-/// The end of a push of 5 cm against a box, off its middle.
+/// Returns the end of a push of 5 cm against a box, off-centre.
 fn slow_end(model: &dyn EffectModel, speed: f64, support: Support) -> Pose {
     let object = Object::cuboid("box", [0.1, 0.1, 0.05]).friction(0.3).standing_on(support);
     let scene = Scene::new([object]).on_table(0.3).with_friction(0, Surface::Tool, 0.25);

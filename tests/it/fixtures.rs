@@ -1,4 +1,4 @@
-//! Scenes and motions that several tests share.
+//! Scenes and motions shared by several tests.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use pushplan::{
     task::{Job, Push, ToolMotion},
 };
 
-/// The prior and the engines, by name.
+/// Returns the analytic model and the engines, by name.
 pub fn models() -> [(&'static str, Box<dyn EffectModel>); 4] {
     [
         ("prior", Box::new(Prior::default())),
@@ -21,52 +21,52 @@ pub fn models() -> [(&'static str, Box<dyn EffectModel>); 4] {
     ]
 }
 
-/// Where everything is at the end of a motion.
+/// Returns the state at the end of a motion.
 pub fn end(model: &dyn EffectModel, scene: &Scene, motion: &ToolMotion) -> State {
     let job = Job::stated(scene, motion.clone());
     model.rollout(scene, &[job], Record::Outcome)[0].outcome().clone()
 }
 
-/// A cylinder of 10 cm diameter and height at the origin.
+/// Returns a cylinder of 10 cm diameter and height at the origin.
 pub fn can() -> Object {
     Object::cylinder("can", 0.05, 0.1)
 }
 
-/// A cuboid of 10 x 6 x 5 cm at the origin.
+/// Returns a cuboid of 10 x 6 x 5 cm at the origin.
 pub fn brick() -> Object {
     Object::cuboid("brick", [0.10, 0.06, 0.05])
 }
 
-/// A bar of 2 x 20 x 5 cm across x, its front face at the end effector.
+/// Returns a bar of 2 x 20 x 5 cm across x, with its front face at the end effector.
 pub fn bar() -> Arc<Tool> {
     let part = Part::cuboid("bar", [0.02, 0.2, 0.05], Pose::new(-0.01, 0.0, 0.0));
     Arc::new(Tool::new("bar", [part]).expect("one part is one piece"))
 }
 
-/// One settled straight push of the bar, its face across the direction of motion.
+/// Returns a settled straight push of the bar, with its face across the direction of motion.
 pub fn push(start: Vector, direction: f64, length: f64, speed: f64) -> ToolMotion {
     ToolMotion::pushes(bar(), 0.002, direction, &[Push { start, direction, length, speed }], true)
 }
 
-/// Both engines at their default step.
+/// Returns both engines at their default step.
 pub fn engines() -> [Simulator; 2] {
     [Simulator::planar(), Simulator::spatial()]
 }
 
-/// A hand as in the thesis: a cylinder of 10 cm diameter about the end effector.
+/// Returns a hand as in the thesis: a cylinder of 10 cm diameter about the end effector.
 pub fn hand() -> Arc<Tool> {
     let shape = Shape::Cylinder { radius: 0.05, height: 0.1 };
     let part = Part::new("hand", shape, Pose::default());
     Arc::new(Tool::new("hand", [part]).expect("one part is one piece"))
 }
 
-/// One settled straight push of the hand.
+/// Returns a settled straight push of the hand.
 pub fn hand_push(start: Vector, direction: f64, length: f64, speed: f64) -> ToolMotion {
     ToolMotion::pushes(hand(), 0.002, 0.0, &[Push { start, direction, length, speed }], true)
 }
 
-/// `count` objects like `model` in a row along y, `pitch` metres apart, each joined to the next
-/// by what `kind` makes of the point midway between them.
+/// Returns `count` objects like `model` in a row along y, `pitch` metres apart, each joined to the
+/// next by the joint `kind` at the midpoint between them.
 pub fn row(count: usize, model: &Object, pitch: f64, kind: fn(Vector) -> JointKind) -> Scene {
     let object = |k: usize| Object {
         name: format!("o{k}"),
@@ -80,8 +80,8 @@ pub fn row(count: usize, model: &Object, pitch: f64, kind: fn(Vector) -> JointKi
     Scene { joints: (1..count).map(joint).collect(), ..Scene::new((0..count).map(object)) }
 }
 
-/// How far the second object of joint `index` has come against the first: across, in the joint's
-/// own frame (metres), and turned (radians).
+/// Returns the displacement of the second object of joint `index` relative to the first:
+/// translation in the joint's own frame (metres) and rotation (radians).
 pub fn opened(scene: &Scene, state: &State, index: usize) -> Pose {
     let joint = &scene.joints[index];
     let [first, second] = joint.frames(&scene.objects);
@@ -90,8 +90,8 @@ pub fn opened(scene: &Scene, state: &State, index: usize) -> Pose {
     Pose { heading: wrap_angle(relative.heading), ..relative }
 }
 
-/// The largest violation of what the joints hold, over all joints and frames: distance (metres)
-/// and angle (radians).
+/// Returns the largest constraint violation over all joints and frames: distance (metres) and angle
+/// (radians).
 pub fn drift(scene: &Scene, trajectory: &Trajectory) -> (f64, f64) {
     let (mut distance, mut angle) = (0f64, 0f64);
     for frame in &trajectory.frames {

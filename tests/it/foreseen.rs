@@ -1,4 +1,4 @@
-//! What is foreseen of joints: that they stop where they stopped before, and where they may lead.
+//! Predictions of joints in a belief: repeated stops at limits, and possible outcomes.
 
 use pushplan::effect::Prior;
 use pushplan::geometry::{Pose, Vector};
@@ -11,7 +11,8 @@ use pushplan_act::belief::{Belief, BeliefSettings, NO_STOP};
 use crate::belief::{cylinders, pair, recorded};
 use crate::believing::{EXACT, believed};
 
-/// Where a joint stopped it stops again; to the other side nothing is known.
+/// A joint that stopped is predicted to stop there again; its range to the other side stays
+/// unknown.
 #[test]
 fn where_joints_stop_is_found_once_they_stopped_there() {
     let hinge = JointKind::Revolute { at: Vector::new(0.5, 0.037), limits: None };
@@ -19,10 +20,10 @@ fn where_joints_stop_is_found_once_they_stopped_there() {
     let slight = Noise { position: 1e-3, heading: 0.5f64.to_radians() };
     let cases = [
         (cylinders(Some(hinge)), 0.2, NO_STOP[0], vec![EXACT, slight]),
-        // This one does not press hard against its stop, and has to be seen well.
+        // This pair presses only lightly against its stop, so it needs accurate observations.
         (pair(Some(slide)), 0.03, NO_STOP[1], vec![EXACT]),
     ];
-    // At the far end of the second, so that it turns about the hinge.
+    // At the far end of the second object, so that it rotates about the hinge.
     let push = Push { start: Vector::new(0.44, 0.086), direction: 0.0, length: 0.25, speed: 0.1 };
     for ((scene, motion), most, free, noises) in cases {
         let motion = ToolMotion::pushes(motion.tool, 0.0, 0.0, &[push], false);
@@ -48,14 +49,15 @@ fn where_joints_stop_is_found_once_they_stopped_there() {
             assert_eq!(far, free, "{found:?}");
             assert!(near < 0.1 * most + 5.0 * noise.position, "{noise:?}: {found:?}");
         }
-        // Whether the second presses hard enough to be seen to stop is decided by little.
+        // Small differences decide whether the second object presses hard enough for a detectable
+        // stop.
         let least = if most == 0.2 { all } else { 1 };
         assert!(seen >= least, "{seen} of {all} stops of {most}");
     }
 }
 
-/// Half of near pairs are not joined, so before anything is known one is foreseen to stay where the tool
-/// pushes the other away; and once they are known to be one body, to go along.
+/// Half of the near pairs are not joined. Before any observation the other object is therefore
+/// predicted to stay; once the two are known to be one body, it is predicted to move along.
 #[test]
 fn what_is_foreseen_is_in_the_middle_of_what_is_possible() {
     let (scene, motion) = pair(Some(JointKind::Fixed));

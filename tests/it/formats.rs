@@ -1,5 +1,5 @@
-//! Files of other programs: what we write we read back, and what others write becomes ours or a fault
-//! that says why not. What MuJoCo, `mcap` and NumPy make of ours is tested from Python.
+//! Other formats: exported files are read back, and foreign files are imported or refused with a
+//! reason. Python tests check exported files with MuJoCo, `mcap` and NumPy.
 
 mod advice;
 mod imports;

@@ -1,4 +1,4 @@
-//! Goals that are a relation between two things: touching, beside each other, clear of each other.
+//! Goals of the gap between two bodies: touching, side by side, or clear of each other.
 
 use pushplan::solve::PlanStatus;
 use pushplan::{
@@ -8,7 +8,7 @@ use pushplan::{
 
 use crate::judged::{file, solved, works_in_mujoco};
 
-/// A box, a mug whose handle points at it, and a wall; `goal` is the box's.
+/// Returns a task with a box, a mug whose handle points at it, and a wall; `goal` is the box's.
 fn task(mug: [f64; 2], goal: &str) -> Task {
     let text = format!(
         "
@@ -32,7 +32,7 @@ goal: {{object: box, {goal}}}
     Task::parse(&text, "gap.yaml").unwrap_or_else(|faults| panic!("{faults}"))
 }
 
-/// The gap that the goal speaks of, metres.
+/// Returns the gap of the goal, metres.
 fn gap(task: &Task, state: &State) -> f64 {
     let [Demand::Gap(gap), ..] = &task.goals[0].demands[..] else { panic!("a goal of a gap") };
     gap.nearest(&state.poses[task.goals[0].object], state).expect("both exist").gap
@@ -87,7 +87,8 @@ fn it_is_read_as_it_is_written_and_a_plan_file_keeps_it() {
     }
 }
 
-/// Moving the mug changes the goal's error as moving the box does: only their distance counts.
+/// Moving the mug changes the goal's error in the same way as moving the box, because only their
+/// distance counts.
 #[test]
 fn only_where_they_are_to_each_other_counts() {
     let task = task([0.6, -0.1], "gap: {to: mug, min: 0.01, max: 0.04}");
@@ -105,7 +106,8 @@ fn only_where_they_are_to_each_other_counts() {
     }
 }
 
-/// Where things are to touch, pushing on presses on both; a fragile one is brought there and no farther.
+/// A longer push would press on both touching objects; a fragile object is pushed no further than
+/// contact.
 #[test]
 fn what_is_fragile_is_brought_to_touch_without_pushing_on() {
     let text = task([0.6, -0.1], "gap: {to: mug, max: 0.004}").to_yaml().expect("as text");
@@ -122,7 +124,7 @@ fn what_is_fragile_is_brought_to_touch_without_pushing_on() {
     }));
 }
 
-/// A block that must come near to a wall and stay away from a lamp: two demands of one kind.
+/// Block that must come near a wall and stay away from a lamp: two demands of one kind.
 const BOTH: &str = "
 scene:
   objects:
@@ -147,7 +149,7 @@ fn one_object_keeps_two_gaps_at_once() {
     assert_eq!(to, [Some(Body::Obstacle(0)), Some(Body::Object(1))]);
     let again = Task::parse(&task.to_yaml().expect("as text"), "both.yaml").expect("sound");
     assert_eq!(again, task);
-    // Near the wall alone is not enough.
+    // A position near the wall alone does not reach the goal.
     let mut state = task.scene.start();
     state.poses[0] = pushplan::Pose::new(0.695, 0.08, 0.0);
     let [near, far] = &goal.demands[..] else { panic!("two demands") };

@@ -1,4 +1,4 @@
-//! Goals that several objects meet, whichever they are, and goals outside of a region.
+//! Goals of groups of objects, and goals outside of a region.
 
 use pushplan::asset::PlanFile;
 use pushplan::task::demand::Demand;
@@ -8,7 +8,7 @@ use pushplan_report::task_stage;
 
 use crate::judged::{file, solved, works_in_mujoco};
 
-/// Three objects, two of which are to come into a tray; the third is far from it.
+/// Three objects, two of which must reach a tray; the third is far from it.
 const TWO_OF_THREE: &str = "
 scene:
   table: {friction: 0.4}
@@ -25,7 +25,7 @@ goal:
   region: {area: {rectangle: {size: [0.30, 0.60]}}, position: [0.82, 0.0]}
 ";
 
-/// A box that is to leave the middle of the table.
+/// Box that must leave the middle of the table.
 const OUT: &str = "
 scene:
   table: {friction: 0.4}
@@ -52,7 +52,7 @@ fn the_nearest_objects_of_a_group_are_pushed_and_all_reports_agree() {
     let solution = solved(&task);
     assert_eq!(solution.status, PlanStatus::Solved);
     let best = &solution.plans[0];
-    // Can and cup, each by a push; the crate is left where it is.
+    // Can and cup need one push each; the crate stays.
     let start = task.scene.start();
     for evidence in &best.verdict.as_ref().expect("verified").evidence[..2] {
         let end = &evidence.outcome.state;
@@ -62,7 +62,7 @@ fn the_nearest_objects_of_a_group_are_pushed_and_all_reports_agree() {
     }
     let plan = file(&task, &solution);
     works_in_mujoco(&plan);
-    // One of two pushes is not enough, whoever judges.
+    // One of two pushes is not enough, in every engine.
     let mut half = plan;
     half.plan.steps.truncate(1);
     let text = mjcf(&half).expect("a scene");

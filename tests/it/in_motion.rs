@@ -1,5 +1,5 @@
-//! Recordings that are cut out of a push that goes on: bodies move in their first frame, and the file says
-//! how.
+//! Recordings cut from an ongoing push: bodies move in their first frame, and the file states their
+//! velocities.
 
 use pushplan::effect::{EffectModel, EffectModels, Job, Network, Prior};
 use pushplan::geometry::{Pose, Vector};
@@ -17,8 +17,8 @@ use pushplan_act::judge::{Comparison, Trial};
 use crate::believing::EXACT;
 use crate::fixtures::{hand, models};
 
-/// A box that is pushed off its middle, fast, and a pair of cans on a hinge that it meets, on a slippery
-/// table.
+/// Returns a box that is pushed fast and off-centre, and a hinged pair of cans that it meets, on a
+/// slippery table.
 fn pushed() -> (Scene, ToolMotion) {
     let can = |name: &str, y| Object::cylinder(name, 0.04, 0.08).friction(0.15).at(0.36, y, 0.0);
     let boxed = Object::cuboid("box", [0.08, 0.12, 0.06]).friction(0.15).at(0.15, 0.02, 0.2);
@@ -29,7 +29,7 @@ fn pushed() -> (Scene, ToolMotion) {
     (scene.with_joint([1, 2], hinge), motion)
 }
 
-/// What is recorded of a motion by a model, from frame `first` on.
+/// Returns the recording of a motion by a model, from frame `first` on.
 fn cut(model: &dyn EffectModel, (scene, motion): &(Scene, ToolMotion), first: usize) -> Recording {
     let job = Job::stated(scene, motion.clone());
     let frames = model.rollout(scene, &[job], Record::Frames).remove(0).frames;
@@ -53,13 +53,13 @@ fn cut(model: &dyn EffectModel, (scene, motion): &(Scene, ToolMotion), first: us
     Recording::load(&path).expect("what is written can be read")
 }
 
-/// The same as if everything rested in the first frame.
+/// Returns the recording with zero velocities in the first frame.
 fn rested(recording: &Recording) -> Recording {
     let velocities = vec![Velocity::default(); recording.velocities.len()];
     Recording { velocities, ..recording.clone() }
 }
 
-/// How far the farthest object ends from where it was recorded, metres.
+/// Returns the largest final position error of any object, metres.
 fn off(model: &dyn EffectModel, recording: &Recording) -> f64 {
     let trial = Trial::of_recording(recording);
     let ends = Comparison::of(model, &trial).end();
@@ -73,8 +73,8 @@ fn a_push_that_is_cut_ends_where_the_whole_one_does() {
     let mut all: Vec<(&str, Box<dyn EffectModel>)> = models().into_iter().collect();
     all.push(("network", Box::new(network)));
     for (name, model) in &all {
-        // While it pushes, and three times after that. Bodies of 3-D engines tilt while they are pushed, which
-        // a recording does not hold.
+        // During the push, and three times after it. In 3-D engines bodies tilt during a push,
+        // which a recording does not contain.
         let pushing = matches!(*name, "prior" | "planar" | "network").then_some(10);
         for first in [20, 22, 24].into_iter().chain(pushing) {
             let recording = cut(&**model, &pushed, first);
@@ -100,7 +100,8 @@ fn a_fit_begins_with_the_velocities() {
 
 #[test]
 fn a_belief_begins_with_the_velocities() {
-    // A can slides into a heavier one, nothing else near: who thinks that it rested learns of no touch.
+    // A can slides into a heavier one with nothing else near; a belief that starts at rest would
+    // see no contact.
     let can = |name: &str, x| Object::cylinder(name, 0.04, 0.08).friction(0.15).at(x, 0.0, 0.0);
     let scene = Scene::new([can("a", 0.3).mass(0.3), can("b", 0.42).mass(1.2)]).on_table(0.15);
     let stand =

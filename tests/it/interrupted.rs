@@ -1,4 +1,4 @@
-//! A command that is interrupted and goes on.
+//! Commands that are interrupted and resumed.
 
 use std::fs;
 use std::path::Path;
@@ -9,22 +9,22 @@ use tempfile::TempDir;
 
 use crate::program::succeed;
 
-/// Runs a resumable command once whole and once with an interruption, and compares the files.
+/// Runs a resumable command once without and once with an interruption, and compares the files.
 pub fn goes_on_after_an_interruption(command: &str, options: &str) {
     let folder = TempDir::new().expect("a folder");
     let [whole, broken] = ["whole", "broken"].map(|name| folder.path().join(name));
     let line = |dir: &Path| format!("{command} {} {options}", dir.display());
     succeed(&line(&whole));
-    // After the first files, so that there is something to keep.
+    // After the first files, so that the resumed run has something to reuse.
     interrupted(&line(&broken), || fs::read_dir(&broken).map_or(0, Iterator::count) > 1);
     succeed(&line(&broken));
     let read = |dir: &Path| -> Vec<(String, Vec<u8>)> {
         let entries = fs::read_dir(dir).expect("a folder");
         let files = entries.map(|entry| entry.expect("an entry"));
-        // Data that a run makes for itself lie in folders of their own.
+        // Data that a run makes for itself are in separate folders.
         let files = files.filter(|entry| entry.path().is_file());
         let names = files.map(|entry| entry.file_name().into_string().expect("UTF-8"));
-        // Metrics hold wall times, which no two runs share.
+        // Metrics hold wall-clock times, which differ between runs.
         let names = names.filter(|name| name != "metrics.jsonl");
         let file = |name: String| (name.clone(), fs::read(dir.join(name)).expect("a file"));
         let mut read: Vec<_> = names.map(file).collect();
@@ -34,8 +34,8 @@ pub fn goes_on_after_an_interruption(command: &str, options: &str) {
     assert!(read(&broken) == read(&whole), "the resumed files differ");
 }
 
-/// Runs a command as long jobs are run, until there is something, and interrupts it: a hangup that is
-/// ignored must not cost the other signals.
+/// Runs a command under `nohup`, as long jobs are run, until `until` holds, and interrupts it.
+/// Ignoring the hangup signal must not disable the other signals.
 pub fn interrupted(line: &str, until: impl Fn() -> bool) -> Output {
     let mut child = Command::new("nohup")
         .arg(crate::PROGRAM)
@@ -54,7 +54,7 @@ pub fn interrupted(line: &str, until: impl Fn() -> bool) -> Output {
     let id = child.id().to_string();
     Command::new("kill").args(["-INT", &id]).status().expect("a signal is sent");
     let output = child.wait_with_output().expect("the command ends");
-    // On a fast machine it may be done before the signal comes.
+    // On a fast machine the command may finish before the signal arrives.
     assert!(matches!(output.status.code(), Some(130 | 0)), "{output:?}");
     output
 }

@@ -1,4 +1,4 @@
-//! Predictions of jointed scenes: their symmetries, and joints that hold.
+//! Predictions of jointed scenes: symmetries and joint constraints.
 
 use pushplan::{
     effect::{EffectModel, Network, Prior},
@@ -12,8 +12,8 @@ use pushplan::{
 use super::network::assert_same;
 use super::random_network::{half_stroke, object, stroke, tool, weights};
 
-/// Before the tool: a box, hinged to a cylinder that slides along a box, which is fixed to a
-/// second cylinder.
+/// Returns a box in front of the tool, hinged to a cylinder, which slides along a second box, which
+/// is fixed to a second cylinder.
 fn scene() -> Scene {
     let cylinder = |x, y| object(Shape::Cylinder { radius: 0.04, height: 0.1 }, x, y, 0.0);
     let objects = vec![
@@ -33,8 +33,8 @@ fn scene() -> Scene {
     Scene { joints, ..Scene::new(objects).on_table(0.4) }
 }
 
-/// Random weights that disturb the prior but do not drown it: ten frames of noise through three
-/// joints amplify any rounding.
+/// Returns random weights whose correction is small compared to the analytic model, because ten
+/// frames of noise through three joints amplify any rounding.
 fn gentle() -> PredictorWeights {
     let mut weights = weights(64);
     for name in ["motion.even", "motion.odd"] {
@@ -104,7 +104,7 @@ fn naming_the_two_objects_of_a_joint_the_other_way_round_changes_nothing() {
     assert_same(&plain, &rollout(&Prior::default(), &other, stroke()));
 }
 
-/// How far the joints are from what they allow: metres, or radians at 5 cm.
+/// Returns the largest joint violation: metres, or radians at 5 cm.
 fn violation(scene: &Scene, state: &State) -> f64 {
     let off = |joint: &Joint| {
         let frames = joint.frames(&scene.objects);
@@ -160,7 +160,7 @@ fn a_fixed_pair_is_predicted_as_the_one_body_it_is() {
     let (pair, single) =
         (rollout(&Prior::default(), &both, stroke()), rollout(&Prior::default(), &one, stroke()));
     let middle = (pair.poses[0].position + pair.poses[1].position) / 2.0;
-    // The supports differ: two ellipsoids against one.
+    // The support models differ: two ellipsoids instead of one.
     assert!((middle - single.poses[0].position).norm() < 2e-3, "{pair:?} {single:?}");
     assert!((pair.poses[0].heading - single.poses[0].heading).abs() < 0.03);
 }

@@ -1,4 +1,4 @@
-//! Tasks that are solved as drafts, and their plans judged by MuJoCo.
+//! Tasks solved with the draft effort, with plans checked in MuJoCo.
 
 use std::process::Command;
 
@@ -24,7 +24,7 @@ pub fn file(task: &Task, solution: &Solution) -> PlanFile {
     }
 }
 
-/// Whether MuJoCo says that the plan works.
+/// Asserts that the plan works in MuJoCo, if available.
 pub fn works_in_mujoco(file: &PlanFile) {
     let Some(python) = python() else { return };
     let folder = tempfile::tempdir().expect("a folder");
@@ -35,7 +35,8 @@ pub fn works_in_mujoco(file: &PlanFile) {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
 }
 
-/// Whether MuJoCo finds all goals reached by a plan that leaves the plane; `None` without it.
+/// Returns whether MuJoCo finds all goals reached by a plan that leaves the plane; `None` without
+/// MuJoCo.
 pub fn is_reached_in_mujoco(file: &PlanFile) -> Option<bool> {
     let python = python()?;
     let folder = tempfile::tempdir().expect("a folder");

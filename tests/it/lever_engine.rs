@@ -1,8 +1,8 @@
-//! Lever-ups in the 3-D engine against closed forms, symmetries and themselves.
+//! Lever-ups in the 3-D engine: comparison with closed forms, symmetries, and repeatability.
 //!
-//! What went wrong before: of a hull's larger face parry looks at four corners alone; a turn whose
-//! quaternion changes its sign looks like a full turn; rapier lets bodies sink; and contacts that are
-//! carried over from step to step hold a plate that has left the blade.
+//! Former errors: parry considers only four corners of a hull's larger face; a rotation whose
+//! quaternion changes its sign looks like a full turn; rapier lets bodies penetrate; contacts
+//! carried over between steps hold a plate that has left the blade.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ use pushplan::{
 /// Free height below plates, metres.
 const CLEARANCE: f64 = 0.006;
 
-/// Radius of the feet that the engine gives them, metres.
+/// Radius of the feet that the engine adds, metres.
 const FOOT: f64 = 0.001;
 
 fn plate(corners: &[[f64; 2]], height: f64, pose: Pose) -> Plate {
@@ -66,7 +66,7 @@ fn job(plates: Vec<Plate>, lever: LeverUp) -> LeverJob {
     LeverJob { scene: Arc::new(scene), lever }
 }
 
-/// The frames of all plates.
+/// Returns the poses of all plates in a frame.
 fn poses(frame: &Frame) -> &[Pose3] {
     frame.state.space.as_ref().expect("in space")
 }
@@ -75,7 +75,7 @@ fn poses(frame: &Frame) -> &[Pose3] {
 fn plates_of_any_number_of_corners_lie_on_their_faces() {
     let beside = |count: usize| {
         let mut plate = regular(count, Pose::new(0.5, 0.2 * count as f64 - 1.2, 0.4));
-        // Without feet, let fall from a little above the table.
+        // Without feet, dropped from slightly above the table.
         (plate.z, plate.clearance) = (0.002, 0.0);
         plate
     };
@@ -100,7 +100,7 @@ fn a_turn_past_the_vertical_throws_nothing_wherever_it_points() {
         for pair in motion.windows(2) {
             let moved = (poses(&pair[1].0)[0].position - poses(&pair[0].0)[0].position).norm();
             let speed = moved / (pair[1].0.time - pair[0].0.time);
-            // What falls from 7 cm comes down at 1.2 m/s.
+            // A fall from 7 cm ends at 1.2 m/s.
             assert!(speed < 1.5, "heading {heading:.2}, {:.2} s: {speed:.1} m/s", pair[1].0.time);
         }
     }
@@ -122,7 +122,7 @@ fn plates_do_not_sink_into_the_table() {
     }
 }
 
-/// Height of the lowest foot above the table, metres.
+/// Returns the height of the lowest foot above the table, metres.
 fn lowest_foot(plate: &Plate, pose: &Pose3) -> f64 {
     let foot = |corner: &Vector| {
         let centre = Vector3::new(corner.x, corner.y, FOOT - CLEARANCE);
@@ -131,8 +131,9 @@ fn lowest_foot(plate: &Plate, pose: &Pose3) -> f64 {
     plate.corners().iter().map(foot).fold(f64::INFINITY, f64::min)
 }
 
-/// The blade's tip, turned by `turn` about an axis as far as the far feet, touches the underside of a
-/// plate that turns by less: the axis lies a foot's height above that of the feet.
+/// Returns the tilt of a square plate whose underside touches the tip of a blade rotated by `turn`.
+/// The blade's axis is one foot's height above the axis of the far feet, so the plate rotates by
+/// less.
 fn tilt_of_square(turn: f64, arm: f64) -> f64 {
     let mut tilt = turn;
     for _ in 0..50 {
@@ -157,7 +158,7 @@ fn a_plate_turns_about_its_far_feet_as_the_blade_does() {
             let foot = plate.corners()[corner];
             let foot = Vector3::new(foot.x, foot.y, FOOT - CLEARANCE);
             let strayed = (pose.point(foot) - plate.start().point(foot)).norm();
-            // Balls roll on by their radius times the angle, and creep a little.
+            // The feet roll by their radius times the angle, and creep slightly.
             assert!(strayed < FOOT * turn + 1e-3, "frame {k}: {:.2} mm", 1e3 * strayed);
         }
     }
@@ -181,7 +182,7 @@ fn the_blade_carries_its_share_of_the_weight() {
         let lever = 0.5 * job.lever.pivot * tilt.cos() - rise * tilt.sin();
         let known = plate.mass * GRAVITY * lever / (arm * (turn - tilt).cos());
         let share = force / known;
-        // Friction at the tip and the rolling feet take their part.
+        // Friction at the tip and the rolling feet takes a share.
         assert!((share - 1.0).abs() < 0.15, "{:.1} deg: {share:.3}", turn.to_degrees());
         seen += 1;
     }
@@ -216,7 +217,7 @@ fn a_mirrored_lever_up_does_the_mirrored_thing() {
             vec![plate(&corners, 0.008, Pose::new(0.5, 0.1, 0.7))],
             lever(edge, 0.4, 0.12, 50.0),
         );
-        // Corner k becomes corner count - 1 - k, and its edge ends where it began.
+        // Corner k becomes corner count - 1 - k, and its edge ends where the original began.
         let other_edge = (2 * count - 2 - edge) % count;
         let other = job(
             vec![plate(&mirrored, 0.008, Pose::new(0.5, -0.1, -0.7))],
@@ -231,7 +232,8 @@ fn a_mirrored_lever_up_does_the_mirrored_thing() {
         };
         let mut apart: Vec<f64> = one.lift.iter().zip(&other.lift).map(apart).collect();
         apart.sort_by(f64::total_cmp);
-        // Solvers take contacts in another order; what is about to tip over feels that.
+        // Solvers process contacts in another order, which affects a plate that is about to tip
+        // over.
         assert!(apart[LEVER_FRAMES / 2] < 0.3, "edge {edge}: {apart:?} mm");
         assert!(apart[LEVER_FRAMES - 1] < 3.0, "edge {edge}: {apart:?} mm");
     }
@@ -254,7 +256,7 @@ fn where_the_table_is_makes_no_difference() {
 
 #[test]
 fn a_blade_that_is_driven_into_something_is_a_jam() {
-    // A block lies on the plate: the blade would have to go through both.
+    // A block lies on the plate: the blade would have to pass through both.
     let mut job = job(vec![square(Pose::default())], lever(0, 0.5, 0.14, 60.0));
     let mut scene = LeverScene::clone(&job.scene);
     scene.blocks.push(pushplan::scene::Obstacle {

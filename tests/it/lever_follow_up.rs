@@ -1,4 +1,5 @@
-//! Pushes before and after a lever-up: their files, their engine, plans of both, and what is refused.
+//! Pushes before and after a lever-up: their files, their engine, plans with both, and refused
+//! tasks.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -18,7 +19,7 @@ use pushplan::{
 
 use crate::levers::plan_file;
 
-/// A plate that is levered up a little and falls back, and may be pushed.
+/// Plate that is levered up slightly, falls back, and may be pushed.
 const TASK: &str = "
 scene:
   objects:
@@ -31,7 +32,7 @@ levers: {pivot: auto}
 goal: {object: plate, flipped: false, position: [0.6, 0], tolerance: 0.01}
 ";
 
-/// Half of the plate along x, metres.
+/// Half length of the plate along x, metres.
 const HALF: f64 = 0.06;
 
 fn library() -> ToolLibrary {
@@ -42,7 +43,7 @@ fn task() -> Task {
     Task::parse(TASK, "task.yaml").expect("sound")
 }
 
-/// A little up and back.
+/// Returns a small lever-up and return.
 fn lever() -> LeverUp {
     LeverUp {
         plate: 0,
@@ -56,17 +57,18 @@ fn lever() -> LeverUp {
     }
 }
 
-/// The tools that plans here are made with.
+/// Returns the tools used by the plans in these tests.
 fn tools() -> [Arc<Tool>; 2] {
     ["screwdriver", "paddle"].map(|name| library().get(name).expect("shipped").clone())
 }
 
-/// A lever-up and a push along x that begins with the tool's front this far before the plate, metres.
+/// Returns a lever-up followed by a push along x that begins with the tool's front `gap` metres
+/// before the plate.
 fn plan(gap: f64, length: f64) -> Plan {
     Plan::levering("screwdriver", lever()).then(pushed(0.5, gap, length))
 }
 
-/// A push along x of a plate at `x`.
+/// Returns a push along x of a plate at `x`.
 fn pushed(x: f64, gap: f64, length: f64) -> Plan {
     let tool = library().get("paddle").expect("shipped").clone();
     let front = tool.parts().iter().map(|part| match part.shape {
@@ -85,7 +87,7 @@ fn verify(task: &Task, plan: &Plan) -> Verdict {
     verifier.verify(task, &situation, &tools(), plan)
 }
 
-/// Its first push changed.
+/// Returns the plan with its first push changed.
 fn changed(mut plan: Plan, change: impl FnOnce(&mut Push)) -> Plan {
     let step = plan.steps.iter_mut().find_map(|step| match step {
         Step::Push(step) => Some(step),
@@ -108,7 +110,8 @@ fn a_push_carries_the_plate_as_far_as_the_tool_goes() {
     let (gap, length) = (0.02, 0.10);
     let (alone, pushed) = (run(&plan(gap, length).first(1)), run(&plan(gap, length)));
     assert_eq!(pushed.lifts, alone.lifts, "the lever-up is the same");
-    // It is carried from where it fell back to, and then slides on by v^2 / (2 mu g).
+    // The plate is carried from the position to which it fell back, and then slides by v^2 / (2 mu
+    // g).
     let moved = rest(&pushed).position - rest(&alone).position;
     let began = rest(&alone).position.x - 0.5;
     let friction = 0.5 * (0.4 + task.scene.table_friction);
@@ -123,7 +126,7 @@ fn the_whole_is_judged_and_disturbed_as_one() {
     let verdict = verify(&task(), &plan(0.02, 0.12));
     assert!(verdict.passed, "{:?}", verdict.reason);
     assert_eq!(verdict.evidence.len(), 5);
-    // Too short a push misses, and says so.
+    // A push that is too short misses the goal, and the reason states it.
     let short = verify(&task(), &plan(0.02, 0.05));
     assert!(matches!(short.reason, Some(Reason::Misses { .. })), "{:?}", short.reason);
     let nominal = short.nominal(Engine::Spatial).expect("a replay");
@@ -163,7 +166,7 @@ fn what_pushes_must_not_do_is_found() {
 
 #[test]
 fn a_plan_pushes_levers_and_pushes_again() {
-    // Pushed 8 cm away, levered up a little where it is then expected, and pushed on to its place.
+    // Pushed 8 cm away, levered up slightly at its expected position, and pushed to its goal.
     let Step::LeverUp(mut levering) = plan(0.0, 0.1).steps.remove(0) else { panic!("a lever-up") };
     let first = pushed(0.5, 0.02, 0.10);
     let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
@@ -185,14 +188,14 @@ fn a_plan_pushes_levers_and_pushes_again() {
     assert!(lift.held && lift.raised > 0.02, "{lift:?}");
     let strokes: Vec<usize> = trajectory.frames.iter().map(|frame| frame.stroke).collect();
     assert!(strokes.is_sorted() && strokes.last() == Some(&2));
-    // Not told where the plate is by then, the blade goes elsewhere under it.
+    // Without the expected position of the plate, the blade goes to another place under it.
     let mut blind = whole.clone();
     let Step::LeverUp(step) = &mut blind.steps[1] else { panic!("a lever-up") };
     step.expected = None;
     let verdict_of_blind = verify(&task, &blind);
     let elsewhere = verdict_of_blind.evidence[0].trajectory.as_ref().expect("frames");
     assert_ne!(elsewhere.lifts, trajectory.lifts);
-    // One page and one file hold all of it.
+    // A single page and a single file hold the whole plan.
     let file = PlanFile {
         verdict: Some(verdict.clone()),
         ..PlanFile::new(task.clone(), tools().to_vec(), whole)
@@ -243,7 +246,7 @@ fn the_shipped_task_needs_both_and_its_plan_reads_back() {
     assert!(fault.to_string().contains("`grip_jaw`"), "{fault}");
 }
 
-/// The faults of `TASK` with every `from` replaced.
+/// Returns the faults of `TASK` with every `from` replaced.
 fn faults(changes: &[(&str, &str)]) -> String {
     let text = changes.iter().fold(TASK.to_owned(), |text, (from, to)| {
         assert!(text.contains(from), "{from}");

@@ -1,4 +1,4 @@
-//! Lever tasks in scenes with joints, frictions of pairs, regions, table edges and several goals.
+//! Lever tasks in scenes with joints, pair frictions, regions, table edges and several goals.
 
 use pushplan::asset::{PlanFile, ToolLibrary};
 use pushplan::outcome::{LeverFault, Warning};
@@ -10,8 +10,8 @@ use pushplan_export::mjcf;
 
 use crate::judged::{file, is_reached_in_mujoco, solved};
 
-/// A small plate that one lever-up tips over, and what else a test adds: objects, the rest of the scene, and
-/// the rest of the task with its goals.
+/// Returns a task with a small plate that one lever-up tips over, extended by objects, scene keys,
+/// and task keys with the goals.
 fn task(objects: &str, scene: &str, rest: &str) -> Task {
     let pushers = if rest.contains("pushes:") { ", stick, t-head" } else { "" };
     let text = format!(
@@ -30,7 +30,7 @@ levers: {{pivot: auto}}
     task
 }
 
-/// The plan of a task that is solved, verified, written and exported.
+/// Returns the plan of a task that is solved, verified, written and exported.
 fn plan(task: &Task) -> (Solution, PlanFile) {
     let solution = solved(task);
     assert_eq!(
@@ -46,7 +46,7 @@ fn plan(task: &Task) -> (Solution, PlanFile) {
     let text = serde_json::to_string(&file).expect("numbers");
     let again = PlanFile::parse(&text, "again.json").unwrap_or_else(|faults| panic!("{faults}"));
     assert_eq!((&again.task, &again.plan), (&file.task, &file.plan));
-    // An engine that shares none of our contacts, joints and regions.
+    // MuJoCo shares none of the code for contacts, joints and regions.
     assert_ne!(is_reached_in_mujoco(&file), Some(false), "{text}");
     (solution, file)
 }
@@ -96,7 +96,7 @@ goal:
     plan(&task(can, "", &goals));
 }
 
-/// The blade slips below a plate on ice; against a rough blade it holds.
+/// The blade slips below a plate with low friction, and holds with a rough blade.
 #[test]
 fn the_friction_of_a_pair_counts() {
     let friction = |with: &str, coefficient: f64| {
@@ -123,7 +123,7 @@ fn the_friction_of_a_pair_counts() {
 
 #[test]
 fn nothing_lands_in_a_region_that_is_kept_out_of() {
-    // The plate falls to one of its four sides; one is left.
+    // The plate falls to one of its four sides; only one side is free.
     let region = |name: &str, at: [f64; 2], whom: &str| {
         let [x, y] = at;
         format!(
@@ -136,7 +136,7 @@ fn nothing_lands_in_a_region_that_is_kept_out_of() {
     let (_, found) = plan(&task);
     let rest = &found.verdict.as_ref().expect("a verdict").evidence[0].outcome.state.poses[0];
     assert!(rest.position.y.abs() < 0.05 && (rest.position.x - 0.5).abs() > 0.04, "{rest:?}");
-    // A plan that goes there is found out, and so is a blade that comes through a region.
+    // A plan that enters a region is detected, and also a blade that passes through a region.
     let mut open = task.clone();
     open.scene.keep_out.clear();
     let lever = found.plan.lever_steps().next().expect("a lever-up").lever;
@@ -154,7 +154,7 @@ fn a_plate_must_not_fall_off_the_table_and_a_can_may() {
     let table = |size: f64| format!("  table: {{size: [{size}, 0.6], position: [0.5, 0]}}\n");
     let goal = format!("goal: {FLIPPED}\n");
     let (_, found) = plan(&task("", &table(0.9), &goal));
-    // The table ends right beside the plate, where it would come to lie.
+    // The table ends right beside the plate, where the plate would land.
     let mut narrow = task("", &table(0.9), &goal);
     let rest = found.verdict.as_ref().expect("a verdict").evidence[0].outcome.state.poses[0];
     let top = narrow.scene.table_top.as_mut().expect("it ends");

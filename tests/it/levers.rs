@@ -1,4 +1,4 @@
-//! Tasks of levering: their files, what is refused and why, and plans of the shipped ones.
+//! Levering tasks: their files, refusals with reasons, and plans of the shipped tasks.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use pushplan::{
     task::{LeverUp, Pivot, Place, Plan, Task},
 };
 
-/// A small plate that one lever-up tips over.
+/// Small plate that one lever-up tips over.
 const PLATE: &str = "
 scene:
   objects:
@@ -50,7 +50,7 @@ fn planner(effort: Effort) -> Planner {
     Planner::for_effort(effort).expect("the shipped weights").build()
 }
 
-/// A plan as it is written, with the task that it solves.
+/// Returns a plan as it is written, with the task that it solves.
 pub fn plan_file(task: &Task, best: &RankedPlan) -> PlanFile {
     PlanFile {
         joints: None,
@@ -64,7 +64,7 @@ pub fn plan_file(task: &Task, best: &RankedPlan) -> PlanFile {
     }
 }
 
-/// The only fault of a lever-up as the first step.
+/// Returns the only fault of a lever-up as the first step.
 fn cannot(fault: LeverFault) -> Warning {
     Warning::CannotLever { step: 0, fault }
 }
@@ -87,7 +87,8 @@ fn shipped_tasks_are_solved_or_refused_as_they_say() {
         let best = solution.best().expect("a plan");
         let verdict = best.verdict.as_ref().expect("a verdict");
         assert!(verdict.passed && verdict.robustness >= Some(0.75), "{}", task.name);
-        // Another seed's draws agree, and the plan is the same after it was written and read.
+        // Perturbations from another seed agree, and the plan is identical after writing and
+        // reading.
         let text = serde_json::to_string(&plan_file(&task, best)).expect("numbers");
         let again = PlanFile::parse(&text, "again.json").unwrap_or_else(|f| panic!("{f}"));
         assert_eq!(again.task, task, "to the bit");
@@ -124,7 +125,7 @@ fn a_task_is_written_as_it_was_read() {
     }
 }
 
-/// The faults of `text` with every `from` replaced.
+/// Returns the faults of `text` with every `from` replaced.
 fn faults(changes: &[(&str, &str)]) -> String {
     let text = changes.iter().fold(PLATE.to_owned(), |text, (from, to)| {
         assert!(text.contains(from), "{from}");
@@ -178,7 +179,7 @@ fn faults_of_files_say_what_and_where() {
     "#);
 }
 
-/// A rectangle that is turned over keeps its heading or is turned by half a turn, and both look the same.
+/// A flipped rectangle keeps its heading or rotates by half a turn; both look identical.
 #[test]
 fn a_lever_up_can_be_asked_for_a_heading() {
     let asked = |heading: f64| {
@@ -197,7 +198,7 @@ fn a_lever_up_can_be_asked_for_a_heading() {
     assert_ne!(asked(45.0).status, PlanStatus::Solved);
 }
 
-/// What only stands beside is an object as in a task of pushes.
+/// An object that only stands nearby is described as in a pushing task.
 #[test]
 fn cans_and_mugs_may_stand_beside_what_is_levered() {
     let objects = "    - {name: can, shape: {cylinder: {radius: 0.03, height: 0.1}}, mass: 0.3, friction: 0.4, \
@@ -295,7 +296,7 @@ fn verification_finds_by_itself_what_the_planner_would_refuse() {
     let mut short = task.clone();
     short.robot.reach_max = 0.5;
     assert_eq!(forbidden(&short, lever), [cannot(LeverFault::OutOfReach)]);
-    // Turned too little it falls back.
+    // With too small an angle, the plate falls back.
     let little = verify(&task, LeverUp { angle: 0.6, ..lever });
     let misses = Reason::Misses { engine: Engine::Spatial, error: 0.0, heading_error: None };
     assert_eq!(little.reason, Some(misses));
@@ -329,7 +330,7 @@ fn a_blade_goes_through_no_wall() {
 
 #[test]
 fn a_blade_is_held_by_fingers_that_need_room() {
-    // A slot of 20 mm leads to the plate through 80 mm of wall.
+    // A slot of 20 mm leads through 80 mm of wall to the plate.
     let slot = "  obstacles:
     - {name: left, size: [0.08, 0.1, 0.05], position: [0.61, 0.06]}
     - {name: right, size: [0.08, 0.1, 0.05], position: [0.61, -0.06]}

@@ -1,4 +1,4 @@
-//! A tool goes back before it is lifted, so that nothing comes along.
+//! Retreat of a tool before it is lifted, so that no object is lifted with it.
 
 use std::fs;
 use std::process::Command;
@@ -19,7 +19,7 @@ use tempfile::TempDir;
 
 use crate::mujoco_python::python;
 
-/// Two pushes of 20 cm with a tool of these parts.
+/// Returns two pushes of 20 cm with a tool of these parts.
 fn motion(parts: impl IntoIterator<Item = Part>, placed: bool) -> ToolMotion {
     let tool = Arc::new(Tool::new("tool", parts).expect("one piece"));
     let push =
@@ -43,14 +43,14 @@ fn a_tool_goes_back_a_little_and_all_the_way_from_below_a_shelf() {
     let shelf = Obstacle::new("shelf", [0.1, 0.4, 0.02], Pose::new(0.7, 0.0, 0.0)).raised(0.1);
     let below = table.with_obstacle(shelf);
     assert_eq!(ways(&below, &motion([bar()], true)), [Some(RETREAT), Some(0.2)]);
-    // What it is held by is below the shelf, too, where all parts are beyond it.
+    // The grip is also below the shelf, although all parts are beyond it.
     let far = Part::cuboid("bar", [0.02, 0.1, 0.05], Pose::new(0.1, 0.0, 0.0));
     assert_eq!(ways(&below, &motion([far], true))[1], Some(0.2));
 }
 
 #[test]
 fn what_a_fork_holds_comes_back_with_it_in_every_engine() {
-    // Between the arms there are 2 mm of play.
+    // There are 2 mm of play between the arms.
     let arm = |name: &str, x: f64| Part::cuboid(name, [0.02, 0.1, 0.05], Pose::new(x, 0.0, 0.0));
     let side = Part::cuboid("side", [0.122, 0.02, 0.05], Pose::new(0.0, 0.06, 0.0));
     let parts = [arm("back", -0.051), arm("front", 0.051), side];
@@ -70,7 +70,7 @@ fn what_a_fork_holds_comes_back_with_it_in_every_engine() {
 
 #[test]
 fn contacts_name_parts_as_the_file_of_the_tool_lists_them() {
-    // Of four flush parts in a row the last meets the can; to the engines they are one.
+    // The last of four flush parts in a row meets the can; the engines treat all four as one solid.
     let part = |k: usize| {
         let x = 0.1 * k as f64;
         Part::cuboid(format!("part-{k}"), [0.1, 0.04, 0.05], Pose::new(x, 0.0, 0.0))
@@ -85,7 +85,7 @@ fn contacts_name_parts_as_the_file_of_the_tool_lists_them() {
     }
 }
 
-/// A can that sticks to the tool: friction 1.64.
+/// Can that sticks to the tool: friction 1.64.
 const STICKY: &str = "
 scene:
   table: {friction: 0.3}
@@ -121,7 +121,7 @@ fn what_sticks_to_a_tool_is_left_standing_in_mujoco() {
         found["failure"].clone()
     };
     assert_eq!(failure(&text), Json::Null);
-    // Lifted straight off what it presses against, it topples the can.
+    // Lifted without a retreat, the tool topples the can.
     let straight = text.replace(retreat, "name=\"retreat 1\" data=\"0.0000005");
     assert_eq!(failure(&straight), "topples");
 }

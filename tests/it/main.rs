@@ -1,5 +1,5 @@
-//! Tests across rooms, in one binary so that rapier links once. The crates in `crates` have tests of
-//! their own, which share what several of them need.
+//! Tests across modules, in one binary so that rapier links once. The crates in `crates` have their
+//! own tests, which share helpers with these.
 
 mod architecture;
 mod arms;
@@ -76,6 +76,6 @@ mod tool_choice;
 mod tool_graph;
 mod verification;
 
-/// The repository, and its program.
+/// Repository root, and the program under test.
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 const PROGRAM: &str = env!("CARGO_BIN_EXE_pushplan");

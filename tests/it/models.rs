@@ -1,4 +1,4 @@
-//! The one grammar of effect models: what is written is read back, and errors say what is meant.
+//! Grammar of effect models: written names are read back, and errors name the valid forms.
 
 use std::num::{NonZeroU8, NonZeroU16};
 

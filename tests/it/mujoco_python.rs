@@ -1,10 +1,10 @@
-//! What runs MuJoCo: the Python that `PUSHPLAN_PYTHON` names, or else `python3`. Without the package
-//! `mujoco` tests that need it say so and check nothing; one that is named must have it.
+//! Python with MuJoCo: the one named by `PUSHPLAN_PYTHON`, otherwise `python3`. Without the package
+//! `mujoco`, tests that need it report this and check nothing; a named Python must have it.
 
 use std::env;
 use std::process::Command;
 
-/// A Python that has MuJoCo.
+/// Returns a Python that has MuJoCo.
 pub fn python() -> Option<String> {
     let named = env::var("PUSHPLAN_PYTHON").ok();
     let python = named.clone().unwrap_or_else(|| "python3".to_owned());

@@ -1,4 +1,4 @@
-//! The network as a whole: its symmetries, its weights file.
+//! The whole network: its symmetries and its weights file.
 
 use std::sync::Arc;
 
@@ -23,7 +23,7 @@ fn rollout(model: &Network, scene: &Scene, stroke: Stroke) -> State {
     model.rollout(scene, &[job], Record::Outcome)[0].outcome().clone()
 }
 
-/// One hundredth of a millimetre over ten frames is 1e-4 of a frame's motion per frame.
+/// Tolerance: one hundredth of a millimetre over ten frames is 1e-4 of the motion per frame.
 const SAME: f64 = 1e-5;
 
 pub(super) fn assert_same(a: &State, b: &State) {
@@ -81,8 +81,9 @@ fn the_order_of_objects_and_parts_does_not_matter() {
     let tool = tool();
     let parts = tool.parts().iter().rev().cloned();
     let reversed = Arc::new(Tool::clone(&tool).with_parts(parts).expect("one piece"));
-    // Before the squeeze, in which a random network makes millimetres of the order of a sum. The
-    // prior alone, which sums in doubles, is tried far more strictly in `symmetry`.
+    // Before the squeeze, in which a random network amplifies the order of a sum to millimetres.
+    // The analytic model alone, which sums in double precision, is tested far more strictly in
+    // `symmetry`.
     let stroke = Stroke { to: Pose::new(0.04, 0.008, 0.0), duration: 0.4, ..half_stroke() };
     let plain = rollout(&model, &scene, stroke);
     let motion = ToolMotion { tool: reversed, lift: 0.002, strokes: vec![stroke] };
@@ -128,7 +129,7 @@ fn a_golden_forward_pass() {
     }
 }
 
-/// Printed by this test when the network was last found equal to its candle graph.
+/// Values printed by this test when the network was last found equal to its candle graph.
 const GOLDEN: [[f64; 6]; 3] = [
     [-0.15235, -0.01509, -0.01019, -0.00391, -0.02093, -0.01002],
     [-0.16150, -0.10269, -0.00192, -0.08033, -0.08232, 0.02883],
@@ -152,12 +153,12 @@ fn a_single_wrong_bit_of_a_tensor_or_of_the_card_is_found() {
     let tensors = 8 + header;
     for at in (tensors..bytes.len()).step_by(997) {
         let mut flipped = bytes.clone();
-        // The lowest bit of a mantissa: still a sound number.
+        // The lowest bit of a mantissa, so that the value is still a valid number.
         flipped[tensors + (at - tensors) / 4 * 4] ^= 1;
         let error = PredictorWeights::from_bytes(&flipped).expect_err("damage");
         assert!(matches!(error, WeightsError::Checksum { .. }), "{error}");
     }
-    // A quotation mark of the card stands behind a backslash in the header.
+    // In the header, a quotation mark of the card follows a backslash.
     let key = br#"episodes\":"#;
     let episodes = bytes.windows(key.len()).position(|window| window == key);
     let mut other = bytes.clone();

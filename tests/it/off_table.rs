@@ -1,4 +1,4 @@
-//! Goals off the table: what is pushed over an edge, and falls.
+//! Goals off the table: objects that are pushed over an edge and fall.
 
 use pushplan::asset::ToolLibrary;
 use pushplan::solve::PlanStatus;
@@ -11,13 +11,14 @@ use pushplan::{
 
 use crate::judged::{file, solved, works_in_mujoco};
 
-/// The fall that the first goal asks for.
+/// Returns the fall of the first goal.
 fn fall(task: &Task) -> &Fall {
     let [Demand::Fall(fall)] = &task.goals[0].demands[..] else { panic!("a fall") };
     fall
 }
 
-/// A box and a can on a table that ends 40 cm to either side; `goal` is the task's.
+/// Returns a task with a box and a can on a table that ends 40 cm to either side; `goal` is the
+/// task's.
 fn task(goal: &str) -> Task {
     let text = format!(
         "
@@ -56,14 +57,14 @@ fn things_are_pushed_over_the_edge_that_is_asked_for() {
             if let Some(span) = fall(&task).between {
                 assert!(span.contains(nominal.outcome.state.poses[0].position.x), "{goal}");
             }
-            // What is wanted is no news.
+            // A wanted fall causes no warning.
             assert!(!nominal.warnings.iter().any(|one| matches!(one, Warning::Fell { .. })));
         }
         works_in_mujoco(&file(&task, &solution));
     }
 }
 
-/// The end of the box after a push of this length to the left, in this engine.
+/// Returns the end of the box after a push of this length to the left, in this engine.
 fn pushed(task: &Task, engine: Engine, length: f64) -> (State, Vec<Warning>) {
     let library = ToolLibrary::embedded().expect("tools");
     let stick = library.get("stick").expect("a stick");
@@ -82,7 +83,8 @@ fn pushed(task: &Task, engine: Engine, length: f64) -> (State, Vec<Warning>) {
     (trajectory.outcome().clone(), trajectory.warnings.clone())
 }
 
-/// 3-D has a table with an edge: what is pushed beyond it tips and falls, what stays short of it stands.
+/// The 3-D table has an edge: an object pushed beyond it tips and falls, an object short of it
+/// stands.
 #[test]
 fn three_dimensions_decide_whether_it_falls() {
     let mut task = task("{object: box, off_table: left}");
@@ -102,7 +104,7 @@ fn three_dimensions_decide_whether_it_falls() {
     }
 }
 
-/// What leans on something beyond the edge hangs there: that is no fall.
+/// An object that leans on a support beyond the edge has not fallen.
 #[test]
 fn what_is_held_up_beyond_the_edge_has_not_fallen() {
     let mut task = task("{object: box, off_table: left}");
@@ -121,7 +123,7 @@ fn what_is_held_up_beyond_the_edge_has_not_fallen() {
     }
 }
 
-/// Whatever else goes over an edge is a fault as ever.
+/// Any other object that goes over an edge is still a fault.
 #[test]
 fn nothing_else_may_fall() {
     let mut task = task("{object: can, off_table: left}");

@@ -1,4 +1,4 @@
-//! What happens where the network should not be trusted: simulated instead, said, or refused.
+//! Behaviour outside the network's validity range: simulation, warning or refusal.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -26,7 +26,7 @@ fn routed(outside: Outside) -> Routed {
     Routed::new(Arc::new(network())).outside(outside)
 }
 
-/// A box before the tool, of this mass.
+/// Returns a box of this mass in front of the tool.
 fn scene(mass: f64) -> Scene {
     let mut body = object(Shape::Cuboid { size: [0.06, 0.06, 0.1] }, 0.06, 0.01, 0.0);
     body.mass = mass;
@@ -82,7 +82,7 @@ fn what_a_motion_cannot_reach_raises_no_warning() {
         scene.objects.push(far);
     }
     assert_eq!(network().trust(&scene, &job(&scene)).warnings(), []);
-    // One of them joined to what is pushed comes into play, and with it only the others near it.
+    // An object joined to the pushed one becomes relevant, and with it only the others near it.
     let kind = JointKind::Fixed;
     scene.joints.push(Joint::new([0, 1], kind));
     let found = network().trust(&scene, &job(&scene)).warnings();
@@ -109,8 +109,8 @@ fn jobs_keep_their_order_when_some_are_simulated() {
     }
 }
 
-/// Three boxes of one width in a row before a wall, exactly behind each other or a little aside: the corners
-/// of one are nearer to the flanks of the next than to its face.
+/// Three boxes of equal width in a row before a wall, exactly behind each other or slightly offset:
+/// the corners of a box are nearer to the flanks of the next than to its face.
 #[test]
 fn boxes_of_one_width_do_not_pass_through_each_other() {
     for aside in [0.0, 8e-4] {
@@ -134,7 +134,7 @@ fn boxes_of_one_width_do_not_pass_through_each_other() {
             .rollout(&scene, &[Job::stated(&scene, motion)], Record::Frames)
             .remove(0);
         assert!(trajectory.warnings.iter().any(Warning::blocks), "{:?}", trajectory.warnings);
-        // Up to there they stay behind each other.
+        // Until then they stay behind each other.
         for frame in &trajectory.frames[..trajectory.frames.len() - 1] {
             let x = |k: usize| frame.state.poses[k].position.x;
             assert!(x(1) - x(0) > 0.055 && x(2) - x(1) > 0.055, "{} {} {}", x(0), x(1), x(2));
@@ -157,7 +157,7 @@ fn a_box_crushed_against_a_wall_is_said_to_jam_and_is_simulated_when_asked() {
         Warning::Jammed { depth, .. } => Some(*depth),
         _ => None,
     });
-    // The tool ends 10 cm on; box and wall leave it 2 cm.
+    // The tool ends 10 cm further; box and wall leave it 2 cm.
     assert!(depth.is_some_and(|depth| depth > 0.01 && depth < 0.1), "{found:?}");
     let instead = run(Outside::Simulate, &scene);
     assert!(instead.warnings.iter().any(|w| matches!(w, Warning::Simulated { .. })));
@@ -192,7 +192,7 @@ fn a_planner_refuses_warns_with_a_number_or_simulates() {
     }
     let warned = planner(Outside::Warn).solve(&task, &library).expect("a sound task");
     assert!(warned.warnings.iter().any(|w| matches!(w, Warning::OutsideRange { .. })));
-    // Where the prediction is as good as simulated, nothing more is said.
+    // If the prediction agrees with the simulation, there is no further warning.
     assert!(!warned.warnings.iter().any(|w| matches!(w, Warning::Differs { .. })));
     let path = Path::new(ROOT).join("tasks/crowd.yaml");
     let mut crowd = load_task(&path, &library).expect("a shipped task");

@@ -1,4 +1,4 @@
-//! What is fixed above the table: what passes below it, what does not, and how a tool gets there.
+//! Obstacles above the table: passage below them, collisions, and access of a tool.
 
 use std::fs;
 use std::process::Command;
@@ -20,8 +20,8 @@ use tempfile::TempDir;
 
 use crate::mujoco_python::python;
 
-/// A tin before a shelf whose underside is 9 cm above the table, and whose top is higher than where a
-/// hand begins.
+/// Tin in front of a shelf whose underside is 9 cm above the table, and whose top is above the
+/// lower end of the hand.
 const SHELF: &str = "
 scene:
   objects:
@@ -53,7 +53,7 @@ fn file(task: &Task, solution: &Solution) -> PlanFile {
     PlanFile { verdict: best.verdict.clone(), ..file }
 }
 
-/// What MuJoCo says of a plan, where there is one.
+/// Returns the result of MuJoCo for a plan, if available.
 fn in_mujoco(file: &PlanFile) -> Option<Json> {
     let python = python()?;
     let folder = TempDir::new().expect("a folder");
@@ -84,14 +84,14 @@ fn what_is_low_is_pushed_below_a_shelf_by_a_tool_whose_hand_stays_outside() {
         assert_eq!(found["reached"], true, "{found:#}");
         assert!(found["difference"].as_f64().expect("both") < 3e-3, "{found:#}");
     }
-    // With a hand that begins below the shelf's underside none but a long tool does it.
+    // With a hand that reaches below the shelf's underside, only a long tool works.
     let short = SHELF.replace("[stick]", "[paddle]").replace("[0.66, 0.02]", "[0.75, 0.02]");
     assert_ne!(solved(&self::task(&short)).status, PlanStatus::Solved);
     let bodiless = short.replace("max: 0.95}", "max: 0.95}, hand: none");
     assert_eq!(solved(&self::task(&bodiless)).status, PlanStatus::Solved);
 }
 
-/// A push of the tin by 25 cm, on to below the shelf, with a stick from behind.
+/// Returns a push of the tin by 25 cm to below the shelf, with a stick from behind.
 fn pushed(text: &str) -> (Task, Arc<Tool>, Push) {
     let tool = library().get("stick").expect("a shipped tool").clone();
     let start = Vector::new(0.5 - 0.04 - 0.005 - 0.61, 0.0);
@@ -115,7 +115,7 @@ fn what_is_tall_is_stopped_by_the_shelf_in_every_engine_and_what_is_low_is_not()
             assert_eq!((x > 0.7, jams), (passes, !passes), "{x} {:?}", found.warnings);
         }
     }
-    // A place that only what is low has room at is a goal for that alone.
+    // A place with room only for low objects is a valid goal only for them.
     let there = SHELF.replace("height: 0.07", "height: 0.12");
     let faults = Task::parse(&there, "there.yaml").expect_err("no room").to_string();
     assert!(faults.contains("at the goal `tin` would be inside `shelf`"), "{faults}");
@@ -139,7 +139,7 @@ fn nothing_is_set_down_through_a_shelf() {
             .forbidden
     };
     assert!(forbidden(push.start).is_empty(), "{:?}", forbidden(push.start));
-    // The stick's end would come down on the shelf, which is above where it is to push.
+    // The stick's end would come down on the shelf, which is above its start position.
     let through = forbidden(push.start + Vector::new(0.2, 0.0));
     assert!(matches!(through[..], [Warning::ThroughObstacle { push: 0, .. }]), "{through:?}");
 }

@@ -1,5 +1,5 @@
-//! What the robot's owner would see at once: hands in walls, gaps that are too narrow, pushes that no
-//! arm can make, plans that are not of the form that was allowed.
+//! Errors that the robot's owner would see at once: hands in walls, gaps that are too narrow,
+//! pushes that no arm can execute, and plans of a form that is not allowed.
 
 use std::sync::Arc;
 
@@ -33,7 +33,7 @@ fn solved(task: &Task) -> Solution {
     planner().solve(task, &library()).expect("a sound task")
 }
 
-/// A can before a pen whose way in is narrower than the can by `less` metres.
+/// Returns a task with a can before a pen whose entrance is narrower than the can by `less` metres.
 fn pen(less: f64, unknown: &str) -> Task {
     let half = 0.04 - 0.5 * less;
     let side = 0.17 - half;
@@ -63,7 +63,7 @@ fn a_can_does_not_come_through_a_gap_that_is_a_little_too_narrow() {
         let found = solved(&pen(less, ""));
         assert!(!matches!(found.status, PlanStatus::Solved | PlanStatus::Fragile), "{less}");
     }
-    // With as much room it does.
+    // With a positive clearance it works.
     assert_eq!(solved(&pen(-0.004, "")).status, PlanStatus::Solved);
 }
 
@@ -86,7 +86,7 @@ fn a_run_comes_through_no_gap_that_is_too_narrow_however_often_it_pushes() {
     let task = pen(0.002, "unknown: [masses, frictions]");
     let (trace, world) = run(&task, |_| ());
     assert_ne!(trace.end, Some(End::Reached));
-    // Round as it is, it goes a little way between the posts.
+    // Because the can is round, it moves slightly in between the posts.
     assert!(world.state().poses[0].position.x < 0.515);
     let ended = |note: &Note| matches!(note, Note::Ended { why } if why.contains("jams"));
     assert!(trace.all_notes().any(ended), "{:?}", trace.all_notes().collect::<Vec<_>>());
@@ -125,7 +125,7 @@ fn what_would_topple_is_not_pushed_in_a_plane_either() {
                 .replace(", max_force: 3", ""),
         )
     };
-    // It slides where the moment of friction, 0.7 of the weight, is less than that of the weight.
+    // It slides if the friction moment (0.7 of the weight) is less than the weight moment.
     for (lift, slides) in [(0.002, true), (0.2, false)] {
         assert_eq!(matches!(solved(&post(lift)).status, PlanStatus::Solved), slides, "{lift}");
         assert_eq!(run(&post(lift), |_| ()).0.end == Some(End::Reached), slides, "{lift}");
@@ -140,7 +140,7 @@ fn what_stands_elsewhere_than_the_task_says_is_pushed_where_it_stands() {
     assert!(trace.end == Some(End::Reached) && trace.task.goals[0].reached(world.state()));
 }
 
-/// A thin can in a closed pen with walls as high as a hand begins.
+/// Thin can in a closed pen with walls as high as the lower end of the hand.
 const PEN: &str = "
 scene:
   objects: [{name: can, shape: {cylinder: {radius: 0.012, height: 0.06}}, mass: 0.2, friction: 0.4, position: [0.7675, 0.02]}]
@@ -162,7 +162,7 @@ fn a_tool_is_not_held_through_a_wall_unless_the_robot_has_no_body() {
     assert_eq!(solved(&task(&bodiless)).status, PlanStatus::Solved);
 }
 
-/// What is wrong with pushes for `task` before anything moves.
+/// Returns the broken rules of pushes for `task` before anything moves.
 fn forbidden(task: &Task, form: PushForm, lift: f64, pushes: &[([f64; 2], f64, f64)]) -> Verdict {
     let tool: Arc<Tool> = library().get("paddle").expect("a shipped tool").clone();
     let push = |(start, direction, length): &([f64; 2], f64, f64)| Push {
@@ -230,7 +230,7 @@ goal: {object: bar, position: [0.5, 0], tolerance: 0.02, heading_deg: 180}
     assert!(task(&alone).goals[0].reached(&at_the_start));
 }
 
-/// A box whose way to the goal is blocked by a vase.
+/// Box whose path to the goal is blocked by a vase.
 const VASE: &str = "
 scene:
   objects:
@@ -254,7 +254,7 @@ fn what_else_moves_is_said_and_what_is_to_be_kept_stays() {
     let again =
         Task::parse(&kept.to_yaml().expect("a file"), "kept.yaml").expect("what is written");
     assert_eq!(again, kept);
-    // Aside of it there is a way.
+    // Beside the vase there is a free path.
     let aside = kept.to_yaml().expect("a file").replace("- 0.6\n  - 0.0", "- 0.58\n  - -0.14");
     let free = task(&aside.replace("directions:\n  - 0.0", "directions: 16"));
     let found = solved(&free);
@@ -296,7 +296,7 @@ fn a_scene_that_is_turned_with_its_push_ends_turned_in_3d() {
     }
 }
 
-/// A box that is pushed to 1 mm from where the table ends, or by a tool that hardly meets it.
+/// Box that is pushed to 1 mm from the end of the table, or by a tool that hardly touches it.
 const EDGE: &str = "
 scene:
   table: {size: [0.8, 1], position: [0.3, 0]}
@@ -320,7 +320,7 @@ fn what_works_by_a_millimetre_is_fragile() {
     assert_eq!(status(&held(0.06)), PlanStatus::Solved);
 }
 
-/// A can whose goal is farther than one push goes.
+/// Can whose goal is farther than the length of one push.
 const FAR: &str = "
 scene:
   objects: [{name: can, shape: {cylinder: {radius: 0.04, height: 0.1}}, mass: 0.4, friction: 0.4, position: [0.35, 0]}]
@@ -351,7 +351,7 @@ fn what_stands_in_the_way_of_a_plan_is_named() {
         let why = planner().why(&task, &library(), &Unwatched).expect("a sound task");
         assert_eq!(why.as_ref(), Some(&cause));
         assert!(first.starts_with(&format!("task: no plan: {cause}")), "{first}");
-        // What is not clearly nearer than doing nothing is no plan to look at.
+        // A plan must be clearly nearer to the goal than doing nothing.
         let start = task.goals[0].error(&task.scene.start());
         let nearer = |ranked: &RankedPlan| ranked.outcome.error() < start - 5e-3;
         assert!(found.plans.iter().filter(|ranked| !ranked.plan.is_empty()).all(nearer));

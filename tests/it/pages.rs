@@ -1,4 +1,4 @@
-//! What pages of the repository show.
+//! Commands on the pages of the repository.
 
 use std::fs;
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::process::Command;
 use crate::program::name;
 use crate::{PROGRAM, ROOT};
 
-/// Every command of the pages that is one of the program whose tests these are, with its page.
+/// Returns every command on the pages that runs the program under test, with its page.
 fn commands() -> Vec<(String, String)> {
     let (mut commands, program) = (Vec::new(), format!("{} ", name()));
     for folder in ["", ".github", "book/src", "crates/models", "crates/lab/results"] {
@@ -29,7 +29,8 @@ fn commands() -> Vec<(String, String)> {
     commands
 }
 
-/// With `--help` behind it a command line is read up to there; files that it names are there.
+/// Checks that command lines are parsed up to an added `--help`, and that the files they name
+/// exist.
 pub fn are_taken(least: usize) {
     let commands = commands();
     for (page, line) in &commands {
@@ -49,7 +50,7 @@ pub fn are_taken(least: usize) {
     assert!(commands.len() >= least, "{} commands", commands.len());
 }
 
-/// The contents of a page's code blocks in `language`.
+/// Returns the contents of a page's code blocks in `language`.
 pub fn blocks(page: &str, language: &str) -> Vec<String> {
     let fence = format!("```{language}\n");
     let rest = page.split(&fence).skip(1);

@@ -1,5 +1,5 @@
-//! A pair of bodies keeps its id through a whole rollout, whatever is on the list, awake or in
-//! touch.
+//! A pair of bodies keeps its id through a whole rollout, regardless of which pairs are listed,
+//! awake or in contact.
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -14,8 +14,8 @@ use pushplan::{
     task::{Job, Push, ToolMotion},
 };
 
-/// Rows of discs, each of a radius of its own, so that a node's support tells which object it is;
-/// a pair of them jointed, and a wall behind.
+/// Returns rows of discs with different radii, so that a node's support identifies its object, with
+/// a jointed pair and a wall behind.
 fn scene() -> Scene {
     let object = |k: usize| {
         let (x, y) = (0.1 + 0.075 * (k / 3) as f64, 0.08 * ((k % 3) as f64 - 1.0));
@@ -74,7 +74,7 @@ fn every_relation_carries_the_lasting_id_of_its_pair() {
         Record::Outcome,
         Some(&mut look),
     );
-    // The numbers must have changed on the way, and pairs of every kind have lasted.
+    // The sizes must have changed during the rollout, and pairs of every kind must have lasted.
     assert!(sizes.len() > 3, "{sizes:?}");
     let lasted = |wanted: &dyn Fn(Body) -> bool| {
         frames.iter().any(|(pair, count)| *count > 5 && wanted(pairs.bodies(*pair).1))

@@ -1,4 +1,4 @@
-//! The shipped pictures are what the command writes.
+//! The shipped pictures equal the output of the command.
 
 use std::path::Path;
 
@@ -6,10 +6,10 @@ use tempfile::TempDir;
 
 use crate::program::succeed;
 
-/// The task whose pictures the README shows.
+/// Task whose pictures the README shows.
 const TASK: &str = "tasks/pull-back-behind-wall";
 
-/// Larger pictures make a README slow to load, bytes.
+/// Maximum size of a picture, bytes, because larger ones make the README slow to load.
 const LARGEST: usize = 100_000;
 
 #[test]

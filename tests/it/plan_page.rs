@@ -1,5 +1,5 @@
-//! The plan page in a real browser: what it shows is what was computed, its controls work, and it
-//! neither complains nor asks anybody for anything.
+//! The plan page in a real browser: it shows the computed values, its controls work, and it causes
+//! neither console messages nor network requests.
 
 mod browser;
 mod recording;
@@ -24,13 +24,14 @@ use tempfile::TempDir;
 
 use browser::Browser;
 
-/// Largest page of a usual task, bytes.
+/// Maximum size of the page of a usual task, bytes.
 const LARGEST: usize = 200_000;
 
-/// What the 3-D view adds to a page at most, bytes.
+/// Maximum size that the 3-D view adds to a page, bytes.
 const PACKED: usize = 230_000;
 
-/// Half of the last digit shown, and as much again for the rounding of positions, millimetres.
+/// Tolerance of displayed numbers, millimetres: half of the last digit, and as much again for the
+/// rounding of positions.
 const SHOWN: f64 = 0.06;
 
 #[test]
@@ -38,12 +39,12 @@ fn the_error_shown_is_that_of_the_trajectory_at_any_time() {
     let Some(mut browser) = Browser::start() else { return };
     let folder = TempDir::new().expect("a folder");
     let mut compared = 0;
-    // Two pushes with the tool lifted and set down again between them, and a box that has to turn.
+    // Two pushes with the tool lifted and set down again between them, and a box that must rotate.
     for (name, plans) in [("pull-back-twice", 2), ("turn-the-box", 3)] {
         let (task, solution) = solved(&format!("tasks/{name}.yaml"));
         let file = written(&folder, name, &task, &solution);
         let situation = Situation::stated(&task.scene);
-        // Not all that are shown were replayed.
+        // Some of the displayed plans were not replayed.
         let replayed = solution.plans.iter().enumerate().filter(|(_, plan)| plan.verdict.is_some());
         for (k, ranked) in replayed.take(plans) {
             let replays = ranked.replays(&task, &situation);
@@ -59,7 +60,7 @@ fn the_error_shown_is_that_of_the_trajectory_at_any_time() {
             let last = |t: &Trajectory| t.frames.last().expect("frames").time;
             let end = layers.iter().map(|(_, t)| last(t)).fold(0.0, f64::max);
             for step in 0..20 {
-                // The first times by opening the page there, as from a link in a mail.
+                // The first times are opened directly, as from a link in a mail.
                 let time = end * f64::from(step) / 19.0;
                 let part = format!("t={time}&plan={}", k + 1);
                 match step {
@@ -112,7 +113,7 @@ fn its_controls_work_and_nothing_leaves() {
     browser.click("#forward");
     assert_eq!(shown(&mut browser), end);
 
-    // Space plays from the start again, space pauses; what is shown moves meanwhile.
+    // Space plays from the start again, space pauses; the display changes meanwhile.
     browser.press(" ");
     assert_eq!(browser.value("view.playing"), true);
     assert_eq!(browser.value("document.querySelector('#play').ariaLabel"), "Pause");
@@ -123,7 +124,7 @@ fn its_controls_work_and_nothing_leaves() {
     assert_eq!(shown(&mut browser), paused);
     let link = browser.value("location.hash");
     assert_eq!(link, format!("#t={}&plan=1", (paused * 1e3).round() / 1e3));
-    // Played to its end it stops by itself.
+    // Playback stops by itself at the end.
     browser.value("byId('speed').value = '4', byId('speed').dispatchEvent(new Event('change'))");
     browser.click("#play");
     wait(&mut browser, "!view.playing && view.time === duration()");
@@ -134,7 +135,7 @@ fn its_controls_work_and_nothing_leaves() {
     browser.click("#chart svg");
     assert!((shown(&mut browser) - 0.5 * end).abs() < 0.05 * end);
 
-    // Layers come and go, by key and by box.
+    // Layers are toggled by key and by checkbox.
     let ghosts = "document.querySelectorAll('#stage .ghost.predicted').length";
     assert_eq!(browser.value(ghosts), 1);
     browser.press("1");
@@ -142,7 +143,7 @@ fn its_controls_work_and_nothing_leaves() {
     browser.click("#show-predicted");
     assert_eq!(browser.value(ghosts), 1);
 
-    // Every row opens its own replay, and a tool that of its best plan.
+    // Every row opens its own replay, and a tool opens the replay of its best plan.
     let rows = number(&browser.value("document.querySelectorAll('#plans .open').length"));
     assert_eq!(rows as usize, solution.plans.len());
     for k in (0..solution.plans.len()).rev() {
@@ -156,7 +157,7 @@ fn its_controls_work_and_nothing_leaves() {
     browser.click("#tools tr:nth-child(3) .open");
     assert_eq!(browser.value("view.plan"), json!(other));
 
-    // Every way to push has its cell, and says its score or what stands against it.
+    // Every candidate push has its cell, which shows its score or the reason against it.
     let cells = "page.candidates.grids.flatMap((grid) => grid.cells).length";
     assert_eq!(browser.value(cells), json!(solution.candidates.len()));
     let chosen = "byId('candidates-tool').value";
@@ -169,7 +170,7 @@ fn its_controls_work_and_nothing_leaves() {
     let said = browser.text("#cell");
     assert!(said.contains("score") || said.contains("would") || said.contains("meet"), "{said}");
 
-    // The command that it offers is one that runs.
+    // The command that the page offers can be run.
     let command = browser.text("#command").replacen("pushplan", crate::PROGRAM, 1);
     let output = Command::new("sh")
         .args(["-c", &format!("{command} --json")])
@@ -203,7 +204,7 @@ fn names_stay_text_and_the_browser_runs_nothing_else() {
     assert_eq!(browser.value("document.images.length"), 0);
     assert_eq!(browser.value("window.hacked ?? 0"), 0);
     assert_eq!(browser.complaints(), Vec::<String>::new());
-    // A script that got in all the same would not run, and could call nobody.
+    // An injected script would not run, and could not contact any server.
     browser.value(
         "document.body.append(Object.assign(document.createElement('script'), \
          { textContent: 'window.hacked = 1' }))",
@@ -213,7 +214,7 @@ fn names_stay_text_and_the_browser_runs_nothing_else() {
     assert!(browser.complaints().iter().any(|line| line.contains("connect-src")), "{fetched}");
 }
 
-/// Every tool says why it lost, and every push that was considered what came of it.
+/// The page shows why each tool was rejected and the result of every candidate push.
 #[test]
 fn tools_and_pushes_say_why_they_lost() {
     let folder = TempDir::new().expect("a folder");
@@ -224,7 +225,7 @@ fn tools_and_pushes_say_why_they_lost() {
     assert_eq!(choice[0]["why"], "chosen");
     assert_eq!(choice[0]["tool"], solution.plans[0].plan.tool());
     let sum = |key: &str| choice.iter().map(|tool| number(&tool[key]) as usize).sum::<usize>();
-    // One push was enough, so every way to push was considered from one state.
+    // One push was enough, so all candidate pushes start from one state.
     assert_eq!(solution.statistics.depth, 1);
     let search = &solution.statistics.search;
     assert_eq!(sum("considered"), search.considered);
@@ -240,7 +241,7 @@ fn tools_and_pushes_say_why_they_lost() {
         cells.iter().filter(|cell| **cell >= 0).min(),
         Some(&((100.0 * best).round() as i64))
     );
-    // A tool that can do nothing says what is in the way.
+    // For a tool that cannot do anything, the page shows the obstruction.
     let (task, solution) = solved("tasks/too-far.yaml");
     let data = self::data(&written(&folder, "too-far", &task, &solution));
     for tool in data["choice"].as_array().expect("tools") {
@@ -249,7 +250,7 @@ fn tools_and_pushes_say_why_they_lost() {
     }
 }
 
-/// Where no solution is at hand a page is made of what is: an action, or a benchmark's record.
+/// Without a solution, a page is made from other data: an action, or a benchmark's record.
 #[test]
 fn an_action_and_a_task_of_a_benchmark_have_pages() {
     let folder = TempDir::new().expect("a folder");
@@ -270,7 +271,7 @@ fn an_action_and_a_task_of_a_benchmark_have_pages() {
     let out = within("pages");
     assert_eq!(exit_code(&["bench", "report", &run, "--page", task, "--out", &out]), 0);
     assert_eq!(replays(&format!("{out}/pull-back.verify.html")), [1, 1, 1]);
-    // Another task was not measured, and one that was changed since not as it is now.
+    // A task that was not measured, or that has changed since, is refused.
     let other = ["bench", "report", &run, "--page", "tasks/pull-back-twice.yaml", "--out", &out];
     assert_eq!(exit_code(&other), 2);
     let text = std::fs::read_to_string(Path::new(crate::ROOT).join(task)).expect("a task");
@@ -280,12 +281,12 @@ fn an_action_and_a_task_of_a_benchmark_have_pages() {
     assert_eq!(exit_code(&["bench", "report", &run, "--page", &changed, "--out", &out]), 2);
 }
 
-/// How the program ends, run in the checkout.
+/// Returns the exit code of the program, run in the checkout.
 fn exit_code(arguments: &[&str]) -> i32 {
     crate::program::run(arguments).status.code().expect("no signal")
 }
 
-/// A shipped task, solved.
+/// Returns a shipped task and its solution.
 fn solved(path: &str) -> (Task, Solution) {
     let library = ToolLibrary::embedded().expect("the shipped tools");
     let path = Path::new(crate::ROOT).join(path);
@@ -295,19 +296,19 @@ fn solved(path: &str) -> (Task, Solution) {
     (task, solution)
 }
 
-/// What a page holds.
+/// Returns the data of a page.
 fn data(page: &Path) -> Json {
     let page = std::fs::read_to_string(page).expect("a page");
     let rest = page.split("id=\"data\">").nth(1).expect("data");
     serde_json::from_str(rest.split("</script>").next().expect("an end")).expect("JSON")
 }
 
-/// The page of a solution in a file, as `solve` writes it.
+/// Writes the page of a solution to a file, as `solve` does.
 fn written(folder: &TempDir, name: &str, task: &Task, solution: &Solution) -> PathBuf {
     written_with(PageView::Above, folder, name, (task, solution))
 }
 
-/// The same with this view.
+/// Writes the page of a solution with this view.
 fn written_with(
     view: PageView,
     folder: &TempDir,
@@ -330,7 +331,7 @@ fn written_with(
     path
 }
 
-/// Goes to another place of the open page.
+/// Navigates to another fragment of the open page.
 fn follow(browser: &mut Browser, part: &str) -> Json {
     browser.value(&format!(
         "new Promise((done) => {{ addEventListener('hashchange', () => done(1), {{ once: true }}); \
@@ -349,7 +350,8 @@ fn wait(browser: &mut Browser, until: &str) {
     assert_eq!(waited, true, "{until}");
 }
 
-/// Distance of the goal's object from the goal at a time, on a straight line between frames, metres.
+/// Returns the distance of the goal's object from the goal at a time, interpolated linearly between
+/// frames, metres.
 fn error_at(goal: &Goal, trajectory: &Trajectory, time: f64) -> f64 {
     let at = |k: usize| trajectory.frames[k].state.poses[goal.object].position;
     let next = trajectory.frames.iter().position(|frame| frame.time > time);

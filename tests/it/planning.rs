@@ -1,5 +1,5 @@
-//! Planning: where pushes are placed, what the search finds, what refinement may not do, and
-//! when a plan counts as verified.
+//! Planning: placement of pushes, results of the search, limits of refinement, and conditions for a
+//! verified plan.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
@@ -32,7 +32,7 @@ fn stick() -> Arc<Tool> {
     tool("stick", vec![part("rod", [0.4, 0.04, 0.05], 0.25, 0.0, 0.0)])
 }
 
-/// A handle along +x with a bar to the left at its end: index 0 and 1.
+/// Returns a handle along +x (index 0) with a bar to the left at its end (index 1).
 fn hook() -> Arc<Tool> {
     tool(
         "hook",
@@ -116,12 +116,12 @@ fn a_placed_face_stands_five_millimetres_before_the_object() {
                                     (&object.shape.footprint(), &object.pose),
                                 )
                             };
-                            // The named face is first, after exactly the stand-off.
+                            // The named face makes contact first, after exactly the stand-off.
                             assert!((travel(part).unwrap() - STAND_OFF).abs() < 1e-9);
                             for other in 0..tool.parts().len() {
                                 assert!(travel(other).is_none_or(|t| t > STAND_OFF - 1e-8));
                             }
-                            // The object's centre lies `offset` to the left of the face's centre.
+                            // The object's centre is `offset` to the left of the face's centre.
                             let face = tool.part_pose(part, &frame).position;
                             let aside = (object.pose.position - face).dot(&left);
                             assert!((aside - offset).abs() < 1e-12);
@@ -140,7 +140,7 @@ fn a_hook_reaches_behind_an_object_and_pulls_it_back() {
     let task = task(can(0.60, 0.12), [0.45, 0.12]);
     let space = workspace(&task, &tools);
     let state = task.scene.start();
-    // The bar (part 1), pulled towards the robot, stands behind the can.
+    // The bar (part 1), pulled towards the robot, is behind the can.
     let start = space.place(&state, &placed(1, 0.0, PI), None).unwrap();
     let frame = tools[0].pose(Pose { position: start, heading: 0.0 });
     let bar = tools[0].part_pose(1, &frame);
@@ -151,7 +151,7 @@ fn a_hook_reaches_behind_an_object_and_pulls_it_back() {
             clearance((&part.footprint(), &tools[0].part_pose(k, &frame)), object, 1.0) > 0.001
         );
     }
-    // The handle lies beside the can: its own leading end cannot meet it while pulling.
+    // The handle is beside the can: its own leading end cannot meet it while pulling.
     let beside = space.place(&state, &placed(0, 0.12, PI), None);
     assert_eq!(beside.unwrap_err(), Infeasible::NoContact);
 
@@ -186,7 +186,7 @@ fn reach_obstacles_and_height_limit_a_push() {
     task.scene.obstacles = vec![wall(0.75, 0.0, [0.02, 0.4, 0.1])];
     let start_tip = 0.6 - 0.04 - STAND_OFF;
     assert!((place(&task).unwrap() - (0.74 - 0.005 - start_tip)).abs() < 1e-9);
-    // A wall lower than the tool's underside is no wall.
+    // A wall lower than the tool's underside does not obstruct.
     task.scene.obstacles[0].size[2] = 0.001;
     assert!((place(&task).unwrap() - 0.3).abs() < 1e-12);
     task.scene.obstacles = vec![wall(0.3, 0.0, [0.02, 0.02, 0.1])];
@@ -265,7 +265,7 @@ fn a_search_finds_the_same_for_any_number_of_threads_and_within_its_budget() {
     assert_eq!(one, three);
     let (list, statistics) = one;
     assert!(list.len() <= 20 && statistics.beyond_budget > 0);
-    // Two levels of 40, and the six states that the second began from, each with six disturbed.
+    // Two levels of 40, and the six states from which the second began, each with six perturbed.
     assert!(statistics.rollouts <= 40 + 6 * (1 + 6) + 40, "{statistics:?}");
     assert!(statistics.best.windows(2).all(|pair| pair[1].1 < pair[0].1));
     let refused: usize = statistics.infeasible.values().sum();

@@ -1,4 +1,4 @@
-//! Objects on convex polygons: alike to prior, planar and 3-D engine.
+//! Objects on convex polygons, consistent in the analytic model and in the 2-D and 3-D engines.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -30,7 +30,7 @@ fn hexagon() -> Object {
     Object::prism("hexagon", polygon(&corners), 0.05)
 }
 
-/// A rectangle of 10 x 6 cm with a weight at one end.
+/// Returns a rectangle of 10 x 6 cm with a weight at one end.
 fn loaded() -> Object {
     let corners = [[0.0, 0.0], [0.10, 0.0], [0.10, 0.06], [0.0, 0.06]];
     let corners = corners.map(|[x, y]| Vector::new(x, y));
@@ -42,7 +42,7 @@ fn square() -> ConvexPolygon {
     polygon(&[[0.0, 0.0], [0.07, 0.0], [0.07, 0.07], [0.0, 0.07]])
 }
 
-/// A narrow finger that pushes along x by 15 cm, `aside` metres off the origin.
+/// Returns a push of 15 cm along x by a narrow finger, `aside` metres off the origin.
 fn finger(aside: f64) -> ToolMotion {
     let part = Part::cuboid("finger", [0.02, 0.02, 0.05], Pose::default());
     let tool = Arc::new(Tool::new("finger", [part]).expect("one piece"));
@@ -65,7 +65,7 @@ fn a_square_written_as_a_prism_moves_as_the_cuboid_does() {
             });
             for (a, b) in ends[0].poses.iter().zip(&ends[1].poses) {
                 let apart = (a.position - b.position).norm();
-                // Where bodies tip, the height at which a face is met is the engine's choice.
+                // If bodies tip, the engine determines the height of contact on a face.
                 let (within, askew) = if name == "spatial" { (3e-3, 0.05) } else { (1e-3, 0.02) };
                 assert!(apart < within, "{name} {aside} {heading}: {apart}");
                 let turned = wrap_angle(a.heading - b.heading).abs();
@@ -91,7 +91,7 @@ fn shipped_tasks_with_prisms_are_solved() {
 
 #[test]
 fn pushed_through_its_centre_of_mass_an_object_goes_straight() {
-    // An arrow head flying backwards: its straight side lies across the push.
+    // An arrow head that moves backwards: its straight side is across the push.
     let arrow = || Object::prism("arrow", polygon(&[[0.0, 0.0], [0.09, 0.04], [0.0, 0.08]]), 0.05);
     for (name, model) in models() {
         for object in [arrow(), hexagon().at(0.0, 0.0, 0.5f64.to_radians()), loaded()] {

@@ -1,4 +1,4 @@
-//! Rules of pushes, which hold in a plan with lever-ups as they hold in a plan of pushes alone.
+//! Rules of pushes apply equally in plans with lever-ups and in plans of pushes alone.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use pushplan::scene::{Obstacle, Scene, Tool};
 use pushplan::task::{LeverUp, Place, Plan, Push, PushForm, PushStep, Step, Task};
 use pushplan::verify::broken_rules;
 
-/// A plate that may be pushed and levered.
+/// Plate that may be pushed and levered.
 const TASK: &str = "
 scene:
   objects:
@@ -26,7 +26,7 @@ fn lever_task() -> Task {
     Task::parse(TASK, "task.yaml").expect("sound")
 }
 
-/// The task without lever-ups.
+/// Returns the task without lever-ups.
 fn push_task(task: &Task) -> Task {
     Task { levers: None, ..task.clone() }
 }
@@ -38,7 +38,7 @@ fn tools() -> Vec<Arc<Tool>> {
         .into()
 }
 
-/// Two pushes that break no rule.
+/// Returns two pushes that break no rule.
 fn pushes() -> Vec<PushStep> {
     [0.2, 0.22]
         .map(|x| PushStep {
@@ -64,8 +64,8 @@ fn lever() -> LeverUp {
     }
 }
 
-/// The rules that pushes break in a plan of their own, once it is seen that they break the same ones
-/// before a lever-up.
+/// Returns the rules that pushes break in a plan of their own, after asserting that they break the
+/// same rules before a lever-up.
 fn broken(task: &Task, steps: Vec<PushStep>) -> Vec<Warning> {
     let pushing = Plan { steps: steps.into_iter().map(Step::Push).collect() };
     let levering = pushing.clone().then(Plan::levering("screwdriver", lever()));
@@ -78,7 +78,7 @@ fn broken(task: &Task, steps: Vec<PushStep>) -> Vec<Warning> {
     alone
 }
 
-/// The only rule that the second push breaks once it is changed.
+/// Returns the only rule that the second push breaks after a change.
 fn changed(task: &Task, change: impl FnOnce(&mut PushStep)) -> Warning {
     let mut steps = pushes();
     change(&mut steps[1]);
@@ -120,7 +120,7 @@ fn pushes_in_a_row_and_changes_of_the_tool_are_counted() {
     task.pushes.tool_changes = Some(0);
     let other = changed(&task, |step| step.tool = "stick".to_owned());
     assert_eq!(other, Warning::TooManyToolChanges { changes: 1, allowed: 0 });
-    // A blade is taken up in place of the tool as well.
+    // A change from the tool to a blade also counts as a tool change.
     let push = |step: PushStep| Plan { steps: vec![Step::Push(step)] };
     let plan = push(pushes().remove(0)).then(Plan::levering("screwdriver", lever()));
     let found = broken_rules(&task, &task.scene, &tools(), &plan);
@@ -143,11 +143,11 @@ fn tool_hand_and_lifted_tool_keep_clear_of_obstacles() {
     let mut aside = pushes();
     aside.iter_mut().for_each(far);
     assert_eq!(broken(&post, aside), []);
-    // A beam above the tool is in the way of the hand.
+    // A beam above the tool obstructs the hand.
     let beam = with("beam", [0.02, 0.3, 0.05], [0.2, 0.0], 0.2);
     let hand = Warning::HandThrough { push: 0, obstacle: named("beam") };
     assert!(broken(&beam, pushes()).contains(&hand), "{:?}", broken(&beam, pushes()));
-    // A wall that nothing travels over, from one end of the reach to the other.
+    // A wall across the whole reach that is too high to travel over.
     let wall = with("wall", [2.0, 0.01, 0.5], [0.0, 0.25], 0.0);
     let no_way = Warning::NoWay { push: 1, obstacle: named("wall") };
     assert_eq!(changed(&wall, |step| step.push.start.y = 0.5), no_way);

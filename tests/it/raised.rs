@@ -1,4 +1,4 @@
-//! Parts of objects above the table: what passes below them, what meets them, and what carries them.
+//! Parts of objects above the table: passage below them, contacts with them, and their support.
 
 use std::fs;
 use std::process::Command;
@@ -19,7 +19,7 @@ use tempfile::TempDir;
 use crate::fixtures::{end, models};
 use crate::mujoco_python::python;
 
-/// A bar across that is this high and moves along x.
+/// Returns a push along x by a bar of this height.
 fn pushed(height: f64, width: f64, from: [f64; 2], length: f64) -> ToolMotion {
     let bar = Part::cuboid("bar", [0.02, width, height], Pose::default());
     let tool = Arc::new(Tool::new("bar", [bar]).expect("one piece"));
@@ -27,14 +27,14 @@ fn pushed(height: f64, width: f64, from: [f64; 2], length: f64) -> ToolMotion {
     ToolMotion::pushes(tool, 0.002, 0.0, &[push], true)
 }
 
-/// A box with a handle to its left, 6 cm above the table.
+/// Returns a box with a handle to its left, 6 cm above the table.
 fn kettle() -> Scene {
     let body = Object::cuboid("kettle", [0.10, 0.08, 0.10]).mass(0.55).at(0.5, 0.0, 0.0);
     let handle = Object::cuboid("kettle/handle", [0.04, 0.12, 0.02]).mass(0.05).raised(0.06);
     Scene::new([body]).with_part(0, handle, Pose::new(0.0, 0.10, 0.0))
 }
 
-/// The same handle on either side, reaching back beyond the body.
+/// Returns a body with such a handle on either side, both reaching back beyond the body.
 fn pot() -> Scene {
     let body = Object::cuboid("pot", [0.06, 0.08, 0.10]).mass(0.7).at(0.5, 0.0, 0.0);
     let handle = || Object::cuboid("pot/handle", [0.12, 0.06, 0.02]).mass(0.05).raised(0.06);
@@ -62,13 +62,14 @@ fn a_low_tool_passes_below_a_handle_and_a_tall_one_takes_it_along() {
     let (_, planar) = ends[1];
     for (name, pose) in ends {
         let (off, turned) = (pose.position - planar.position, pose.heading - planar.heading);
-        // The table's load goes ahead as if the body were pressed; in 3-D it is the handle, which is higher.
+        // In 2-D the load shifts as if the body were pushed; in 3-D the handle is pushed, which is
+        // higher.
         let (far, askew) = if name == "spatial" { (8e-3, 0.05) } else { (1e-3, 0.01) };
         assert!(off.norm() < far && turned.abs() < askew, "{name}: {pose:?} {planar:?}");
     }
 }
 
-/// In closed form: pushed evenly at both handles, a pot goes as far as the tool after it meets them.
+/// Closed form: pushed evenly at both handles, a pot moves as far as the tool after contact.
 #[test]
 fn a_wide_tool_that_meets_the_handles_alone_carries_a_pot_straight() {
     let scene = pot();
@@ -77,7 +78,7 @@ fn a_wide_tool_that_meets_the_handles_alone_carries_a_pot_straight() {
         let tall = end(&*model, &scene, &pushed(0.08, 0.20, [0.39, 0.0], 0.11)).poses[0];
         let off = tall.position - Vector::new(0.6, 0.0);
         assert!(off.norm() < 1.5e-3 && tall.heading.abs() < 0.01, "{name} {tall:?}");
-        // A low one goes on to the body, 6 cm behind them.
+        // A low tool continues to the body, 6 cm behind the handles.
         let low = end(&*model, &scene, &pushed(0.05, 0.20, [0.39, 0.0], 0.11)).poses[0];
         let off = low.position - Vector::new(0.54, 0.0);
         assert!(off.norm() < 1.5e-3 && low.heading.abs() < 0.01, "{name} {low:?}");
@@ -96,7 +97,7 @@ fn what_is_low_goes_below_a_handle_and_what_is_tall_does_not() {
             assert_eq!(stays, passes, "{name} {end:?}");
             assert!((end[1].position.x - 0.51).abs() < 5e-3 || !passes, "{name} {end:?}");
         }
-        // And an obstacle below it does not hold it.
+        // An obstacle below the handle does not hold it either.
         let block = Obstacle::new("block", [0.02, 0.02, height], Pose::new(0.54, 0.12, 0.0));
         let scene = kettle().with_obstacle(block);
         for (name, model) in models() {
@@ -119,7 +120,7 @@ fn what_stands_carries_everything_below_the_centre_of_mass() {
     assert!((centre - Vector::new(0.0, 0.10 / 12.0)).norm() < 1e-12);
     let loaded: Vector = feet[0].each().map(|(at, load)| load * at).sum();
     assert!((loaded - centre).norm() < 1e-9, "{loaded} {centre}");
-    // Whatever it may rest on.
+    // For every plausible support model.
     for support in &Physics::PLAUSIBLE_SUPPORTS {
         let feet = scene.feet(0, support);
         let loaded: Vector = feet.each().map(|(at, load)| load * at).sum();
@@ -140,7 +141,7 @@ fn what_stands_carries_everything_below_the_centre_of_mass() {
     assert_eq!(stool.feet(4, &Support::Even).share, 0.0);
 }
 
-/// A tool that is lifted below a handle would take it along.
+/// Lifted below a handle, a tool would lift the object.
 #[test]
 fn a_tool_goes_all_the_way_back_from_where_a_handle_may_be() {
     let back = |scene: &Scene, height: f64| {
@@ -194,7 +195,7 @@ fn files_say_how_high_parts_are_and_what_cannot_be_is_a_fault() {
         let text = faults(from, to);
         assert!(text.contains(words), "{to}: {text}");
     }
-    // One that rests on another one.
+    // A part that rests on another part.
     let lid = "mass: 0.1}\n        - {shape: {cylinder: {radius: 0.03, height: 0.02}}, position: [0, 0], z: ";
     let knob = |z: f64| PAN.replace("mass: 0.1}", &format!("{lid}{z}}}"));
     assert!(Task::parse(&knob(0.06), "pan.yaml").is_ok());
@@ -217,10 +218,10 @@ fn bodies_of_other_programs_have_their_handles_where_they_are() {
     let [pan, handle] = &scene.objects[..] else { panic!("{scene:?}") };
     assert!(pan.shape.is_cylinder() && (scene.mass(0) - 0.55).abs() < 1e-9, "{scene:?}");
     assert!((handle.z - 0.03).abs() < 1e-9 && (handle.top() - 0.05).abs() < 1e-9, "{handle:?}");
-    // What would hang in the air reaches down.
+    // An unsupported part is extended down.
     let scene = body(0.06, 0.04).value.task.scene;
     assert!(!scene.objects[1].is_raised() && (scene.objects[1].top() - 0.1).abs() < 1e-9);
-    // What we write ourselves comes back.
+    // Exported files are read back.
     let task = Task::parse(PAN, "pan.yaml").expect("a task");
     let push = Push { start: Vector::new(0.3, 0.0), direction: 0.0, length: 0.1, speed: 0.1 };
     let tool = ToolLibrary::embedded().expect("tools").get("stick").expect("one").clone();

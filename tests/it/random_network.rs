@@ -1,4 +1,4 @@
-//! A network of random weights, and a scene that asks everything of it.
+//! Network with random weights, and a scene that uses all its features.
 
 use std::sync::Arc;
 
@@ -14,8 +14,8 @@ use pushplan::{
     task::Stroke,
 };
 
-/// Random weights whose last layer is not zero, so that the network matters, nor large, so
-/// that a rollout stays near a push and does not amplify rounding.
+/// Returns random weights with a small last layer that is not zero. The network thus has an effect,
+/// but rollouts stay near a push and do not amplify rounding.
 pub fn weights(width: usize) -> PredictorWeights {
     let config = Config { width, steps: 2 };
     let mut parameters = Parameters::fresh(&config, 3);
@@ -51,7 +51,8 @@ pub fn object(shape: Shape, x: f64, y: f64, heading: f64) -> Object {
     Object::new(format!("{x} {y}"), shape).friction(0.5).at(x, y, heading)
 }
 
-/// A box against the tool, a cylinder against the box, a heavier box beside both, an obstacle.
+/// Returns a box against the tool, a cylinder against the box, a heavier box beside both, and an
+/// obstacle.
 pub fn scene() -> Scene {
     Scene::new([
         object(Shape::Cuboid { size: [0.08, 0.05, 0.1] }, 0.075, 0.012, 0.2),
@@ -79,8 +80,8 @@ pub fn stroke() -> Stroke {
     Stroke { from: Pose::default(), to, duration: 1.0, settle: true }
 }
 
-/// Half the way, before the wall is met: when things are jammed, a random network soon makes
-/// centimetres of the last bit's rounding.
+/// Returns half of the stroke, which ends before contact with the wall, because in a jam a random
+/// network amplifies rounding errors to centimetres.
 pub fn half_stroke() -> Stroke {
     Stroke { to: Pose::new(0.05, 0.01, 0.0), duration: 0.5, settle: false, ..stroke() }
 }

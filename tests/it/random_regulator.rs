@@ -1,11 +1,11 @@
-//! A regulator of random weights.
+//! Regulator with random weights.
 
 use pushplan::network::Statistics;
 use pushplan_act::regulator::{RegulatorCard, RegulatorWeights, fresh_regulator};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// Random weights, none of them zero, with features of random scales.
+/// Returns random weights, none of them zero, with features of random scales.
 pub fn random_weights(features: usize, width: usize) -> RegulatorWeights {
     let mut rng = Pcg64::seed_from_u64(3);
     let mut parameters = fresh_regulator(features, width, 3);

@@ -1,5 +1,5 @@
-//! What the README says is true: its commands run, its task is solved, its example compiles, its
-//! table is the measured one.
+//! The README is consistent with the program: its commands run, its task is solved, its example
+//! compiles, and its table matches the measurement.
 
 use std::path::Path;
 
@@ -15,7 +15,7 @@ use crate::program::succeed;
 
 const README: &str = include_str!("../../README.md");
 
-/// How the README starts the program.
+/// Prefix of commands in the README.
 const RUN: &str = "pushplan ";
 
 #[test]
@@ -26,14 +26,14 @@ fn its_commands_run() {
     let lines = blocks.iter().flat_map(|block| block.lines()).filter_map(|l| l.strip_prefix(RUN));
     let lines: Vec<&str> = lines.collect();
     let [solve, verify, act] = &lines[..] else { panic!("solve, verify, run: {lines:?}") };
-    // Results go elsewhere, so that the tests leave the checkout as it is.
+    // Results are written elsewhere, so that the tests leave the checkout unchanged.
     succeed(&format!("{solve} --out {folder}"));
     succeed(&verify.replace("plans/", &format!("{folder}/")));
     for end in ["plan.json", "svg", "html", "animated.svg"] {
         assert!(out.path().join(format!("pull-back-behind-wall.{end}")).exists(), "{end}");
     }
     succeed(&format!("{act} --out {folder}"));
-    // The pictures below the command are those that it makes.
+    // The pictures below the command are its output.
     for name in ["coupled-or-not.run.svg", "coupled-or-not.belief.svg"] {
         let shown = Path::new(ROOT).join("tasks").join(name);
         let [made, shown] = [out.path().join(name), shown].map(std::fs::read);
@@ -57,7 +57,7 @@ fn its_task_is_solved_and_its_tool_is_one() {
     assert_eq!(planner.solve(&task, &library).unwrap().status, PlanStatus::Solved);
 }
 
-/// Success, error and time of the efforts are those of the measured trade-off.
+/// Success, error and time of the efforts match the measured trade-off.
 #[test]
 fn its_table_is_the_measured_one() {
     let measured: Json =

@@ -1,5 +1,5 @@
-//! Real pushes, see `recorded_pushes.rs`: told where the plate stands, models end near where it did,
-//! and the pushes tell where it stands.
+//! Real pushes, see `recorded_pushes.rs`: with the true support model predictions match the
+//! recordings, and the pushes identify the support.
 
 use pushplan::effect::{EffectModel, Prior, Simulated};
 use pushplan::scene::Support;
@@ -21,7 +21,7 @@ fn told_its_true_support_a_model_is_near_and_told_another_it_is_not_nearer() {
         for (name, (pushes, truth)) in SUPPORTS.iter().zip(sets.iter().zip(&supports)) {
             let (mean, median) = errors(&*model, pushes, truth);
             assert!(mean < 2.0e-3 && median < 1.5e-3, "{} {name}: {mean} {median}", model.spec());
-            // What a flat plate really stands on nobody knows.
+            // The true support of a flat plate is unknown.
             for other in supports.iter().filter(|other| *name != "flat" && *other != truth) {
                 let told = errors(&*model, pushes, other).0;
                 assert!(mean < 1.05 * told, "{} {name}: {mean}, {other:?}: {told}", model.spec());
@@ -30,7 +30,7 @@ fn told_its_true_support_a_model_is_near_and_told_another_it_is_not_nearer() {
     }
 }
 
-/// The three inner points lie at 0.4 of the corners' distance from the centre of mass, the outer
+/// The three inner points are at 0.4 of the corners' distance from the centre of mass, the outer
 /// ones at 0.8.
 #[test]
 fn ten_pushes_tell_where_the_plate_stands() {

@@ -1,4 +1,4 @@
-//! How well models predict recordings, from the command line.
+//! Prediction errors of models on recordings, from the command line.
 
 use std::fs;
 use std::path::Path;

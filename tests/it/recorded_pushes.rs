@@ -12,7 +12,7 @@ use crate::ROOT;
 
 pub const SUPPORTS: [&str; 5] = ["flat", "inner", "middle", "outer", "skew"];
 
-/// The ten pushes on a support, as recorded.
+/// Returns the ten recorded pushes on a support.
 pub fn pushes(support: &str) -> Vec<Recording> {
     let folder = Path::new(ROOT).join("tests/it/assets/real-pushes");
     let found = recordings_in(&folder.join(support)).expect("a folder");
@@ -20,8 +20,7 @@ pub fn pushes(support: &str) -> Vec<Recording> {
     files.map(|file| Recording::load(file).expect("a sound recording")).collect()
 }
 
-/// Mean and median of the final position errors when all plates are told to stand on `support`,
-/// metres.
+/// Returns mean and median of the final position errors with all plates on `support`, metres.
 pub fn errors(model: &dyn EffectModel, pushes: &[Recording], support: &Support) -> (f64, f64) {
     let mut errors: Vec<f64> = pushes
         .iter()

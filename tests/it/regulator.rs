@@ -1,4 +1,4 @@
-//! The belief regulator: what ships, and its symmetries.
+//! The belief regulator: the shipped weights, and its symmetries.
 
 use pushplan::effect::Prior;
 use pushplan::geometry::{Pose, Vector};
@@ -30,7 +30,8 @@ fn the_shipped_regulator_loads_and_damaged_or_unfitting_weights_are_refused() {
     assert!(BeliefRegulator::on_shipped_network(&other).is_err());
 }
 
-/// Three cylinders in a row, the first two hinged, that a hand pushes off their middle.
+/// Returns a recording of three cylinders in a row, the first two hinged, that a hand pushes
+/// off-centre.
 fn pushed_row() -> Recording {
     let can = |name: &str, y| Object::cylinder(name, 0.04, 0.08).at(0.5, y, 0.3);
     let mut scene = Scene::new([can("first", -0.082), can("second", 0.0), can("third", 0.085)]);
@@ -43,8 +44,8 @@ fn pushed_row() -> Recording {
     Recording::of_frames("row", &scene, &motion, &frames)
 }
 
-/// What the shipped regulator believes of a recording, or of the same seen in a mirror, with headings
-/// or without.
+/// Returns the beliefs of the shipped regulator on a recording or its mirror image, with or without
+/// headings.
 fn believed(recording: &Recording, mirrored: bool, headings: bool) -> Vec<[f64; 4]> {
     let mut recording = recording.clone();
     let turn = |pose: &mut Pose| {

@@ -1,4 +1,4 @@
-//! What pushes of a run teach the network that plans them.
+//! Learning of the planning network from the pushes of a run.
 
 use pushplan::effect::{EffectModels, Network};
 use pushplan::network::Head;
@@ -12,7 +12,7 @@ use pushplan_act::act::{RunSettings, Runner, SimulatedWorld, Trace};
 
 use crate::closed_loop::{drawn, interrupted, library, shipped};
 
-/// A fit of the shipped network that has changed it a little, as twenty pushes do.
+/// Returns a fit of the shipped network with small changes, as from twenty pushes.
 fn some_fit() -> TableFit {
     let weights = EffectModels::weights().expect("the shipped weights");
     let network = Network::new(weights.clone());
@@ -46,7 +46,7 @@ fn pushes_of_a_run_teach_the_network_to_the_same_bits_after_an_interruption() {
     let again = interrupted(&runner, &task);
     assert_eq!(json(&again), json(&trace));
 
-    // What is not known of the scene is told first.
+    // Unknown properties of the scene are inferred first.
     let open = task.guessing(Unknowns { frictions: true, ..Unknowns::NONE });
     let (mut trace, mut world) = drawn(&open, 1);
     runner.run(&mut trace, &mut world, &mut |_| Ok(()), &Unwatched).expect("a run");

@@ -1,8 +1,9 @@
-//! Flush parts of a tool are one body: what slides along a row of parts moves as along one cuboid.
+//! Flush parts of a tool act as one body: an object that slides along a row of parts moves as along
+//! one cuboid.
 //!
-//! Engines and contact solvers look at each solid alone. A box whose flat side lies on a row of
-//! parts sinks into it by micrometres, so the corner of the next part seems to stand in its way;
-//! before tools had outlines, 30 % of the pushes below ended more than 3 mm away.
+//! Engines and contact solvers treat each solid separately. A box whose flat side touches a row of
+//! parts sinks in by micrometres, so the corner of the next part seems to obstruct it. Before tools
+//! had outlines, 30 % of the pushes below ended with more than 3 mm error.
 
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
@@ -18,29 +19,29 @@ use pushplan::{
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// What parts and one cuboid may differ by, metres.
+/// Maximum difference between parts and one cuboid, metres.
 const SAME: f64 = 1e-4;
 
-/// The same in 3-D, where the box rocks on its feet, and on which of them it presses, decided by far
-/// less, says how it turns; the largest difference seen is 0.45 mm.
+/// Maximum difference in 3-D, where the box rocks on its feet: tiny differences decide which feet
+/// carry the load, and thereby its rotation. The largest observed difference is 0.45 mm.
 const SAME_TIPPING: f64 = 5e-4;
 
-/// The same by the network, to which the cuboid alone is a smaller tool.
+/// Maximum difference of the network, for which the cuboid alone is a smaller tool.
 const SAME_EXTENT: f64 = 2e-4;
 
-/// Draws for each face and model.
+/// Number of draws for each face and model.
 const DRAWS: usize = 40;
 
-/// A face of a tool, and a tool of one cuboid that has the same face.
+/// Face of a tool, and a tool of one cuboid with the same face.
 struct Face {
     name: &'static str,
     parts: Vec<Part>,
     alone: Part,
-    /// Direction in which the face looks, radians in the tool frame.
+    /// Outward direction of the face, radians in the tool frame.
     looks: f64,
-    /// The face's middle in the tool frame, metres.
+    /// Middle of the face in the tool frame, metres.
     middle: Vector,
-    /// How far from there the box may start, metres.
+    /// Maximum distance of the box's start from the middle, metres.
     room: f64,
 }
 
@@ -115,7 +116,7 @@ fn tool(parts: Vec<Part>) -> Arc<Tool> {
     Arc::new(Tool::new("tool", parts).expect("one piece"))
 }
 
-/// A box beside a face, and a motion of the tool that makes it slide along it.
+/// Returns a box beside a face, and a motion of the tool that makes it slide along the face.
 fn slide(face: &Face, parts: Vec<Part>, random: &mut Pcg64) -> (Scene, Job) {
     let size = [random.random_range(0.05..0.09), random.random_range(0.05..0.09), 0.08];
     let aside = random.random_range(-face.room..face.room);
@@ -135,7 +136,7 @@ fn slide(face: &Face, parts: Vec<Part>, random: &mut Pcg64) -> (Scene, Job) {
         ..Object::cuboid("box", size)
     };
     let scene = Scene { table_friction: 0.5, objects: vec![object], ..Scene::default() };
-    // The tool goes against the slide: along the face towards the box's side.
+    // The tool moves against the slide: along the face towards the box's side.
     let way = (tool_pose * outwards).vector(Vector::new(lean.cos(), -lean.sin()));
     let to = Pose { position: tool_pose.position + 0.15 * way, ..tool_pose };
     let stroke = Stroke { from: tool_pose, to, duration: 1.5, settle: true };

@@ -1,4 +1,4 @@
-//! Several objects, each with a goal of its own.
+//! Several objects, each with its own goal.
 
 use pushplan::asset::PlanFile;
 use pushplan::{Effort, Goal, PlanStatus, Planner, Solution, Task, ToolLibrary};
@@ -27,7 +27,7 @@ fn a_plan_counts_only_if_it_reaches_all_of_them() {
         assert_eq!(further.object, 1);
         assert!(further.error <= 0.02 && further.heading_error.unwrap() < 10f64.to_radians());
     }
-    // With one push less allowed, one of them stays behind.
+    // With one push fewer allowed, one of them does not reach its goal.
     let hasty = TWO.replace("max_count: 4", "max_count: 1");
     assert_ne!(solve(&Task::parse(&hasty, "two.yaml").unwrap()).status, PlanStatus::Solved);
 }
@@ -84,7 +84,7 @@ fn what_makes_no_sense_in_a_list_is_a_fault_with_its_place() {
     assert!(far.aiming(&[Goal::new(0, [0.1, 0.1], 0.01)]).goals[1] == far.goals[1]);
 }
 
-/// A can that can be pushed to its goal, and a block that no tool reaches.
+/// Can that can be pushed to its goal, and a block that no tool reaches.
 const FAR: &str = "
 scene:
   objects:
@@ -105,7 +105,7 @@ fn where_not_all_goals_can_be_met_the_plan_is_partial_and_never_solved() {
     assert_eq!(partial.met, [1]);
     let verdict = solution.plans[0].verdict.as_ref().expect("replayed");
     assert!(!verdict.passed && !verdict.works());
-    // It met what it says it meets, in both engines.
+    // The reported goals are met in both engines.
     for evidence in &verdict.evidence {
         assert!(!evidence.outcome.reached && evidence.outcome.goals[1].error < 0.02);
     }
@@ -113,7 +113,7 @@ fn where_not_all_goals_can_be_met_the_plan_is_partial_and_never_solved() {
 
 #[test]
 fn goals_that_weigh_more_are_met_first() {
-    // Either can be met, but not both: they are two places for things that stand in each other's way.
+    // Either goal can be met, but not both, because the two goal positions overlap.
     let near = FAR.replace("[1.9, -0.2]", "[0.68, 0.1]");
     let met = |text: &str| {
         let solution = solve(&Task::parse(text, "near.yaml").expect("sound"));

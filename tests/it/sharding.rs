@@ -1,4 +1,4 @@
-//! A command in shards, as array jobs run it: merged they are the same bytes as one run.
+//! Commands in shards, as in array jobs: merged shards give the same bytes as one run.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use tempfile::TempDir;
 use crate::program::{name, run, stderr};
 use crate::{PROGRAM, ROOT};
 
-/// Runs a command whole on two threads and in shards on one, and compares.
+/// Runs a command unsharded on two threads and in shards on one thread, and compares the results.
 pub fn shards_make_the_same_bytes(command: &str, shards: usize) -> TempDir {
     let home = TempDir::new().expect("a folder");
     let whole = home.path().join("whole");
@@ -25,7 +25,7 @@ pub fn shards_make_the_same_bytes(command: &str, shards: usize) -> TempDir {
         let [one, parts] = [&whole, &merged].map(|folder| fs::read(folder.join(name)).ok());
         assert!(one == parts, "{command}: {name} differs");
     }
-    // The same command finds nothing left to do.
+    // Repeated, the command finds nothing left to do.
     let before = fs::read(merged.join("manifest.json")).expect("a manifest");
     done(&on(command, &merged, None));
     assert_eq!(fs::read(merged.join("manifest.json")).expect("a manifest"), before);
@@ -48,14 +48,14 @@ pub fn merge(out: &Path, shards: &[PathBuf]) -> Output {
     of_runs("merge", &[&[out.to_owned()], shards].concat())
 }
 
-/// What `status` prints.
+/// Returns the output of `status`.
 pub fn status(folders: &[PathBuf]) -> String {
     let output = of_runs("status", folders);
     done(&output);
     String::from_utf8(output.stdout).expect("UTF-8")
 }
 
-/// `merge` or `status`, which the product has below `bench`.
+/// Runs `merge` or `status`, which the product has below `bench`.
 pub fn of_runs(word: &str, folders: &[PathBuf]) -> Output {
     let words = if name() == "pushplan" { &["bench", word][..] } else { &[word] };
     let folders = folders.iter().map(|folder| folder.to_str().expect("UTF-8"));
@@ -66,7 +66,8 @@ pub fn done(output: &Output) {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(output));
 }
 
-/// What stands for Slurm: elements run at once, one after another. `cluster/test-slurm` has a real one.
+/// Substitute for Slurm that runs elements at once, one after another; `cluster/test-slurm` uses a
+/// real one.
 #[cfg(unix)]
 const SBATCH: &str = r#"#!/bin/sh
 array=
@@ -83,8 +84,8 @@ for range in $(echo "$array" | tr , ' '); do
 done
 "#;
 
-/// A command in three shards by `cluster/slurm.sh`, of which some are lost in between; its records
-/// are in the file `records`.
+/// Runs a command in three shards with `cluster/slurm.sh`, with some shards lost in between; its
+/// records are in the file `records`.
 #[cfg(unix)]
 pub fn slurm_submits_what_is_missing(command: &str, records: &str) {
     use std::os::unix::fs::PermissionsExt;
@@ -125,7 +126,7 @@ pub fn slurm_submits_what_is_missing(command: &str, records: &str) {
     }
 }
 
-/// Where programs are looked for: in `first`, and in the folder of the one that is tested.
+/// Returns the search path for programs: `first`, and the folder of the program under test.
 #[cfg(unix)]
 pub fn path(first: &Path) -> String {
     let own = Path::new(PROGRAM).parent().expect("a folder");

@@ -1,4 +1,4 @@
-//! Task files in shards, as array jobs run them.
+//! Task files in shards, as in array jobs.
 
 use std::fs;
 
@@ -14,14 +14,14 @@ use crate::sharding::{of_runs, shards_make_the_same_bytes};
 fn of_task_files() {
     let tasks = "tasks/pull-back.yaml tasks/too-far.yaml tasks/diagonal.yaml";
     let home = shards_make_the_same_bytes(&format!("bench tasks {tasks} --effort draft"), 2);
-    // One task of two is torn.
+    // One record of two is truncated.
     let part = home.path().join("part-1");
     let records = part.join("records.jsonl");
     let bytes = fs::read(&records).expect("records");
     fs::write(&records, &bytes[..bytes.len() - 5]).expect("records");
     let output = of_runs("status", &[part]);
     assert!(stderr(&output).starts_with("shard 1/2: 1 of 2 tasks in "), "{}", stderr(&output));
-    // Empty shards are shards, too.
+    // Empty shards are valid shards.
     shards_make_the_same_bytes("bench tasks tasks/too-far.yaml --effort draft", 2);
 }
 

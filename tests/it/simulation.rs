@@ -1,4 +1,4 @@
-//! The two engines against closed forms, symmetries and themselves.
+//! The two engines: comparison with closed forms, symmetries and repeatability.
 
 mod contacts;
 mod determinism;

@@ -20,13 +20,13 @@ fn planner() -> Planner {
     Planner::builder(Simulated::new(Simulator::planar())).build()
 }
 
-/// What a model says that takes itself for the truth.
+/// Trust of a model that claims to be exact.
 const EXACT: Trust =
     Trust::Mine { error: Some(Quantiles { median: 0.0, p95: 0.0 }), warnings: Vec::new() };
 
 static WISHFUL: ModelSpec = ModelSpec::of(ModelKind::Custom("wishful"));
 
-/// Predicts that any push brings every object onto the goal.
+/// Model that predicts the goal for every object after any push.
 struct Wishful(Vector);
 
 impl EffectModel for Wishful {
@@ -52,7 +52,7 @@ impl EffectModel for Wishful {
     }
 }
 
-/// The planar engine, with every push predicted to end next to its true end.
+/// Planar engine that predicts the end of every push next to its true end.
 struct Beside(Simulated, Vector);
 
 impl EffectModel for Beside {
@@ -89,13 +89,13 @@ fn a_plan_that_ends_beside_the_goal_in_3d_is_aimed_as_far_on_the_other_side() {
     assert_eq!(solution.status, PlanStatus::Solved);
     let best = solution.best().unwrap();
     let aim = best.refinement.aimed_at.expect("an aim next to the goal");
-    // The two engines differ by millimetres on top of what the model is off by.
+    // The two engines differ by millimetres in addition to the error of the model.
     assert!((aim - task.goals[0].position().unwrap() - off).norm() < 0.01, "{aim:?}");
     let verdict = best.verdict.as_ref().unwrap();
     assert!(Engine::ALL.iter().all(|e| verdict.nominal(*e).is_some_and(|e| e.outcome.reached)));
 }
 
-/// A model that counts its rollouts.
+/// Model that counts its rollouts.
 struct Counted<M>(M, Arc<AtomicUsize>);
 
 impl<M: EffectModel> EffectModel for Counted<M> {
@@ -153,7 +153,7 @@ fn by_default_the_prior_screens_and_the_network_decides() {
 #[test]
 fn plans_that_only_work_in_the_model_fail_verification() {
     let (task, library) = shipped("pull-back.yaml");
-    // One plan is verified: of many wishes some come true.
+    // A single plan is verified, because some of many wishful predictions come true.
     let settings = Settings::FIRST_LOOK;
     let planner =
         Planner::builder(Wishful(task.goals[0].position().unwrap())).settings(settings).build();
@@ -243,7 +243,8 @@ fn tasks_made_in_code_are_refused_when_they_make_no_sense() {
     for stage in ["search", "refine", "verify"] {
         assert!(stages.contains(&format!("push: {stage}, plans of 1 push")), "{stages:?}");
     }
-    // The best plan so far: what is known of it grows, and nothing is said twice.
+    // Reports on the best plan so far: each contains more information, and nothing is reported
+    // twice.
     let answers = told.answers.into_inner().unwrap();
     let known: Vec<&str> = answers.iter().map(|one| one.split_once(": ").unwrap().1).collect();
     let all =
@@ -252,7 +253,7 @@ fn tasks_made_in_code_are_refused_when_they_make_no_sense() {
     assert!(answers.iter().all(|one| one.contains(", 1 push: ")), "{answers:?}");
 }
 
-/// What a planner says that it does.
+/// Recorder of a planner's progress reports.
 #[derive(Default)]
 struct Told {
     stages: Mutex<Vec<String>>,
@@ -289,7 +290,7 @@ fn every_shipped_task_ends_as_its_description_says() {
     }
 }
 
-/// One line of numbers, shown by `cargo test -- solving --nocapture`.
+/// Returns one line of numbers, shown by `cargo test -- solving --nocapture`.
 fn row(name: &str, solution: &Solution) -> String {
     let (statistics, best) = (&solution.statistics, &solution.plans[0]);
     let timing = statistics.timing;
@@ -323,7 +324,7 @@ fn row(name: &str, solution: &Solution) -> String {
 
 #[test]
 fn among_tools_that_do_as_well_the_one_that_costs_less_is_taken_or_the_simpler() {
-    // Each of these brings a can that stands free to a place ahead of it.
+    // Each of these tools brings a free can to a place ahead of it.
     let text = "
 scene:
   objects:
@@ -337,7 +338,7 @@ goal: {object: can, position: [0.75, 0.0], tolerance: 0.02}
         ("fork, l-hook, stick", "stick"),
         ("stick, l-hook, fork", "stick"),
         ("l-hook, fork, stick", "stick"),
-        // What costs less comes before what is simpler.
+        // Lower cost takes precedence over simplicity.
         ("{name: stick, cost: 2}, {name: fork, cost: 3}, {name: l-hook, cost: 1}", "l-hook"),
         ("{name: stick, cost: 0.002}, {name: l-hook, cost: 0.001}", "l-hook"),
         ("{name: stick, cost: 2}, {name: l-hook, cost: 2}", "stick"),
@@ -353,7 +354,7 @@ goal: {object: can, position: [0.75, 0.0], tolerance: 0.02}
 
 #[test]
 fn where_plans_depend_on_what_objects_rest_on_one_is_made_that_does_not() {
-    // What a box is turned by, a push at its corner decides less than its underside does.
+    // The underside of a box decides more about its rotation than the push at its corner.
     let text = "
 scene:
   table: {friction: 0.5}

@@ -1,5 +1,5 @@
-//! What a network learns about a table: nothing without data, to the bit; a known change of its last
-//! layer, if that made the pushes; and the same on any number of threads.
+//! Table fits of a network: no change without data, bit for bit; a known change of the last layer
+//! is recovered; and results are independent of the number of threads.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ use pushplan_act::judge::{Comparison, Trial, mean};
 
 use crate::random_network::weights;
 
-/// Slow pushes against all sides of a box by a finger, as `model` has them end.
+/// Returns slow pushes by a finger against all sides of a box, with ends predicted by `model`.
 fn pushes(model: &dyn EffectModel, count: usize) -> Vec<Trial> {
     (0..count)
         .map(|k| {
@@ -48,7 +48,7 @@ fn pushes(model: &dyn EffectModel, count: usize) -> Vec<Trial> {
         .collect()
 }
 
-/// A change of some tenths of a millimetre a frame.
+/// Returns a change of some tenths of a millimetre per frame.
 fn change(half: usize) -> Head {
     let values = (0..Head::len_of(half)).map(|k| 0.06 * (1.7 * k as f64).sin()).collect();
     Head::new(values, half).expect("as many as it has")
@@ -57,7 +57,7 @@ fn change(half: usize) -> Head {
 fn learnt(network: &Network, trials: &[Trial]) -> TableFit {
     let settings = FitSettings { values: 5, ..FitSettings::default() };
     let found = fit(&Prior::default(), trials, &settings, &Unwatched).expect("something moves");
-    // The support and the friction that made them are known.
+    // The true support and friction are given.
     let found = pushplan_act::fit::Fit {
         friction: pushplan_act::fit::Estimate { told: false, ..found.friction },
         stated: pushplan_act::fit::AsStated { likelier: true, ..found.stated },
@@ -80,7 +80,7 @@ fn a_head_of_zeros_changes_no_bit() {
     for (a, b) in pushes(&none, 4).iter().zip(&trials) {
         assert_eq!(a.truth, b.truth);
     }
-    // Too few pushes teach nothing.
+    // Too few pushes have no effect.
     let fit = learnt(&network, &trials);
     assert!(fit.head.iter().all(|value| *value == 0.0) && fit.spread.directions.is_empty());
     let fitted = network.fitted(&fit).expect("its own weights");
@@ -91,8 +91,8 @@ fn a_head_of_zeros_changes_no_bit() {
 fn ends_follow_a_small_change_of_the_last_layer_as_they_are_said_to() {
     let network = Network::new(EffectModels::weights().expect("the shipped weights"));
     let change = change(network.effect_width());
-    // By about as much as poses are nudged: ends jump by some hundredths of a millimetre, which is the
-    // whole effect of a change a tenth as large.
+    // The share is about as large as the perturbation of poses: ends jump by some hundredths of a
+    // millimetre, which is the whole effect of a change a tenth as large.
     const SHARE: f64 = 0.4;
     for trial in pushes(&network, 12) {
         let said = pushplan_act::fit::Sensitivity::of(&network, &trial.scene, &trial.job());
@@ -128,7 +128,7 @@ fn the_change_that_made_the_pushes_is_learnt_from_them() {
     assert_eq!(pool(3).install(|| learnt(&network, shown)), again);
     assert_eq!(again, fit);
 
-    // Another object than the one that was pushed feels half of it.
+    // For an object other than the pushed one, the effect is halved.
     let mut strange = new[0].clone();
     strange.scene.objects[0].mass = 5.0;
     assert_eq!(fit.strange(&strange.scene), ["box"]);

@@ -1,4 +1,4 @@
-//! Objects of several solids: one name, one pose, one mass.
+//! Compound objects: one name, one pose, one mass.
 
 use pushplan::{EffectModel, Pose, Simulated, Simulator, Task};
 use pushplan::{
@@ -6,7 +6,7 @@ use pushplan::{
     scene::{Engine, Rate, Situation},
 };
 
-/// A mug with a handle beside a can.
+/// Mug with a handle beside a can.
 const MUG: &str = "
 scene:
   objects:
@@ -50,7 +50,7 @@ fn it_is_written_as_it_was_read() {
     for text in [MUG.to_owned(), MUG.replace(", mass: 0.05}", "}")] {
         let task = task(&text);
         let again = Task::parse(&task.to_yaml().expect("YAML"), "mug.yaml").expect("a task");
-        // What has a mass of its own takes a rounding with it.
+        // A part with its own mass causes a rounding error.
         assert_eq!(again.scene.objects.len(), task.scene.objects.len());
         for (one, other) in task.scene.objects.iter().zip(&again.scene.objects) {
             assert!((one.mass - other.mass).abs() < 1e-15, "{one:?} {other:?}");
@@ -77,7 +77,7 @@ fn faults_of_parts_are_told_at_their_places() {
     assert!(text.contains("two parts are called `2`"), "{text}");
 }
 
-/// A bar cut in two has its support cut in two, too; everything else is the bar's.
+/// A bar cut in two also has its support cut in two; everything else is unchanged.
 #[test]
 fn a_bar_of_two_halves_moves_as_a_bar() {
     let bar = |object: &str| {
@@ -109,8 +109,8 @@ fn a_bar_of_two_halves_moves_as_a_bar() {
         };
         let ((one, turned), (other, also)) = (end(&whole), end(&halves));
         assert!((turned - 90_f64.to_radians()).abs() > 0.1, "it turns: {turned}");
-        // The halves' supports are even, too, but by two sets of points; by which points a box stands
-        // tells in 3-D more than anywhere.
+        // The supports of the halves are also even, but with two sets of points; in 3-D the choice
+        // of support points has the largest effect.
         let (far, askew) = if engine == Engine::Planar { (2e-3, 0.03) } else { (5e-3, 0.06) };
         assert!((one - other).norm() < far, "{one} {other}");
         assert!((turned - also).abs() < askew, "{turned} {also}");

@@ -1,4 +1,4 @@
-//! Plans that take another tool, or hold it otherwise, between pushes.
+//! Plans that change the tool or the grip between pushes.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use pushplan::{
 
 const TWO: &str = include_str!("../../tasks/two-tools.yaml");
 
-/// A stick fits between the rails when it points along them, and pulls the can back when held across.
+/// Stick that fits between the rails only along them, and pulls the can back when held across.
 const TURNED: &str = "
 scene:
   table: {friction: 0.4}
@@ -56,17 +56,17 @@ fn what_no_single_tool_does_two_do() {
         assert_eq!(frames.last().map(|frame| frame.stroke), Some(1));
         assert!(frames.windows(2).all(|pair| pair[0].time < pair[1].time));
     }
-    // Its own prediction is of both tools.
+    // Its prediction covers both tools.
     assert!(task.goals.iter().all(|goal| goal.reached(&best.outcome.state)));
 
-    // Where no change is allowed, one of the goals is left, and this plan breaks a rule.
+    // Without tool changes, one of the goals is not met, and this plan breaks a rule.
     let (strict, alone) = solve(&TWO.replace("max_count: 2", "max_count: 2, tool_changes: 0"));
     assert_eq!(alone.status, PlanStatus::Partial);
     let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
     let situation = Situation::stated(&strict.scene);
     let verdict = verifier.nominal(&strict, &situation, &best.tools, &best.plan);
     assert_eq!(verdict.forbidden, [Warning::TooManyToolChanges { changes: 1, allowed: 0 }]);
-    // Nor can it be played without one of its tools.
+    // The plan also cannot be replayed without one of its tools.
     let verdict = verifier.nominal(&task, &situation, &best.tools[..1], &best.plan);
     let other = best.tools[1].name.clone();
     assert_eq!(verdict.forbidden, [Warning::ForbiddenTool { tool: other }]);
@@ -86,7 +86,7 @@ fn a_tool_is_turned_between_pushes_where_one_grip_does_not_do() {
     assert_eq!(stiff.status, PlanStatus::Partial);
 }
 
-/// Two pushes with one tool are the same in one motion and in two.
+/// Two pushes with one tool give the same result in one motion and in two.
 #[test]
 fn motions_in_turn_are_what_one_motion_of_all_is() {
     let scene = Scene::new([Object::cuboid("box", [0.08, 0.06, 0.06]).at(0.5, 0.01, 0.3)]);
@@ -116,7 +116,7 @@ fn motions_in_turn_are_what_one_motion_of_all_is() {
                 assert_eq!(a.stroke, b.stroke);
                 assert!((a.time - b.time).abs() < 1e-9, "{} {}", a.time, b.time);
             }
-            // Each motion notes its first contacts.
+            // Each motion records its first contacts.
             assert!(one.contacts.iter().all(|contact| turns.contacts.contains(contact)));
         }
     }

@@ -1,5 +1,5 @@
-//! The reference tool benchmark: the shipped goals can be made again, and what is chosen is what
-//! is scored.
+//! The reference tool benchmark: the shipped goals are reproducible, and the scores match the
+//! chosen tools.
 
 use std::sync::{Arc, OnceLock};
 
@@ -13,7 +13,7 @@ use pushplan_bench::{
 
 use crate::program::succeed;
 
-/// A start with goals that need corners and edges.
+/// Start with goals that need corners and edges.
 const START: usize = 9;
 
 #[test]
@@ -60,7 +60,7 @@ fn a_tool_pose_is_skipped_where_the_cylinder_is_in_its_way() {
         ["stick 0", "stick -90", "stick 90", "l 0", "l -90", "inverse-l 0", "inverse-l 90"]
     );
     assert_eq!(names(0.725, 0.5), all);
-    // Grown parts end 0.065 m beside the handle's axis, the cylinder begins 0.05 m before its
+    // Grown parts end 0.065 m beside the handle's axis, and the cylinder begins 0.05 m before its
     // centre: 0.114 m aside is too near, 0.116 m is not.
     for (y, kept) in [(0.114, false), (0.116, true)] {
         assert_eq!(names(0.25, y).contains(&"stick 0"), kept, "{y}");
@@ -81,7 +81,7 @@ fn methods_are_ordered_as_they_must_be_and_no_thread_count_changes_them() {
     let nothing = of(Method::Nothing, None);
     let oracle = of(Method::Oracle, None);
     assert!(nothing.planar.error > 0.05 && nothing.pushes == 0 && nothing.travel == 0.0);
-    // The goal is where a sequence ends, so trying all of them finds it, to its rounding.
+    // The goal is the end of a sequence, so trying all sequences finds it, up to rounding.
     assert!(oracle.planar.error < 2e-6, "{oracle:?}");
     assert!(of(Method::First, None).planar.error < 0.02);
     let planned = of(Method::Planned, None);
@@ -100,7 +100,7 @@ fn measured(threads: usize) -> &'static ToolRecord {
     RECORD.get_or_init(|| measure(threads))
 }
 
-/// The last task of the start.
+/// Measures the last task of the start.
 fn measure(threads: usize) -> ToolRecord {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
     let setup = ReferenceSetup::new(Layout::Scattered);

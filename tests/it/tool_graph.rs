@@ -1,5 +1,5 @@
-//! Tools as subgraphs: every part is a node, fixed joints hold them together, and how a tool is built
-//! of parts changes nothing.
+//! Tools as subgraphs: every part is a node, fixed joints connect the nodes, and the decomposition
+//! into parts does not affect results.
 
 use std::sync::Arc;
 
@@ -20,10 +20,10 @@ use rand_pcg::Pcg64;
 
 use crate::random_network::{batch, stroke, weights};
 
-/// What the same tool of other parts may change over 20 cm: metres, radians.
+/// Maximum effect of another decomposition of the same tool over 20 cm: metres, radians.
 const SAME: (f64, f64) = (1e-4, 1.745e-3);
 
-/// The tool with one of its cuboids cut in two, and its parts in another order.
+/// Returns the tool with one of its cuboids cut in two, and its parts in another order.
 fn cut(tool: &Tool, random: &mut Pcg64) -> Tool {
     let mut parts = tool.parts().to_vec();
     let which = random.random_range(0..parts.len());
@@ -44,7 +44,8 @@ fn cut(tool: &Tool, random: &mut Pcg64) -> Tool {
     tool.clone().with_parts(parts).expect("one piece")
 }
 
-/// A push of 20 cm by the tool that begins beside its middle, with something in the way now and then.
+/// Returns a push of 20 cm by the tool that begins beside its middle, sometimes with an
+/// obstruction.
 fn push(tool: &Tool, random: &mut Pcg64) -> (Scene, Stroke) {
     let size = [random.random_range(0.04..0.1), random.random_range(0.04..0.1), 0.08];
     let way = random.random_range(-3.1..3.1f64);
@@ -101,7 +102,7 @@ fn how_a_tool_is_cut_into_parts_and_in_which_order_changes_nothing() {
 
 #[test]
 fn parts_with_rows_of_their_own_say_the_same_to_the_bit() {
-    // What the graph is: a row for every part. What is computed: one for all.
+    // The graph has a row for every part; the computation uses one row for all.
     let weights = weights(64);
     // Two boxes before one part.
     let cuboid = |name: &str, y| Object::cuboid(name, [0.05, 0.05, 0.1]).at(0.046, y, 0.1);
@@ -126,7 +127,7 @@ fn parts_with_rows_of_their_own_say_the_same_to_the_bit() {
     };
     assert_eq!(run(&whole), run(&apart));
 
-    // And they do say something.
+    // The inputs also have an effect.
     let mut silent = whole.clone();
     silent.given_even.iter_mut().for_each(|value| *value = 0.0);
     assert_ne!(run(&whole), run(&silent));
@@ -164,7 +165,7 @@ fn the_graph_of_a_moment_names_parts_obstacles_and_what_relates_them() {
         contact.is_some_and(|r| graph.nodes[r.sender].kind == NodeKind::Part)
     };
     let touching = graphs.iter().find(pushed).expect("a push that touches");
-    // The end effector moves every part alike.
+    // The end effector moves all parts equally.
     let shift = touching.nodes[1].shift;
     assert!((shift.norm() - 0.01).abs() < 1e-9 || stroke.to.heading != stroke.from.heading);
 }

@@ -1,4 +1,4 @@
-//! Verdicts on plans made by hand.
+//! Verdicts on hand-made plans.
 
 use std::sync::Arc;
 
@@ -60,7 +60,7 @@ fn a_plan_that_works_passes_with_evidence_from_both_engines() {
     assert!(verdict.evidence[..2].iter().all(|e| e.disturbance == Disturbance::Nominal));
     assert!(verdict.evidence[..2].iter().all(|e| e.outcome.error() < 5e-3));
     assert_eq!(verdict.robustness, Some(1.0));
-    // Draws differ, and the same seed draws the same.
+    // Draws differ, and equal seeds give equal draws.
     let outcome = |k: usize| &verdict.evidence[k].outcome;
     assert!(outcome(2).error() != outcome(3).error());
     assert_eq!(
@@ -86,7 +86,7 @@ fn a_plan_that_stops_short_fails() {
 #[test]
 fn a_tool_set_down_on_an_object_is_no_pass() {
     let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
-    // The second push forgets that the first has moved the can to 0.65.
+    // The second push ignores that the first has moved the can to 0.65.
     let blind = plan(vec![push([0.235, 0.0], 0.0, 0.155), push([0.42, 0.0], 0.0, 0.01)]);
     let verdict = verifier.verify(&task(), &Situation::stated(&task().scene), &[paddle()], &blind);
     assert!(!verdict.passed);
@@ -100,7 +100,7 @@ fn a_tool_set_down_on_an_object_is_no_pass() {
 fn a_toppled_object_is_no_pass() {
     let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
     let mut task = task();
-    // A tall thin bottle, pushed fast and high up.
+    // A tall thin bottle, pushed fast and at a large height.
     let text = TASK.replace("radius: 0.04, height: 0.10", "radius: 0.015, height: 0.30");
     task.scene = Task::parse(&text, "bottle.yaml").unwrap().scene;
     let high = [push([0.26, 0.0], 0.0, 0.155)];
@@ -120,7 +120,7 @@ fn a_can_does_not_pass_through_a_gap_narrower_than_itself() {
         let at = Pose::new(0.575, side * (0.0375 + 0.15), 0.0);
         task.scene.obstacles.push(Obstacle::new(name, [0.05, 0.3, 0.1], at));
     }
-    // A finger pushes, which fits through itself.
+    // The pushing finger itself fits through the gap.
     let finger = Part::cuboid("finger", [0.02, 0.02, 0.05], Pose::new(0.22, 0.0, 0.0));
     let tool = Arc::new(Tool::new("finger", [finger]).expect("one part"));
     let through = push([0.225, 0.0], 0.0, 0.155);
@@ -135,7 +135,7 @@ fn a_can_does_not_pass_through_a_gap_narrower_than_itself() {
     for evidence in &verdict.evidence {
         let fault = evidence.fault().expect("a fault");
         let Warning::Jammed { object, depth, .. } = fault else { panic!("{fault}") };
-        // The replay ends at the jam, not where the tool would have gone.
+        // The replay ends at the jam, not at the planned end of the tool.
         assert!(object == "can" && *depth < 4e-3, "{depth}");
     }
 }
@@ -174,8 +174,8 @@ fn a_safe_is_not_moved_by_an_arm_that_has_a_limit() {
     }
 }
 
-/// What lasts is friction, coefficient times weight, whichever solid of the can is pushed; what another
-/// object does to it is not the tool's doing.
+/// The sustained force is friction, coefficient times weight, for every solid of the can; forces of
+/// other objects on it do not count as the tool's.
 #[test]
 fn what_is_fragile_is_pressed_no_harder_than_it_may() {
     let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
@@ -239,14 +239,14 @@ fn replays_go_on_until_the_answer_is_clear_and_no_longer() {
             disturbed.collect::<Vec<_>>()
         };
         let [planar, spatial] = [Engine::Planar, Engine::Spatial].map(draws);
-        // The same draws, as far as both are asked.
+        // Both engines use the same draws, up to the smaller number.
         let shared = planar.len().min(spatial.len());
         assert_eq!(planar[..shared], spatial[..shared]);
         let replays = planar.len().max(spatial.len());
         assert!(replays <= most, "{replays}");
         (verdict.passed, replays)
     };
-    // In the middle of the goal; then as far aside as the tolerance allows, and starts are not known.
+    // In the middle of the goal; then at the edge of the tolerance, with perturbed starts.
     assert_eq!(counted(0.0, 8), (true, 8));
     let edge = (0..6).map(|k| counted(0.0185 + 2.5e-4 * f64::from(k), 64));
     let most = edge.map(|(_, replays)| replays).max();
@@ -260,7 +260,8 @@ fn what_fails_in_the_plane_is_not_asked_in_3d() {
         let verifier = Verifier::new(VerifySettings { disturbed: 8, seed: 1 }).until_clear();
         verifier.verify(task, &Situation::stated(&task.scene), &[paddle()], &good)
     };
-    // As narrow a goal as both engines reach as written, and few disturbed replays do.
+    // The tolerance is the smallest that both engines reach unperturbed, and few perturbed replays
+    // reach.
     let ends = Engine::ALL.map(|engine| {
         let verdict = verify(&task());
         verdict.nominal(engine).unwrap().outcome.state.poses[0].position
@@ -296,14 +297,14 @@ fn a_support_on_which_a_plan_never_works_makes_it_fragile_by_name() {
         let evidence = verdict.evidence.iter().cloned().map(failing).collect();
         Verdict::judge(Vec::new(), evidence, 0.75)
     };
-    // A quarter of all replays: the share that is asked for is met.
+    // A quarter of all replays fails, so the requested share is met.
     let never = fails(4);
     assert_eq!(never.robustness, Some(0.75));
     let (engine, support) = (Engine::Spatial, Support::Corners);
     assert_eq!(never.reason, Some(Reason::NeverOn { engine, support, replays: 4 }));
     assert!(never.works() && !never.passed);
     assert!(fails(3).passed);
-    // A file keeps it.
+    // The file keeps the reason.
     let file = PlanFile {
         verdict: Some(never.clone()),
         ..PlanFile::new(task(), vec![paddle()], good.clone())

@@ -1,11 +1,11 @@
-//! Elements with far too many attributes: the time that reading them takes grows with the square.
+//! Check for elements with too many attributes, because reading them takes quadratic time.
 
 use pushplan::asset::{Fault, Place};
 
-/// The most attributes of an element that are read.
+/// Maximum number of attributes of an element.
 const MAX_ATTRIBUTES: usize = 256;
 
-/// The fault of a text in which an element has more attributes.
+/// Returns a fault if an element of a text has too many attributes.
 pub(super) fn crowded(text: &str, file: &str) -> Option<Fault> {
     place(text).map(|place| Fault {
         file: file.to_owned(),

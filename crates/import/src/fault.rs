@@ -1,20 +1,20 @@
-//! Faults and notes of a file that is imported.
+//! Faults and notes of an imported file.
 
 use pushplan::asset::{self, Fault, Faults};
 
 use super::model::Place;
 
-/// Collects what is wrong with a file, and what is expressed slightly differently.
+/// Collection of the faults and notes of a file.
 #[derive(Debug)]
 pub(super) struct Ledger {
-    /// The file, and those that it includes.
+    /// Names of the file and of the files it includes.
     files: Vec<String>,
     faults: Vec<Fault>,
     notes: Vec<String>,
 }
 
 impl Ledger {
-    /// Nothing yet of the file of that name, and of those that it includes.
+    /// Creates an empty ledger for the named file and the files it includes.
     pub fn new(file: &str, files: &[String]) -> Self {
         let mut files = files.to_vec();
         match files.first_mut() {
@@ -24,12 +24,12 @@ impl Ledger {
         Self { files, faults: Vec::new(), notes: Vec::new() }
     }
 
-    /// The file, and those that it includes and attaches.
+    /// Returns the names of the file and of the files it includes or attaches.
     pub fn files(&self) -> &[String] {
         &self.files
     }
 
-    /// More files, and at which index they begin.
+    /// Adds files; returns the index of the first one.
     pub fn more_files(&mut self, files: &[String]) -> usize {
         let first = self.files.len();
         self.files.extend_from_slice(files);
@@ -40,7 +40,7 @@ impl Ledger {
         self.files.get(place.file).map_or("", String::as_str)
     }
 
-    /// One more fault.
+    /// Adds a fault.
     pub fn fault(&mut self, place: Place, message: impl Into<String>, advice: impl Into<String>) {
         let (file, message, advice) = (self.file(place).to_owned(), message.into(), advice.into());
         let Place { line, column, .. } = place;
@@ -48,12 +48,12 @@ impl Ledger {
         self.faults.push(Fault { file, place, message, advice });
     }
 
-    /// One more fault, of the file as a whole.
+    /// Adds a fault that concerns the whole file.
     pub fn fault_of_file(&mut self, message: impl Into<String>, advice: impl Into<String>) {
         self.faults.push(Fault::of_file(&self.files[0], message, advice));
     }
 
-    /// Something that people should know about the element at a place.
+    /// Adds a note on the element at a place.
     pub fn note(&mut self, place: Place, message: impl AsRef<str>) {
         let Place { line, column, .. } = place;
         let note = format!("{}:{line}:{column}: {}", self.file(place), message.as_ref());
@@ -62,27 +62,27 @@ impl Ledger {
         }
     }
 
-    /// A note on the file as a whole.
+    /// Adds a note on the whole file.
     pub fn note_of_file(&mut self, message: impl AsRef<str>) {
         self.notes.push(format!("{}: {}", self.files[0], message.as_ref()));
     }
 
-    /// How many faults there are.
+    /// Returns the number of faults.
     pub fn count(&self) -> usize {
         self.faults.len()
     }
 
-    /// How many notes there are.
+    /// Returns the number of notes.
     pub fn notes(&self) -> usize {
         self.notes.len()
     }
 
-    /// Takes back all notes but the first `count`.
+    /// Removes and returns all notes after the first `count`.
     pub fn notes_since(&mut self, count: usize) -> Vec<String> {
         self.notes.split_off(count)
     }
 
-    /// Takes over notes that were made earlier.
+    /// Adds notes found earlier.
     pub fn note_all(&mut self, notes: &[String]) {
         for note in notes {
             if !self.notes.contains(note) {
@@ -91,17 +91,17 @@ impl Ledger {
         }
     }
 
-    /// Takes back all faults but the first `count`.
+    /// Removes and returns all faults after the first `count`.
     pub fn since(&mut self, count: usize) -> Vec<Fault> {
         self.faults.split_off(count)
     }
 
-    /// Takes over faults that were found earlier.
+    /// Adds faults found earlier.
     pub fn take(&mut self, faults: &[Fault]) {
         self.faults.extend_from_slice(faults);
     }
 
-    /// Faults that do not matter to what is imported, as one note.
+    /// Adds faults that do not affect the import in a single note.
     pub fn pass_over(&mut self, faults: &[Fault], of: &str) {
         let Some(first) = faults.first() else { return };
         let place = first.place.map_or(String::new(), |at| format!("{}:{}:", at.line, at.column));
@@ -116,18 +116,18 @@ impl Ledger {
         self.notes.push(format!("{}:{place} {note}", first.file));
     }
 
-    /// The faults of the finished thing, as it would stand in a file of ours: places in that are of
-    /// no use to anybody.
+    /// Adds the faults of the converted result; their places are dropped, because they refer to an
+    /// internal text.
     pub fn adopt(&mut self, kind: &str, faults: Faults) {
         for Fault { message, advice, .. } in faults.0 {
             self.fault_of_file(format!("as a {kind}: {message}"), advice);
         }
     }
 
-    /// What was made, with all notes.
+    /// Returns the result with all notes.
     ///
     /// # Errors
-    /// All faults, if there is any.
+    /// Returns all faults, if any.
     pub fn finish<T>(self, made: Option<T>) -> Result<(T, Vec<String>), Faults> {
         match made {
             Some(made) if self.faults.is_empty() => Ok((made, self.notes)),
@@ -135,20 +135,20 @@ impl Ledger {
         }
     }
 
-    /// Ends early if there is a fault.
+    /// Checks that there is no fault.
     ///
     /// # Errors
-    /// All faults so far.
+    /// Returns all faults so far.
     pub fn sound(self) -> Result<Self, Faults> {
         if self.faults.is_empty() { Ok(self) } else { Err(self.faults()) }
     }
 
     fn faults(mut self) -> Faults {
         if self.faults.is_empty() {
-            // Whatever gives up says why; this is for a case that was forgotten.
+            // A failed import normally has a fault; this is the fallback.
             self.fault_of_file("the file cannot be imported", "");
         }
-        // Those of the file itself before those of files that it includes.
+        // Faults of the file itself precede faults of included files.
         let files = self.files.clone();
         let order = |fault: &Fault| files.iter().position(|file| *file == fault.file);
         self.faults.sort_by_key(|fault| (order(fault), fault.place));

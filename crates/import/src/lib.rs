@@ -1,15 +1,15 @@
-//! Files of other programs in: tools and scenes from MJCF (MuJoCo), URDF and meshes.
+//! Import of other formats: tools and scenes from MJCF (MuJoCo), URDF and meshes.
 //!
 //! A file is read into plain bodies with solids, poses in the world and masses ([`Model`], by
-//! `mjcf`, `urdf` or `mesh`), and those become a [`Tool`](pushplan::scene::Tool) or a
-//! [`Scene`](pushplan::scene::Scene) (`convert`). What pushplan cannot express is a fault with its
-//! place and what to do; what it expresses slightly differently is a note. Nothing is left out
-//! silently, nothing is simulated, nothing is written.
+//! `mjcf`, `urdf` or `mesh`). These are converted to a [`Tool`](pushplan::scene::Tool) or a
+//! [`Scene`](pushplan::scene::Scene) (`convert`). Content that pushplan cannot express is a fault
+//! with its place and advice; content that it expresses slightly differently is a note. Nothing is
+//! dropped silently, simulated or written.
 //!
-//! XML is read with `roxmltree` itself. Of the crates for these formats `mjcf-rs` 0.36 keeps no
-//! places, passes over elements and attributes that it does not know, and an `eulerseq` of four
-//! letters makes it panic; `urdf-rs` 0.10 keeps no places either, reads `0.1 x 0.2 0.3` as three
-//! numbers and a missing mass as zero. Faults that point to a line were worth the few hundred lines.
+//! XML is parsed with `roxmltree` directly, because faults that point to a line were worth the few
+//! hundred lines. The existing crates for these formats have gaps. `mjcf-rs` 0.36 keeps no places,
+//! ignores unknown elements and attributes, and panics on an `eulerseq` of four letters. `urdf-rs`
+//! 0.10 keeps no places either, reads `0.1 x 0.2 0.3` as three numbers and a missing mass as zero.
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 

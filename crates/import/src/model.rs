@@ -1,4 +1,4 @@
-//! What a file of another program says, before it is converted.
+//! Intermediate model of a file of another program, before conversion.
 
 use std::sync::Arc;
 
@@ -8,181 +8,181 @@ use pushplan::asset::Fault;
 
 use super::mesh::Mesh;
 
-/// Where something stands: a line and a column, both counted from one, of a file or of one that it
-/// includes.
+/// Position in a file or an included file: line and column, both counted from one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Place {
     /// Index into [`Model::files`].
     pub file: usize,
-    /// Line.
+    /// Line number.
     pub line: usize,
     /// Column, in characters.
     pub column: usize,
 }
 
-/// The bodies of a file.
+/// Bodies of a file.
 #[derive(Clone, Debug, Default)]
 pub struct Model {
-    /// The name that the file gives it; may be empty.
+    /// Name stated in the file; may be empty.
     pub name: String,
-    /// The file and those that it includes, as they are named in faults.
+    /// Names of the file and of included files, as used in faults.
     pub files: Vec<String>,
     /// Bodies, every parent before its children; the first is the world.
     pub bodies: Vec<Body>,
-    /// Coefficients of friction of pairs of solids, by their names.
+    /// Friction coefficients of pairs of solids, by their names.
     pub pairs: Vec<([String; 2], f64)>,
-    /// What the file has besides bodies that would change pushes, such as actuators.
+    /// Elements other than bodies that would change pushes, such as actuators.
     pub beyond: Vec<(Place, String)>,
-    /// Pairs of bodies that do not touch each other, by their names.
+    /// Pairs of bodies that do not collide, by their names.
     pub excluded: Vec<(Place, [String; 2])>,
-    /// Where objects should end, if the file says so: body, x and y, tolerance (metres) and,
-    /// where it matters, heading and its tolerance (radians).
+    /// Goals of bodies, if stated: body, x and y, tolerance (metres) and, optionally, heading and
+    /// its tolerance (radians).
     pub goals: Vec<(String, Vec<f64>)>,
     /// Whether the file was written by `pushplan export`, so that its tool is known.
     pub ours: bool,
-    /// How the language makes one coefficient of two.
+    /// Whether the larger of two friction values applies to a pair.
     pub larger_friction: bool,
 }
 
-/// A rigid body.
+/// Rigid body.
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// Its name, or what stands for one.
+    /// Name, or a substitute.
     pub name: String,
-    /// Where it stands in the file.
+    /// Position in the file.
     pub place: Place,
-    /// The body that it is attached to; `None` for the world.
+    /// Index of the parent body; `None` for the world.
     pub parent: Option<usize>,
-    /// How it may move against that body.
+    /// Motion relative to the parent body.
     pub motion: Motion,
     /// Pose in the world, metres.
     pub pose: Isometry3<f64>,
-    /// What it is made of.
+    /// Solids of the body.
     pub solids: Vec<Solid>,
-    /// Mass (kg), centre of mass in the world (metres) and, if it says so, moment of inertia about
-    /// the vertical through it (kg m^2); none if they follow from the solids.
+    /// Mass (kg), centre of mass in the world (metres) and, if stated, moment of inertia about the
+    /// vertical through it (kg m^2). `None` if they follow from the solids.
     pub inertial: Option<(f64, Point3<f64>, Option<f64>)>,
-    /// Volume (cubic metres) and centre of volume in the world (metres) of all its solids, where those say
-    /// it only roughly.
+    /// Volume (cubic metres) and centroid in the world (metres) of all solids, if the solids only
+    /// approximate them.
     pub weighs: Option<(f64, Point3<f64>)>,
-    /// What is wrong with it: of importance only to those who want it.
+    /// Faults of the body, reported only if it is imported.
     pub faults: Vec<Fault>,
-    /// What is expressed slightly differently, each with its place.
+    /// Notes on small differences from the file, each with its place.
     pub notes: Vec<String>,
 }
 
-/// How a body may move against the one that it is attached to.
+/// Motion of a body relative to its parent.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Motion {
-    /// Nothing.
+    /// Rigid connection.
     Fixed,
-    /// Anything.
+    /// Free motion.
     Free,
-    /// Turn about an axis.
+    /// Rotation about an axis.
     Hinge {
         /// Unit vector in the world.
         axis: Vector3<f64>,
-        /// A point of the axis in the world, metres.
+        /// Point on the axis in the world, metres.
         at: Point3<f64>,
-        /// Turns from the start, radians, where limited.
+        /// Limits of the rotation from the start, radians, if any.
         limits: Option<[f64; 2]>,
     },
-    /// Slide along an axis.
+    /// Translation along an axis.
     Slide {
         /// Unit vector in the world.
         axis: Vector3<f64>,
-        /// Shifts from the start, metres, where limited.
+        /// Limits of the translation from the start, metres, if any.
         limits: Option<[f64; 2]>,
     },
-    /// All of these.
+    /// Combination of several joints.
     Several(Vec<Motion>),
-    /// What pushplan cannot express; in words.
+    /// Motion that pushplan cannot express, in words.
     Other(String),
 }
 
-/// One solid of a body.
+/// Solid of a body.
 #[derive(Clone, Debug)]
 pub struct Solid {
-    /// Its name; may be empty.
+    /// Name; may be empty.
     pub name: String,
-    /// Where it stands in the file.
+    /// Position in the file.
     pub place: Place,
-    /// Its outline.
+    /// Outline.
     pub outline: Outline,
-    /// Pose of its middle in the world, metres.
+    /// Pose of the middle in the world, metres.
     pub pose: Isometry3<f64>,
-    /// What it is made of.
+    /// Mass, friction and colour.
     pub material: Material,
-    /// Whether it touches anything; others are only seen.
+    /// Whether the solid collides; other solids are visual only.
     pub touches: bool,
 }
 
-/// What a solid weighs and how it rubs.
+/// Mass, friction and colour of a solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
-    /// What it weighs.
+    /// Mass of the solid.
     pub weight: Weight,
-    /// Friction value, if the file has one.
+    /// Friction value, if stated.
     pub friction: Option<f64>,
-    /// Of two solids the one with the higher rank says how they rub.
+    /// Priority of the friction value: of two solids, the one with the higher rank determines the
+    /// friction.
     pub rank: i64,
-    /// Red, green and blue from 0 to 1, if the file has them.
+    /// Red, green and blue from 0 to 1, if stated.
     pub color: Option<[f64; 3]>,
 }
 
 impl Material {
-    /// The material of a solid whose body states its mass.
+    /// Creates the material of a solid whose body states the mass.
     pub fn of_body(friction: Option<f64>) -> Self {
         Self { weight: Weight::OfBody, friction, rank: 0, color: None }
     }
 }
 
-/// What a solid weighs.
+/// Mass of a solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Weight {
-    /// Kilograms.
+    /// Mass, kg.
     Mass(f64),
-    /// Kilograms a cubic metre.
+    /// Density, kg/m^3.
     Density(f64),
-    /// Kilograms a square metre of surface.
+    /// Mass per surface area, kg/m^2.
     Surface(f64),
-    /// The body says it.
+    /// Mass stated by the body.
     OfBody,
 }
 
-/// The outline of a solid about its middle, metres.
+/// Outline of a solid about its middle, metres.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outline {
-    /// A box of these half extents.
+    /// Box with these half extents.
     Box([f64; 3]),
-    /// A cylinder along its z axis.
+    /// Cylinder along its z axis.
     Cylinder {
         /// Radius.
         radius: f64,
-        /// Half of its length.
+        /// Half of the length.
         half: f64,
     },
-    /// A sphere of this radius.
+    /// Sphere with this radius.
     Sphere(f64),
-    /// A capsule along its z axis.
+    /// Capsule along its z axis.
     Capsule {
         /// Radius.
         radius: f64,
-        /// Half of its length without the caps.
+        /// Half of the length without the caps.
         half: f64,
     },
-    /// An ellipsoid of these half extents.
+    /// Ellipsoid with these semi-axes.
     Ellipsoid([f64; 3]),
-    /// The convex hull of a mesh.
+    /// Convex hull of a mesh.
     Mesh(Arc<Mesh>),
-    /// The half space below z = 0; half extents x and y of what is drawn, 0 for no end.
+    /// Half space below z = 0, with half extents x and y of its drawing; 0 means unlimited.
     Plane([f64; 2]),
-    /// Anything else, in words.
+    /// Other outline, in words.
     Other(String),
 }
 
 impl Motion {
-    /// What a body may do that has this joint and one more.
+    /// Combines this motion with the motion of a further joint.
     pub fn and(self, next: Motion) -> Self {
         match (self, next) {
             (Motion::Fixed, next) => next,
@@ -194,8 +194,8 @@ impl Motion {
         }
     }
 
-    /// Whether these are two slides along the table and a hinge about the vertical: what stands on it
-    /// may do just that.
+    /// Returns `true` for two translations along the table and a rotation about the vertical, the
+    /// motion of an object that stands on it.
     pub fn is_planar(&self) -> bool {
         let Motion::Several(all) = self else { return false };
         let slides = all.iter().filter_map(|motion| match motion {
@@ -218,10 +218,10 @@ impl Motion {
 }
 
 impl Body {
-    /// What the world is called.
+    /// Name of the world.
     pub const WORLD: &str = "world";
 
-    /// The world, with nothing in it.
+    /// Creates an empty world.
     pub fn world() -> Self {
         Self {
             name: Self::WORLD.to_owned(),
@@ -239,21 +239,21 @@ impl Body {
 }
 
 impl Model {
-    /// The body that `pushplan export` makes the tool.
+    /// Name of the tool's body in files of `pushplan export`.
     pub const TOOL: &str = "tool";
 
-    /// A body's name; the world's is `world`.
+    /// Returns a body's name; the name of the world is `world`.
     pub fn name_of(&self, body: usize) -> &str {
         self.bodies.get(body).map_or("", |body| &body.name)
     }
 
-    /// The bodies attached to `body`, in order.
+    /// Returns the bodies attached to `body`, in order.
     pub fn children(&self, body: usize) -> impl Iterator<Item = usize> + '_ {
         let hangs = move |index: &usize| self.bodies[*index].parent == Some(body);
         (0..self.bodies.len()).filter(hangs)
     }
 
-    /// Whether a body, or the one that it is attached to, is a part of the world.
+    /// Returns `true` if a body is the world or fixed to it, directly or through other bodies.
     pub fn is_fixed(&self, body: Option<usize>) -> bool {
         body.is_some_and(|body| {
             body == 0
@@ -262,7 +262,7 @@ impl Model {
         })
     }
 
-    /// `body` and everything that hangs on it, in order.
+    /// Returns `body` and all its descendants, in order.
     pub fn below(&self, body: usize) -> Vec<usize> {
         let mut found = vec![body];
         for index in body + 1..self.bodies.len() {
@@ -273,10 +273,10 @@ impl Model {
         found
     }
 
-    /// `body` and everything that is fixed to it, in order.
+    /// Returns `body` and everything fixed to it, in order.
     pub fn rigid(&self, body: usize) -> Vec<usize> {
         let mut group = vec![body];
-        // Parents stand before their children.
+        // Parents precede their children.
         for index in body + 1..self.bodies.len() {
             let Body { parent, motion, .. } = &self.bodies[index];
             if *motion == Motion::Fixed && parent.is_some_and(|parent| group.contains(&parent)) {

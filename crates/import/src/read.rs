@@ -1,4 +1,4 @@
-//! Recognising and reading a file.
+//! Recognition and reading of a file.
 
 use std::path::{Path, PathBuf};
 
@@ -11,21 +11,21 @@ use super::xml::Source;
 use super::{mesh, mjcf, urdf};
 use crate::foreign::Files;
 
-/// The language of a file.
+/// Language of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Language {
-    /// MuJoCo's.
+    /// MuJoCo's format.
     Mjcf,
-    /// That of ROS.
+    /// Robot description format of ROS.
     Urdf,
-    /// A mesh in STL.
+    /// Mesh in STL.
     Stl,
-    /// A mesh in OBJ.
+    /// Mesh in OBJ.
     Obj,
 }
 
 impl Language {
-    /// Its name.
+    /// Returns the name of the language.
     pub fn name(self) -> &'static str {
         match self {
             Language::Mjcf => "MJCF",
@@ -36,12 +36,12 @@ impl Language {
     }
 }
 
-/// How files are read.
+/// Options for reading files.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
-    /// The folder in and below which a file may name others; by default its own.
+    /// Folder that must contain all files named by the file; by default its own folder.
     pub root: Option<PathBuf>,
-    /// The unit of a mesh that is imported by itself, metres.
+    /// Unit of an imported mesh file, metres.
     pub unit: f64,
 }
 
@@ -51,11 +51,11 @@ impl Default for Reading {
     }
 }
 
-/// Reads a file of MJCF or URDF, as its root element says, or a mesh, as its name ends. Gives the model
-/// and notes of what is left out of it.
+/// Reads an MJCF or URDF file, recognised by its root element, or a mesh, recognised by its
+/// extension. Returns the model, its language and notes on omitted content.
 ///
 /// # Errors
-/// All faults of the file, each with its place.
+/// Returns all faults of the file, each with its place.
 pub fn read(
     path: impl AsRef<Path>,
     reading: &Reading,
@@ -69,15 +69,15 @@ pub fn read(
     parsed(&text, &file, &Files::of(path, reading.root.as_deref()))
 }
 
-/// Reads a text of MJCF or URDF, which names no other files; `file` names it in faults.
+/// Reads an MJCF or URDF text that names no other files; `file` is its name in faults.
 ///
 /// # Errors
-/// All faults of the text, each with its place.
+/// Returns all faults of the text, each with its place.
 pub fn parse(text: &str, file: &str) -> Result<(Model, Language, Vec<String>), Faults> {
     parsed(text, file, &Files::default())
 }
 
-/// Reads a text that names `files`.
+/// Reads a text that may name `files`.
 pub(super) fn parsed(
     text: &str,
     file: &str,

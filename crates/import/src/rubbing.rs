@@ -1,4 +1,5 @@
-//! How links of a URDF file rub, which URDF itself does not say: what simulators look for.
+//! Friction of links in a URDF file, from the extensions of simulators, because URDF itself has no
+//! friction.
 
 use std::collections::HashMap;
 
@@ -8,16 +9,17 @@ use pushplan::asset::Fault;
 
 use super::xml::{Source, element, elements};
 
-/// What `<gazebo reference="...">` says of a link.
+/// Properties of a link in `<gazebo reference="...">`.
 #[derive(Default)]
 pub(super) struct Gazebo {
     /// Friction value.
     pub friction: Option<f64>,
-    /// What is wrong with it.
+    /// Faults of the element.
     pub faults: Vec<Fault>,
 }
 
-/// The friction of a link as Bullet has it; the inner none, with a fault, if it is not a number.
+/// Returns the friction of a link in Bullet's extension; the inner `None` with a fault if it is not
+/// a number.
 pub(super) fn friction<'a>(source: &mut Source<'a>, link: Node<'a, 'a>) -> Option<Option<f64>> {
     let contact = element(link, "contact")?;
     for (name, what) in [
@@ -34,7 +36,7 @@ pub(super) fn friction<'a>(source: &mut Source<'a>, link: Node<'a, 'a>) -> Optio
     Some(source.number(value))
 }
 
-/// The friction of a collision as Drake has it: that of what slides.
+/// Returns the friction of a collision in Drake's extension: the dynamic friction, if stated.
 pub(super) fn drake<'a>(source: &mut Source<'a>, collision: Node<'a, 'a>) -> Option<f64> {
     let find = |name: &str| {
         collision
@@ -54,7 +56,7 @@ pub(super) fn drake<'a>(source: &mut Source<'a>, collision: Node<'a, 'a>) -> Opt
     Some(friction)
 }
 
-/// What links are like for Gazebo, by their names.
+/// Returns the Gazebo properties of links, by name.
 pub(super) fn gazebo<'a>(source: &mut Source<'a>, root: Node<'a, 'a>) -> HashMap<String, Gazebo> {
     let mut found: HashMap<String, Gazebo> = HashMap::new();
     for node in elements(root).filter(|node| node.has_tag_name("gazebo")) {
@@ -65,7 +67,7 @@ pub(super) fn gazebo<'a>(source: &mut Source<'a>, root: Node<'a, 'a>) -> HashMap
             element(node, name).or_else(nested)
         });
         let friction = stated.and_then(|stated| {
-            // As text, or as the attribute of old files.
+            // Read as text, or as the attribute in old files.
             let text = stated.text().unwrap_or_default().trim();
             let text = if text.is_empty() { stated.attribute("value").unwrap_or("") } else { text };
             let number = text.trim().parse::<f64>().ok().filter(|number| number.is_finite());

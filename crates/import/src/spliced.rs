@@ -1,4 +1,4 @@
-//! The text of a file with those of all files that it includes in their places.
+//! Text of a file with all included files inserted.
 
 use std::path::Path;
 
@@ -10,16 +10,16 @@ use super::crowd::crowded;
 use super::model::Place;
 use crate::foreign::Files;
 
-/// The most files that are included, and the most bytes of all together.
+/// Maximum number of included files, and maximum number of bytes in total.
 const MOST: usize = 200;
 const LONGEST: usize = 32 << 20;
 
-/// A text of several files.
+/// Text assembled from several files.
 #[derive(Debug, Default)]
 pub(super) struct Spliced {
-    /// Everything.
+    /// Complete text.
     pub text: String,
-    /// Where the text goes on with another file, in order: from here on, that file, from there on.
+    /// Start of each span in the text, index of its file and start in that file, in order.
     spans: Vec<(usize, usize, usize)>,
     files: Vec<Part>,
 }
@@ -28,12 +28,12 @@ pub(super) struct Spliced {
 struct Part {
     name: String,
     text: String,
-    /// Where its lines begin, bytes.
+    /// Byte offsets of the line starts.
     lines: Vec<usize>,
 }
 
 impl Spliced {
-    /// The text of `file`, and of what it includes.
+    /// Reads the text of `file` and of the files it includes.
     pub fn read(text: &str, file: &str, files: &Files) -> Result<Self, Faults> {
         let mut all = Self::default();
         let mut stack = Vec::new();
@@ -41,12 +41,12 @@ impl Spliced {
         Ok(all)
     }
 
-    /// Names of the files.
+    /// Returns the names of the files.
     pub fn names(&self) -> Vec<String> {
         self.files.iter().map(|part| part.name.clone()).collect()
     }
 
-    /// Where in which file a byte of the text is.
+    /// Converts a byte offset in the text to a place in its file.
     pub fn place(&self, offset: usize) -> Place {
         let span = self.spans.partition_point(|(start, ..)| *start <= offset).saturating_sub(1);
         let Some((start, file, from)) = self.spans.get(span).copied() else {
@@ -93,7 +93,7 @@ impl Spliced {
             let path = files
                 .find("", named)
                 .or_else(|refused| {
-                    // Relative to the file itself, or, in a file that is included, to that.
+                    // Relative to the main file, or to the included file that names it.
                     let folder = Path::new(name).parent().filter(|_| !whole);
                     let beside = folder.map(|folder| folder.join(named).display().to_string());
                     beside
@@ -135,7 +135,7 @@ impl Part {
     }
 }
 
-/// A text as XML.
+/// Parses a text as XML.
 pub(super) fn document<'a>(text: &'a str, file: &str) -> Result<Document<'a>, Fault> {
     if let Some(fault) = crowded(text, file) {
         return Err(fault);

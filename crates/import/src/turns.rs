@@ -1,20 +1,20 @@
-//! Turns in space as files write them.
+//! Rotations in space in the notations of files.
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 
-/// The turn of a quaternion (w, x, y, z); none for a quaternion of length zero.
+/// Returns the rotation of a quaternion (w, x, y, z); `None` for length zero.
 pub(super) fn quaternion([w, x, y, z]: [f64; 4]) -> Option<UnitQuaternion<f64>> {
     UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-12)
 }
 
-/// The turn by `angle` radians about an axis; none for an axis of length zero.
+/// Returns the rotation by `angle` radians about an axis; `None` for an axis of length zero.
 pub(super) fn about([x, y, z]: [f64; 3], angle: f64) -> Option<UnitQuaternion<f64>> {
     let axis = Unit::try_new(Vector3::new(x, y, z), 1e-12)?;
     Some(UnitQuaternion::from_axis_angle(&axis, angle))
 }
 
-/// Turns about axes named by letters, radians: of the body for small letters, of the world for
-/// capitals, one after another.
+/// Returns the composition of rotations (radians) about axes named by letters: body axes for small
+/// letters, world axes for capitals.
 pub(super) fn euler(angles: [f64; 3], letters: [char; 3]) -> UnitQuaternion<f64> {
     let mut turn = UnitQuaternion::identity();
     for (angle, letter) in angles.into_iter().zip(letters) {
@@ -29,8 +29,8 @@ pub(super) fn euler(angles: [f64; 3], letters: [char; 3]) -> UnitQuaternion<f64>
     turn
 }
 
-/// The turn to a frame with this x axis, its y axis on the side of another vector; none where they
-/// are in line.
+/// Returns the rotation to a frame with the given x axis and its y axis toward a second vector;
+/// `None` if the two are collinear.
 pub(super) fn axes([a, b, c, d, e, f]: [f64; 6]) -> Option<UnitQuaternion<f64>> {
     let x = Vector3::new(a, b, c).try_normalize(1e-12)?;
     let z = x.cross(&Vector3::new(d, e, f)).try_normalize(1e-12)?;
@@ -38,10 +38,10 @@ pub(super) fn axes([a, b, c, d, e, f]: [f64; 6]) -> Option<UnitQuaternion<f64>> 
     Some(UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(frame)))
 }
 
-/// The least turn that takes the z axis to this one; none for an axis of length zero.
+/// Returns the smallest rotation that maps the z axis to the given axis; `None` for length zero.
 pub(super) fn z_axis([x, y, z]: [f64; 3]) -> Option<UnitQuaternion<f64>> {
     let axis = Vector3::new(x, y, z).try_normalize(1e-12)?;
-    // Straight down there are many; MuJoCo turns about x, and so does this.
+    // Straight down it is not unique; the rotation about x is used, as in MuJoCo.
     let down = || UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI);
     Some(UnitQuaternion::rotation_between(&Vector3::z(), &axis).unwrap_or_else(down))
 }

@@ -1,9 +1,9 @@
-//! URDF, the files of ROS.
+//! URDF, the robot description format of ROS.
 //!
-//! Collision shapes count, shapes that are only seen do not. The links below `world`, or one
-//! without a parent, stand in the world as their joints say, all joints at zero. URDF itself has no
-//! friction: it is read where simulators look for it, `<contact><lateral_friction>` of a link
-//! (Bullet), under `<gazebo reference="...">` and in Drake's properties of a collision.
+//! Collision shapes are read, visual shapes are not. Links below `world`, and links without a
+//! parent, stand in the world with all joints at zero. URDF itself has no friction. It is read from
+//! the extensions of simulators: `<contact><lateral_friction>` of a link (Bullet), `<gazebo
+//! reference="...">`, and Drake's properties of a collision.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -19,19 +19,19 @@ use super::xml::{Source, element, elements};
 use crate::foreign::Files;
 use crate::foreign::urdf::{self as foreign, Geometry, Origin, end, limit};
 
-/// The link that stands for the world.
+/// Name of the link that represents the world.
 const WORLD: &str = Body::WORLD;
 
-/// Parts of a file that do not affect how pushes end.
+/// Elements that do not affect the result of pushes.
 const HARMLESS: [&str; 2] = ["material", "gazebo"];
 
-/// A link, and the joint that attaches it.
+/// Link, with the joint that attaches it.
 struct Link<'a> {
     node: Node<'a, 'a>,
     joint: Option<Node<'a, 'a>>,
 }
 
-/// The model of an element `robot`; none, with faults, if it cannot be read.
+/// Reads a `robot` element; returns `None` with faults if it cannot be read.
 pub(super) fn model<'a>(
     source: &mut Source<'a>,
     root: Node<'a, 'a>,
@@ -69,8 +69,8 @@ pub(super) fn model<'a>(
         }
     }
     let gazebo = gazebo(source, root);
-    // Parents before children; what is left when nothing more is attached to anything goes in
-    // circles.
+    // Parents precede their children; links that remain when nothing more can be attached form a
+    // circle.
     let mut indices: HashMap<&str, usize> = HashMap::from([(WORLD, 0)]);
     let mut waiting: Vec<usize> = (0..links.len()).collect();
     loop {
@@ -101,7 +101,7 @@ pub(super) fn model<'a>(
     Some(model)
 }
 
-/// Notes which joint attaches a link; `None`, with a fault, if the joint is not sound.
+/// Records the joint that attaches a link; returns `None` with a fault if the joint is invalid.
 fn hang<'a>(
     source: &mut Source<'a>,
     joint: Node<'a, 'a>,
@@ -128,7 +128,7 @@ fn hang<'a>(
     Some(())
 }
 
-/// A link as a body; what is wrong with it goes with it. The world is none.
+/// Converts a link to a body, with its faults; returns `None` for the world.
 fn take<'a>(
     source: &mut Source<'a>,
     model: &mut Model,
@@ -144,7 +144,7 @@ fn take<'a>(
             let unknown = || Motion::Other("a joint that cannot be read".to_owned());
             (pose, motion(source, node, pose).unwrap_or_else(unknown))
         }
-        // A link that is attached to nothing stands freely, as in Bullet and MuJoCo.
+        // An unattached link is free, as in Bullet and MuJoCo.
         None => (above, Motion::Free),
     };
     let own = gazebo.get(name);
@@ -179,7 +179,7 @@ fn motion<'a>(
     joint: Node<'a, 'a>,
     pose: Isometry3<f64>,
 ) -> Option<Motion> {
-    // What is fixed or floats has neither axis nor limits, whatever stands there.
+    // Fixed and floating joints have neither axis nor limits, even if stated.
     match joint.attribute("type").unwrap_or_default() {
         "fixed" => return Some(Motion::Fixed),
         "floating" => return Some(Motion::Free),
@@ -207,7 +207,7 @@ fn motion<'a>(
         }
         "continuous" => Motion::Hinge { axis, at: pose.translation.vector.into(), limits: None },
         "prismatic" => Motion::Slide { axis, limits: Some(limits) },
-        // It moves in the plane that the axis stands on.
+        // A planar joint moves in the plane normal to its axis.
         "planar" if axis.xy().norm() < 1e-3 => Motion::Free,
         "planar" => Motion::Other("a planar joint that is not level".to_owned()),
         other => {
@@ -219,7 +219,7 @@ fn motion<'a>(
     })
 }
 
-/// The pose that the `origin` of an element states.
+/// Returns the pose stated by the `origin` of an element.
 fn origin<'a>(source: &mut Source<'a>, node: Node<'a, 'a>) -> Option<Isometry3<f64>> {
     if let Some(origin) = element(node, "origin") {
         source.only(origin, &[&["xyz", "rpy"]]);
@@ -268,7 +268,7 @@ fn outline<'a>(source: &mut Source<'a>, collision: Node<'a, 'a>, files: &Files) 
     })
 }
 
-/// The outline of a mesh file.
+/// Returns the outline of a mesh file.
 fn mesh(file: &str, scale: [f64; 3], files: &Files) -> Outline {
     let (points, mut faces) = match files.find("", file).and_then(|path| load(&path)) {
         Ok(raw) => raw,
@@ -277,7 +277,7 @@ fn mesh(file: &str, scale: [f64; 3], files: &Files) -> Outline {
             return Outline::Other(format!("a mesh that cannot be read: {what}"));
         }
     };
-    // A mirrored mesh is inside out.
+    // Mirroring turns a mesh inside out.
     if scale.iter().product::<f64>() < 0.0 {
         faces.iter_mut().for_each(|face| face.swap(1, 2));
     }
@@ -291,7 +291,7 @@ fn mesh(file: &str, scale: [f64; 3], files: &Files) -> Outline {
     }
 }
 
-/// Mass, centre of mass in the world and moment of inertia about the vertical.
+/// Returns mass, centre of mass in the world and moment of inertia about the vertical.
 fn inertial<'a>(
     source: &mut Source<'a>,
     link: Node<'a, 'a>,

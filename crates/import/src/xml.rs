@@ -1,4 +1,4 @@
-//! XML elements with their places, and attributes as numbers.
+//! XML elements with their places, and numbers in attributes.
 
 use roxmltree::{Attribute, Node};
 
@@ -8,30 +8,30 @@ use super::spliced::Spliced;
 use crate::foreign::xml::{self, Flaw};
 pub(super) use crate::foreign::xml::{element, elements};
 
-/// A file that is being read.
+/// File being read.
 pub(super) struct Source<'a> {
     text: &'a Spliced,
-    /// What is wrong with it so far.
+    /// Faults and notes so far.
     pub ledger: Ledger,
 }
 
 impl<'a> Source<'a> {
-    /// The text of a file, without faults so far.
+    /// Creates a source without faults.
     pub fn new(text: &'a Spliced, ledger: Ledger) -> Self {
         Self { text, ledger }
     }
 
-    /// Where an element begins.
+    /// Returns the start of an element.
     pub fn place(&self, node: Node<'a, 'a>) -> Place {
         self.text.place(node.range().start)
     }
 
-    /// Where an attribute begins.
+    /// Returns the start of an attribute.
     pub fn place_of(&self, attribute: Attribute<'a, 'a>) -> Place {
         self.text.place(attribute.range().start)
     }
 
-    /// Notes a fault of an element.
+    /// Reports a fault of an element.
     pub fn fault(
         &mut self,
         node: Node<'a, 'a>,
@@ -42,7 +42,7 @@ impl<'a> Source<'a> {
         self.ledger.fault(place, message, advice);
     }
 
-    /// Notes a fault of an attribute.
+    /// Reports a fault of an attribute.
     pub fn fault_of(
         &mut self,
         attribute: Attribute<'a, 'a>,
@@ -53,11 +53,11 @@ impl<'a> Source<'a> {
         self.ledger.fault(place, message, advice);
     }
 
-    /// Notes attributes of an element that are not among `known`.
+    /// Reports attributes of an element that are not among `known`.
     pub fn only(&mut self, node: Node<'a, 'a>, known: &[&[&str]]) {
         for attribute in node.attributes() {
             let name = attribute.name();
-            // Those of other namespaces are not ours to judge.
+            // Attributes of other namespaces are ignored.
             if attribute.namespace().is_none() && !known.iter().any(|list| list.contains(&name)) {
                 let tag = node.tag_name().name();
                 let message = format!("<{tag}> has an attribute `{name}` that is not known");
@@ -66,7 +66,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Content of the file; `None`, with its fault, if it could not be read.
+    /// Returns the content; `None` with its fault if it could not be read.
     pub fn sound<T>(&mut self, read: Result<T, Flaw>) -> Option<T> {
         let note = |Flaw { at, message, advice }: Flaw| {
             let place = self.text.place(at);
@@ -75,22 +75,22 @@ impl<'a> Source<'a> {
         read.map_err(note).ok()
     }
 
-    /// All numbers of an attribute; `None`, with a fault, if one is not a number or not finite.
+    /// Returns all numbers of an attribute; `None` with a fault if one is not a finite number.
     pub fn list(&mut self, attribute: Attribute<'a, 'a>) -> Option<Vec<f64>> {
         self.sound(xml::list(attribute))
     }
 
-    /// Exactly `N` numbers of an attribute.
+    /// Returns exactly `N` numbers of an attribute.
     pub fn numbers<const N: usize>(&mut self, attribute: Attribute<'a, 'a>) -> Option<[f64; N]> {
         self.sound(xml::numbers(attribute))
     }
 
-    /// One number of an attribute.
+    /// Returns one number of an attribute.
     pub fn number(&mut self, attribute: Attribute<'a, 'a>) -> Option<f64> {
         self.sound(xml::number(attribute))
     }
 
-    /// The attribute of that name, if the element has it.
+    /// Returns the attribute with this name, if the element has it.
     pub fn attribute(&self, node: Node<'a, 'a>, name: &str) -> Option<Attribute<'a, 'a>> {
         node.attribute_node(name)
     }

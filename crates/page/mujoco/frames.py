@@ -30,13 +30,13 @@ class Film(Replay):
         lifted = True
         for stroke, (push, count) in enumerate(zip(self.pushes, counts, strict=True)):
             start, end, duration, settle = push[0:2], push[2:4], push[4], push[5]
-            if len(push) > 6:  # it turns
+            if len(push) > 6:  # it rotates
                 start, end = np.append(start, push[6]), np.append(end, push[7])
             if lifted:
                 self.set_down(start)
             if not self.frames:
                 self.keep(stroke)
-            # No step is longer than the scene's, and every frame ends with one.
+            # No step is longer than the scene's, and every frame ends with a step.
             steps = math.ceil(duration / count / self.step - 1e-9)
             self.model.opt.timestep = duration / count / steps
             for k in range(count * steps):
@@ -65,11 +65,11 @@ class Film(Replay):
 
     def keep(self, stroke):
         """Notes where everything is."""
-        # The last step moved bodies, not yet what is derived from where they are.
+        # The last step moved the bodies, but did not update the derived quantities.
         mujoco.mj_forward(self.model, self.data)
         poses = np.array([self.pose(body) for body in self.bodies])
         if self.headings is not None:
-            # Without jumps by whole turns.
+            # Unwrapped, without jumps by full turns.
             turned = np.remainder(poses[:, 2] - self.headings + math.pi, math.tau) - math.pi
             poses[:, 2] = self.headings + turned
         self.headings = poses[:, 2].copy()

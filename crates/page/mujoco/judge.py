@@ -1,6 +1,7 @@
 
 
-# Checks of goals, which the scene holds as JSON: each is a quantity with limits, or so many of several.
+# Checks of goals, which the scene holds as JSON: each is a quantity with limits, or a number of goals of a
+# group.
 
 
 def judged(check, scene):
@@ -93,7 +94,7 @@ def apart(first, second):
         along = np.clip(np.sum(off * sides, axis=2) / np.sum(sides * sides, axis=1), 0.0, 1.0)
         return np.linalg.norm(off - along[..., None] * sides, axis=2).min()
 
-    def separates(corners, points):  # whether a side of the first has all of the second on its outside
+    def separates(corners, points):  # whether an edge of the first polygon separates it from the second
         sides = np.roll(corners, -1, axis=0) - corners
         outwards = np.stack([sides[:, 1], -sides[:, 0]], axis=1)
         beyond = np.sum((points[:, None] - corners) * outwards, axis=2)

@@ -21,9 +21,9 @@ import sys
 import mujoco
 import numpy as np
 
-REST = 1e-3  # slower than this, m/s, is at rest
-STILL = 0.1  # for so long, seconds
-PATIENCE = 4.0  # and never waited for longer, seconds
+REST = 1e-3  # speed below which a body is at rest, m/s
+STILL = 0.1  # duration at rest, seconds
+PATIENCE = 4.0  # maximum waiting time, seconds
 
 
 def turned(a, b):

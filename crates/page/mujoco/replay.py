@@ -26,12 +26,12 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-RISES = 0.1  # how fast a tool is lifted, m/s
-JAMMED = 2e-3  # an object so deep inside an obstacle is squeezed where it cannot go, and so is an arm
-LAID_ASIDE = 2.0  # how high above the table tools hang that are not in use, m
-SET_DOWN = 1e-4  # overlap that is still touching when the tool comes down
-TOPPLED = math.cos(math.radians(10))  # an object's axis leans further than this
-FALLEN = 0.1  # what is so far below where it stood has left the table
+RISES = 0.1  # speed at which a tool is lifted, m/s
+JAMMED = 2e-3  # penetration depth above which an object or an arm is jammed, m
+LAID_ASIDE = 2.0  # height of unused tools above the table, m
+SET_DOWN = 1e-4  # overlap that still counts as touching when the tool comes down, m
+TOPPLED = math.cos(math.radians(10))  # cosine of the inclination above which an object has toppled
+FALLEN = 0.1  # drop below its start height beyond which an object has left the table, m
 KINDS = ["object", "obstacle", "tool", "table", "region", "arm"]
 BASE = "obstacle/robot base"
 SOLIDS = {
@@ -57,7 +57,7 @@ class Arm:
         self.speeds = [model.actuator(f"{joint.name}/speed").id for joint in joints]
         self.times, self.points = rows[:, 0], rows[:, 1 : 1 + len(joints)]
         self.velocities = rows[:, 1 + len(joints) :]
-        self.off = 0.0  # the farthest that a joint was from where it was to be
+        self.off = 0.0  # maximum error of a joint
 
     def at(self, time):
         """Positions and velocities: cubics between the points."""
@@ -94,7 +94,7 @@ class Replay:
         names = [b.name for b in bodies if b.name.split(" ")[0] == "tool"]
         self.tools = [[j for j in joints if j.name.rpartition(" ")[0] == name] for name in names]
         for tool in self.tools:
-            for joint in tool:  # it is held, so it does not begin to fall in any step
+            for joint in tool:  # the tool is held, so it must not fall in any step
                 if joint.name.endswith(" z"):
                     weight = -self.model.body("tool").mass[0] * self.model.opt.gravity[2]
                     self.data.qfrc_applied[joint.dofadr[0]] = weight
@@ -119,11 +119,11 @@ class Replay:
         """Makes all pushes, in order."""
         if self.arm:
             return self.follow()
-        mujoco.mj_forward(self.model, self.data)  # a plan may have none
+        mujoco.mj_forward(self.model, self.data)  # a plan may have no pushes
         lifted = True
         for index, push in enumerate(self.pushes):
             duration, settle = push[4], push[5]
-            turn = push[6:8]  # none where no tool turns
+            turn = push[6:8]  # empty if no tool rotates
             start, end = np.append(push[0:2], turn[:1]), np.append(push[2:4], turn[1:])
             if "tools" in self.numbers:
                 self.take(int(self.numbers["tools"][index]) - 1)
@@ -205,7 +205,7 @@ class Replay:
             waited += 1
 
     def place(self, place, velocity, height=0.0, rises=0.0):
-        # A velocity too, or what the tool pushes would rub against it as if it stood still.
+        # The tool also needs a velocity; otherwise its contacts would have the friction of a resting tool.
         self.data.qpos[self.tool_position] = place
         self.data.qvel[self.tool_velocity] = velocity
         for joint in self.tool_height:
@@ -270,7 +270,7 @@ def replay(path):
     except Failed as failed:
         failure = str(failed)
     poses = {name: scene.pose(body) for name, body in scene.objects.items()}
-    # Of several goals the first is told of.
+    # Of several goals, the first is reported.
     reached, error, heading_error = all_judged(scene, scene.texts)
     if failure is None and not reached:
         failure = "misses the goal"
@@ -284,14 +284,14 @@ def replay(path):
         "failure": failure,
         "error": error,
         "heading_error": heading_error,
-        # Between the ends of this replay and of pushplan's own in 3-D.
+        # Difference between the ends of this replay and of pushplan's own in 3-D.
         "difference": None if ours is None else math.dist(poses[name][:2], ours[:2]),
         "deepest": dict(zip(KINDS, scene.deepest.tolist())),
         "poses": poses,
         "pushes": len(scene.pushes),
         "obstacles": scene.obstacles,
         "goal_object": solid,
-        # Of an arm the farthest that a joint is from where it is to be, radians or metres.
+        # Maximum joint error of an arm, radians or metres.
         "joints_off": scene.arm.off if scene.arm else None,
     }
 
@@ -303,7 +303,7 @@ def table(results):
         one, walls = result["pushes"] < 2, result["obstacles"]
         kind = re.sub(r"[-_]?\d+$", "", result["plan"])
         for group in (
-            *([kind] if kind != result["plan"] else []),  # the tasks of `pushplan-lab random`
+            *([kind] if kind != result["plan"] else []),  # tasks of `pushplan-lab random`
             "with obstacles" if walls else "without obstacles",
             "one push" if one else "two and more pushes",
             result["goal_object"] + (", with obstacles" if walls else ", without obstacles"),
@@ -312,7 +312,7 @@ def table(results):
     failures = sorted({result["failure"] for result in results} - {None})
     lines = [["plans", "number", "work", "difference, median", "p95", *failures]]
     lines.append(["---"] + ["--:"] * (len(lines[0]) - 1))
-    # Kinds by name first, then what they are.
+    # Kinds by name, then their values.
     for group in sorted(groups, key=lambda name: (name != "all", " " in name, name)):
         chosen = groups[group]
         share = sum(result["reached"] for result in chosen) / len(chosen)
@@ -333,7 +333,7 @@ def main():
     arguments = parser.parse_args()
     scenes = []
     for path in arguments.scenes:
-        # Lever-ups of the same folder are played by another script.
+        # Lever-ups of the same folder are replayed by another script.
         ours = (scene for scene in path.glob("*.xml") if "lever.py" not in scene.read_text())
         scenes += sorted(ours) if path.is_dir() else [path]
     results = []

@@ -8,8 +8,8 @@ from ._native import main as run
 
 def main() -> int:
     """Runs the command line of this process and gives its exit code."""
-    # Ctrl-C is the command's, which says what was saved and ends with 130. Python's own handler would be
-    # called besides, and raise when the command has ended.
+    # The command handles Ctrl-C itself: it reports the saved files and ends with 130. Python's own handler
+    # would also be called, and raise after the end of the command.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     return run(["pushplan", *sys.argv[1:]])
 

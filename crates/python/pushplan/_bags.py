@@ -20,7 +20,8 @@ _Row = tuple[float, float, float, float]
 
 _TREE = "tf2_msgs/msg/TFMessage"
 
-#: Of these messages poses are read; of the last the topic is followed by `#` and the child frame.
+#: Message types from which poses are read; for the last type, the topic is followed by `#` and the child
+#: frame.
 _POSES = {
     "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/PoseWithCovarianceStamped", "nav_msgs/msg/Odometry",
     "geometry_msgs/msg/TransformStamped", _TREE,
@@ -88,12 +89,12 @@ def poses_of(path: Path, topics: Mapping[str, str]) -> dict[str, tuple[_Floats, 
         if len(rows) < 2:
             there = ", ".join(f"{topic} ({kind})" for topic, kind in sorted(known.items()))
             raise ValueError(f"{path}: {topics[name]} has {len(rows)} poses for `{name}`; there are {there}")
-    # A stamp that comes twice is the same pose.
+    # A repeated stamp is the same pose.
     tables = {name: np.array(sorted(set(rows))) for name, rows in found.items()}
     return {name: (table[:, 0], table[:, 1:]) for name, table in tables.items()}
 
 
-#: Keys of a task's scene that a recording has, too.
+#: Keys of a task's scene that a recording also has.
 _SCENE = {"objects", "table", "joints", "obstacles", "frictions", "push_height"}
 
 
@@ -108,7 +109,7 @@ def _poses(messages: Iterable[Any]) -> Iterator[tuple[str, _Row]]:
         if hasattr(message, "transform"):
             place, turn = message.transform.translation, message.transform.rotation
         else:
-            # With a covariance, or of an odometry, it lies deeper.
+            # In messages with a covariance, and in odometry, the pose is nested deeper.
             pose = getattr(message.pose, "pose", message.pose)
             place, turn = pose.position, pose.orientation
         heading = math.atan2(

@@ -15,9 +15,9 @@ __all__ = ["Picture"]
 _Floats = npt.NDArray[np.float64]
 _Pose = Union[Sequence[float], _Floats]
 
-#: Pixels are drawn so much finer and averaged, for smooth edges.
+#: Factor of supersampling, for smooth edges.
 _FINER = 2
-#: Metres around what there is.
+#: Margin around the scene, metres.
 _MARGIN = 0.12
 _PAPER, _REACH, _GOAL = (255, 255, 255), (243, 245, 247), (120, 190, 120)
 _OBSTACLE, _TOOL, _WANTED, _OTHER = (90, 90, 90), (70, 120, 200), (205, 85, 60), (225, 175, 120)
@@ -47,7 +47,7 @@ class Picture:
         pixels[:] = _PAPER
         out = np.hypot(self.x, self.y)
         pixels[(out >= self.reach[0]) & (out <= self.reach[1])] = _REACH
-        # Smaller than a few pixels nobody would see it.
+        # A goal smaller than a few pixels would be invisible.
         least = 6 * abs(float(self.x[0, 0] - self.x[1, 0]))
         pixels[np.hypot(self.x - goal[0], self.y - goal[1]) <= max(tolerance, least)] = _GOAL
         for wall in self.scene.get("obstacles", []):
@@ -58,7 +58,7 @@ class Picture:
             for part in (thing, *thing.get("parts", [])):
                 at = pose if part is thing else _placed(pose, part)
                 self._fill(pixels, at, part["shape"], _WANTED if k == self.wanted else _OTHER)
-            # Which way it is turned.
+            # Mark of the heading.
             self._fill(pixels, _placed(pose, {"position": [0.012, 0.0]}), {"cuboid": {"size": [0.024, 0.005]}}, _PAPER)
         if tool is not None:
             parts: Any = tool[0].to_dict()["parts"]

@@ -24,16 +24,16 @@ from ._picture import Picture
 
 __all__ = ["PushEnv", "SteerEnv"]
 
-#: What a push costs, so that fewer are better; reaching the goal is worth one.
+#: Cost of a push, so that fewer pushes are better; reaching the goal is worth one.
 COST = 0.02
 
-#: Farther out nothing comes, metres: files place things up to 10 m from the robot.
+#: Maximum distance of an object from the robot, metres, as in files.
 FAR = 20.0
 
-#: How often shifted starts and goals are drawn until nothing overlaps.
+#: Maximum number of draws of starts and goals until nothing overlaps.
 TRIES = 100
 
-#: Shorter moves are none, metres.
+#: Minimum length of a move, metres.
 LEAST = 1e-4
 
 _Action = npt.NDArray[np.float32]
@@ -51,7 +51,7 @@ class _TableEnv(gymnasium.Env[_Action, _Action]):
             ``None``.
     """
 
-    # A page is of a push, and so is a frame.
+    # A page shows one push, and so does a frame.
     metadata: ClassVar[dict[str, Any]] = {"render_modes": ["rgb_array", "html"], "render_fps": 10}  # type: ignore[misc]
 
     def __init__(
@@ -62,7 +62,7 @@ class _TableEnv(gymnasium.Env[_Action, _Action]):
         goal: Any = task.to_dict()["goal"]
         if goal_spread > 0.0 and not (isinstance(goal, dict) and "position" in goal):
             raise ValueError("`goal_spread` is for a task with one goal, at a position")
-        #: The task of this episode: its goal is where it was drawn.
+        #: Task of this episode, with the drawn goal.
         self.task = task
         self.model, self.steps = model, steps
         self.spread, self.goal_spread = spread, goal_spread
@@ -140,7 +140,7 @@ class _TableEnv(gymnasium.Env[_Action, _Action]):
                 aside = self.np_random.uniform(-self.goal_spread, self.goal_spread, 2)
                 mapping["goal"]["position"] = [float(x + aside[0]), float(y + aside[1])]
             try:
-                # The rules of task files say what may stand where.
+                # The rules of task files decide which placements are valid.
                 return Task.of(mapping)
             except FileError:
                 continue
@@ -201,9 +201,9 @@ class PushEnv(_TableEnv):
         render_mode: str | None = None,
     ) -> None:
         library = tools if tools is not None else ToolLibrary.shipped()
-        #: The tools, in the order of the action's first number.
+        #: Tools, in the order of the action's first number.
         self.tools = [library[name] for name in task.tools or library.names]
-        # A model that does not exist is found out now, not at the first push.
+        # An unknown model is reported now, not at the first push.
         predict(Plan.of(task, self.tools[0], []), model)
         self.pushes = 2 * task.max_pushes if pushes is None else pushes
         super().__init__(task, model, self.pushes, spread, goal_spread, render_mode)
@@ -306,7 +306,7 @@ class SteerEnv(_TableEnv):
     ) -> None:
         library = ToolLibrary.shipped()
         named = (task.tools or library.names)[0] if tool is None else tool
-        #: What is in the hand.
+        #: Tool in the hand.
         self.tool = library[named] if isinstance(named, str) else named
         predict(Plan.of(task, self.tool, []), model)
         super().__init__(task, model, steps, spread, goal_spread, render_mode, more=2)

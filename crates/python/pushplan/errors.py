@@ -23,17 +23,17 @@ __all__ = [
 class Fault:
     """One thing that is wrong with a file, a text or a mapping."""
 
-    #: The file as it was named.
+    #: File name as given by the user.
     file: str
-    #: Line, from 1; ``None`` if the fault is of the whole or of a mapping.
+    #: Line number, from 1; ``None`` if the fault concerns the whole file or a mapping.
     line: int | None
-    #: Column in characters, from 1; ``None`` if the fault is of the whole or of a mapping.
+    #: Column in characters, from 1; ``None`` if the fault concerns the whole file or a mapping.
     column: int | None
-    #: Where in a mapping, such as ``scene.objects[0].mass``; ``None`` in files and texts.
+    #: Key in a mapping, such as ``scene.objects[0].mass``; ``None`` in files and texts.
     key: str | None
-    #: What was expected and what was found.
+    #: Expected and found content.
     message: str
-    #: What to try; may be empty.
+    #: Suggested fix; may be empty.
     advice: str
 
     def __str__(self) -> str:
@@ -51,7 +51,7 @@ class PushplanError(Exception):
 class FileError(PushplanError, ValueError):
     """Everything that is wrong with tools, tasks, plans or recordings, or with their files."""
 
-    #: At least one.
+    #: Faults; at least one.
     faults: tuple[Fault, ...]
 
     def __init__(self, faults: Iterable[Fault]) -> None:
@@ -77,7 +77,7 @@ class ActionError(PushplanError, ValueError):
 class RefusedError(PushplanError):
     """The model should not be trusted with this, and was told to refuse then."""
 
-    #: What puts it outside of what the model was measured on.
+    #: Reasons why the case is outside the model's validity range.
     warnings: tuple[str, ...]
 
     def __init__(self, message: str, warnings: Iterable[str]) -> None:

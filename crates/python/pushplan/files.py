@@ -168,7 +168,7 @@ class ReachKeys(TypedDict):
     min: NotRequired[float]
 
 
-# The hand about the end effector, an upright cylinder: its radius and where it begins, metres.
+# Hand about the end effector, an upright cylinder: its radius and the height of its lower end, metres.
 HandKeys = TypedDict("HandKeys", {"radius": float, "from": float}, total=False)
 
 

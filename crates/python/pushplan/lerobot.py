@@ -78,7 +78,7 @@ def save(
         episode: dict[str, npt.NDArray[Any]] = {
             "observation.state": tool.astype(np.float32),
             "observation.environment_state": one.objects.astype(np.float32),
-            # At the end the tool stays where it is.
+            # At the end the tool stays in place.
             "action": np.concatenate([tool[1:], tool[-1:]]).astype(np.float32),
             "next.done": done,
             "next.success": done & one.reached,
@@ -107,7 +107,7 @@ def save(
         first += length
     whole = {name: np.concatenate(values) for name, values in columns.items()}
     folder.parent.mkdir(parents=True, exist_ok=True)
-    # Made beside it and moved: what is there is whole.
+    # Written beside the target and then moved, so that an existing data set is always complete.
     made = Path(tempfile.mkdtemp(prefix=f".{folder.name}.", dir=folder.parent))
     try:
         for path in (_DATA.format(chunk_index=0, file_index=0), _EPISODES):
@@ -134,7 +134,7 @@ def save(
             "features": features,
         }
         (made / "meta/info.json").write_text(json.dumps(info, indent=4))
-        # As others read it: what is private while it is made is not afterwards.
+        # Permissions for other readers, because temporary files are private.
         made.chmod(0o755)
         made.rename(folder)
     except BaseException:
@@ -184,7 +184,7 @@ def _of_run(run: Run, fps: int) -> _Episode:
         way = step["predicted"]
         times = np.array([0.0] + [look["time"] for look in step["looks"]])
         sights = np.array([seen] + [_seen(look["seen"]) for look in step["looks"]])
-        # What is not seen is where it was seen before.
+        # An unobserved object keeps its last observed pose.
         for before, after in zip(sights, sights[1:]):
             np.copyto(after, before, where=np.isnan(after))
         seen = sights[-1]

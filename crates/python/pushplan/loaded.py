@@ -84,7 +84,7 @@ class _Written:
         self._contact()
         for section, count in [("equality", model.neq), ("tendon", model.ntendon), ("actuator", model.nu)]:
             if count:
-                # What they are does not matter: none is imported.
+                # Their content does not matter, because none is imported.
                 SubElement(SubElement(self.root, section), "general")
 
     def _option(self) -> None:
@@ -107,7 +107,7 @@ class _Written:
             for of in ("vert", "face")
         )
         SubElement(
-            # As the file had them, before MuJoCo turned them to their principal axes.
+            # As in the file, before MuJoCo rotated them to their principal axes.
             asset, "mesh", name=f"mesh {mesh}",
             vertex=_numbers((corners @ _matrix(model.mesh_quat[mesh]).T + model.mesh_pos[mesh]).ravel()),
             face=" ".join(map(str, faces.ravel())),
@@ -143,7 +143,7 @@ class _Written:
         element = SubElement(
             body, "joint", name=model.joint(joint).name or f"joint {joint}", type=_JOINTS[kind],
             pos=_numbers(model.jnt_pos[joint]), axis=_numbers(model.jnt_axis[joint]),
-            # Where it is now: the body stands there, and limits count from zero.
+            # Current joint position: the body is moved there, and limits count from zero.
             ref=repr(float(self.now.qpos[model.jnt_qposadr[joint]])),
             stiffness=_numbers(np.ravel(model.jnt_stiffness[joint])),
             damping=_numbers(np.ravel(model.dof_damping[motion])),

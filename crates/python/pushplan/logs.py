@@ -44,15 +44,16 @@ __all__ = ["read_csv", "read_mcap", "write_json"]
 _LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 0.0254}
 _TIMES = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 _PUSHER = "pusher"
-#: Farther from the first pose nothing on a table is, metres.
+#: Maximum distance of an object on a table from its first pose, metres.
 _FAR = 5.0
-#: What moves by less in a whole log did not move, metres.
+#: Displacement below which an object did not move in a whole log, metres.
 _STILL = 2e-3
-#: Time steps that are longer than usual by this factor are gaps.
+#: Factor relative to the usual time step above which a step is a gap.
 _GAP = 2.5
-#: Velocities where a log is cut are those of a straight line through the poses so near, seconds.
+#: Half width of the interval for fitting velocities at the cut of a log, seconds.
 _NEAR = 0.05
-#: A pose that is the same to the bit for so long, while it moves before and after, is stale, seconds.
+#: Duration for which a pose may be identical bit for bit before it is stale, if the object moves before and
+#: after, seconds.
 _STALE = 0.25
 
 _Floats = npt.NDArray[np.float64]
@@ -280,7 +281,7 @@ def _degrees(path: str | Path, name: str, heading: _Floats, angle: str) -> _Floa
     turn = 360.0 if angle == "deg" else math.tau
     steps = np.abs(np.diff(heading))
     if angle == "deg":
-        # Radians that wrap, or that turn, stay within a turn of their own.
+        # Headings in radians are recognised: they wrap at pi or stay within pi.
         wraps = bool((np.abs(steps - math.tau) < 0.3).any())
         if wraps and np.abs(heading).max() <= math.tau + 1e-6:
             raise ValueError(f"{path}: the heading of `{name}` wraps at pi: its unit is `rad`")
@@ -322,7 +323,7 @@ def _check_stale(
             if k == first:
                 k += 1
                 continue
-            # Frozen on the move: it moves right before and right after, and so does the pusher.
+            # Stale during motion: the object moves right before and right after, and so does the pusher.
             if first == 0 or k == len(same) or times[k] - times[first] < _STALE:
                 continue
             jumps = min(speed[first - 1], speed[k]) > 1e-4

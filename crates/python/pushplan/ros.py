@@ -45,11 +45,11 @@ from . import _native
 
 __all__ = ["Node", "Stopped", "main"]
 
-#: Poses older than this when a plan is asked for are no sight, seconds.
+#: Maximum age of poses when a plan is requested, seconds.
 FRESH = 2.0
-#: How long a look waits for poses, and a robot may take beyond what a plan takes, seconds.
+#: Timeout of an observation, and extra time for a robot beyond the duration of a plan, seconds.
 PATIENCE = 10.0
-#: Frame in which paths are.
+#: Frame of published paths.
 FRAME = "table"
 
 
@@ -82,7 +82,7 @@ class Node:
             )
         self.node.create_subscription(ros["String"], "~/done", self._done, 10, callback_group=group)
         self.feedback = self.node.create_publisher(ros["String"], "~/feedback", 10)
-        # Who comes late is not sent what was to be done long ago.
+        # Late subscribers do not receive old motions.
         self.path = self.node.create_publisher(ros["Path"], "~/path", 10)
         self.trajectory = self.node.create_publisher(ros["JointTrajectory"], "~/trajectory", 10)
         for service, answer in [("solve", self._solve), ("run", self._run), ("cancel", self._cancel)]:
@@ -106,7 +106,7 @@ class Node:
             if self._worker is not None:
                 self._worker.join()
 
-    # What comes in.
+    # Subscriptions.
 
     def _sight(self, thing: str, message: Any) -> None:
         at, q = message.pose.position, message.pose.orientation
@@ -159,7 +159,7 @@ class Node:
             self._changed.notify_all()
         return going
 
-    # The action.
+    # Action.
 
     def _may_begin(self, goal: Any) -> Any:
         answers = self.ros["GoalResponse"]
@@ -168,7 +168,7 @@ class Node:
         except ValueError as error:
             self._say("refused", why=str(error))
             return answers.REJECT
-        # Held until the goal has its end.
+        # Held until the goal has ended.
         if not self._one.acquire(blocking=False):
             return answers.REJECT
         self._cancelled.clear()
@@ -197,7 +197,7 @@ class Node:
             raise ValueError(f"the node sees {', '.join(self.task.objects)}, the task has {', '.join(task.objects)}")
         return task
 
-    # The run.
+    # Run.
 
     def _runs(self, task: _native.Task) -> dict[str, Any]:
         """Runs to the end; what was said of it."""
@@ -205,7 +205,7 @@ class Node:
             return self._say("ended", **self._run_through(task))
         except Stopped as stop:
             return self._say("cancelled" if self._cancelled.is_set() else "failed", why=str(stop))
-        except Exception as error:  # noqa: BLE001 - whoever waits for the end must hear of it
+        except Exception as error:  # noqa: BLE001 - the waiting client must receive the error
             return self._say("failed", why=f"{type(error).__name__}: {error}")
         finally:
             self._goal = None
@@ -274,7 +274,7 @@ class Node:
         if self._cancelled.is_set() and self._one.locked():
             raise Stopped("cancelled")
 
-    # What goes out.
+    # Publications.
 
     def _say(self, state: str, **more: Any) -> dict[str, Any]:
         said = {"state": state, **more}

@@ -26,7 +26,7 @@ import numpy as np
 __all__ = ["build", "main"]
 
 PACKAGE = "pushplan_interfaces"
-#: What the types of an action are made of.
+#: Interfaces that an action consists of.
 NEEDS = ("action_msgs", "builtin_interfaces", "service_msgs", "unique_identifier_msgs")
 LIBRARIES = (
     "rcutils", "rmw", "rosidl_runtime_c", "rosidl_typesupport_c", "rosidl_typesupport_fastrtps_c",
@@ -39,7 +39,7 @@ def build(folder: str | Path) -> Path:
     the compiler says."""
     folder = Path(folder).absolute()
     prefix = Path(sys.prefix)
-    # Where generators find their templates.
+    # Folders of the generators' templates.
     os.environ.setdefault("AMENT_PREFIX_PATH", str(prefix))
     package = folder / PACKAGE
     package.mkdir(parents=True, exist_ok=True)
@@ -75,7 +75,7 @@ def _generate(package: Path, prefix: Path) -> None:
     for generator in [
         GenerateC("c"),
         GenerateFastRTPSCTypesupport("fastrtps_c"),
-        # Of one implementation it needs no library of that name.
+        # A single implementation needs no type support library.
         GenerateCTypesupport("c", **one),
         GeneratePython("py", typesupport_implementations=["rosidl_typesupport_c"]),
     ]:

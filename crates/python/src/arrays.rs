@@ -1,4 +1,4 @@
-//! Numbers to NumPy arrays and back; every function says the shape.
+//! Conversion between numbers and NumPy arrays; every function documents the shape.
 
 use numpy::ndarray::{ArrayViewD, Axis};
 use numpy::{
@@ -10,10 +10,10 @@ use pushplan::{Pose, Trajectory};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// An array of numbers, or lists of them.
+/// Array of numbers, or nested lists of numbers.
 pub type Numbers<'py> = PyArrayLikeDyn<'py, f64, AllowTypeChange>;
 
-/// `values` in row-major order as an array of this shape.
+/// Converts `values` in row-major order to an array of this shape.
 pub fn array<'py, T: Element, const N: usize>(
     py: Python<'py>,
     values: Vec<T>,
@@ -26,23 +26,23 @@ where
     PyArray1::from_vec(py, values).reshape(shape)
 }
 
-/// Poses as `[objects, 3]`: x and y in metres, heading in radians.
+/// Converts poses to an array `[objects, 3]`: x and y in metres, heading in radians.
 pub fn poses<'py>(py: Python<'py>, poses: &[Pose]) -> PyResult<Bound<'py, PyArray2<f64>>> {
     array(py, poses.iter().flat_map(numbers).collect(), [poses.len(), 3])
 }
 
-/// x, y and heading.
+/// Returns x, y and heading.
 pub fn numbers(pose: &Pose) -> [f64; 3] {
     [pose.position.x, pose.position.y, pose.heading]
 }
 
-/// Every frame's time, seconds: `[frames]`.
+/// Returns the times of all frames, seconds: `[frames]`.
 pub fn times<'py>(py: Python<'py>, trajectory: &Trajectory) -> Bound<'py, PyArray1<f64>> {
     let times: Vec<f64> = trajectory.frames.iter().map(|frame| frame.time).collect();
     times.into_pyarray(py)
 }
 
-/// Objects standing still at the poses of an array `[objects, 3]`.
+/// Returns a state at rest with the poses of an array `[objects, 3]`.
 pub fn state(poses: ArrayViewD<'_, f64>) -> State {
     let pose = |row: ArrayViewD<'_, f64>| Pose::new(row[[0]], row[[1]], row[[2]]);
     State::at_rest(poses.axis_iter(Axis(0)).map(pose).collect())

@@ -1,4 +1,4 @@
-//! Recordings, and the joints that they show.
+//! Recordings, and beliefs about joints inferred from them.
 
 use std::path::PathBuf;
 
@@ -86,7 +86,7 @@ impl PyRecording {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let parse = py.get_type::<Self>().getattr("parse")?;
-        // Long ones are read as JSON alone.
+        // Long recordings exceed the size limit of YAML texts, so JSON is used.
         let words = (self.0.to_json().to_string(), "recording.json");
         Ok((parse, words).into_pyobject(py)?.into_any())
     }
@@ -159,7 +159,7 @@ impl PyBelief {
     }
 }
 
-/// The belief regulator that comes with the package.
+/// Returns the belief regulator shipped with the package.
 pub fn shipped_regulator() -> PyResult<BeliefRegulator> {
     BeliefRegulator::shipped()
         .map_err(|error| PyRuntimeError::new_err(format!("the shipped regulator: {error}")))

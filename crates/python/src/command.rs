@@ -1,4 +1,4 @@
-//! The command, called from Python.
+//! Entry point of the command, called from Python.
 
 use std::ffi::OsString;
 

@@ -1,4 +1,4 @@
-//! Proposing tools.
+//! Proposals of tools.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! Errors of the library as the exceptions of `pushplan.errors`.
+//! Conversion of library errors to the exceptions of `pushplan.errors`.
 
 use pushplan::SolveError;
 use pushplan::asset::Faults;
@@ -7,7 +7,7 @@ use pushplan::outcome::Warning;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-/// The exception `name` of `pushplan.errors`, made with `arguments`.
+/// Creates the exception `name` of `pushplan.errors` with `arguments`.
 fn raise<'py>(py: Python<'py>, name: &str, arguments: impl pyo3::call::PyCallArgs<'py>) -> PyErr {
     let made = py
         .import("pushplan.errors")
@@ -16,7 +16,8 @@ fn raise<'py>(py: Python<'py>, name: &str, arguments: impl pyo3::call::PyCallArg
     made.map_or_else(|error| error, PyErr::from_value)
 }
 
-/// Faults of files or texts; of a mapping where `keys` says what every line of its text is.
+/// Converts faults of a file or text; for a mapping, `keys` holds the key of every line of its
+/// text.
 pub fn files(py: Python<'_>, faults: &Faults, keys: Option<&[String]>) -> PyErr {
     let fault = |fault: &pushplan::asset::Fault| -> PyResult<Py<PyAny>> {
         let class = py.import("pushplan.errors")?.getattr("Fault")?;
@@ -37,7 +38,7 @@ pub fn files(py: Python<'_>, faults: &Faults, keys: Option<&[String]>) -> PyErr 
     }
 }
 
-/// A task that cannot be tried.
+/// Converts the error of a task that cannot be tried.
 pub fn solve(py: Python<'_>, error: &SolveError) -> PyErr {
     match error {
         SolveError::Tools(faults) => files(py, faults, None),
@@ -47,7 +48,7 @@ pub fn solve(py: Python<'_>, error: &SolveError) -> PyErr {
     }
 }
 
-/// A model that gives no answer.
+/// Converts the refusal of a model.
 pub fn refused(py: Python<'_>, message: &str, warnings: &[Warning]) -> PyErr {
     let warnings: Vec<String> = warnings.iter().map(Warning::to_string).collect();
     match PyTuple::new(py, warnings) {
@@ -56,17 +57,17 @@ pub fn refused(py: Python<'_>, message: &str, warnings: &[Warning]) -> PyErr {
     }
 }
 
-/// A model that cannot be made.
+/// Converts the error of a model that cannot be created.
 pub fn model(py: Python<'_>, error: &ModelError) -> PyErr {
     raise(py, "ModelError", (error.to_string(),))
 }
 
-/// A text that names no model.
+/// Converts the error of a text that names no model.
 pub fn spec(py: Python<'_>, error: &pushplan::scene::SpecError) -> PyErr {
     raise(py, "ModelError", (error.to_string(),))
 }
 
-/// Pushes that cannot be made.
+/// Converts the error of pushes that cannot be executed.
 pub fn action(py: Python<'_>, message: &str) -> PyErr {
     raise(py, "ActionError", (message,))
 }

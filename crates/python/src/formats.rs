@@ -1,4 +1,4 @@
-//! Files of other programs in and out.
+//! Import and export of other formats.
 
 use std::ffi::CString;
 use std::path::PathBuf;
@@ -17,7 +17,7 @@ use crate::tool::PyTool;
 use crate::trajectory::PyTrajectory;
 use crate::{errors, words, work};
 
-// Defaults are literals, which Python shows; that of the frictions is `Wanted::FRICTION`.
+// Defaults are literals, because Python shows them; the friction must equal `Wanted::FRICTION`.
 const _: () = assert!(Wanted::FRICTION == 0.5);
 
 /// The tool in a file of MuJoCo (MJCF) or ROS (URDF): the body of that name, by default the only one,
@@ -86,7 +86,7 @@ fn reading(root: Option<PathBuf>, unit: f64) -> PyResult<Reading> {
     Ok(Reading { root, unit })
 }
 
-/// What one of the library's ways to import makes of a file; its notes become warnings.
+/// Runs an import of the library on a file and converts its notes to warnings.
 fn imported<T>(
     py: Python<'_>,
     path: PathBuf,

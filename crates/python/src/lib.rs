@@ -1,9 +1,10 @@
-//! The Python package `pushplan`: the library behind NumPy arrays, exceptions and notebooks.
+//! Python package `pushplan`: the library with NumPy arrays, exceptions and notebook support.
 //!
-//! A thin layer. Everything is computed, decided and said in the library; here arguments become its
-//! types (`mapping`, `words`, `push`, `arrays`), long work runs without the GIL and stops at Ctrl-C
-//! (`work`), and results become attributes with their units. The Python side, `python/pushplan`,
-//! holds what reads better in Python: exceptions, the types of files, the Gymnasium environment.
+//! This is a thin layer; all computation, decisions and texts are in the library. Arguments are
+//! converted to the library's types (`mapping`, `words`, `push`, `arrays`). Long work runs without
+//! the GIL and stops at Ctrl-C (`work`). Results become attributes with units. The Python side,
+//! `python/pushplan`, holds the code that is simpler in Python: exceptions, types of files, the
+//! Gymnasium environment.
 
 use pyo3::prelude::*;
 

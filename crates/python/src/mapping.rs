@@ -1,5 +1,7 @@
-//! A Python mapping as the text of a file, in which every line knows its key: so tasks and tools
-//! built in code obey the same rules as files, and faults name keys instead of lines.
+//! Conversion of a Python mapping to the text of a file, with the key of every line.
+//!
+//! Tasks and tools built in code thereby obey the same rules as files, and faults name keys instead
+//! of lines.
 
 use pushplan::asset::Faults;
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -8,24 +10,24 @@ use pyo3::types::{PyBool, PyFloat, PyInt, PyList, PyMapping, PyString, PyTuple};
 
 use crate::errors;
 
-/// Deeper than any file goes; a list that holds itself ends here.
+/// Maximum nesting depth, beyond any file format; it also stops at a list that contains itself.
 const DEEPEST: usize = 16;
 
-/// A mapping as flow YAML, with the key of every line.
+/// Mapping as flow YAML, with the key of every line.
 pub struct Text {
     text: String,
     keys: Vec<String>,
 }
 
 impl Text {
-    /// Writes a mapping of numbers, strings, lists, arrays and mappings.
+    /// Converts a mapping of numbers, strings, lists, arrays and mappings.
     pub fn of(mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
         let mut text = Self { text: String::new(), keys: vec![String::new()] };
         text.value(mapping, "", 0)?;
         Ok(text)
     }
 
-    /// Reads it by `parse`, which takes the text and a name for it.
+    /// Reads the text with `parse`, which takes the text and its name.
     pub fn read<T>(
         &self,
         py: Python<'_>,
@@ -35,7 +37,7 @@ impl Text {
         parse(&self.text, name).map_err(|faults| errors::files(py, &faults, Some(&self.keys)))
     }
 
-    /// Begins a line that is of `key`.
+    /// Begins a line that belongs to `key`.
     fn line(&mut self, key: &str) {
         self.text.push_str("\n ");
         self.keys.push(key.to_owned());
@@ -73,14 +75,14 @@ impl Text {
     }
 
     fn quoted(&mut self, words: &str) -> PyResult<()> {
-        // JSON's quotes are YAML's.
+        // JSON strings are also valid in YAML.
         let words = serde_json::to_string(words);
         self.text += &words.map_err(|error| PyValueError::new_err(error.to_string()))?;
         Ok(())
     }
 
     fn number(&mut self, number: f64) {
-        // The reader says what is wrong with the last two.
+        // The reader reports faults for numbers that are not finite.
         self.text += &match number {
             number if number.is_finite() => format!("{number:?}"),
             number if number.is_nan() => ".nan".to_owned(),

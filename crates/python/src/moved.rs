@@ -1,10 +1,10 @@
-//! A task with its objects somewhere else, for planning on from the middle.
+//! Change of a task's initial poses, for planning from an intermediate state.
 
 use pushplan::scene::{Joint, JointKind, Object, Span};
 use pushplan::{Pose, State, Task};
 
-/// The task that states these poses. Joints go along: anchors and axes lie where the first object
-/// of each has taken them, and limits count from the poses.
+/// Returns the task with these initial poses. Joints move along: anchors and axes move with the
+/// first object of each joint, and limits count from the new poses.
 pub fn moved(task: &Task, poses: &[Pose]) -> Task {
     let mut task = task.clone();
     let scene = task.scene.moved_to(&State::at_rest(poses.to_vec()));
@@ -33,8 +33,8 @@ fn followed(joint: &Joint, before: &[Object], now: &[Object]) -> JointKind {
     }
 }
 
-/// Limits counted from where a joint has come. One that stands at its limit may be past it by what
-/// an engine's joints give way.
+/// Returns limits relative to the displacement `come` of a joint. A joint at its limit may be
+/// slightly past it, because the joints of an engine are compliant; the limit is then zero.
 fn from(limits: Option<Span>, come: f64) -> Option<Span> {
     let Span { low, high } = limits?;
     Some(Span { low: (low - come).min(0.0), high: (high - come).max(0.0) })

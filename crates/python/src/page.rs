@@ -1,10 +1,10 @@
 //! Plan pages in a notebook.
 
-/// Height of the page in a notebook, pixels: its stage, controls and chart without scrolling.
+/// Height of the page in a notebook, pixels: its stage, controls and chart fit without scrolling.
 const HEIGHT: u32 = 900;
 
-/// A page as an element that holds all of it and may run its own script, but reach nothing of the
-/// notebook.
+/// Returns a page as an `iframe` that holds all of it. The page may run its own script but cannot
+/// access the notebook.
 pub fn frame(page: &str) -> String {
     let page = page.replace('&', "&amp;").replace('"', "&quot;");
     format!(

@@ -1,4 +1,4 @@
-//! Plans: a task, a tool and pushes, with what is known about them.
+//! Plans: task, tools and pushes, with predictions and verdicts.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -32,7 +32,7 @@ use crate::{errors, json, page, work};
 #[pyclass(name = "Plan", module = "pushplan", frozen)]
 pub struct PyPlan {
     pub file: PlanFile,
-    /// Where its task was read.
+    /// Source of the task.
     source: TaskSource,
     trajectory: Option<Trajectory>,
     broken: Vec<String>,
@@ -252,7 +252,7 @@ impl PyPlan {
         json::unpickled(py, "Plan", &self.json()?)
     }
 
-    // Equal plans have equal files; replays are not in them.
+    // Equal plans have equal files, which do not contain replays.
     fn __eq__(&self, other: &Self) -> PyResult<bool> {
         Ok(self.json()? == other.json()?)
     }
@@ -274,7 +274,7 @@ impl PyPlan {
 }
 
 impl PyPlan {
-    /// A plan that solving returned.
+    /// Creates a plan from a ranked plan of a solution.
     pub fn ranked(
         (task, source): (&Task, &TaskSource),
         fit: Option<&TableFit>,
@@ -299,7 +299,7 @@ impl PyPlan {
         Self { file, source, trajectory: None, broken: Vec::new() }
     }
 
-    /// Replayed as written in both engines.
+    /// Replays the unperturbed plan in both engines.
     fn replayed(&self) -> Verdict {
         let PlanFile { task, tools, plan, .. } = &self.file;
         let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });

@@ -1,4 +1,4 @@
-//! Pushes as they are asked for, and as plans hold them.
+//! Pushes as requested by the caller, and as stored in plans.
 
 use pushplan::solve::{ManualPush, ManualStart};
 use pushplan::{Push, Vector};
@@ -6,7 +6,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
 
-/// The longest push and the fastest, metres and m/s: those of the command.
+/// Maximum length (metres) and speed (m/s) of a push, as in the command.
 pub const MOST: f64 = 2.0;
 
 /// One straight push of the end effector.

@@ -1,4 +1,4 @@
-//! Many candidates rolled out into arrays.
+//! Batch rollouts of candidates into arrays.
 
 use std::sync::Arc;
 
@@ -18,7 +18,8 @@ use crate::task::PyTask;
 use crate::tool::{PyToolLibrary, tool};
 use crate::{words, work};
 
-/// Candidates rolled out between two checks whether to stop: tens of milliseconds in the prior.
+/// Number of candidates between two checks for cancellation: tens of milliseconds with the analytic
+/// model.
 const AT_ONCE: usize = 256;
 
 /// Columns of a push: x, y, direction, length, speed.
@@ -118,7 +119,7 @@ pub fn rollout(
     packed.ok_or_else(|| PyKeyboardInterrupt::new_err(""))?.arrays(py)
 }
 
-/// Numbers of all rollouts, in the order of the arrays.
+/// Results of all rollouts, in the order of the arrays.
 struct Packed {
     frames: usize,
     poses: Vec<f64>,
@@ -130,7 +131,7 @@ struct Packed {
     warnings: Vec<Vec<String>>,
 }
 
-/// `None` if it was stopped.
+/// Rolls out the candidates; returns `None` if cancelled.
 fn roll(
     model: &dyn EffectModel,
     task: &Task,
@@ -201,7 +202,7 @@ impl Packed {
     }
 }
 
-/// The pushes of every candidate.
+/// Returns the pushes of every candidate.
 fn candidates(pushes: &Numbers<'_>) -> PyResult<Vec<Vec<Push>>> {
     let all = pushes.as_array();
     let all = match all.ndim() {
@@ -233,7 +234,7 @@ fn candidates(pushes: &Numbers<'_>) -> PyResult<Vec<Vec<Push>>> {
     Ok(all.axis_iter(Axis(0)).map(|one| one.axis_iter(Axis(0)).map(push).collect()).collect())
 }
 
-/// A grip yaw for every candidate.
+/// Returns the grip yaw of every candidate.
 fn yaws(given: Option<&Numbers<'_>>, candidates: usize) -> PyResult<Vec<f64>> {
     let Some(given) = given else { return Ok(vec![0.0; candidates]) };
     let given = given.as_array();
@@ -247,7 +248,7 @@ fn yaws(given: Option<&Numbers<'_>>, candidates: usize) -> PyResult<Vec<f64>> {
     }
 }
 
-/// Where everything begins: nothing said, one for all, or one for every candidate.
+/// Returns the start states: `None` if not given, one for all candidates, or one per candidate.
 fn starts(
     given: Option<&Numbers<'_>>,
     task: &Task,

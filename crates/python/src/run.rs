@@ -1,4 +1,4 @@
-//! The closed loop, in a drawn world or in one that Python acts in.
+//! Closed loop, in a simulated world or in a world implemented in Python.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -155,7 +155,7 @@ impl PyRun {
     /// A page that plays the run, with what was predicted and believed: one HTML file, without server
     /// or network.
     fn page(&self) -> String {
-        // Whoever asks made it in Python.
+        // The page states no command, because the run was made in Python.
         run_page(&self.0, &[], Recipe::default(), PageView::Above)
     }
 
@@ -264,16 +264,16 @@ pub fn run(
     }
 }
 
-/// What is acted in.
+/// World in which a run acts.
 enum Place {
-    /// One of ours.
+    /// World simulated by the library.
     Drawn(Box<SimulatedWorld>),
-    /// An object of Python, and what it raised.
+    /// World implemented by a Python object, with the exception it raised, if any.
     Theirs { object: Py<PyAny>, raised: Option<PyErr> },
 }
 
 impl Place {
-    /// Asks the object of Python; what it raises is kept for whoever called.
+    /// Calls the Python object; an exception is kept for the caller of the run.
     fn ask<T>(
         &mut self,
         ask: impl FnOnce(Python<'_>, &Bound<'_, PyAny>) -> PyResult<T>,
@@ -343,7 +343,7 @@ impl World for Place {
     }
 }
 
-/// What an array `[objects, 3]` says is seen.
+/// Converts an array `[objects, 3]` to observations.
 fn sights(array: &Bound<'_, PyAny>) -> PyResult<Vec<Option<Sight>>> {
     let numbers: Numbers<'_> = array.extract()?;
     let numbers = numbers.as_array();

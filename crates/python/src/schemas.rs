@@ -1,4 +1,4 @@
-//! JSON schemas of the files, which are also those of mappings.
+//! JSON schemas of the files, which also apply to mappings.
 
 use pyo3::prelude::*;
 use pyo3::types::PyAny;

@@ -1,4 +1,4 @@
-//! The result of solving a task.
+//! Result of solving a task.
 
 use std::sync::Arc;
 
@@ -21,7 +21,7 @@ pub struct PySolution {
     pub task: Arc<Task>,
     pub source: TaskSource,
     pub solution: Solution,
-    /// What the planner knew of the table.
+    /// Table fit used by the planner.
     pub fit: Option<TableFit>,
 }
 
@@ -111,7 +111,7 @@ impl PySolution {
         json::unpickled(py, "Solution", &self.kept())
     }
 
-    /// How long they took does not make solutions differ.
+    /// Computing times are ignored in comparisons.
     fn __eq__(&self, other: &Self) -> bool {
         let timeless = |one: &Self| {
             let mut kept = one.kept();
@@ -135,7 +135,7 @@ impl PySolution {
 }
 
 impl PySolution {
-    /// What pickle keeps.
+    /// Returns the data that pickle stores.
     fn kept(&self) -> serde_json::Value {
         let Self { task, source, solution, fit } = self;
         json!({

@@ -67,7 +67,7 @@ pub fn solve(
     solution(py, stated, task.source(), solved, &planner)
 }
 
-/// The task as `fit` has it.
+/// Returns the task with the table properties of `fit`.
 pub fn stated(task: Arc<Task>, fit: Option<&TableFit>) -> Arc<Task> {
     let Some(fit) = fit else { return task };
     let mut task = Task::clone(&task);
@@ -120,7 +120,7 @@ fn solve_each(
     tasks.par_iter().map(|task| planner.solve_with(task, library, cancel)).collect()
 }
 
-/// How to solve, in words.
+/// Options of solving, in words.
 pub struct Asked<'a> {
     pub effort: &'a str,
     pub model: Option<&'a str>,
@@ -178,7 +178,7 @@ pub fn predict(
 ) -> PyResult<PyTrajectory> {
     let file = &plan.file;
     let spec = words::spec(py, model)?;
-    // It is of the network that made the plan, and of no other.
+    // The fit applies only to the network that made the plan.
     let fit = file.fit.as_ref().filter(|_| file.model.as_ref() == Some(&spec));
     let model = words::fitted(py, &spec, words::outside(outside)?, fit)?;
     let trajectory = work::run(py, words::threads(threads)?, |_| predicted(&model, file))?;
@@ -189,7 +189,7 @@ pub fn predict(
     Ok(PyTrajectory::new(&Arc::new(file.task.clone()), trajectory))
 }
 
-/// What a model predicts for a plan, with what lowers the trust in it.
+/// Predicts a plan with a model; the trajectory includes the warnings.
 pub fn predicted(model: &Routed, file: &PlanFile) -> Trajectory {
     let scene = &file.task.scene;
     let motions = file.plan.motions(&file.tools).unwrap_or_default();
@@ -199,7 +199,7 @@ pub fn predicted(model: &Routed, file: &PlanFile) -> Trajectory {
             let tool = file.tools.first().map_or(home, |tool| tool.pose(home));
             return Trajectory::standing(ModelKind::Still.into(), tool, scene.start());
         }
-        // What follows something levered is for the engine alone.
+        // Steps after a lever-up can be simulated only in 3-D.
         [_, _, ..] if file.plan.levers() => {
             return Simulator::spatial().run_plan(scene, &motions, Record::Frames);
         }

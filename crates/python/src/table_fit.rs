@@ -1,4 +1,4 @@
-//! What pushes recorded on a table taught.
+//! Table fits, learnt from pushes recorded on a table.
 
 use std::path::PathBuf;
 

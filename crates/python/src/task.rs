@@ -26,7 +26,7 @@ use crate::{arrays, errors};
 #[pyclass(name = "Task", module = "pushplan", frozen)]
 pub struct PyTask {
     pub task: Arc<Task>,
-    /// Where it was read, if it was.
+    /// Source of the task, if it was read.
     pub source: Option<TaskSource>,
 }
 
@@ -255,13 +255,13 @@ impl PyTask {
 }
 
 impl PyTask {
-    /// What a command line calls it.
+    /// Returns the source of the task for a command line.
     pub fn source(&self) -> TaskSource {
         let unread = || TaskSource::File(format!("{}.yaml", self.task.name));
         self.source.clone().unwrap_or_else(unread)
     }
 
-    /// Poses of its objects.
+    /// Converts an array to the poses of the task's objects.
     fn poses(&self, poses: &Numbers<'_>) -> PyResult<Vec<Pose>> {
         let (poses, objects) = (poses.as_array(), self.task.scene.things().count());
         arrays::finite("poses", &poses)?;
@@ -272,7 +272,7 @@ impl PyTask {
         Ok(self.task.scene.with_parts(arrays::state(poses).poses))
     }
 
-    /// The task, which wants this robustness if one is given.
+    /// Returns the task, with its robustness replaced if one is given.
     pub fn robust(&self, robustness: Option<f64>) -> PyResult<Arc<Task>> {
         match robustness {
             None => Ok(Arc::clone(&self.task)),

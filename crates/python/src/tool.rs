@@ -1,4 +1,4 @@
-//! Tools and collections of them.
+//! Tools and tool libraries.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -165,7 +165,7 @@ fn library(py: Python<'_>, library: Result<ToolLibrary, Faults>) -> PyResult<PyT
     library.map(PyToolLibrary).map_err(|faults| errors::files(py, &faults, None))
 }
 
-/// The tools that a caller gives, or those that come with the package.
+/// Returns the caller's tools, or the tools shipped with the package.
 pub fn given(py: Python<'_>, tools: Option<&Py<PyToolLibrary>>) -> PyResult<ToolLibrary> {
     match tools {
         Some(tools) => Ok(tools.get().0.clone()),
@@ -173,7 +173,7 @@ pub fn given(py: Python<'_>, tools: Option<&Py<PyToolLibrary>>) -> PyResult<Tool
     }
 }
 
-/// A tool, or the one of this name.
+/// Returns a tool, given directly or by its name in `tools`.
 pub fn tool(
     py: Python<'_>,
     tool: &Bound<'_, PyAny>,

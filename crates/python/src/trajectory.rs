@@ -1,4 +1,4 @@
-//! What happens to the objects, frame by frame.
+//! Motion of the objects, frame by frame.
 
 use std::sync::Arc;
 
@@ -138,13 +138,13 @@ impl PyTrajectory {
 }
 
 impl PyTrajectory {
-    /// What pickle keeps.
+    /// Returns the data that pickle stores.
     fn kept(&self) -> serde_json::Value {
         let Self { trajectory, outcome, objects } = self;
         json!({"trajectory": trajectory, "outcome": outcome, "objects": objects})
     }
 
-    /// A trajectory on the table of `task`, judged by its goal.
+    /// Creates a trajectory for the scene of `task`, judged by its goals.
     pub fn new(task: &Arc<Task>, trajectory: Trajectory) -> Self {
         let outcome = Outcome::judge(&task.scene, task, &trajectory);
         let objects = task.scene.things().map(|(_, object)| object.name.clone()).collect();

@@ -20,7 +20,7 @@ use crate::{arrays, json, page, words};
 /// Whether a plan works when it is replayed in both engines, as written and disturbed.
 #[pyclass(name = "Verdict", module = "pushplan", frozen)]
 pub struct PyVerdict {
-    /// The plan that was replayed.
+    /// Plan that was replayed.
     pub file: PlanFile,
     pub verdict: Verdict,
 }
@@ -96,7 +96,7 @@ impl PyVerdict {
         json::unpickled(py, "Verdict", &self.kept())
     }
 
-    // Frames follow from the plan.
+    // Frames follow from the plan, so they are ignored in comparisons.
     fn __eq__(&self, other: &Self) -> bool {
         self.kept() == other.kept()
     }
@@ -115,7 +115,7 @@ impl PyVerdict {
 }
 
 impl PyVerdict {
-    /// What pickle keeps.
+    /// Returns the data that pickle stores.
     fn kept(&self) -> serde_json::Value {
         json!({"file": self.file, "verdict": self.verdict})
     }

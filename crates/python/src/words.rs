@@ -1,4 +1,4 @@
-//! Words and numbers of arguments.
+//! Conversion of words and numbers in arguments.
 
 use std::fmt::Display;
 use std::time::Duration;
@@ -11,12 +11,12 @@ use pyo3::prelude::*;
 
 use crate::errors;
 
-/// The effort of this name.
+/// Returns the effort with this name.
 pub fn effort(word: &str) -> PyResult<Effort> {
     one_of("effort", word, &Effort::ALL)
 }
 
-/// The word for how solving ended.
+/// Returns the word for the status of a solution.
 pub fn status(status: PlanStatus) -> &'static str {
     match status {
         PlanStatus::Solved => "solved",
@@ -27,7 +27,7 @@ pub fn status(status: PlanStatus) -> &'static str {
     }
 }
 
-/// What to do where a model should not be trusted.
+/// Returns the action for predictions outside a model's validity range.
 pub fn outside(word: &str) -> PyResult<Outside> {
     one_of("outside", word, &[Outside::Warn, Outside::Simulate, Outside::Refuse])
 }
@@ -40,22 +40,22 @@ fn one_of<T: Display + Copy>(what: &str, word: &str, all: &[T]) -> PyResult<T> {
     })
 }
 
-/// What a text names as an effect model.
+/// Parses the name of an effect model.
 pub fn spec(py: Python<'_>, text: &str) -> PyResult<ModelSpec> {
     text.parse().map_err(|error| errors::spec(py, &error))
 }
 
-/// What a text names as the effect models of a planner.
+/// Parses the names of a planner's effect models.
 pub fn models(py: Python<'_>, text: &str) -> PyResult<Models> {
     text.parse().map_err(|error| errors::spec(py, &error))
 }
 
-/// The effect model of this name.
+/// Returns the effect model with this name.
 pub fn model(py: Python<'_>, text: &str, outside: Outside) -> PyResult<Routed> {
     fitted(py, &spec(py, text)?, outside, None)
 }
 
-/// The same with what was learnt about a table.
+/// Returns the effect model, adapted to a table fit if given.
 pub fn fitted(
     py: Python<'_>,
     spec: &ModelSpec,
@@ -66,7 +66,7 @@ pub fn fitted(
     Ok(model.map_err(|error| errors::model(py, &error))?.outside(outside))
 }
 
-/// A time limit in seconds.
+/// Converts a time limit in seconds.
 pub fn limit(seconds: Option<f64>) -> PyResult<Option<Duration>> {
     let limit = |seconds: f64| match Duration::try_from_secs_f64(seconds) {
         Ok(limit) if !limit.is_zero() => Ok(limit),
@@ -75,7 +75,7 @@ pub fn limit(seconds: Option<f64>) -> PyResult<Option<Duration>> {
     seconds.map(limit).transpose()
 }
 
-/// A number of worker threads.
+/// Checks a number of worker threads.
 pub fn threads(threads: usize) -> PyResult<usize> {
     match threads {
         0..=1024 => Ok(threads),
@@ -83,7 +83,7 @@ pub fn threads(threads: usize) -> PyResult<usize> {
     }
 }
 
-/// What an engine is called.
+/// Returns the name of an engine.
 pub fn engine(engine: Engine) -> &'static str {
     match engine {
         Engine::Planar => "planar",

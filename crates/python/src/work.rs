@@ -1,4 +1,4 @@
-//! Long work without the GIL, on as many threads as asked for, which Ctrl-C stops.
+//! Long work without the GIL, on a given number of threads, cancelled by Ctrl-C.
 
 use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -11,17 +11,18 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// How often Python is asked for signals.
+/// Interval between checks for Python signals.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// The pools of a process by their number of threads, 0 being one for each core.
+/// Thread pools of a process by their number of threads; 0 stands for one per core.
 type Pools = HashMap<usize, Arc<ThreadPool>>;
 
-/// With the process that they belong to: the child of a fork has none of its parent's threads.
+/// Thread pools with the process they belong to, because a forked child has none of its parent's
+/// threads.
 static POOLS: Mutex<Option<(u32, Pools)>> = Mutex::new(None);
 
-/// Does `work` on `threads` threads, 0 being one for each core, while other Python threads run. On
-/// Ctrl-C it is asked to stop; whatever it returns is then given up for the exception.
+/// Runs `work` on `threads` threads (0: one per core) while other Python threads continue. Ctrl-C
+/// cancels the work; its result is then discarded and the exception returned.
 pub fn run<T: Send>(
     py: Python<'_>,
     threads: usize,
@@ -73,7 +74,7 @@ fn pool(threads: usize) -> PyResult<Arc<ThreadPool>> {
     let mut pools = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
     let process = std::process::id();
     if let Some((owner, others)) = pools.take_if(|(owner, _)| *owner != process) {
-        // Dropped, they would wait for threads that this process does not have.
+        // Dropping the pools would wait for threads that do not exist in this process.
         std::mem::forget((owner, others));
     }
     let (_, pools) = pools.get_or_insert_with(|| (process, HashMap::new()));

@@ -39,5 +39,5 @@ def test_pinocchio_finds_the_tool_where_the_plan_has_it(arm: str, tmp_path: Path
     plan = json.loads((tmp_path / "push.plan.json").read_text())
     faults, worst = arms.Judge(urdf, flange).faults(plan, 0.2)
     assert faults == []
-    # Between points a centimetre apart joints follow cubics; at them the two kinematics agree.
+    # Between points a centimetre apart, joints follow cubics; at the points the two kinematics agree.
     assert worst < 2e-4

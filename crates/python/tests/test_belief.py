@@ -55,7 +55,7 @@ def test_a_joint_is_found(root: Path, command: Any, tmp_path: Path) -> None:
     assert belief.probabilities.sum(axis=1) == pytest.approx(1.0)
     [found] = belief.scene()["joints"]
     assert found["kind"] == stated["kind"]
-    # The believed scene is one that can be planned in.
+    # The believed scene can be used for planning.
     keys: Any = {**task.to_dict(), "scene": belief.scene()}
     assert pushplan.Task.of(keys).objects == task.objects
 

@@ -37,7 +37,7 @@ def test_the_tool_is_that_of_the_command(command: Any, tmp_path: Any) -> None:
     assert design.tool is not None and design.tool.to_dict() == expected["tool"]
     assert design.to_dict()["spent"] == expected["spent"]
     assert design.solution is not None and design.solution.solved
-    # It is a tool like any other.
+    # The tool can be used like any other.
     tools = pushplan.ToolLibrary.shipped().with_tool(design.tool)
     best = pushplan.solve(task, tools).best
     assert best is not None and best.tool == design.tool

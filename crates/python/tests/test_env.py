@@ -45,14 +45,14 @@ def test_its_physics_are_those_of_predict(task: pushplan.Task) -> None:
     env.step(env.action("l-hook", math.pi, length=0.15))
     push = pushplan.Push.before("can", math.pi, length=0.15)
     plan = pushplan.Plan.of(task, "l-hook", [push], grip_yaw=0.0)
-    # Actions are of single precision.
+    # Actions have single precision.
     assert np.allclose(env.poses, pushplan.predict(plan, "prior").poses[-1], atol=1e-4)
 
 
 def test_a_push_that_cannot_be_made_moves_nothing(task: pushplan.Task) -> None:
     env = pushplan.env.PushEnv(task, pushes=2)
     env.reset()
-    # Away from the robot the wall is in the way.
+    # Away from the robot, the wall obstructs the push.
     for last in (False, True):
         _, reward, reached, truncated, info = env.step(env.action("stick", 0.0))
         assert info["refused"] and (env.poses == task.start).all()
@@ -68,11 +68,11 @@ def test_seeds_shift_starts_alike(root: Path) -> None:
         shifts.append(env.poses - task.start)
     assert (shifts[0] == shifts[1]).all() and (shifts[0] != shifts[2]).any()
     assert 0.0 < np.abs(shifts[0]).max() <= 0.02
-    # What hangs together goes together.
+    # Jointed objects move together.
     assert np.allclose(shifts[0][0], shifts[0][1])
 
 
-# A joint that slides within limits, and joints that turn.
+# Prismatic joint with limits, and revolute joints.
 @pytest.mark.parametrize("name", ["drawer", "hinged-train"])
 def test_a_moved_task_goes_on_where_it_was(root: Path, name: str) -> None:
     task = pushplan.Task.load(root / f"tasks/{name}.yaml")
@@ -126,7 +126,7 @@ def test_with_one_of_two_goals_met_nothing_is_reached() -> None:
     seen, info = env.reset(seed=0)
     assert info["score"] > 1.0 and seen.shape == env.observation_space.shape
     assert np.linalg.norm(seen[-2:]) > task.tolerance
-    # A push beside it, which reaches nothing.
+    # A push beside the object, which touches nothing.
     _, reward, reached, _, _ = env.step(env.action(env.tools[0].name, math.pi, length=0.5 * task.push_length))
     assert not reached and reward < 1.0
 
@@ -148,10 +148,10 @@ def test_a_push_is_steered_piece_by_piece(task: pushplan.Task) -> None:
             break
     assert reached and (made + 1) * env.stride == pytest.approx(push.length, abs=0.04)
     assert seen[-2:] == pytest.approx(np.array(push.start) + (made + 1) * env.stride * way, abs=1e-5)
-    # The whole push does the same, but for what comes to rest in between.
+    # The whole push gives the same result, apart from objects that come to rest in between.
     whole = pushplan.predict(best, "planar").poses[-1]
     assert np.linalg.norm(env.poses[0, :2] - whole[0, :2]) < 0.03
-    # Out of reach nothing moves.
+    # Out of reach, nothing moves.
     env.reset()
     poses, away = env.poses, np.array([-1.0, 0.0], dtype=np.float32)
     infos = [env.step(away)[-1] for _ in range(30)]

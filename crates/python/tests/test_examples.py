@@ -65,5 +65,5 @@ def test_a_robot_pushes_what_it_sees(root: Path, tmp_path: Path) -> None:
     assert ran.returncode == 0, ran.stderr
     *scenes, all_of_them = map(json.loads, ran.stdout.splitlines())
     assert all_of_them == {"scenes": 2, "reached": 2, "falsely_reached": 0}, scenes
-    # The camera tells to within 2 mm where the goods are.
+    # The camera locates the goods to within 2 mm.
     assert all(abs(scene["seen_mm"] - scene["truly_mm"]) < 2.0 for scene in scenes), scenes

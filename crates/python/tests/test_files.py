@@ -34,7 +34,7 @@ def test_all_faults_of_a_file_with_line_and_column(tmp_path: Path) -> None:
     assert slip.file == str(path)
     assert "masss" in slip.message and slip.advice == "did you mean `mass`?"
     assert f"{path}:3:67: error: " in str(raised.value)
-    # Whoever catches less finds it, too.
+    # A handler for the base class catches it as well.
     assert isinstance(raised.value, (pushplan.PushplanError, ValueError))
 
 
@@ -171,7 +171,7 @@ def test_the_types_have_the_keys_of_the_schema(schema: dict[str, Any], keys: Any
 def compared(schema: dict[str, Any], keys: Any) -> int:
     """Compares a map of the schema with a typed dictionary; how many keys they have."""
     assert set(schema["properties"]) == set(get_type_hints(keys)), keys
-    # Of a variant every key is optional, but one has to be there.
+    # In a variant every key is optional, but exactly one is required.
     assert set(schema.get("required", [])) == set(keys.__required_keys__), keys
     count = 0
     for name, hint in get_type_hints(keys).items():

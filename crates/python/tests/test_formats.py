@@ -35,7 +35,7 @@ def test_what_mujoco_reads_is_what_is_imported(root: Path) -> None:
     assert [thing["name"] for thing in scene["objects"]] == list(bodies)
     for thing in scene["objects"]:
         body = model.body(bodies[thing["name"]])
-        # What one stands on is where its centre of mass is, in MuJoCo as well.
+        # The position of an object is its centre of mass, as in MuJoCo.
         assert data.xipos[body.id][:2] == pytest.approx(thing["position"], abs=1e-9)
         assert body.mass[0] == pytest.approx(thing["mass"], rel=1e-9)
         [geom] = [g for g in range(model.ngeom) if model.geom_bodyid[g] == body.id and model.geom_contype[g]]
@@ -95,7 +95,7 @@ def test_a_loaded_model_becomes_what_its_file_does(root: Path, task: pushplan.Ta
     with pytest.warns(UserWarning, match="`damping` of the joint"):
         found = pushplan.scene_from(model, name=wanted.name)
     assert_alike(wanted.to_dict()["scene"], found.to_dict()["scene"])
-    # Without a file, and with the goal that an exported plan has.
+    # Without a file, and with the goal stored in an exported plan.
     model = mujoco.MjModel.from_xml_string(plan(task).to_mjcf())
     with pytest.warns(UserWarning, match="the tool is left out"):
         again = pushplan.scene_from(model)
@@ -127,16 +127,16 @@ def test_things_are_where_the_data_has_them() -> None:
         turn = data.body(name).xmat.reshape(3, 3)
         heading = math.atan2(turn[1, 0], turn[0, 0])
         assert task.start[k, :2] == pytest.approx(data.body(name).xpos[:2], abs=1e-9)
-        # A drawer of two equal halves may be seen from either end.
+        # A drawer of two equal halves looks identical from either end.
         off = math.remainder(task.start[k, 2] - heading, math.pi)
         assert name == "can" or off == pytest.approx(0, abs=1e-9)
     scene: Any = task.to_dict()["scene"]
     limits = {joint["kind"]: joint.get("limits") or joint.get("limits_deg") for joint in scene["joints"]}
-    # Counted from where they are now.
+    # Relative to the current positions.
     assert sorted(map(abs, limits["prismatic"])) == pytest.approx([0.15, 0.15])
     assert sorted(map(abs, limits["revolute"])) == pytest.approx([30, 90])
     assert pushplan.scene_from(model).start[0] == pytest.approx([0.5, 0.1, 0])
-    # What the importer refuses it refuses here.
+    # Errors of the importer are also raised here.
     ball = mujoco.MjModel.from_xml_string(
         "<mujoco><worldbody><body name='ball'><freejoint/><geom size='.05'/></body></worldbody></mujoco>"
     )
@@ -240,7 +240,7 @@ def test_data_are_read_by_numpy_and_are_what_the_engines_say(
         strokes = slice(*data["stroke_start"][episode : episode + 2])
         stroke = data["stroke"][strokes]
         if np.any(stroke[:, 2] != stroke[:, 5]) or not data["settles"][strokes].all():
-            continue  # the tool turns, as pushes do not
+            continue  # the tool rotates, unlike in pushes
         scene, tool = (json.loads(data[key][episode]) for key in ("scene", "tool"))
         assert tool["grip"] == {"position": [0.0, 0.0], "yaw_deg": 0.0}
         count = data["objects"][episode]
@@ -258,18 +258,18 @@ def test_data_are_read_by_numpy_and_are_what_the_engines_say(
         pushes = np.column_stack([
             stroke[:, :2], np.arctan2(along[:, 1], along[:, 0]), length, length / data["stroke_time"][strokes],
         ])
-        # Where it is not stated how high the tool presses, the 3-D engine says what is true.
+        # If the height of the push is unknown, the 3-D engine provides the ground truth.
         model = "planar" if "push_height" in scene else "3d"
         first, behind = data["frame_start"][episode : episode + 2]
         poses = data["pose"][first:behind, :count]
-        # Headings of files are within a turn, those of the data count turns.
+        # Headings in files are within a full turn, headings in the data count turns.
         rolled = pushplan.rollout(
             task, pushplan.Tool.of(tool), pushes[None], grip_yaw=stroke[0, 2], start=poses[0], model=model
         )
         assert rolled.frames[0] == behind - first
         off.append(np.abs(rolled.poses[0] - poses).max())
         assert rolled.times[0] == pytest.approx(data["time"][first:behind])
-    # Directions went through an angle: last digits differ, which some contacts make more of.
+    # Directions were converted to angles and back: last digits differ, which some contacts amplify.
     assert len(off) > 10 and np.median(off) < 1e-9 and max(off) < 0.02
     statistics = json.loads((tmp_path / "statistics.json").read_text())
     for key in ("mass", "friction", "size", "pose", "velocity", "change"):

@@ -18,7 +18,7 @@ import pushplan
 
 
 def solve(task: pushplan.Task) -> None:
-    # Would take minutes.
+    # This call would take minutes.
     pushplan.solve_all([task] * 400, effort="thorough")
 
 
@@ -40,9 +40,9 @@ def test_ctrl_c_interrupts(work: Callable[[pushplan.Task], None], root: Path) ->
     interrupt.start()
     with pytest.raises(KeyboardInterrupt):
         work(task)
-    # A batch of 256 replays in 3-D takes about a second of a core; machines are shared.
+    # A batch of 256 replays in 3-D takes about a second on one core; machines are shared.
     assert time.monotonic() - began < 20.0
-    # And the next call works.
+    # The next call works.
     assert pushplan.solve(task, effort="draft").solved
 
 

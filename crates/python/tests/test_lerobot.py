@@ -38,7 +38,7 @@ def test_pyarrow_reads_what_was_predicted(task: pushplan.Task, tmp_path: Path) -
     for (_, trajectory), row in zip(episodes, rows):
         frames = slice(row["dataset_from_index"], row["dataset_to_index"])
         assert row["length"] == len(objects[frames])
-        # Every frame is where the trajectory is then; the last is its end.
+        # Every frame matches the trajectory at its time; the last is its end.
         times = np.arange(row["length"]) / 20
         for column in range(objects.shape[1]):
             poses = trajectory.poses.reshape(len(trajectory), -1)[:, column]
@@ -76,12 +76,12 @@ def test_pyarrow_reads_what_runs_saw_and_did(tmp_path: Path) -> None:
         assert objects[frames][-1, :, :2] == pytest.approx(np.array([sight["position"] for sight in last]), abs=1e-6)
         first = trace["first"]["seen"]
         assert objects[frames][0, :, :2] == pytest.approx(np.array([sight["position"] for sight in first]), abs=1e-6)
-        # The tool goes all of its ways, at their speed, and is lifted from one to the next.
+        # The tool follows all its paths at their speed, and is lifted between them.
         ways = np.linalg.norm(np.diff(tool[frames][:, :2], axis=0), axis=1)
         lifted = ways > task.push_speed * 1.5 / 20
         assert ways[~lifted].sum() == pytest.approx(sum(push.length or 0.0 for push in run.pushes), rel=0.05)
         assert np.count_nonzero(lifted) <= len(trace["steps"]) - 1
-    # They go together with trajectories of the same objects.
+    # Runs and trajectories of the same objects can be combined.
     push = pushplan.Push((0.3, 0.1), 0.0, 0.1, 0.1)
     predicted = pushplan.predict(pushplan.Plan.of(task, "finger", [push]), "planar")
     lerobot.save(tmp_path / "both", [(task, predicted), runs[0]])

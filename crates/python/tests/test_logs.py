@@ -56,7 +56,7 @@ def test_a_log_in_millimetres_and_radians_is_a_recording(tmp_path: Path) -> None
     part = logs.read_csv(path, **STATED, end=1.0)
     assert len(part) == 51
     assert np.all(part.velocities == 0.0)
-    # From the middle on, it begins as it moves there.
+    # Cut in the middle, the recording begins with the current velocity.
     late = logs.read_csv(path, **STATED, start=1.5)
     assert late.velocities[0] == pytest.approx([0.05, 0.0, 0.3], abs=1e-6)
     again = pickle.loads(pickle.dumps(late))
@@ -172,7 +172,7 @@ def test_a_bag_of_ros_is_the_same_recording(tmp_path: Path) -> None:
     assert (found.name, found.objects) == ("log", ["box"])
     assert found.times == pytest.approx(wanted.times, abs=1e-6)
     assert found.poses == pytest.approx(wanted.poses, abs=1e-6)
-    # Stamps that are off by half a step are where they belong in time.
+    # Poses with stamps off by half a step are interpolated in time.
     late = logs.read_mcap(bag(tmp_path / "late.mcap", rows(), late=0.01), **ROS)
     assert len(late) == len(wanted) - 1
     assert late.poses[:, 0, 0] == pytest.approx(np.maximum(0.1, late.poses[:, 0, 0]))
@@ -198,7 +198,7 @@ def test_an_exported_plan_is_read_back(tmp_path: Path) -> None:
     assert recording.objects == predicted.objects
     assert recording.times == pytest.approx(predicted.times, abs=1e-9)
     assert recording.poses == pytest.approx(predicted.poses, abs=1e-9)
-    # Whoever predicts it again finds what the file says.
+    # A new prediction reproduces the content of the file.
     (tmp_path / "bad.mcap").write_bytes(b"no such thing")
     with pytest.raises(Exception, match="(?i)mcap|magic"):
         logs.read_mcap(tmp_path / "bad.mcap")

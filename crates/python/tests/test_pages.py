@@ -37,7 +37,7 @@ def test_a_plan_from_a_file_is_replayed_for_its_page(task: pushplan.Task, tmp_pa
     assert best is not None
     best.save(tmp_path / "best.plan.json")
     page = pushplan.Plan.load(tmp_path / "best.plan.json").page()
-    # Both engines' replays are in it.
+    # It contains the replays of both engines.
     assert page.count('"layer"') >= 2
 
 
@@ -49,7 +49,7 @@ def test_the_script_of_a_page_makes_its_plan_again(
     assert data is not None
     plans = json.loads(data.group(1))["plans"]
     for plan, made in list(zip(solution.plans, plans))[:2]:
-        # What the script prints at last is the verdict of this very plan.
+        # The last output of the script is the verdict of this plan.
         again = made["python"].replace("print(pushplan.verify(plan))", f"plan.save({str(tmp_path / 'a.json')!r})")
         assert again != made["python"]
         ran = subprocess.run(

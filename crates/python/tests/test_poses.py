@@ -19,10 +19,10 @@ mujoco = pytest.importorskip("mujoco")
 poses = pytest.importorskip("pushplan.poses")
 
 WIDTH, HEIGHT, FIELD = 1280, 960, 45.0
-#: On the table, with white around it: ids, middles, and the edge of the black square, metres.
+#: Tags on the table, with white margins: ids, centres, and the edge of the black square, metres.
 TABLE = {0: (0.25, -0.3), 1: (0.85, -0.3), 2: (0.25, 0.3), 3: (0.85, 0.3)}
 EDGE = 0.06
-#: White around a tag, as a share of its edge.
+#: White margin around a tag, relative to its edge.
 MARGIN = 1.5
 TASK: Any = {
     "scene": {
@@ -99,7 +99,7 @@ def render(model: Any) -> npt.NDArray[np.uint8]:
 
 def camera() -> Any:
     focal = HEIGHT / 2 / math.tan(math.radians(FIELD) / 2)
-    # MuJoCo's pixels are counted by their corners, OpenCV's by their middles.
+    # MuJoCo's pixel coordinates refer to corners, OpenCV's to centres.
     matrix = [[focal, 0, WIDTH / 2 - 0.5], [0, focal, HEIGHT / 2 - 0.5], [0, 0, 1]]
     return poses.Camera(matrix)
 
@@ -120,7 +120,7 @@ def drawn(rng: np.random.Generator) -> tuple[Any, Any]:
 
 def test_rendered_tags_are_found_within_what_is_said(tmp_path: Path) -> None:
     task = pushplan.Task.of(TASK)
-    # Not among those that poses.PIXELS was chosen on.
+    # Not in the set from which poses.PIXELS was chosen.
     rng = np.random.default_rng(1000)
     squares = []
     for _ in range(12):
@@ -137,7 +137,7 @@ def test_rendered_tags_are_found_within_what_is_said(tmp_path: Path) -> None:
         squares += [one @ np.linalg.solve(known, one) for one, known in zip(off, seen.covariance)]
         assert all(0 < value < 0.01 for value in seen.noise)
         assert task.at(seen.poses).start == pytest.approx(seen.poses)
-    # Squares of three normal numbers: 3 on average, below 7.8 in 95 of 100.
+    # Squares of three normal variables: 3 on average, below 7.8 in 95 of 100 cases.
     assert 0.5 < np.mean(squares) < 6.0, squares
     assert np.mean(np.array(squares) < 7.81) >= 0.8, squares
 
@@ -155,7 +155,7 @@ def test_an_object_that_is_not_seen_stays_and_is_named(tmp_path: Path) -> None:
     assert seen.poses[1] == pytest.approx(np.array(task.start)[1])
     off = seen.poses[0] - at[0]
     assert np.abs(off).max() < 1e-6
-    # Corners that fit no pose are no sight.
+    # Corners that fit no pose are not an observation.
     wrong = there.project(world) + np.array([[0, 0], [30, 0], [0, -30], [0, 0]])
     assert set(poses.look(task, {7: wrong}, there, TAGS).missing) == {"can", "box"}
     with pytest.raises(ValueError, match="which the task does not have"):

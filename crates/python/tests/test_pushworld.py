@@ -31,7 +31,7 @@ def test_cells_become_metres(pushworld: ModuleType) -> None:
     m0, m1 = task["scene"]["objects"]
     assert m0["position"] == pytest.approx([0.36 + 2.5 * 0.08, 0.16])
     assert m0["shape"]["cuboid"]["size"] == pytest.approx([0.064, 0.064, 0.05])
-    # An L of three cells: two along the row, and two along the column that share one with them.
+    # An L of three cells: two along the row, and two along the column that share one cell with them.
     assert m1["shape"]["cuboid"]["size"] == pytest.approx([0.064, 0.144, 0.05])
     assert m1["mass"] == pytest.approx(0.3)
     [part] = m1["parts"]
@@ -41,7 +41,7 @@ def test_cells_become_metres(pushworld: ModuleType) -> None:
     assert task["goal"]["position"] == pytest.approx([0.40, -0.16])
     [closed] = task["keep_out"]
     assert closed["for"] == ["tool"] and closed["position"] == pytest.approx([0.40, 0.08])
-    # Two cells of wall are one, and four walls stand around.
+    # Two wall cells are merged, and four walls surround the table.
     walls = task["scene"]["obstacles"]
     assert len(walls) == 5
     assert walls[0]["size"] == pytest.approx([0.16, 0.08, 0.10])

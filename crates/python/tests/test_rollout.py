@@ -33,12 +33,12 @@ def test_every_candidate_is_its_prediction(task: pushplan.Task, model: str) -> N
         assert (rolled.poses[k, :count] == predicted.poses).all()
         assert (rolled.tool_poses[k, :count] == predicted.tool_poses).all()
         assert (rolled.times[k, :count] == predicted.times).all()
-        # What is over repeats its last frame.
+        # A finished candidate repeats its last frame.
         assert (rolled.poses[k, count:] == predicted.poses[-1]).all()
         assert rolled.errors[k] == predicted.error
         assert rolled.reached[k] == predicted.reached
         assert np.isnan(rolled.heading_errors[k]) and predicted.heading_error is None
-    # The hook does pull the can.
+    # The hook pulls the can.
     assert rolled.poses[0, -1, 0, 0] < task.start[0, 0] - 0.1
 
 

@@ -145,13 +145,13 @@ def test_a_run_is_cancelled_and_either_side_starts_again(context: None) -> None:
     assert robot.call("cancel")["cancelled"]
     assert robot.state("cancelled", "ended")["state"] == "cancelled"
     wait(lambda: robot.stops > 0, 10)
-    # The robot goes away and comes back, and works now.
+    # The robot disconnects, reconnects and works again.
     turning.stop()
     robot = Robot(robot.task)
     turning = Turning(robot.node)
     assert robot.call("run")["success"]
     assert robot.state("ended", "failed")["state"] == "ended", robot.states
-    # The planner does.
+    # The planner also restarts.
     node.stop()
     planner = ros.Node(robot.task, effort="draft")
     node = Turning(planner.node)
@@ -173,7 +173,7 @@ def test_a_task_with_one_of_two_goals_met_is_not_reached() -> None:
     ]
     task = pushplan.Task.of(two)
 
-    # A node that sees the start and makes no plan, without a context of rclpy.
+    # A node that receives the start and makes no plan, without a context of rclpy.
     still: Any = ros.Node.__new__(ros.Node)
     still.tries = 0
     still._look = lambda given, since: given
@@ -234,7 +234,7 @@ def test_a_goal_has_feedback_a_result_and_is_cancelled(types: Any, context: None
     assert status == "succeeded" and report["reached"] and report["state"] == "ended", report
     assert client.said[0] == "looked" and client.said[-1] == "ended" and {"planned", "sent"} <= set(client.said)
     assert np.linalg.norm(robot.poses[0, :2] - [0.55, 0.1]) <= 0.02
-    # Another goal for the same can, and one for what the node does not see.
+    # Another goal for the same can, and one for an object that the node does not observe.
     further: Any = json.loads(json.dumps(TASK))
     further["goal"]["position"] = [0.55, 0.2]
     status, report = client.ends(client.asks(json.dumps(further)))
@@ -243,7 +243,7 @@ def test_a_goal_has_feedback_a_result_and_is_cancelled(types: Any, context: None
     further["scene"]["objects"][0]["name"] = further["goal"]["object"] = "cup"
     assert not client.asks(json.dumps(further)).accepted
     assert not client.asks("no task").accepted
-    # The robot does not answer: the goal is cancelled, and nothing else begins meanwhile.
+    # The robot does not answer: the goal is cancelled, and nothing else starts meanwhile.
     robot.stuck, robot.poses = True, np.array(robot.task.start)
     time.sleep(0.3)
     goal = client.asks()
@@ -253,7 +253,7 @@ def test_a_goal_has_feedback_a_result_and_is_cancelled(types: Any, context: None
     goal.cancel_goal_async()
     assert client.ends(goal)[0] == "cancelled"
     wait(lambda: robot.stops > stops, 10)
-    # Either side starts again.
+    # Either side restarts.
     robot.stuck = False
     node.stop()
     node = Turning(ros.Node(robot.task, effort="draft").node)

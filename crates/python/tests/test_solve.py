@@ -28,7 +28,7 @@ def test_plans_are_those_of_the_command_to_the_bit(
 ) -> None:
     ran = command("solve", f"tasks/{name}.yaml", "--json", "--seed", 3, "--out", tmp_path)
     expected = without_times(json.loads(ran.stdout))
-    # What was written is of the command alone.
+    # The list of written files exists only in the command's output.
     expected.pop("files", None)
     solution = pushplan.solve(pushplan.Task.load(root / f"tasks/{name}.yaml"), seed=3)
     assert without_times(solution.to_dict()) == expected
@@ -61,7 +61,7 @@ def test_five_lines_from_a_text_to_a_plan() -> None:
     assert best is not None and best.verdict is not None and best.verdict.passed
     [push] = best.pushes
     assert push.start is not None and push.length is not None
-    # The push goes towards the robot.
+    # The push is directed towards the robot.
     assert abs(abs(push.direction) - 3.14159) < 0.2
     trajectory = best.trajectory
     assert trajectory is not None
@@ -88,7 +88,7 @@ def test_a_time_limit_returns_the_best_so_far(root: Path) -> None:
 
 def test_a_model_can_be_told_to_refuse(task: pushplan.Task) -> None:
     keys = task.to_dict()
-    # Far faster than anything that the model was measured on.
+    # Far faster than any push on which the model was measured.
     fast = pushplan.Task.of({**keys, "pushes": {"speed": 1.0}})
     assert pushplan.solve(fast, model="network", effort="draft").warnings
     with pytest.raises(pushplan.RefusedError) as refused:
@@ -106,7 +106,7 @@ def test_verdicts_are_those_of_the_command(
     ran = command("verify", path, "--disturbed", 5, "--seed", 2, "--json")
     verdict = pushplan.verify(pushplan.Plan.load(path), disturbed=5, seed=2)
     assert verdict.to_dict() == json.loads(ran.stdout)
-    # At least five disturbed replays in each engine, and more until the answer is clear.
+    # At least five perturbed replays in each engine, and more until the verdict is clear.
     assert len(verdict.replays) >= 12 and verdict.passed and verdict.robustness == 1.0
     as_written = [replay for replay in verdict.replays if replay.draw is None]
     assert [replay.engine for replay in as_written] == ["planar", "3d"]
@@ -164,7 +164,7 @@ def test_what_is_the_same_compares_equal_and_what_is_not_does_not(task: pushplan
         for same in (pickle.loads(pickle.dumps(value)), copy.copy(value), copy.deepcopy(value)):
             assert value == same and not value != same
         assert value != another and not value == another and value != "something else"
-    # Clocks apart, solving again gives the same.
+    # Apart from times, solving again gives identical results.
     assert pushplan.solve(task, effort="draft") == solution
 
 

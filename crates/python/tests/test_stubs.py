@@ -36,7 +36,7 @@ def test_everything_public_says_what_it_is() -> None:
         found = getattr(pushplan, name)
         if isinstance(found, type):
             own = [key for key in vars(found) if not key.startswith("_")]
-            # The fields of exceptions and of a fault stand in their source.
+            # The fields of exceptions and of a fault are documented in their source.
             if found.__module__ == "pushplan":
                 undocumented += [f"{name}.{key}" for key in own if not vars(found)[key].__doc__]
     assert not undocumented

@@ -1,4 +1,4 @@
-//! From the keys of a robot to its arm.
+//! Construction of a robot's arm from its keys.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -12,16 +12,16 @@ use crate::geometry::{Pose, Pose3};
 use crate::scene::Robot;
 use crate::task::{ArmRefusal, ArmSource, PushRules, RobotArm, StatedArm, read_arm};
 
-/// From the flange to the tool's underside where a task does not say it, metres: a gripper.
+/// Default distance from the flange to the tool's underside, metres: the length of a gripper.
 const LENGTH: f64 = 0.15;
 
-/// Keys that an arm has of its own.
+/// Keys whose values the arm itself provides.
 const OWN: [&str; 2] = ["reach", "hand"];
 
-/// Keys that only say something of an arm.
+/// Keys that are valid only with an arm.
 const OF_URDF: [&str; 2] = ["flange", "tool_mount"];
 
-/// Notes what does not go together in a robot; whether it is an arm.
+/// Reports inconsistent keys of a robot; returns `true` if the robot is an arm.
 pub(in crate::asset) fn check(robot: &Node, ledger: &mut Ledger) -> bool {
     let [urdf, arm] = ["urdf", "arm"].map(|key| robot.get(key));
     let map = |key| robot.get(key).filter(|node| matches!(node.content, Content::Map(_)));
@@ -63,7 +63,8 @@ pub(in crate::asset) fn check(robot: &Node, ledger: &mut Ledger) -> bool {
     true
 }
 
-/// The arm of a robot whose task is in `file`; none, with faults, where there is none or it is faulty.
+/// Returns the arm of a robot whose task is in `file`; `None` if there is no arm, or if it is
+/// faulty, with faults reported.
 pub(in crate::asset) fn arm(
     robot: &Node,
     pushes: Option<&Node>,

@@ -1,5 +1,5 @@
-//! The keys of an arm: of the URDF that a task names, or the arm that a plan file holds. The registered
-//! reader makes the arm of them, see [`read_arms_with`](crate::task::read_arms_with).
+//! Keys of an arm: a URDF named by a task, or the arm stored in a plan file. The registered reader
+//! builds the arm from them, see [`read_arms_with`](crate::task::read_arms_with).
 
 mod build;
 mod spec;

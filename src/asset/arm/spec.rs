@@ -1,4 +1,4 @@
-//! The keys of a robot that is an arm.
+//! Keys of a robot that is an arm.
 
 use crate::asset::spec::{ANGLE, COORDINATE, Key, Range, SIZE, Value};
 use crate::scene::MAX_JOINTS;

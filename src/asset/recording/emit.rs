@@ -1,4 +1,4 @@
-//! Writing recordings.
+//! Writing of recordings.
 
 use std::path::Path;
 
@@ -15,22 +15,22 @@ impl Recording {
     /// Writes the recording as JSON; a partial file is never left behind.
     ///
     /// # Errors
-    /// A path that cannot be written; contents that could not be read again, such as numbers
-    /// that are not finite.
+    /// The path cannot be written, or the content could not be read back, for example because a
+    /// number is not finite.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), Faults> {
         let path = path.as_ref();
         let name = path.display().to_string();
         let text = serde_json::to_string(&self.to_json()).map_err(|error| {
             Fault::of_file(&name, format!("cannot write it as JSON: {error}"), "")
         })?;
-        // One frame a line: readable, and half as long as with one number a line.
+        // One frame per line is readable, and half as long as one number per line.
         let text = text.replace("{\"objects\":", "\n{\"objects\":");
         let text = text.replace("{\"pusher\":[", "\n{\"pusher\":[") + "\n";
         Self::parse(&text, &name)?;
         write_atomic(path, text.as_bytes())
     }
 
-    /// The recording in the keys of its file.
+    /// Returns the recording as JSON with the keys of its file.
     pub fn to_json(&self) -> Json {
         let pose = |pose: &Pose, heading: bool| match heading {
             true => {

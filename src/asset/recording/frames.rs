@@ -1,4 +1,4 @@
-//! The frames of a recording: their times and poses, and where they break a rule.
+//! Frames of a recording: parsing of their times and poses, and the rules they must keep.
 
 use crate::asset::node::Node;
 use crate::asset::strict::Ledger;
@@ -6,7 +6,7 @@ use crate::asset::take::{name_of, vector};
 use crate::geometry::Pose;
 use crate::recording::{Body, Gap, Jump, Moving, RecordedFrame, Recording, Strange, gaps, jumps};
 
-/// The time of every frame, the first at 0 s; `None` if they are not known.
+/// Returns the time of every frame, starting at 0 s; `None` if the times are unknown.
 pub(super) fn times(root: &Node, ledger: &mut Ledger) -> Option<Vec<f64>> {
     let frames = root.get("frames")?;
     let count = frames.items().len();
@@ -53,7 +53,8 @@ fn listed(times: &Node, count: usize, ledger: &mut Ledger) -> Option<Vec<f64>> {
     sound.then(|| values.iter().map(|time| time - values[0]).collect())
 }
 
-/// The frames, and whether the heading of each object is known; `None` if any is faulty.
+/// Returns the frames, and whether the heading of each object is known; `None` if a frame is
+/// faulty.
 pub(super) fn frames(
     root: &Node,
     objects: &[Node],
@@ -101,7 +102,7 @@ pub(super) fn frames(
     Some((frames, headings))
 }
 
-/// One frame by itself; its time and unknown headings are filled in later.
+/// Reads a single frame; its time and unknown headings are filled in later.
 fn frame(
     index: usize,
     node: &Node,
@@ -134,7 +135,7 @@ fn frame(
     sound.then_some(RecordedFrame { time: 0.0, tool, lifted, seen: true, poses })
 }
 
-/// A frame of the pusher alone; the poses of the objects are filled in later.
+/// Reads a frame without objects; their poses are filled in later.
 fn unseen(
     index: usize,
     pusher: &Node,
@@ -163,7 +164,7 @@ fn lifted(index: usize, node: &Node) -> bool {
     index > 0 && node.get("lifted").and_then(Node::switch).unwrap_or(false)
 }
 
-/// Notes jumps, and makes headings count their turns on the way.
+/// Reports jumps, and unwraps headings so that they count full turns.
 fn steps(
     frames: &mut [Option<RecordedFrame>],
     nodes: &[Node],
@@ -201,7 +202,7 @@ fn steps(
     }
 }
 
-/// Notes time steps that are much longer than the others although something moves.
+/// Reports time steps that are much longer than the others while an object moves.
 fn missing(frames: &[RecordedFrame], nodes: &[Node], ledger: &mut Ledger) {
     for Gap { frame, step, usual } in gaps(frames) {
         let message = format!(
@@ -213,7 +214,7 @@ fn missing(frames: &[RecordedFrame], nodes: &[Node], ledger: &mut Ledger) {
     }
 }
 
-/// Notes objects that the pusher stands on where it is set down.
+/// Reports objects that the pusher penetrates where it is set down.
 pub(super) fn set_down(root: &Node, recording: &Recording, ledger: &mut Ledger) {
     let Some(nodes) = root.get("frames").map(Node::items) else { return };
     for (frame, object) in recording.set_down_inside() {
@@ -226,7 +227,7 @@ pub(super) fn set_down(root: &Node, recording: &Recording, ledger: &mut Ledger) 
     }
 }
 
-/// Notes objects that move in the first frame already.
+/// Reports objects that already move in the first frame.
 pub(super) fn starts(root: &Node, recording: &Recording, ledger: &mut Ledger) {
     let Some(nodes) = root.get("frames").map(Node::items) else { return };
     for Moving { object, frame, travel, turn } in recording.moving_at_the_start() {

@@ -1,4 +1,4 @@
-//! Reading a recording: the scene, the pusher and what their frames say.
+//! Reading of a recording: the scene, the pusher and the frames.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -21,20 +21,20 @@ use super::spec::{PUSHER_KEYS, RECORDING, default};
 use super::{frames, units};
 
 impl Recording {
-    /// Reads a recording; JSON if the file's name ends in `.json`, else YAML.
+    /// Reads a recording, in JSON if the file's name ends in `.json`, otherwise in YAML.
     ///
     /// # Errors
-    /// All faults of the file, each with its place.
+    /// Returns all faults of the file, each with its place.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, Faults> {
         let (file, text) = read_text(path.as_ref())?;
         Self::parse(&text, &file)
     }
 
-    /// Reads a recording's text; `file` names it in faults, and its stem a recording that has
-    /// no `name`.
+    /// Parses the text of a recording. `file` is its name in faults; the stem of `file` becomes the
+    /// name of a recording without `name`.
     ///
     /// # Errors
-    /// All faults of the text, each with its place.
+    /// Returns all faults of the text, each with its place.
     pub fn parse(text: &str, file: &str) -> Result<Self, Faults> {
         let source = Source::of(file, text);
         let mut root = Node::parse(source)?;
@@ -71,13 +71,13 @@ fn read(root: &Node, file: &str, ledger: &mut Ledger) -> Option<Recording> {
     Some(recording)
 }
 
-/// `push` of `data/push.recording.json`.
+/// Returns the name without folder and extensions, such as `push` for `data/push.recording.json`.
 fn stem(file: &str) -> String {
     let name = Path::new(file).file_name().unwrap_or_default().to_string_lossy().into_owned();
     named_after(name.split('.').next().unwrap_or_default())
 }
 
-/// The scene with the first frame's poses and the defaults of what is not said.
+/// Returns the scene with the poses of the first frame, and defaults for missing values.
 fn scene(root: &Node, ledger: &mut Ledger) -> Option<Scene> {
     let mut scene = root.get("scene")?.clone();
     let first = root.get("frames")?.items().first()?.get("objects")?.items();
@@ -92,7 +92,7 @@ fn scene(root: &Node, ledger: &mut Ledger) -> Option<Scene> {
     task::scene_of(&scene, Recording::NOISE, ledger)
 }
 
-/// Fills in what an object leaves open; faults of the position are told at the first frame.
+/// Fills in missing values of an object; faults of its position are reported at the first frame.
 fn complete(object: &mut Node, pose: &Node, ledger: &mut Ledger) {
     let id = object.id;
     let [Some(x), Some(y), yaw] = [0, 1, 2].map(|k| pose.items().get(k)) else { return };
@@ -100,7 +100,7 @@ fn complete(object: &mut Node, pose: &Node, ledger: &mut Ledger) {
     if let Some(said) = object.get("position") {
         let differs = |k: usize, found: &Node| {
             let said = said.items().get(k).and_then(Node::number);
-            // Below a tenth of what counts as touching, two places cannot have been meant.
+            // Positions that differ by less than a tenth of the contact distance count as equal.
             matches!((said, found.number()), (Some(a), Some(b)) if (a - b).abs() > 1e-3)
         };
         if differs(0, x) || differs(1, y) {
@@ -125,13 +125,13 @@ fn complete(object: &mut Node, pose: &Node, ledger: &mut Ledger) {
     put("friction", Some(Node { id, content: Content::Number(Object::FRICTION) }), false);
 }
 
-/// How an object moves in the first frame.
+/// Returns the velocity of an object in the first frame.
 fn velocity(object: &Node) -> Option<Velocity> {
     let linear = object.get("velocity").map_or(Some(Vector::zeros()), vector)?;
     Some(Velocity { linear, angular: number_or(object, "spin_deg", 0.0)?.to_radians() })
 }
 
-/// The pusher as a tool, and its lift.
+/// Returns the pusher as a tool, and its lift.
 fn pusher(node: &Node, ledger: &mut Ledger) -> Option<(Arc<Tool>, f64)> {
     let lift = number_or(node, "lift", PushRules::LIFT);
     let solids: Vec<&Node> =

@@ -1,4 +1,5 @@
-//! Recording files: the user's own data, a scene and the poses of all bodies frame by frame.
+//! Recording files: the user's own data, given as a scene and the poses of all bodies in every
+//! frame.
 //!
 #![doc = include_str!("format.md")]
 
@@ -10,5 +11,5 @@ mod units;
 
 pub(super) use spec::{RECORDING, RECORDING_KEYS};
 
-/// The format in words, in Markdown.
+/// Description of the format, in Markdown.
 pub const RECORDING_FORMAT: &str = include_str!("format.md");

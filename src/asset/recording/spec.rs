@@ -1,4 +1,4 @@
-//! What a recording may hold.
+//! Specification of a recording file.
 
 use crate::asset::saved::{SCHEMA_VERSION, version};
 use crate::asset::shapes::{CUBOID, CYLINDER};
@@ -9,16 +9,16 @@ use crate::asset::task::{
 };
 use crate::asset::tool::TOOL_KEYS;
 
-/// Defaults of optional keys; the words of the keys below repeat them.
+/// Defaults of optional keys; the descriptions of the keys below repeat them.
 pub(super) mod default {
     /// Mass of an object, kg: a full mug.
     pub const MASS: f64 = 0.5;
 }
 
-/// What a recording may hold.
+/// Specification of a recording file.
 pub(in crate::asset) static RECORDING: Value = Value::Map(RECORDING_KEYS);
 
-/// The keys of a recording.
+/// Keys of a recording.
 pub(in crate::asset) const RECORDING_KEYS: &[Key] = &[
     Key::required("schema_version", version(SCHEMA_VERSION), "Version of the format, 1."),
     Key::required("kind", Value::Word(&["recording"]), "What the file is."),
@@ -108,7 +108,7 @@ const SPIN: Value = Value::Number(Range {
     advice: "a turn a second is 360",
 });
 
-/// The keys of a pusher.
+/// Keys of a pusher.
 pub(super) const PUSHER_KEYS: &[Key] = &[
     Key::optional(
         "cylinder",
@@ -162,8 +162,8 @@ const FRAME: Value = Value::Map(&[
     ),
 ]);
 
-/// The third number is an angle, so the range is that of neither; metres are checked by
-/// `units.rs`.
+/// Pose of a body. The range covers metres and degrees, because the third number is an angle;
+/// `units.rs` checks the metres.
 const POSE: Value = Value::List {
     of: &Value::Number(Range {
         what: "a finite number",

@@ -1,27 +1,28 @@
-//! Wrong units, recognised by sizes and positions that no table has.
+//! Detection of wrong units by sizes and positions that are impossible on a table.
 
 use crate::asset::node::Node;
 use crate::asset::strict::Ledger;
 
-/// An object wider than this stands on no table, metres.
+/// Maximum plausible width of an object, metres.
 const WIDEST: f64 = 1.5;
 
-/// Nothing on a table is farther from its origin, metres; the range of coordinates.
+/// Maximum distance of a body from the origin, metres; the range of coordinates.
 const FARTHEST: f64 = 10.0;
 
-/// Objects are 5 to 40 cm wide: up to this number centimetres are likelier, above it
-/// millimetres. The same for positions, which reach 0.3 to 4 m.
+/// Largest number that is taken for a width in centimetres; larger numbers are taken for
+/// millimetres. Objects are 5 to 40 cm wide. The limit for positions below follows from distances
+/// of 0.3 to 4 m.
 const WIDTH_IN_CENTIMETRES: f64 = 40.0;
 const REACH_IN_CENTIMETRES: f64 = 400.0;
 
-/// Notes a fault if lengths look like centimetres or millimetres, and says whether it did:
-/// every other rule about lengths would only repeat it.
+/// Reports lengths that look like centimetres or millimetres. Returns `true` if it found such
+/// lengths, because every other rule about lengths would only repeat the fault.
 pub(super) fn check(root: &Node, ledger: &mut Ledger) -> bool {
     let objects = root.get("scene").and_then(|scene| scene.get("objects"));
     let mut widths: Vec<(f64, &Node)> =
         objects.map(Node::items).unwrap_or_default().iter().filter_map(width).collect();
     widths.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // The median, so that one slip is reported as what it is, a size out of range.
+    // The median is used, so that a single mistake is reported as a size out of range.
     if let Some((width, node)) = widths.get(widths.len() / 2).filter(|(width, _)| *width > WIDEST) {
         let found = format!("an object {width} m wide");
         note(node, &found, *width <= WIDTH_IN_CENTIMETRES, ledger);
@@ -45,7 +46,8 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) -> bool {
     false
 }
 
-/// Horizontal extent of an object, in whatever unit, and the node that says it.
+/// Returns the horizontal extent of an object, in the unit of the file, and the node that states
+/// it.
 fn width(object: &Node) -> Option<(f64, &Node)> {
     let shape = object.get("shape")?;
     if let Some(radius) = shape.get("cylinder").and_then(|cylinder| cylinder.get("radius")) {

@@ -1,4 +1,4 @@
-//! Tasks and tools written back in the keys of their files.
+//! Conversion of tasks and tools to the keys of their files.
 
 use serde_json::{Value as Json, json};
 
@@ -17,10 +17,10 @@ use crate::{
     task::{Directions, Offsets, PushForm, PushRules, Task},
 };
 
-/// The most pairs of parts that a tool file names.
+/// Maximum number of pairs of parts in a tool file.
 const MAX_NAMED: usize = 64;
 
-/// A task as in a task file.
+/// Returns a task as in a task file.
 pub(in crate::asset) fn task(task: &Task) -> Json {
     let mut robot = match &task.arm {
         Some(arm) => json!({"arm": arm.to_json()}),
@@ -77,7 +77,7 @@ pub(in crate::asset) fn task(task: &Task) -> Json {
     fields
 }
 
-/// A tool as in a tool file.
+/// Returns a tool as in a tool file.
 pub(in crate::asset) fn tool(tool: &Tool) -> Json {
     if let Some(Blade { length, width, thickness, .. }) = tool.blade() {
         return json!({
@@ -98,8 +98,9 @@ pub(in crate::asset) fn tool(tool: &Tool) -> Json {
             posed(fields, &part.pose)
         })
         .collect();
-    // Every joint is written, those of touching parts too: to name one by hand does no harm. Where
-    // there are more than a file may have, those that hold the parts together.
+    // Every joint is written, including joints of touching parts, because stating them is harmless.
+    // If there are more than a file may have, only the joints that hold the parts together are
+    // written.
     let mut held = DisjointSets::new(tool.parts().len());
     let all = tool.joints().len() <= MAX_NAMED;
     let kept = tool.joints().iter().filter(|pair| held.join(**pair) || all);
@@ -114,7 +115,7 @@ pub(in crate::asset) fn tool(tool: &Tool) -> Json {
     })
 }
 
-/// A scene as in a task file.
+/// Returns a scene as in a task file.
 pub(in crate::asset) fn scene(scene: &Scene) -> Json {
     let object = |(index, object): (usize, &Object)| {
         let (mass, parts) = things::parts(scene, index);
@@ -162,7 +163,7 @@ pub(in crate::asset) fn scene(scene: &Scene) -> Json {
     fields
 }
 
-/// A joint between these as in a task file.
+/// Returns a joint as in a task file.
 fn joined(between: [&str; 2], kind: &JointKind) -> Json {
     let mut fields = match *kind {
         JointKind::Fixed => json!({"between": between, "kind": "fixed"}),
@@ -185,12 +186,13 @@ fn joined(between: [&str; 2], kind: &JointKind) -> Json {
     fields
 }
 
-/// Whether the file says so: the robot's own column it says elsewhere.
+/// Returns `true` if an obstacle is listed in the file; the robot's own column follows from other
+/// keys.
 fn is_stated(obstacle: &&Obstacle) -> bool {
     obstacle.name != Robot::BASE
 }
 
-/// Allowed pushes as in a task file.
+/// Returns the allowed pushes as in a task file.
 pub(in crate::asset) fn pushes(rules: &PushRules) -> Json {
     let angles = |list: &[f64]| list.iter().map(|angle| degrees(*angle)).collect::<Vec<_>>();
     let mut pushes = json!({

@@ -1,7 +1,7 @@
-//! Files that the program writes and reads again: plans and trajectories, in JSON.
+//! Plan and trajectory files, which the program writes and reads back, in JSON.
 //!
-//! Each holds the task and the tool in full, in the same keys as the user's own files, so that
-//! it can be verified, drawn and evaluated without any other file.
+//! Each file holds the complete task and tools, with the keys of the user's own files. It can
+//! therefore be verified, drawn and evaluated without any other file.
 
 pub(super) mod emit;
 mod plan;

@@ -18,29 +18,29 @@ use crate::{
 use super::read::{self, Opened};
 use super::{PLAN_FILE, PLAN_VERSION, emit};
 
-/// Steps with everything that is needed to carry it out, and what is known of its effect.
+/// Plan with everything needed to execute it, and with its predicted and verified outcome.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanFile {
-    /// The task that it solves.
+    /// Task that the plan solves.
     pub task: Task,
-    /// The tools that it uses, each once.
+    /// Tools that the plan uses, each once.
     pub tools: Vec<Arc<Tool>>,
-    /// The steps.
+    /// Steps of the plan.
     pub plan: Plan,
-    /// The effect model that predicted the outcome.
+    /// Effect model that predicted the outcome.
     pub model: Option<ModelSpec>,
-    /// What that model knew of the table.
+    /// Table fit used by that model.
     pub fit: Option<TableFit>,
-    /// Where that model says the plan ends.
+    /// Outcome predicted by that model.
     pub predicted: Option<Outcome>,
-    /// Whether simulation confirms it.
+    /// Verdict of the simulation.
     pub verdict: Option<Verdict>,
-    /// How the joints of the task's arm carry it out.
+    /// Joint trajectory of the task's arm.
     pub joints: Option<JointTrajectory>,
 }
 
 impl PlanFile {
-    /// A plan of which nothing is known yet.
+    /// Creates a plan file without prediction and verdict.
     pub fn new(task: Task, tools: Vec<Arc<Tool>>, plan: Plan) -> Self {
         Self {
             task,
@@ -57,16 +57,16 @@ impl PlanFile {
     /// Reads a plan file.
     ///
     /// # Errors
-    /// All faults of the file, each with its place.
+    /// Returns all faults of the file, each with its place.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, Faults> {
         let (file, text) = read_text(path.as_ref())?;
         Self::parse(&text, &file)
     }
 
-    /// Reads a plan file's text; `file` names it in faults.
+    /// Parses the text of a plan file; `file` is its name in faults.
     ///
     /// # Errors
-    /// All faults of the text, each with its place.
+    /// Returns all faults of the text, each with its place.
     pub fn parse(text: &str, file: &str) -> Result<Self, Faults> {
         let text = &without_earlier_ends(text);
         let mut opened = Opened::new(file, text, &PLAN_FILE)?;
@@ -101,17 +101,17 @@ impl PlanFile {
         opened.ledger.finish(file)
     }
 
-    /// Writes the file; a partial one is never left behind.
+    /// Writes the file; a partial file is never left behind.
     ///
     /// # Errors
-    /// A path that cannot be written; contents that could not be read again, such as numbers
-    /// that are not finite.
+    /// The path cannot be written, or the content could not be read back, for example because a
+    /// number is not finite.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), Faults> {
         read::write(path.as_ref(), self, Self::parse)
     }
 }
 
-/// The keys that are the program's own types; the strict check has seen to the others.
+/// Keys deserialised with serde; the strict check has already read the others.
 #[derive(Deserialize)]
 struct Own {
     plan: Plan,
@@ -155,8 +155,9 @@ impl Serialize for PlanFile {
     }
 }
 
-/// Returns a plan without ends that state the error of one first goal, the form before goals were a list:
-/// `verify` finds them again. Blanks stand in their place, so that everything else keeps its own.
+/// Removes the prediction and the verdict of a plan file in the earlier form, which stated the
+/// error of a single goal; `verify` recomputes them. Blanks replace the removed text, so that other
+/// positions stay valid.
 fn without_earlier_ends(text: &str) -> Cow<'_, str> {
     let is_end =
         |rest: &str| ["\"predicted\"", "\"verdict\""].iter().any(|key| rest.starts_with(key));
@@ -165,14 +166,14 @@ fn without_earlier_ends(text: &str) -> Cow<'_, str> {
     }
     let mut kept = String::with_capacity(text.len());
     let (mut depth, mut quoted, mut escaped, mut blank) = (0usize, false, false, false);
-    // Where the last comma between two keys of the file stands, as long as no key has followed it.
+    // Position of the last comma between two top-level keys, until the next key starts.
     let mut comma: Option<usize> = None;
     for (at, c) in text.char_indices() {
         match c {
             _ if escaped => escaped = false,
             '\\' if quoted => escaped = true,
             '"' => {
-                // The file's first key is its kind, so that a comma stands before all others.
+                // The first key of the file is its kind, so every other key follows a comma.
                 if let Some(at) = comma.filter(|_| !quoted && is_end(&text[at..])) {
                     blank = true;
                     kept.replace_range(at..=at, " ");

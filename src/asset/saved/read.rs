@@ -1,4 +1,4 @@
-//! What plan and trajectory files have in common: the strict check, the task and the tool.
+//! Common parts of reading plan and trajectory files: the strict check, the task and the tools.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ use crate::{
     task::{Plan, Step, Task},
 };
 
-/// A file that has passed the strict check, open for the rules that span several keys.
+/// File that has passed the strict check, open for the rules that span several keys.
 pub(super) struct Opened<'a> {
     pub source: Source<'a>,
     pub root: Node,
@@ -28,10 +28,10 @@ pub(super) struct Opened<'a> {
 }
 
 impl<'a> Opened<'a> {
-    /// Reads `text` as `value` tells.
+    /// Parses `text` according to the specification `value`.
     ///
     /// # Errors
-    /// One fault if it is not JSON; everything else is in the ledger.
+    /// Returns one fault if the text is not JSON; all other faults are in the ledger.
     pub fn new(file: &'a str, text: &'a str, value: &Value) -> Result<Self, Faults> {
         let source = Source::json(file, text);
         let mut root = Node::parse(source)?;
@@ -48,7 +48,7 @@ impl<'a> Opened<'a> {
         Ok(Self { source, root, ledger, task, tools })
     }
 
-    /// The parts of the file that are the program's own types.
+    /// Deserialises the parts of the file that are types of the program.
     pub fn typed<T: DeserializeOwned>(&self) -> Result<T, Fault> {
         serde_json::from_str(self.source.text).map_err(|error| {
             let message = error.to_string();
@@ -62,7 +62,7 @@ impl<'a> Opened<'a> {
         })
     }
 
-    /// Checks that the motion of joints is one of the task's arm.
+    /// Checks that the joint trajectory belongs to the task's arm.
     pub fn check_joints(&mut self, joints: Option<&JointTrajectory>) {
         let (Some(joints), Some(node)) = (joints, self.root.get("joints")) else { return };
         let again = "the file is damaged; make it again";
@@ -75,7 +75,7 @@ impl<'a> Opened<'a> {
         }
     }
 
-    /// Checks that the plan is one of this task with these tools.
+    /// Checks that the plan is valid for this task and these tools.
     pub fn check_plan(&mut self, plan: &Plan) {
         let Some(node) = self.root.get("plan") else { return };
         let tools: Vec<&str> = self.tools.iter().map(|tool| tool.name.as_str()).collect();
@@ -106,7 +106,7 @@ impl<'a> Opened<'a> {
         }
     }
 
-    /// Checks that an outcome is one of this task's scene.
+    /// Checks that an outcome belongs to this task's scene.
     pub fn check_outcome(&mut self, node: Option<&Node>, outcome: &Outcome) {
         self.check_state(node.and_then(|node| node.get("state")), &outcome.state);
         let (Some(node), Some(task)) = (node, &self.task) else { return };
@@ -121,7 +121,7 @@ impl<'a> Opened<'a> {
     /// Checks that a state has every object of the scene.
     pub fn check_state(&mut self, node: Option<&Node>, state: &State) {
         let (Some(node), Some(task)) = (node, &self.task) else { return };
-        // What has left the plane moves as one, with all its solids.
+        // A compound object that has left the plane has one pose for all its solids.
         let (solids, things) = (task.scene.objects.len(), task.scene.things().count());
         let space = state.space.as_ref().map_or(things, Vec::len);
         for (what, found, expected) in [
@@ -137,8 +137,8 @@ impl<'a> Opened<'a> {
     }
 }
 
-/// Writes `file` as JSON to `path`, after reading it back with `read`: what is written can be
-/// read.
+/// Writes `file` as JSON to `path` after reading it back with `read`, so that every written file is
+/// readable.
 pub(super) fn write<T>(
     path: &Path,
     file: &impl Serialize,

@@ -1,4 +1,4 @@
-//! What plan and trajectory files may hold.
+//! Specification of plan and trajectory files.
 
 use crate::asset::node::Node;
 use crate::asset::spec::{Key, Range, Value, numbers};
@@ -8,7 +8,7 @@ use crate::asset::tool::TOOL_FILE;
 use super::steps::{LIFT, POSE_IN_SPACE, STEPS};
 use super::verdict::{OUTCOME, VERDICT, WARNINGS};
 
-/// Version of recordings and of what commands print; raised when older readers would fail.
+/// Version of recordings and of the output of commands; raised when older readers would fail.
 pub const SCHEMA_VERSION: u32 = 1;
 
 /// Version of plan and trajectory files.
@@ -72,7 +72,7 @@ const JUDGED: Key = Key::optional(
 
 const MODEL: &str = "The effect model that predicted where the plan ends; by default unknown.";
 
-/// The version of a format; no other one is read.
+/// Returns the specification of a format version; any other version is refused.
 pub(in crate::asset) const fn version(number: u32) -> Value {
     Value::Count(Range {
         what: "the schema version",
@@ -82,7 +82,7 @@ pub(in crate::asset) const fn version(number: u32) -> Value {
     })
 }
 
-/// Large enough for anything on a table, small enough to betray a blown-up simulation.
+/// Large enough for anything on a table, small enough to reveal a diverged simulation.
 pub(super) const REAL: Value =
     Value::Number(Range { what: "a number", low: -1e6, high: 1e6, advice: "is the file damaged?" });
 

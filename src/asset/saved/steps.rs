@@ -4,7 +4,7 @@ use crate::asset::spec::{Key, Range, Value, numbers};
 
 use super::spec::{INDEX, POSE, POSITIVE, REAL, SHARE, UNSIGNED, VECTOR};
 
-/// The steps of a plan.
+/// Specification of the steps of a plan.
 pub(super) const STEPS: Value = Value::Map(&[Key::required(
     "steps",
     Value::List { of: &STEP, items: "steps", min: 0, max: 64 },
@@ -60,7 +60,7 @@ const SPEED: Key = Key::required("speed", LEVER, "Speed of the tip, m/s.");
 const HOLD: Key = Key::required("hold", UNSIGNED, "How long the blade then stands still, seconds.");
 const RETREAT: Key = Key::required("retreat", UNSIGNED, "How far it is then drawn back, metres.");
 
-/// Large enough for any lever, small enough that none takes hours.
+/// Large enough for any lever, small enough that no lever-up takes hours.
 const LEVER: Value = Value::Number(Range {
     what: "a positive number",
     low: 1e-4,

@@ -1,4 +1,4 @@
-//! Objects of several solids as in a task file.
+//! Compound objects as in a task file.
 
 use serde_json::{Value as Json, json};
 
@@ -6,8 +6,8 @@ use crate::asset::put::{drawn, posed, shape};
 use crate::asset::task::{emitted_support, shares_of_mass};
 use crate::scene::{Object, Scene, Whole};
 
-/// The mass of object `index` with its parts, kg, and these parts; none, and its own mass, where it is of
-/// one solid.
+/// Returns the mass of object `index` including its parts, kg, and the parts. For a single solid,
+/// returns its own mass and no parts.
 pub(super) fn parts(scene: &Scene, index: usize) -> (f64, Vec<Json>) {
     let parts: Vec<&Object> = scene.parts_of(index).map(|k| &scene.objects[k]).collect();
     let own = &scene.objects[index];
@@ -26,7 +26,7 @@ pub(super) fn parts(scene: &Scene, index: usize) -> (f64, Vec<Json>) {
         if !part.is_raised() {
             fields["support"] = emitted_support(&part.support);
         }
-        // A number is what a part without a name is called.
+        // A part without a name is named by its number.
         let name = part.name.strip_prefix(&format!("{}/", own.name)).unwrap_or(&part.name);
         if name != (k + 1).to_string() {
             fields["name"] = json!(name);
@@ -40,7 +40,7 @@ pub(super) fn parts(scene: &Scene, index: usize) -> (f64, Vec<Json>) {
     (whole.unwrap_or(all), parts.iter().enumerate().map(part).collect())
 }
 
-/// The mass of everything, kg, if its shares by volume are those that the solids have, to the bit.
+/// Returns the total mass, kg, if its shares by volume equal the masses of the solids bit for bit.
 fn by_volume(solids: &[Object]) -> Option<f64> {
     let sum: f64 = solids.iter().map(|solid| solid.mass).sum();
     let open = vec![None; solids.len()];

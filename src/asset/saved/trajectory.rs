@@ -17,16 +17,16 @@ use crate::{
 use super::read::{self, Opened};
 use super::{PLAN_VERSION, TRAJECTORY_FILE, emit};
 
-/// What happened, or was predicted to happen, when a plan was carried out.
+/// Executed or predicted motion of a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TrajectoryFile {
-    /// The task whose scene it is.
+    /// Task whose scene moves.
     pub task: Task,
-    /// The tools that moved, each once.
+    /// Tools that moved, each once.
     pub tools: Vec<Arc<Tool>>,
-    /// The steps.
+    /// Steps of the plan.
     pub plan: Plan,
-    /// The motion, and which model computed it.
+    /// Motion, with the model that computed it.
     pub trajectory: Trajectory,
 }
 
@@ -34,16 +34,16 @@ impl TrajectoryFile {
     /// Reads a trajectory file.
     ///
     /// # Errors
-    /// All faults of the file, each with its place.
+    /// Returns all faults of the file, each with its place.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, Faults> {
         let (file, text) = read_text(path.as_ref())?;
         Self::parse(&text, &file)
     }
 
-    /// Reads a trajectory file's text; `file` names it in faults.
+    /// Parses the text of a trajectory file; `file` is its name in faults.
     ///
     /// # Errors
-    /// All faults of the text, each with its place.
+    /// Returns all faults of the text, each with its place.
     pub fn parse(text: &str, file: &str) -> Result<Self, Faults> {
         let mut opened = Opened::new(file, text, &TRAJECTORY_FILE)?;
         opened.ledger.sound()?;
@@ -58,11 +58,11 @@ impl TrajectoryFile {
         opened.ledger.finish(file)
     }
 
-    /// Writes the file; a partial one is never left behind.
+    /// Writes the file; a partial file is never left behind.
     ///
     /// # Errors
-    /// A path that cannot be written; contents that could not be read again, such as numbers
-    /// that are not finite.
+    /// The path cannot be written, or the content could not be read back, for example because a
+    /// number is not finite.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), Faults> {
         read::write(path.as_ref(), self, Self::parse)
     }
@@ -76,7 +76,7 @@ fn check_frames(opened: &mut Opened, nodes: &[Node], own: &Own) {
             let message = format!("frame {k} is at {} s, before the one before it", frame.time);
             opened.ledger.fault(node, message, "frames are in order of time");
         }
-        // The start belongs to push 0, also where there is none.
+        // The start belongs to step 0, even in a plan without steps.
         if frame.stroke >= own.plan.steps.len().max(1) {
             let steps = own.plan.steps.len();
             let message = format!("step {} of a plan with {steps}", frame.stroke + 1);
@@ -103,7 +103,7 @@ fn check_contacts(opened: &mut Opened, nodes: &[Node], own: &Own) {
     }
 }
 
-/// The keys that are the program's own types; the strict check has seen to the others.
+/// Keys deserialised with serde; the strict check has already read the others.
 #[derive(Deserialize)]
 struct Own {
     plan: Plan,

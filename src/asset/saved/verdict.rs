@@ -1,4 +1,4 @@
-//! What a file says of where a plan ends, and of whether it works.
+//! Specification of the outcome and verdict of a plan in a file.
 
 use crate::asset::spec::{Key, Value};
 

@@ -11,7 +11,7 @@ fn the_pattern_of_names_leaves_out_no_name() {
         assert!(!(allowed && left_out(c)), "{c:?}");
         assert!(allowed || left_out(c) || c > '\u{ff}', "{c:?}");
     }
-    // Only escapes that every engine knows.
+    // Only escapes that every regex engine supports.
     let pattern = name_pattern();
     assert!(pattern.starts_with(r"^[^\u0000-\u002c\u002e-\u002f") && pattern.ends_with("]+$"));
     let escapes = pattern.split('\\').skip(1);

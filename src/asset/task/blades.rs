@@ -1,4 +1,4 @@
-//! The tools of a task that allows lever-ups: some have blades, which fit below the edge.
+//! Blade checks for tasks that allow lever-ups: a blade must exist and fit below the edge.
 
 use crate::asset::fault::did_you_mean;
 use crate::asset::library::ToolLibrary;
@@ -7,7 +7,7 @@ use crate::asset::strict::Ledger;
 use crate::asset::take::name_of;
 use crate::scene::Blade;
 
-/// Notes tools that have no blade, and blades that do not fit below the edge.
+/// Reports tools without a blade, and blades that do not fit below the edge.
 pub(super) fn check_blades(root: &Node, library: &ToolLibrary, ledger: &mut Ledger) {
     let wanted = root.get("goal").and_then(|goal| goal.get("object")?.text());
     let objects = root.get("scene").and_then(|scene| scene.get("objects"));
@@ -65,8 +65,8 @@ pub(super) fn check_blades(root: &Node, library: &ToolLibrary, ledger: &mut Ledg
     }
 }
 
-/// What to say of a tool that a task of levering names and the library does not have, or has without
-/// a blade.
+/// Returns message and advice for a tool of a levering task that is not in the library or has no
+/// blade.
 pub(super) fn unknown_blade(name: &str, library: &ToolLibrary) -> (String, String) {
     if library.get(name).is_some() {
         let message = format!("`{name}` has no blade, so it cannot lever");

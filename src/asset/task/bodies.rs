@@ -1,4 +1,4 @@
-//! Bodies of a file's scene: their footprints, heights and names.
+//! Bodies of a scene in a file: their footprints, heights and names.
 
 use crate::asset::fault::did_you_mean;
 use crate::asset::node::Node;
@@ -9,11 +9,11 @@ use crate::geometry::{Footprint, Pose, Shape};
 
 use super::obstacles as fixed;
 
-/// Bodies may sink into each other by this much before it is a fault, metres: the rounding of
-/// sizes written in whole millimetres and turned by degrees.
+/// Penetration depth between bodies that is not yet a fault, metres. It covers the rounding of
+/// sizes in whole millimetres and headings in whole degrees.
 pub(super) const SLACK: f64 = 1e-4;
 
-/// Footprint and pose of a body.
+/// Returns footprint and pose of a body.
 pub(super) fn body(node: &Node) -> Option<(Footprint, Pose)> {
     let shape = match node.get("shape") {
         Some(node) => shape(node)?,
@@ -22,14 +22,14 @@ pub(super) fn body(node: &Node) -> Option<(Footprint, Pose)> {
     Some((shape.footprint(), placed(node)?))
 }
 
-/// Returns `true` if one of two bodies ends below the other.
+/// Returns `true` if one of the two bodies ends below the other.
 pub(super) fn passes(one: &Node, other: &Node, slack: f64) -> bool {
     let heights = heights(one).zip(heights(other));
     let ends_below = |one: [f64; 2], other: [f64; 2]| other[0] > 0.0 && one[1] - slack <= other[0];
     heights.is_some_and(|(one, other)| ends_below(one, other) || ends_below(other, one))
 }
 
-/// Heights of the underside and the top of a body above the table, metres.
+/// Returns the heights of the underside and the top of a body above the table, metres.
 fn heights(node: &Node) -> Option<[f64; 2]> {
     let height = match node.get("shape") {
         Some(solid) => shape(solid)?.height(),
@@ -39,7 +39,7 @@ fn heights(node: &Node) -> Option<[f64; 2]> {
     Some([low, low + height])
 }
 
-/// Returns the object called `name`; notes a fault if there is none.
+/// Returns the object called `name`; reports a fault if there is none.
 pub(super) fn known_object<'a>(
     name: &Node,
     objects: &'a [Node],

@@ -1,4 +1,4 @@
-//! From a checked tree to a [`Task`].
+//! Construction of a [`Task`] from a checked tree.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -16,7 +16,7 @@ use super::keep::KEPT_WITHIN;
 use super::tools::{costs, tools};
 use super::{frictions, goals, joints, keep, levers, mounts, obstacles, parts};
 
-/// The task, or `None` if anything needed is missing or was faulty.
+/// Builds the task; returns `None` if a required value is missing or faulty.
 pub(super) fn task(root: &Node, file: &str, arm: Option<Arc<dyn RobotArm>>) -> Option<Task> {
     let stem = || Path::new(file).file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let mut scene = scene(root.get("scene")?)?;
@@ -27,7 +27,7 @@ pub(super) fn task(root: &Node, file: &str, arm: Option<Arc<dyn RobotArm>>) -> O
         Some(arm) => standing(root.get("robot")?, &**arm)?,
         None => robot(root.get("robot")?)?,
     };
-    // Lever-ups reach close to the base, and most of their robots state none.
+    // Lever-ups reach close to the base, and most levering tasks state no `base`.
     if levers.is_some() && root.get("robot")?.get("base").is_none() {
         robot.base = 0.0;
     }
@@ -61,13 +61,13 @@ pub(super) fn task(root: &Node, file: &str, arm: Option<Arc<dyn RobotArm>>) -> O
     })
 }
 
-/// What is unknown.
+/// Returns the unknown properties of the scene.
 fn unknown(root: &Node) -> Option<Unknowns> {
     let words = root.get("unknown").map(Node::items).unwrap_or_default();
     words.iter().try_fold(Unknowns::NONE, |so_far, word| so_far.with(word.text()?))
 }
 
-/// The scene, or `None` if anything needed is missing or was faulty.
+/// Builds the scene; returns `None` if a required value is missing or faulty.
 pub(super) fn scene(node: &Node) -> Option<Scene> {
     let items = |key| node.get(key).map(Node::items).unwrap_or_default().iter();
     let nodes = node.get("objects").map(Node::items).unwrap_or_default();
@@ -109,7 +109,7 @@ pub(super) fn scene(node: &Node) -> Option<Scene> {
     Some(scene.rubbing_all_over())
 }
 
-/// Where a table with a size ends.
+/// Returns the extents of a table with a size.
 pub(super) fn table_top(table: &Node) -> Option<TableTop> {
     let size = vector(table.get("size")?)?;
     let middle = match table.get("position") {
@@ -119,7 +119,8 @@ pub(super) fn table_top(table: &Node) -> Option<TableTop> {
     Some(TableTop { size: [size.x, size.y], middle })
 }
 
-/// The largest force of an arm, or on an object, newtons; any where none is stated.
+/// Returns the maximum force of an arm, or on an object, newtons; the inner `None` if no maximum is
+/// stated.
 fn max_force(node: &Node) -> Option<Option<f64>> {
     match node.get("max_force") {
         Some(force) => force.number().map(Some),
@@ -127,7 +128,7 @@ fn max_force(node: &Node) -> Option<Option<f64>> {
     }
 }
 
-/// The robot: its reach, and what else is said of it.
+/// Builds the robot: its reach, home, hand, base and force limit.
 fn robot(node: &Node) -> Option<Robot> {
     let reach = node.get("reach")?;
     let reach_min = number_or(reach, "min", 0.0)?;
@@ -159,7 +160,8 @@ fn robot(node: &Node) -> Option<Robot> {
     })
 }
 
-/// The robot that an arm is: its reach is the ring in which it holds tools.
+/// Returns the robot that represents an arm: its reach is the annulus in which the arm can hold
+/// tools.
 fn standing(node: &Node, arm: &dyn RobotArm) -> Option<Robot> {
     let [near, far] = arm.ring();
     Some(Robot {
@@ -170,7 +172,7 @@ fn standing(node: &Node, arm: &dyn RobotArm) -> Option<Robot> {
     })
 }
 
-/// The `home` of a robot, metres.
+/// Returns the `home` of a robot, metres.
 pub(super) fn home(robot: &Node) -> Option<Vector> {
     vector(robot.get("home")?)
 }
@@ -198,7 +200,7 @@ fn pushes(node: &Node) -> Option<PushRules> {
         },
         length: number_or(node, "length", usual.length)?,
         speed: number_or(node, "speed", usual.speed)?,
-        // Whole and in range: the check has seen to it.
+        // The check has already ensured that the value is whole and in range.
         max_count: max_count as usize,
         tool_changes: match node.get("tool_changes") {
             None => usual.tool_changes,

@@ -1,4 +1,4 @@
-//! Frictions of pairs in a task file: their reading, and the rules that they must keep.
+//! Pair frictions in a task file: parsing, and their consistency rules.
 
 use crate::asset::fault::did_you_mean;
 use crate::asset::node::Node;
@@ -7,14 +7,14 @@ use crate::asset::strict::Ledger;
 use crate::asset::take::name_of;
 use crate::scene::{Object, Obstacle, PairFriction, Surface};
 
-/// Below this an object hardly comes to rest on the table.
+/// Minimum friction with the table; below it, an object hardly stops.
 const LEAST_ON_TABLE: f64 = 0.05;
 
-/// Words for what rubs on an object and has no name of its own.
+/// Words for the contact partners that have no name of their own.
 const TABLE: &str = "table";
 const TOOL: &str = "tool";
 
-/// Frictions of one scene.
+/// Key of the pair frictions of a scene.
 pub(in crate::asset) const FRICTIONS: Key = Key::optional(
     "frictions",
     Value::List { of: &FRICTION, items: "frictions", min: 0, max: 256 },
@@ -40,7 +40,7 @@ const FRICTION: Value = Value::Map(&[
     ),
 ]);
 
-/// The friction of a pair, or `None` if anything needed is missing or was faulty.
+/// Returns the friction of a pair; `None` if a required value is missing or faulty.
 pub(super) fn friction(
     node: &Node,
     objects: &[Object],
@@ -64,7 +64,7 @@ pub(super) fn friction(
     Some(PairFriction { object, with, coefficient: node.get("coefficient")?.number()? })
 }
 
-/// Notes every fault of the frictions of pairs.
+/// Reports every fault of the pair frictions.
 pub(super) fn check(frictions: &[Node], objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) {
     let mut known: Vec<[&str; 2]> = Vec::new();
     for node in frictions {
@@ -110,7 +110,7 @@ pub(super) fn check(frictions: &[Node], objects: &[Node], obstacles: &[Node], le
     }
 }
 
-/// What a file calls the other body of a pair.
+/// Returns the name of the other body of a pair in a file.
 pub(in crate::asset) fn name_of_surface(
     surface: Surface,
     objects: &[Object],

@@ -1,4 +1,4 @@
-//! Rules of a goal's keys that span several of them.
+//! Rules that span several keys of a goal.
 
 use crate::asset::node::Node;
 use crate::asset::shapes::shape;
@@ -11,7 +11,7 @@ use super::goals::{self, About, Asked, asking, is_key, lifts, ways_to_ask};
 use super::part::parts;
 use super::plates::is_plate;
 
-/// Notes what is wrong with a goal.
+/// Reports the faults of a goal.
 pub(super) fn check(goal: &Node, scene: &Node, ledger: &mut Ledger) {
     let section = |key| scene.get(key).map(Node::items).unwrap_or_default();
     let (objects, obstacles) = (section("objects"), section("obstacles"));
@@ -26,9 +26,10 @@ pub(super) fn check(goal: &Node, scene: &Node, ledger: &mut Ledger) {
         ledger.fault(node, "an object is always where it is to itself", advice);
     }
     let solid = object.get("shape").and_then(shape);
-    // A levered object may come to lie on top of something.
+    // A levered object may end on top of another body.
     if let Some(solid) = solid.as_ref().filter(|_| !is_plate(object)) {
-        // In the frame of the goal: what does not move, or what it is relative to.
+        // Bodies in the frame of the goal: fixed bodies, or the object that the goal is relative
+        // to.
         let fixed = obstacles.iter().filter(|fixed| !passes(object, fixed, SLACK));
         let there: Vec<(&Node, Footprint, Pose)> = match (relative, other) {
             (None, _) => fixed
@@ -52,7 +53,7 @@ pub(super) fn check(goal: &Node, scene: &Node, ledger: &mut Ledger) {
     }
 }
 
-/// A goal asks for something, and for nothing twice.
+/// Reports a goal that asks for nothing, or for one property twice.
 fn demands(goal: &Node, ledger: &mut Ledger) {
     let has = |key: &str| goal.get(key).is_some();
     for (key, of, what) in [
@@ -95,8 +96,8 @@ fn demands(goal: &Node, ledger: &mut Ledger) {
     }
 }
 
-/// A goal at which the object would be inside something that is there, however it is turned and wherever
-/// within the tolerance it lies.
+/// Reports a goal at which the object would penetrate another body at every heading and every
+/// position within the tolerance.
 fn room_at_the_goal(
     goal: &Node,
     (name, object): (&Node, &Footprint),

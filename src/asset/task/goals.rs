@@ -1,6 +1,6 @@
-//! Goals of a task file: one entry per key that asks for something, and the keys that entries share.
+//! Goals of a task file: one entry per kind of demand, and the keys that all entries share.
 //!
-//! A new kind of demand is a file in `goals` with its [`Ask`], and a line in [`ASKS`].
+//! A new kind of demand needs a file in `goals` with its [`Ask`], and a line in [`ASKS`].
 
 mod ask;
 mod coverage;
@@ -30,7 +30,7 @@ use crate::{
 use ask::Ask;
 pub(super) use ask::{About, Asked};
 
-/// The keys of a goal that ask for something, places first.
+/// Entries for the demands of a goal, positions first.
 const ASKS: [Ask; 11] = [
     place::POSITION,
     region::REGION,
@@ -48,7 +48,7 @@ const ASKS: [Ask; 11] = [
 /// Meaning of the key that names the object.
 const OBJECT: &str = "Name of the object to bring to the goal.";
 
-/// The other keys of a goal.
+/// Keys of a goal that state no demand.
 const SHARED: [Key; 5] = [
     Key::optional(
         "object",
@@ -110,31 +110,31 @@ static KEYS: [Key; count()] = {
     keys
 };
 
-/// One goal.
+/// Specification of a goal.
 pub(super) const GOAL: Value = Value::Map(&KEYS);
 
-/// Returns the entries whose key a goal has.
+/// Returns the entries whose key is present in a goal.
 fn asks(goal: &Node) -> impl Iterator<Item = &'static Ask> {
     const ALL: &[Ask] = &ASKS;
     ALL.iter().filter(|ask| goal.get(ask.keys[0].name).is_some())
 }
 
-/// Notes all faults of a goal's demands that span several keys.
+/// Reports the faults of a goal's demands that span several keys.
 pub(super) fn check(asked: &Asked, ledger: &mut Ledger) {
     asks(asked.goal).for_each(|ask| (ask.check)(asked, ledger));
 }
 
-/// Returns the keys of a goal that ask for something of this kind.
+/// Returns the keys of a goal that state a demand on one of the given properties.
 pub(super) fn asking(goal: &Node, about: &[About]) -> Vec<&'static str> {
     asks(goal).filter(|ask| about.contains(&ask.about)).map(|ask| ask.keys[0].name).collect()
 }
 
-/// Returns `true` if a goal asks for something that lever-ups bring about.
+/// Returns `true` if a goal has a demand that only lever-ups fulfil.
 pub(super) fn lifts(goal: &Node) -> bool {
     !asking(goal, &[About::Lifted]).is_empty()
 }
 
-/// Returns the keys that ask for something, in words.
+/// Lists the keys that state a demand, in words.
 pub(super) fn ways_to_ask() -> String {
     let names: Vec<String> = ASKS.iter().map(|ask| format!("`{}`", ask.keys[0].name)).collect();
     one_of(&names)
@@ -145,7 +145,7 @@ pub(super) fn is_key(name: Option<&str>) -> bool {
     KEYS.iter().any(|key| name == Some(key.name))
 }
 
-/// The goals of a task's key as they are written: it holds one, or a list.
+/// Returns the goals under a task's key, which holds a goal or a list of goals.
 fn written(node: &Node) -> &[Node] {
     match &node.content {
         Content::List(_) => node.items(),
@@ -153,12 +153,12 @@ fn written(node: &Node) -> &[Node] {
     }
 }
 
-/// Returns a goal of each object that a task's key names: one of several objects counts for each.
+/// Returns the goals under a task's key, with one goal per named object.
 pub(super) fn each(node: &Node) -> Vec<Node> {
     written(node).iter().flat_map(single).collect()
 }
 
-/// Returns a goal as one for each of its objects.
+/// Splits a goal into one goal per object.
 fn single(goal: &Node) -> Vec<Node> {
     let Some(names) = goal.get("objects") else { return vec![goal.clone()] };
     let of = |name: &Node| {
@@ -174,7 +174,7 @@ fn single(goal: &Node) -> Vec<Node> {
     names.items().iter().map(of).collect()
 }
 
-/// Notes goals that name no object, or one twice.
+/// Reports goals that name no object, or an object twice.
 pub(super) fn check_names(node: &Node, ledger: &mut Ledger) {
     for goal in written(node) {
         match (goal.get("object"), goal.get("objects")) {
@@ -198,7 +198,7 @@ pub(super) fn check_names(node: &Node, ledger: &mut Ledger) {
     }
 }
 
-/// The goals of a task's key, or `None` if anything needed is missing or was faulty.
+/// Returns the goals under a task's key; `None` if a required value is missing or faulty.
 pub(super) fn goals(node: &Node, scene: &Scene) -> Option<Vec<Goal>> {
     let of = |written: &Node| {
         let members =
@@ -209,7 +209,7 @@ pub(super) fn goals(node: &Node, scene: &Scene) -> Option<Vec<Goal>> {
     Some(goals?.into_iter().flatten().collect())
 }
 
-/// The goal of one object, or `None` if anything needed is missing or was faulty.
+/// Returns the goal of one object; `None` if a required value is missing or faulty.
 fn goal(node: &Node, scene: &Scene) -> Option<Goal> {
     let object = scene.object(node.get("object")?.text()?)?;
     let read = |ask: &Ask| (ask.read)(node, object, scene);
@@ -219,7 +219,7 @@ fn goal(node: &Node, scene: &Scene) -> Option<Goal> {
     if let Some(other) = node.get("relative_to") {
         goal = goal.relative_to(scene.object(other.text()?)?);
     }
-    // Positions first, as plan files have them, and sides last.
+    // Positions come first, as in plan files, then headings.
     let order = |demand: &Demand| {
         let kind = demand.kind();
         (kind.tolerance().is_none(), kind.facing().is_none())
@@ -233,7 +233,7 @@ fn goal(node: &Node, scene: &Scene) -> Option<Goal> {
     Some(goal.within_limits(scene))
 }
 
-/// Goals as in a file: as many for one object as its demands need.
+/// Returns goals as in a file, with as many entries per object as its demands need.
 pub(in crate::asset) fn emitted_goals(goals: &[Goal], scene: &Scene) -> Json {
     let mut all: Vec<Json> = goals.iter().flat_map(|goal| emitted(goal, scene)).collect();
     match all.len() {
@@ -242,7 +242,8 @@ pub(in crate::asset) fn emitted_goals(goals: &[Goal], scene: &Scene) -> Json {
     }
 }
 
-/// A goal as in a file, with another entry for each demand that has no room in the last one.
+/// Returns a goal as in a file, with a further entry for each demand that does not fit in the last
+/// one.
 fn emitted(goal: &Goal, scene: &Scene) -> Vec<Json> {
     let name = &scene.objects[goal.object].name;
     let mut entries: Vec<(Map<String, Json>, Vec<&Demand>)> = Vec::new();
@@ -268,7 +269,7 @@ fn emitted(goal: &Goal, scene: &Scene) -> Vec<Json> {
     entries.into_iter().map(|(entry, _)| Json::Object(entry)).chain(groups).collect()
 }
 
-/// Returns `true` if two demands have room in one entry.
+/// Returns `true` if two demands fit in one entry.
 fn shares(one: &Demand, other: &Demand) -> bool {
     let framed = |kind: &dyn Kind| kind.position().is_some() || kind.facing().is_some();
     let [a, b] = [one.kind(), other.kind()];
@@ -278,7 +279,7 @@ fn shares(one: &Demand, other: &Demand) -> bool {
         && !(framed(a) && framed(b) && a.relative() != b.relative())
 }
 
-/// The keys of a demand.
+/// Returns the keys of a demand.
 fn keys(demand: &Demand, goal: &Goal, scene: &Scene) -> Map<String, Json> {
     let written = ASKS.iter().find_map(|ask| (ask.write)(demand, goal, scene));
     let mut keys = written.and_then(|json| json.as_object().cloned()).unwrap_or_default();

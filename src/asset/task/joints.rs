@@ -1,8 +1,8 @@
-//! Joints of a task file: their reading, and the rules that they must keep.
+//! Joints of a task file: parsing, and their consistency rules.
 //!
-//! The simulators hold a forest of joints: every jointed group is a tree, of at most [`GROUP`]
-//! objects of similar mass (where not all of its joints are fixed). A closed loop would be pulled
-//! at from two sides by constraints that never quite agree.
+//! The simulators handle a forest of joints. Every jointed group is a tree of at most [`GROUP`]
+//! objects, of similar mass unless all its joints are fixed. A closed loop is refused, because its
+//! constraints would pull from two sides and never quite agree.
 
 use crate::asset::node::Node;
 use crate::asset::spec::{ANGLE_LIMIT, Key, POSITION, Range, SHIFT_LIMIT, Value, numbers};
@@ -14,26 +14,27 @@ use crate::scene::{DisjointSets, Joint, JointKind, Mount, Object, Span};
 use super::bodies::{body, known_object};
 use super::mounts;
 
-/// The most objects that one group of joints may hold.
+/// Maximum number of objects in one jointed group.
 const GROUP: usize = 12;
 
-/// The largest ratio of masses within one group whose joints are not all fixed. In a row of 12
-/// boxes, light and heavy in turn, pushed by half a metre, the axes of revolute joints drift by up
-/// to 0.8 mm at a ratio of 10 and by 4 mm at 30.
+/// Maximum mass ratio within one group whose joints are not all fixed. Measured in a row of 12
+/// boxes, alternately light and heavy, pushed by half a metre. The axes of revolute joints drift by
+/// up to 0.8 mm at a ratio of 10 and by 4 mm at 30.
 const GROUP_MASS_RATIO: f64 = 10.0;
 
-/// The same in a group of at most [`FEW`] objects: furniture with a door or a drawer.
+/// Maximum mass ratio in a group of at most [`FEW`] objects, such as furniture with a door or a
+/// drawer.
 const FEW_MASS_RATIO: f64 = 100.0;
 const FEW: usize = 3;
 
-/// No joint of things on a table reaches over a larger gap, metres.
+/// Maximum gap between jointed objects, metres.
 const FAR: f64 = 0.5;
 
-/// A vector whose squared length differs from one by no more is kept as it is, so that what is
-/// read, written and read again stays the same to the bit.
+/// Tolerance of the squared length of a unit vector. A vector within it is not normalised again, so
+/// that repeated reading and writing keeps the same bits.
 const UNIT: f64 = 1e-12;
 
-/// What a joint may hold.
+/// Specification of a joint.
 pub(super) const JOINT: Value = Value::Map(KEYS);
 
 const KEYS: &[Key] = &[
@@ -84,7 +85,7 @@ const ALONG: Value = Value::Number(Range {
     advice: "only the direction counts: [1, 0] is +x",
 });
 
-/// The joint, or `None` if anything needed is missing or was faulty.
+/// Returns the joint; `None` if a required value is missing or faulty.
 pub(in crate::asset) fn joint(node: &Node, objects: &[Object]) -> Option<Joint> {
     let index = |node: &Node| {
         let name = node.text()?;
@@ -98,14 +99,14 @@ pub(in crate::asset) fn joint(node: &Node, objects: &[Object]) -> Option<Joint> 
     Some(Joint { between, kind: kind_of(node)?, guessed })
 }
 
-/// The joint to the world, or `None` if anything needed is missing or was faulty.
+/// Returns the joint to the world; `None` if a required value is missing or faulty.
 pub(super) fn mount(joint: &Node, object: &Node, objects: &[Object]) -> Option<Mount> {
     let name = object.text()?;
     let object = objects.iter().position(|object| object.name == name)?;
     Some(Mount { object, kind: kind_of(joint)? })
 }
 
-/// What a joint allows, or `None` if anything needed is missing or was faulty.
+/// Returns the kind of a joint; `None` if a required value is missing or faulty.
 fn kind_of(node: &Node) -> Option<JointKind> {
     Some(match node.get("kind")?.text()? {
         "fixed" => JointKind::Fixed,
@@ -120,7 +121,7 @@ fn kind_of(node: &Node) -> Option<JointKind> {
     })
 }
 
-/// `Some(None)` where there are no limits, `None` where they are faulty.
+/// Returns the limits: `Some(None)` if there are none, `None` if they are faulty.
 fn limits(node: &Node, key: &str, read: fn(&Node) -> Option<f64>) -> Option<Option<Span>> {
     match node.get(key).map(Node::items) {
         None => Some(None),
@@ -129,7 +130,7 @@ fn limits(node: &Node, key: &str, read: fn(&Node) -> Option<f64>) -> Option<Opti
     }
 }
 
-/// `axis` at length one; `None` if it has no direction.
+/// Returns `axis` normalised; `None` if it has length zero.
 fn unit(axis: Vector) -> Option<Vector> {
     if (axis.norm_squared() - 1.0).abs() <= UNIT {
         return Some(axis);
@@ -137,7 +138,7 @@ fn unit(axis: Vector) -> Option<Vector> {
     axis.try_normalize(0.0)
 }
 
-/// Notes every fault of the joints.
+/// Reports every fault of the joints.
 pub(super) fn check(joints: &[Node], objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) {
     let mut groups = Groups::of(objects.len());
     let mut known: Vec<[usize; 2]> = Vec::new();
@@ -169,7 +170,7 @@ pub(super) fn check(joints: &[Node], objects: &[Node], obstacles: &[Node], ledge
     groups.check_masses(objects, ledger);
 }
 
-/// The two different objects that a joint names, by index.
+/// Returns the indices of the two different objects that a joint names.
 fn pair(
     joint: &Node,
     objects: &[Node],
@@ -193,7 +194,8 @@ fn pair(
     }
 }
 
-/// Every key must belong to the joint's kind, and what the kind needs must be there.
+/// Checks that every key belongs to the joint's kind, and that the keys required by the kind are
+/// present.
 fn check_keys(joint: &Node, ledger: &mut Ledger) {
     let Some(kind) = joint.get("kind").and_then(Node::text) else { return };
     let keys = [("at", "revolute"), ("limits_deg", "revolute")]
@@ -228,11 +230,11 @@ fn check_keys(joint: &Node, ledger: &mut Ledger) {
     }
 }
 
-/// Limits of turns are no farther apart than this, degrees: what is beyond one is told from what is beyond
-/// the other.
+/// Maximum difference between the limits of a revolute joint, degrees; beyond it, overshoot of one
+/// limit cannot be distinguished from overshoot of the other.
 const MOST_TURN: f64 = 340.0;
 
-/// Limits are in order and hold the start.
+/// Checks that limits are in order and contain the start.
 fn check_limits(joint: &Node, ledger: &mut Ledger) {
     for (key, what) in [("limits_deg", "turn"), ("limits", "shift")] {
         let Some(node) = joint.get(key) else { continue };
@@ -263,7 +265,7 @@ fn check_limits(joint: &Node, ledger: &mut Ledger) {
     }
 }
 
-/// Nothing on a table is joined over half a metre of air.
+/// Reports joints between bodies that are too far apart.
 fn check_distances(joint: &Node, first: &Node, second: &Node, ledger: &mut Ledger) {
     let (Some(a), Some(b)) = (body(first), body(second)) else { return };
     let gap = |a: &(Footprint, Pose), b: &(Footprint, Pose)| {
@@ -293,12 +295,12 @@ fn check_distances(joint: &Node, first: &Node, second: &Node, ledger: &mut Ledge
     }
 }
 
-/// Which objects joints connect.
+/// Jointed groups of objects.
 struct Groups {
     sets: DisjointSets,
     /// Whether the group that begins with an object has a joint that is not fixed.
     moves: Vec<bool>,
-    /// Whether it is joined to the world.
+    /// Whether the group is joined to the world.
     held: Vec<bool>,
 }
 
@@ -315,7 +317,7 @@ impl Groups {
         (0..self.moves.len()).filter(|&object| self.sets.lowest(object) == group).count()
     }
 
-    /// Joins the group of an object to the world; notes a fault if it is already.
+    /// Joins the group of an object to the world; reports a fault if it is already joined.
     fn hold(&mut self, object: usize, node: &Node, name: &str, ledger: &mut Ledger) {
         let group = self.sets.lowest(object);
         if std::mem::replace(&mut self.held[group], true) {
@@ -325,7 +327,8 @@ impl Groups {
         }
     }
 
-    /// Joins the groups of a pair; notes a fault if it closes a loop or makes too large a group.
+    /// Joins the groups of a pair; reports a fault if this closes a loop or the group becomes too
+    /// large.
     fn join(&mut self, pair: [usize; 2], node: &Node, names: [&str; 2], ledger: &mut Ledger) {
         let [a, b] = pair.map(|index| self.sets.lowest(index));
         if a == b {

@@ -1,4 +1,4 @@
-//! What a task file says must be left alone: objects that stay, regions that nothing enters.
+//! Constraints of a task file: objects that must stay, and regions that must stay free.
 
 use serde_json::{Value as Json, json};
 
@@ -12,13 +12,13 @@ use crate::scene::Region;
 
 use super::bodies::body;
 
-/// Height of a region as a solid, metres: no height matters.
+/// Height of a region as a solid, metres; the value has no effect.
 const HEIGHT: f64 = 1.0;
 
-/// Distance by which what is kept may be moved where none is stated, metres.
+/// Default distance by which a kept object may move, metres.
 pub(super) const KEPT_WITHIN: f64 = 0.005;
 
-/// What stays where it is.
+/// Key of the objects that must stay in place.
 pub(in crate::asset) const KEEP: Key = Key::optional(
     "keep",
     Value::Map(&[
@@ -33,7 +33,7 @@ pub(in crate::asset) const KEEP: Key = Key::optional(
      or fall.",
 );
 
-/// Where nothing may be.
+/// Key of the regions that must stay free.
 pub(in crate::asset) const KEEP_OUT: Key = Key::optional(
     "keep_out",
     Value::List { of: &REGION, items: "regions", min: 0, max: 16 },
@@ -53,7 +53,7 @@ const REGION: Value = Value::Map(&[
     ),
 ]);
 
-/// The outline of a part of the table.
+/// Key of the outline of a region.
 pub(super) const AREA: Key = Key::required(
     "area",
     Value::Variant(&[
@@ -84,24 +84,24 @@ pub(super) const AREA: Key = Key::required(
     "Its outline.",
 );
 
-/// Where a part of the table is.
+/// Key of the position of a region.
 pub(super) const AREA_POSITION: Key = Key::optional(
     "position",
     POSITION,
     "Where it is, [x, y] in metres: the middle of a circle or rectangle; default [0, 0].",
 );
 
-/// How a part of the table is turned.
+/// Key of the rotation of a region.
 pub(super) const AREA_YAW: Key = Key::optional("yaw_deg", ANGLE, "Its turn, degrees; default 0.");
 
 const WORDS: &[&str] = &["objects", "tool", "hand"];
 
-/// The regions, or `None` if one is faulty.
+/// Returns the regions; `None` if one is faulty.
 pub(super) fn regions(root: &Node) -> Option<Vec<Region>> {
     root.get("keep_out").map(Node::items).unwrap_or_default().iter().map(region).collect()
 }
 
-/// Outline and place of a part of the table.
+/// Returns outline and pose of a region.
 pub(super) fn area(node: &Node) -> Option<(Shape, Pose)> {
     let area = node.get("area")?;
     let at = match node.get("position") {
@@ -143,14 +143,14 @@ fn region(node: &Node) -> Option<Region> {
     })
 }
 
-/// Notes what makes an outline none.
+/// Reports a fault if an outline is invalid.
 pub(super) fn check_area(node: &Node, ledger: &mut Ledger) {
     if let Some(polygon) = node.get("area").and_then(|area| area.get("polygon")) {
         shapes::check_base(polygon, ledger);
     }
 }
 
-/// Notes regions that are none, that have another's name, or that an object stands in.
+/// Reports regions that are invalid, share a name with another body, or contain an object.
 pub(super) fn check(root: &Node, bodies: &[&Node], objects: &[Node], ledger: &mut Ledger) {
     let regions = root.get("keep_out").map(Node::items).unwrap_or_default();
     for (k, node) in regions.iter().enumerate() {
@@ -177,7 +177,7 @@ pub(super) fn check(root: &Node, bodies: &[&Node], objects: &[Node], ledger: &mu
     }
 }
 
-/// The outline of a part of the table as in a task file.
+/// Returns the outline of a region as in a task file.
 pub(in crate::asset) fn emitted_area(shape: &Shape) -> Json {
     match *shape {
         Shape::Cylinder { radius, .. } => json!({"circle": {"radius": radius}}),
@@ -189,7 +189,7 @@ pub(in crate::asset) fn emitted_area(shape: &Shape) -> Json {
     }
 }
 
-/// A region as in a task file.
+/// Returns a region as in a task file.
 pub(in crate::asset) fn emitted(region: &Region) -> Json {
     let area = emitted_area(&region.shape);
     let words = [(region.objects, "objects"), (region.tool, "tool"), (region.hand, "hand")];

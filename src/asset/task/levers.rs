@@ -1,4 +1,4 @@
-//! Lever-ups that a task allows: their keys, their reading, their writing, and the rules between them.
+//! Lever-ups of a task: keys, parsing, writing, and rules that span several keys.
 
 use serde_json::{Value as Json, json};
 
@@ -11,7 +11,7 @@ use crate::task::{LeverRules, Pivot};
 
 use super::goals;
 
-/// The lever-ups that a plan may contain.
+/// Key of the lever-ups that a plan may contain.
 pub(super) const LEVERS: Key = Key::optional(
     "levers",
     RULES,
@@ -90,7 +90,7 @@ const PIVOT_NUMBER: Value = Value::Number(Range {
     advice: "16 cm in front of the edge is 0.16, 12 mm behind it -0.012",
 });
 
-/// Range of depths of a blade under an edge.
+/// Range of the blade's depth under an edge.
 const DEPTH: Value = Value::Number(Range {
     what: "a depth in metres",
     low: 0.002,
@@ -111,7 +111,7 @@ pub(super) fn allowed(root: &Node) -> bool {
         || root.get("goal").is_some_and(|goal| goals::each(goal).iter().any(goals::lifts))
 }
 
-/// Reads the rules; the outer `None` if something is faulty.
+/// Reads the rules; the outer `None` if a value is faulty.
 pub(super) fn levers(root: &Node) -> Option<Option<LeverRules>> {
     match root.get("levers") {
         Some(node) => given(node).map(Some),
@@ -165,7 +165,7 @@ pub(in crate::asset) fn emitted_levers(rules: &LeverRules) -> Json {
     })
 }
 
-/// Notes faults between the numbers.
+/// Reports intervals whose limits are in the wrong order.
 pub(super) fn check(levers: &Node, ledger: &mut Ledger) {
     for key in ["depth", "angle_deg"] {
         let Some(node) = levers.get(key) else { continue };
@@ -185,7 +185,8 @@ pub(super) fn check(levers: &Node, ledger: &mut Ledger) {
     }
 }
 
-/// Notes what pushes after a lever-up cannot be: they bring its object somewhere, one by one from above.
+/// Reports pushes that cannot follow a lever-up: they must be placed from above, and the goal must
+/// state a position.
 pub(super) fn check_follow_up(pushes: &Node, goal: &Node, ledger: &mut Ledger) {
     if let Some(node) = pushes.get("form").filter(|form| form.text() == Some("chained")) {
         let message = "pushes that follow a lever-up are placed, none goes on from `home`";

@@ -1,4 +1,4 @@
-//! Reading a task file and checking it against the tools.
+//! Reading of a task file, and its check against the tools.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -20,44 +20,44 @@ use super::tools::tool_name;
 use super::{build, levers, rules, spec::TASK};
 
 impl Task {
-    /// Reads a task file. Whether the named tools exist is for [`Task::tools`] to say.
+    /// Reads a task file. [`Task::tools`] checks whether the named tools exist.
     ///
     /// # Errors
-    /// All faults of the file, each with its place.
+    /// Returns all faults of the file, each with its place.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, Faults> {
         let (file, text) = crate::asset::read_text(path.as_ref())?;
         Self::parse(&text, &file)
     }
 
-    /// Reads a task from `text`; `file` names it in faults, and its stem names a task that has
-    /// no `name`.
+    /// Reads a task from `text`. `file` is its name in faults; the stem of `file` becomes the name
+    /// of a task without `name`.
     ///
     /// # Errors
-    /// All faults of the text, each with its place.
+    /// Returns all faults of the text, each with its place.
     pub fn parse(text: &str, file: &str) -> Result<Self, Faults> {
         parse_with(text, file, None)
     }
 
-    /// The tools that push among those that the task allows, in its order (all: in the library's
-    /// order).
+    /// Returns the allowed pushing tools in the order of the task; if all are allowed, in the order
+    /// of the library.
     ///
     /// # Errors
-    /// A fault for every name that the library does not know, or one if there is no tool.
+    /// A fault for every name that is not in the library, or one fault if there is no tool.
     pub fn tools(&self, library: &ToolLibrary) -> Result<Vec<Arc<Tool>>, Faults> {
         if self.tools == ToolChoice::All && library.is_empty() {
             let advice = "add a tool file to the folder, or name another folder";
             let message = "all tools are allowed, but the library has none";
             return Err(Fault::of_file(&self.name, message, advice).into());
         }
-        // Where levering is allowed, tools may be named that do only that.
+        // A task that allows levering may name tools that cannot push.
         self.chosen(library, library.iter(), self.levers.is_some(), |tool| tool.pushes())
     }
 
-    /// The tools with blades among those that the task allows, in its order (all: in the library's
-    /// order).
+    /// Returns the allowed blade tools in the order of the task; if all are allowed, in the order
+    /// of the library.
     ///
     /// # Errors
-    /// A fault for every name that the library does not know, or one if there is no such tool.
+    /// A fault for every name that is not in the library, or one fault if there is no such tool.
     pub fn blades(&self, library: &ToolLibrary) -> Result<Vec<Arc<Tool>>, Faults> {
         if self.tools == ToolChoice::All && library.blades().is_empty() {
             let message = "all tools with blades are allowed, but the library has none";
@@ -68,7 +68,7 @@ impl Task {
         self.chosen(library, library.blades().iter(), mixed, |tool| tool.blade().is_some())
     }
 
-    /// The tools that it allows for pushes that follow lever-ups: those without blades.
+    /// Returns the choice of tools for pushes that follow lever-ups: the tools without blades.
     pub fn pushers(&self, library: &ToolLibrary) -> ToolChoice {
         match &self.tools {
             ToolChoice::All => ToolChoice::All,
@@ -79,8 +79,8 @@ impl Task {
         }
     }
 
-    /// The allowed tools that are `wanted`; `all` of them where the task names none. Others are no fault
-    /// in a `mixed` choice.
+    /// Returns the allowed tools that satisfy `wanted`, or `all` if the task names none. In a
+    /// `mixed` choice, other tools are no fault.
     fn chosen<'a>(
         &self,
         library: &'a ToolLibrary,
@@ -107,25 +107,25 @@ impl Task {
     }
 }
 
-/// Reads a task file and checks the tools it names against `library`, so that an unknown one
-/// is reported at its place with all other faults.
+/// Reads a task file and checks the tools it names against `library`, so that an unknown tool is
+/// reported at its place together with all other faults.
 ///
 /// # Errors
-/// All faults of the file, each with its place.
+/// Returns all faults of the file, each with its place.
 pub fn load_task(path: impl AsRef<Path>, library: &ToolLibrary) -> Result<Task, Faults> {
     let (file, text) = crate::asset::read_text(path.as_ref())?;
     parse_task(&text, &file, library)
 }
 
-/// [`load_task`] of a text; `file` names it in faults.
+/// Reads a task from `text`, as [`load_task`] does from a file; `file` is its name in faults.
 ///
 /// # Errors
-/// All faults of the text, each with its place.
+/// Returns all faults of the text, each with its place.
 pub fn parse_task(text: &str, file: &str, library: &ToolLibrary) -> Result<Task, Faults> {
     parse_with(text, file, Some(library))
 }
 
-/// Reads a task from `text`, with the tools it names checked against `library`, if one is given.
+/// Reads a task from `text` and checks the tools it names against `library`, if given.
 pub(in crate::asset) fn parse_with(
     text: &str,
     file: &str,
@@ -142,7 +142,7 @@ pub(in crate::asset) fn parse_with(
     ledger.finish(task)
 }
 
-/// Notes named tools that are not in the library, or of no use to the task.
+/// Reports named tools that are not in the library or cannot be used in the task.
 fn check_tools(root: &Node, library: &ToolLibrary, ledger: &mut Ledger) {
     if levers::allowed(root) {
         return check_blades(root, library, ledger);
@@ -156,7 +156,7 @@ fn check_tools(root: &Node, library: &ToolLibrary, ledger: &mut Ledger) {
     }
 }
 
-/// Applies the rules that span several keys; `None` if anything needed is missing.
+/// Applies the rules that span several keys; returns `None` if a required value is missing.
 pub(in crate::asset) fn task_of(root: &Node, file: &str, ledger: &mut Ledger) -> Option<Task> {
     rules::check(root, ledger);
     let robot = root.get("robot");
@@ -164,8 +164,8 @@ pub(in crate::asset) fn task_of(root: &Node, file: &str, ledger: &mut Ledger) ->
     build::task(root, file, arm)
 }
 
-/// The scene of another kind of file, by the rules of a task's; bodies may be `slack` metres
-/// deep in each other. `None` if anything needed is missing.
+/// Returns the scene of another kind of file, checked by the rules for tasks. Bodies may penetrate
+/// each other by up to `slack` metres. Returns `None` if a required value is missing.
 pub(in crate::asset) fn scene_of(node: &Node, slack: f64, ledger: &mut Ledger) -> Option<Scene> {
     rules::check_scene(node, slack, ledger);
     build::scene(node)

@@ -1,4 +1,4 @@
-//! Task files, of pushes and lever-ups: their keys, their reading, and the rules that span several keys.
+//! Task files, for pushes and lever-ups: keys, parsing, and rules that span several keys.
 
 mod blades;
 mod bodies;

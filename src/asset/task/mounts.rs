@@ -1,13 +1,14 @@
-//! Joints to the world in a task file: `between: [door, world]`, or an obstacle, which is as fixed.
+//! Joints to the world in a task file: `between: [door, world]`, or with an obstacle, which is also
+//! fixed.
 
 use crate::asset::node::Node;
 use crate::asset::strict::Ledger;
 use crate::asset::take::name_of;
 
-/// What a joint may name instead of one of its objects.
+/// Name of the world in place of one of a joint's objects.
 pub(in crate::asset) const WORLD: &str = "world";
 
-/// Which of a joint's two names is that of an object, where the other is of what does not move.
+/// Returns the name of the object if the other end of the joint is the world or an obstacle.
 pub(super) fn moving<'a>(
     joint: &'a Node,
     objects: &[Node],
@@ -26,7 +27,7 @@ pub(super) fn moving<'a>(
     }
 }
 
-/// Notes what is wrong with a joint to the world besides what is with any joint.
+/// Reports the faults that are specific to joints to the world.
 pub(super) fn check(joint: &Node, ledger: &mut Ledger) {
     if joint.get("kind").and_then(Node::text) == Some("fixed") {
         ledger.fault(joint, "what is fixed to the world does not move", "make it an obstacle");

@@ -1,5 +1,5 @@
-//! The keys of an object, one entry each. A new property of objects is an entry here, a field of
-//! [`Object`], and whatever uses it.
+//! Keys of an object, one entry each. A new property of objects needs an entry here and a field of
+//! [`Object`].
 
 use serde_json::{Value as Json, json};
 
@@ -23,7 +23,7 @@ pub(in crate::asset) const OBJECT_NAME: Key =
 pub(in crate::asset) const OBJECT_SHAPE: Key =
     Key::required("shape", SHAPE, "The object's solid, standing upright.");
 
-/// Room for a blade below an object.
+/// Key of the free height for a blade below an object.
 const CLEARANCE: Key = Key::optional(
     "clearance",
     HEIGHT,
@@ -31,7 +31,7 @@ const CLEARANCE: Key = Key::optional(
      higher stands on feet of this height at its corners; default `z`.",
 );
 
-/// Height of an object above the table.
+/// Key of an object's height above the table.
 const Z: Key = Key::optional(
     "z",
     HEIGHT,
@@ -53,7 +53,7 @@ const SHARE: Value = Value::Number(Range {
     advice: "white is [1, 1, 1], red is [1, 0, 0]",
 });
 
-/// An object in a task file.
+/// Specification of an object in a task file.
 pub(super) const OBJECT: Value = Value::Map(&KEYS);
 
 static KEYS: [Key; FIELDS.len()] = keys(&FIELDS);
@@ -79,7 +79,7 @@ const FIELDS: [Field<Object>; 13] = [
             (!sound).then_some("needs a positive finite size")
         },
     },
-    // Parts are objects of the scene, which reads and writes them.
+    // Parts are separate objects of the scene, which reads and writes them.
     Field { key: PARTS, read: |_, _, _| Some(()), write: |_| None, fault: |_| None },
     Field {
         key: Key::required("mass", MASS, "Mass in kg, parts included."),
@@ -162,7 +162,8 @@ const FIELDS: [Field<Object>; 13] = [
     },
     Field {
         key: Key::optional("yaw_deg", ANGLE, "Heading at the start, degrees; default 0."),
-        // Read with the position: the point that this names is turned.
+        // Read together with the position, because the reference point of the position rotates with
+        // the object.
         read: |_, _, _| Some(()),
         write: |object| Some(json!(put::degrees(object.pose.heading))),
         fault: |_| None,
@@ -180,8 +181,9 @@ pub(in crate::asset) fn emitted_object(object: &Object) -> serde_json::Value {
 }
 
 impl Scene {
-    /// Message on the first value of an object that no computation can use, set in code, with its key in a
-    /// task file; `None` where all are sound.
+    /// Returns a message on the first value of an object that cannot be used in computations, with
+    /// its key in a task file. Only values set in code can be faulty. Returns `None` if all values
+    /// are valid.
     pub fn object_fault(&self) -> Option<String> {
         let path = |index: usize| match self.objects[index].whole {
             Some(Whole { object, .. }) => {

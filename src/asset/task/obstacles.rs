@@ -1,4 +1,4 @@
-//! What does not move: its keys, its reading, its writing, and what is wrong with it.
+//! Obstacles: keys, parsing, writing and checks.
 
 use serde_json::{Value as Json, json};
 
@@ -9,7 +9,7 @@ use crate::asset::strict::Ledger;
 use crate::asset::take::{name_of, number_or, pose, triple};
 use crate::scene::{Obstacle, Scene};
 
-/// Obstacles of one scene.
+/// Key of the obstacles of a scene.
 pub(in crate::asset) const OBSTACLES: Key = Key::optional(
     "obstacles",
     Value::List { of: &OBSTACLE, items: "obstacles", min: 0, max: 64 },
@@ -30,15 +30,15 @@ const OBSTACLE: Value = Value::Map(&[
     Key::optional("friction", FRICTION, "Friction value; default 0.5."),
 ]);
 
-/// A place seen from above, and a height where there is one.
+/// Position seen from above, optionally with a height.
 pub(super) const PLACE: Value = Value::List { of: &COORDINATE, items: "numbers", min: 2, max: 3 };
 
-/// The third number of a place, or else the `usual` height.
+/// Returns the third number of a position; `usual` if it is missing.
 pub(super) fn height(place: &Node, usual: f64) -> Option<f64> {
     place.items().get(2).map_or(Some(usual), Node::number)
 }
 
-/// The obstacle, or `None` if anything needed is missing or was faulty.
+/// Returns the obstacle; `None` if a required value is missing or faulty.
 pub(in crate::asset) fn obstacle(node: &Node) -> Option<Obstacle> {
     Some(Obstacle {
         name: name_of(node)?.into(),
@@ -49,7 +49,7 @@ pub(in crate::asset) fn obstacle(node: &Node) -> Option<Obstacle> {
     })
 }
 
-/// Notes obstacles that begin below the table.
+/// Reports obstacles that begin below the table.
 pub(in crate::asset) fn check(obstacles: &[Node], ledger: &mut Ledger) {
     for node in obstacles {
         if let Some(place) = node.get("position")
@@ -64,7 +64,7 @@ pub(in crate::asset) fn check(obstacles: &[Node], ledger: &mut Ledger) {
     }
 }
 
-/// The obstacle as in a task file.
+/// Returns the obstacle as in a task file.
 pub(in crate::asset) fn emitted(obstacle: &Obstacle) -> Json {
     let Obstacle { name, size, pose, z, friction } = obstacle;
     let mut at = vec![pose.position.x, pose.position.y];

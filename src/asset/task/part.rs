@@ -1,4 +1,4 @@
-//! A further solid of an object: its keys, its place and its share of the mass.
+//! Additional solids of an object: keys, pose and share of the mass.
 
 use crate::asset::node::Node;
 use crate::asset::shapes::{PLACED_SHAPE, placed};
@@ -10,14 +10,14 @@ use crate::scene::Object;
 use super::obstacles::{PLACE, height};
 use super::support::OBJECT_SUPPORT;
 
-/// Key of an object's further solids.
+/// Key of an object's additional solids.
 pub(super) const PARTS: Key = Key::optional(
     "parts",
     Value::List { of: &PART, items: "parts", min: 0, max: 16 },
     "Further solids that are one with it, as a mug's handle is; by default none.",
 );
 
-/// Largest height of a part above its object's underside, metres: as high as solids may be.
+/// Height of a part above its object's underside, metres; limited like the heights of solids.
 const RISE: Value = Value::Number(Range {
     what: "a height in metres",
     low: 0.0,
@@ -54,7 +54,7 @@ const PART: Value = Value::Map(&[
     OBJECT_SUPPORT,
 ]);
 
-/// The parts of an object in a file.
+/// Returns the parts of an object in a file.
 pub(super) fn parts(object: &Node) -> &[Node] {
     object.get("parts").map(Node::items).unwrap_or_default()
 }
@@ -72,7 +72,7 @@ pub(super) fn place(part: &Node) -> Option<Pose> {
     placed(part)
 }
 
-/// Height of a part's underside above its object's, metres; `usual` where none is stated.
+/// Returns the height of a part's underside above its object's, metres; `usual` if none is stated.
 pub(super) fn rise(part: &Node, usual: f64) -> Option<f64> {
     match part.get("z") {
         Some(z) => z.number(),
@@ -80,7 +80,8 @@ pub(super) fn rise(part: &Node, usual: f64) -> Option<f64> {
     }
 }
 
-/// The mass of every solid, kg: what is stated of it, or its share by volume of what that leaves.
+/// Returns the mass of every solid, kg: the stated mass, or a volume-proportional share of the
+/// remainder.
 pub(in crate::asset) fn shares(left: f64, solids: &[Object], stated: &[Option<f64>]) -> Vec<f64> {
     let volume = |solid: &Object| solid.shape.footprint().area() * solid.shape.height();
     let open = || solids.iter().zip(stated).filter(|(_, stated)| stated.is_none());

@@ -1,7 +1,7 @@
-//! Objects of several solids: a mug with its handle, a T, a tray with its rim.
+//! Compound objects, of several solids: a mug with its handle, a T, a tray with its rim.
 //!
-//! A file says them as one object with `parts`; a scene has one object for every solid, see
-//! [`crate::scene::Whole`].
+//! A file describes a compound object as one object with `parts`. A scene has one object per solid,
+//! see [`crate::scene::Whole`].
 
 use crate::asset::node::{Content, Node};
 use crate::asset::shapes::{self, placed, shape};
@@ -14,7 +14,7 @@ use super::part::{part_name, parts, place, rise, shares};
 use super::plates::{self, is_plate};
 use super::support::support;
 
-/// Objects with all their parts, these after all of those; `None` if anything needed is missing or was
+/// Returns the objects, followed by all their parts; `None` if a required value is missing or
 /// faulty.
 pub(super) fn objects(nodes: &[Node]) -> Option<Vec<Object>> {
     let (mut things, mut parts) = (Vec::new(), Vec::new());
@@ -33,7 +33,7 @@ pub(super) fn objects(nodes: &[Node]) -> Option<Vec<Object>> {
     Some(things)
 }
 
-/// The solids of an object that has number `index` in the scene, the object itself first.
+/// Returns the solids of the object with index `index` in the scene, the object itself first.
 fn solids(node: &Node, object: Object, index: usize) -> Option<Vec<Object>> {
     let parts = parts(node);
     if parts.is_empty() {
@@ -64,7 +64,7 @@ fn solids(node: &Node, object: Object, index: usize) -> Option<Vec<Object>> {
     Some(solids)
 }
 
-/// Notes what is wrong with the parts of an object.
+/// Reports the faults of an object's parts.
 pub(super) fn check(object: &Node, ledger: &mut Ledger) {
     let parts = parts(object);
     let mut names = Vec::new();
@@ -104,7 +104,7 @@ pub(super) fn check(object: &Node, ledger: &mut Ledger) {
     }
 }
 
-/// What is above the table is held by what stands there, and does not bring it down.
+/// Reports parts above the table that are unsupported or tip the object over.
 fn above(object: &Node, ledger: &mut Ledger) {
     let parts = parts(object);
     let Some(solids) = object::object(object).and_then(|own| solids(object, own, 0)) else {
@@ -136,8 +136,8 @@ fn above(object: &Node, ledger: &mut Ledger) {
     }
 }
 
-/// The solids of objects, each as an object of its own at its place in the scene, and the number of the
-/// object that it belongs to: what rules about room look at.
+/// Returns every solid as an object with its pose in the scene, paired with the index of the object
+/// it belongs to. The rules about overlaps use this list.
 pub(super) fn apart(objects: &[Node]) -> Vec<(Node, usize)> {
     let mut all = Vec::new();
     for (k, object) in objects.iter().enumerate() {
@@ -145,7 +145,8 @@ pub(super) fn apart(objects: &[Node]) -> Vec<(Node, usize)> {
         let Some(at) = placed(object) else { continue };
         let name = name_of(object).unwrap_or("?");
         for (number, part) in parts(object).iter().enumerate() {
-            // The point that the position names: whoever takes the pose finds the centre from it.
+            // The position keeps its reference point; the consumer of the pose computes the centre
+            // from it.
             let (Some(named), Some(shape)) = (pose(part), part.get("shape")) else { continue };
             let pose = at * named;
             let node = |content| Node { id: part.id, content };

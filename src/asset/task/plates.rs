@@ -1,4 +1,4 @@
-//! Objects with room for a blade below them: keys of their heights, their reading, and their rules.
+//! Objects with clearance for a blade: keys of their heights, parsing and rules.
 
 use crate::asset::node::Node;
 use crate::asset::shapes::{origin, shape};
@@ -12,20 +12,20 @@ use super::part::{self, part_name, rise, shares};
 use super::parts::objects as objects_of;
 use super::support::support;
 
-/// A centre of mass that is nearer to the origin of its frame is there, metres: sums of corners
-/// that were written about it do not come to zero exactly.
+/// Distance below which a centre of mass counts as the origin of its frame, metres, because sums of
+/// corners written about the centre are not exactly zero.
 const CENTRED: f64 = 1e-9;
 
-/// Bodies may sink into each other by this much before it is a fault, metres: the rounding of
-/// sizes written in tenths of millimetres and turned by degrees.
+/// Penetration depth between bodies that is not yet a fault, metres. It covers the rounding of
+/// sizes in tenths of millimetres and headings in whole degrees.
 const SLACK: f64 = 1e-4;
 
-/// Returns `true` if an object is described as one that a blade goes under.
+/// Returns `true` if the description of an object states a clearance or a height.
 pub(super) fn is_plate(object: &Node) -> bool {
     object.get("clearance").is_some() || object.get("z").is_some()
 }
 
-/// A solid in the frame of its corners, and the point that a position names.
+/// Solid in the frame of its corners, with the reference point of its position.
 struct Drawn {
     corners: Vec<Vector>,
     height: f64,
@@ -33,7 +33,7 @@ struct Drawn {
 }
 
 impl Drawn {
-    /// The solid under `shape`, its corners counter-clockwise from the first one.
+    /// Reads the solid under `shape`; its corners run counter-clockwise from the first one.
     fn read(shape: &Node) -> Option<Self> {
         let Some(prism) = shape.get("prism") else {
             let [x, y, height] = triple(shape.get("cuboid")?, "size")?;
@@ -58,7 +58,7 @@ impl Drawn {
         Some(Self { corners, height: prism.get("height")?.number()?, named })
     }
 
-    /// The solid about its own centre, and where that is in the frame of its corners.
+    /// Returns the solid about its own centre, and the centre in the frame of its corners.
     fn solid(&self, shape: &Node) -> Option<(Shape, Vector)> {
         if shape.get("cuboid").is_some() {
             return Some((self::shape(shape)?, self.named));
@@ -70,8 +70,8 @@ impl Drawn {
     }
 }
 
-/// The solids of an object with number `index` in the scene, its own first. All are in the frame below
-/// their common centre of mass.
+/// Returns the solids of the object with index `index` in the scene, the object itself first. All
+/// are in a frame whose origin is below the common centre of mass.
 pub(super) fn solids(node: &Node, object: Object, index: usize) -> Option<Vec<Object>> {
     let name = &object.name;
     let Drawn { mut corners, height, named } = Drawn::read(node.get("shape")?)?;
@@ -116,7 +116,7 @@ pub(super) fn solids(node: &Node, object: Object, index: usize) -> Option<Vec<Ob
         false => (plate, Vector::zeros()),
     };
     let shape = plate.slabs[0].around_origin()?;
-    // Points of a support are stated in the frame of the corners.
+    // Points of a support are given in the frame of the corners.
     let moved = origin(node.get("shape")?)? - named - shift;
     let support = match object.support {
         Support::Points(points) => {
@@ -137,7 +137,7 @@ pub(super) fn solids(node: &Node, object: Object, index: usize) -> Option<Vec<Ob
     Some(solids)
 }
 
-/// Notes faults between the heights of an object.
+/// Reports inconsistent heights of an object.
 pub(super) fn heights(object: &Node, ledger: &mut Ledger) {
     if let (Some(clearance), Some(node)) = (object.get("clearance"), object.get("z"))
         && let (Some(clearance), Some(z)) = (clearance.number(), node.number())
@@ -148,7 +148,7 @@ pub(super) fn heights(object: &Node, ledger: &mut Ledger) {
     }
 }
 
-/// Notes what shares space in three dimensions, and what nothing holds.
+/// Reports bodies that overlap in three dimensions, and bodies that nothing supports.
 pub(super) fn bodies(objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) {
     let Some(solids) = objects_of(objects) else {
         let unread = |node: &&Node| objects_of(std::slice::from_ref(*node)).is_none();
@@ -185,7 +185,7 @@ pub(super) fn bodies(objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) 
     }
 }
 
-/// Whether blocks that end at its underside carry a plate.
+/// Returns `true` if blocks that end at the plate's underside carry the plate.
 fn is_held(plate: &Plate, blocks: &[Option<Obstacle>]) -> bool {
     let mut points: Vec<Vector> = Vec::new();
     let below = |block: &&Obstacle| (block.z + block.size[2] - plate.z).abs() <= SLACK;
@@ -201,7 +201,7 @@ fn is_held(plate: &Plate, blocks: &[Option<Obstacle>]) -> bool {
     points.len() >= 3 && carries(&points).is_some()
 }
 
-/// A height without what adding lengths in binary leaves behind.
+/// Rounds a height to micrometres, which removes binary rounding errors of sums.
 fn micrometres(metres: f64) -> f64 {
     (metres * 1e6).round() / 1e6
 }

@@ -1,4 +1,4 @@
-//! Keys that do not go together with lever-ups, each with the reason.
+//! Keys that are incompatible with lever-ups, each with the reason.
 
 use crate::asset::node::{Content, Node};
 use crate::asset::strict::Ledger;
@@ -6,12 +6,12 @@ use crate::asset::take::name_of;
 
 use super::{goals, part, plates};
 
-/// Reason for cylinders.
+/// Reason against cylinders.
 const EDGES: &str = "a blade goes under a straight edge";
-/// Reason for a centre of mass of a solid.
+/// Reason against a stated centre of mass of a solid.
 const EVEN: &str = "give parts with a `mass` of their own to what a blade lifts";
 
-/// Notes what a task that allows lever-ups has and cannot have.
+/// Reports the keys that a task with lever-ups cannot have.
 pub(super) fn check(root: &Node, ledger: &mut Ledger) {
     let inner = |key| root.get("scene").and_then(|scene| scene.get(key));
     let arm = "lever-ups are planned for a hand, not for the joints of an arm";
@@ -26,7 +26,7 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
         objects.iter().find(|one| name_of(one) == wanted)
     };
     let is_plate = |goal: &Node| of(goal).is_none_or(plates::is_plate);
-    // Something must be there for a blade: the object of a goal.
+    // At least one object of a goal must have clearance for a blade.
     let none = !goals.iter().any(is_plate);
     let needs =
         |(k, goal): &(usize, &Node)| (goals::lifts(goal) || none && *k == 0) && !is_plate(goal);
@@ -42,10 +42,10 @@ fn solid(body: &Node, ledger: &mut Ledger) {
     refuse(shape.and_then(|shape| shape.get("prism")), &["centre_of_mass"], EVEN, ledger);
 }
 
-/// Notes the keys that a node has and cannot have.
+/// Reports the keys of `node` that are refused.
 fn refuse(node: Option<&Node>, keys: &[&str], reason: &str, ledger: &mut Ledger) {
     for key in keys {
-        // What is written back may name none of something.
+        // An empty list is accepted, because written files may contain one.
         let none = Content::List(Vec::new());
         let found = node.and_then(|node| node.get(key)).filter(|found| found.content != none);
         if let Some(found) = found {
@@ -54,7 +54,7 @@ fn refuse(node: Option<&Node>, keys: &[&str], reason: &str, ledger: &mut Ledger)
     }
 }
 
-/// Notes objects that say how high they are where nothing is levered.
+/// Reports objects that state a height in a task without lever-ups.
 pub(super) fn check_heights(objects: &[Node], ledger: &mut Ledger) {
     let advice =
         "add `levers`, or remove it: pushes alone are planned for what stands on the table";

@@ -1,4 +1,4 @@
-//! Rules that span several keys of a task file, and that no single value can break.
+//! Rules that span several keys of a task file.
 
 use crate::asset::arm;
 use crate::asset::fault::did_you_mean;
@@ -21,15 +21,15 @@ use super::{
     parts, plates, refused,
 };
 
-/// The largest ratio of two objects' masses. At 1000 a simulated body sinks 41 mm into its
-/// neighbour unless contacts are stiffened, which beyond that no longer helps.
+/// Maximum mass ratio of two objects. At 1000 a simulated body sinks 41 mm into its neighbour
+/// unless contacts are stiffened; beyond 1000 stiffening no longer helps.
 const MASS_RATIO: f64 = 1000.0;
 
-/// The same where three or more objects can form a chain: light bodies between heavy ones
-/// break the simulator at every setting.
+/// Maximum mass ratio if three or more objects can form a chain, because light bodies between heavy
+/// ones break the simulator at every setting.
 const CHAIN_MASS_RATIO: f64 = 100.0;
 
-/// Notes every fault in how values go together.
+/// Reports every inconsistency between values.
 pub(super) fn check(root: &Node, ledger: &mut Ledger) {
     let empty = Node { id: root.id, content: crate::asset::node::Content::Nothing };
     let section = |key| root.get(key).unwrap_or(&empty);
@@ -66,13 +66,13 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
     on_table(scene, goals, ledger);
     regions::check(root, &objects.iter().chain(obstacles).collect::<Vec<_>>(), objects, ledger);
     goals.iter().for_each(|one| may_fall(one, objects, ledger));
-    // What lies where means little while something is wrong with the bodies themselves.
+    // Overlaps are meaningful only if the bodies themselves are valid.
     if lifted && ledger.sound().is_ok() {
         plates::bodies(objects, obstacles, ledger);
     }
 }
 
-/// What is unknown is named once, and joints are not stated where they are unknown.
+/// Reports properties that are named unknown twice, and joints that are stated although unknown.
 fn unknown(unknown: &Node, scene: &Node, ledger: &mut Ledger) {
     let words = unknown.items();
     for (k, word) in words.iter().enumerate().filter(|(_, word)| word.text().is_some()) {
@@ -90,13 +90,14 @@ fn unknown(unknown: &Node, scene: &Node, ledger: &mut Ledger) {
     }
 }
 
-/// Keys of which all goals of one object have one: no two of them can hold at once.
+/// Exclusive sets of keys: two goals of one object with keys from the same set contradict each
+/// other.
 const ALONE: [&[&str]; 2] = [
     &["position", "coverage", "off_table", "joint"],
     &["heading_deg", "joint_deg", "coverage", "off_table"],
 ];
 
-/// Several goals of one object do not contradict each other.
+/// Reports several goals of one object that contradict each other.
 fn one_each(goals: &[Node], ledger: &mut Ledger) {
     let name = |goal: &Node| goal.get("object").and_then(Node::text).map(str::to_owned);
     for (k, goal) in goals.iter().enumerate() {
@@ -113,7 +114,7 @@ fn one_each(goals: &[Node], ledger: &mut Ledger) {
     }
 }
 
-/// What is kept is there, and is not what must be moved.
+/// Reports kept objects that do not exist or must be moved.
 fn keep(keep: &Node, goals: &[Node], objects: &[Node], ledger: &mut Ledger) {
     let wanted: Vec<&str> =
         goals.iter().filter_map(|goal| goal.get("object").and_then(Node::text)).collect();
@@ -133,7 +134,7 @@ fn keep(keep: &Node, goals: &[Node], objects: &[Node], ledger: &mut Ledger) {
     }
 }
 
-/// What is to be moved must not fall, unless it is to.
+/// Reports objects that may fall although a goal places them on the table.
 fn may_fall(goal: &Node, objects: &[Node], ledger: &mut Ledger) {
     if goal.get("off_table").is_some() {
         return;
@@ -147,7 +148,7 @@ fn may_fall(goal: &Node, objects: &[Node], ledger: &mut Ledger) {
     }
 }
 
-/// Objects and goal must lie on a table that ends.
+/// Reports objects and goals off a table of limited size.
 fn on_table(scene: &Node, goals: &[Node], ledger: &mut Ledger) {
     let Some(table) = scene.get("table") else { return };
     let Some(top) = table.get("size").and_then(|_| build::table_top(table)) else {
@@ -175,7 +176,7 @@ fn on_table(scene: &Node, goals: &[Node], ledger: &mut Ledger) {
     }
 }
 
-/// Notes every fault of a scene, in which bodies may be `slack` metres deep in each other.
+/// Reports every fault of a scene in which bodies may penetrate each other by up to `slack` metres.
 pub(super) fn check_scene(scene: &Node, slack: f64, ledger: &mut Ledger) {
     let items = |key| scene.get(key).map(Node::items).unwrap_or_default();
     let (objects, obstacles) = (items("objects"), items("obstacles"));
@@ -194,8 +195,8 @@ pub(super) fn check_scene(scene: &Node, slack: f64, ledger: &mut Ledger) {
     frictions::check(items("frictions"), objects, obstacles, ledger);
 }
 
-/// Of `objects`, solid by solid with the number of the thing it belongs to, and obstacles: solids of
-/// one thing may overlap.
+/// Reports overlaps among `objects` and with obstacles. `objects` holds solids with the index of
+/// the compound object they belong to; solids of one compound object may overlap.
 fn overlaps(objects: &[(Node, usize)], obstacles: &[Node], slack: f64, ledger: &mut Ledger) {
     let solid = |node| body(node).map(|(footprint, pose)| (footprint.shrunk(slack / 2.0), pose));
     let bodies = objects.iter().map(|(node, thing)| (node, Some(*thing)));
@@ -219,7 +220,7 @@ fn overlaps(objects: &[(Node, usize)], obstacles: &[Node], slack: f64, ledger: &
     }
 }
 
-/// The points under an object must carry it.
+/// Reports support points that cannot carry the object.
 fn stands(object: &Node, ledger: &mut Ledger) {
     if let (Some(node), Some(Support::Points(points))) =
         (object.get("support"), super::support::support(object))
@@ -260,7 +261,7 @@ fn masses(objects: &[Node], ledger: &mut Ledger) {
     }
 }
 
-/// Of a robot without an arm: that its reach is stated, and its home a place.
+/// Checks a robot without an arm: its reach must be stated, and its home must be a position.
 pub(super) fn without_arm(robot: &Node, ledger: &mut Ledger) {
     let given = robot.pairs();
     let meant = |(key, _): &(Node, Node)| {
@@ -279,7 +280,7 @@ pub(super) fn without_arm(robot: &Node, ledger: &mut Ledger) {
     }
 }
 
-/// The reach must hold something, and home.
+/// Checks that the reach is not empty and contains the home position.
 fn robot(robot: &Node, pushes: &Node, ledger: &mut Ledger) {
     let Some(reach) = robot.get("reach") else { return };
     let (Some(min), Some(max)) =
@@ -297,7 +298,7 @@ fn robot(robot: &Node, pushes: &Node, ledger: &mut Ledger) {
     }
     let (Some(node), Some(home)) = (robot.get("home"), build::home(robot)) else { return };
     let distance = home.norm();
-    // Placed pushes never start from home, so it may lie within the smallest reach.
+    // Placed pushes never start from home, so home may lie within the minimum reach.
     let chained = form(pushes) == Some(PushForm::Chained);
     if distance > max || (chained && distance < min) {
         ledger.fault(
@@ -316,13 +317,13 @@ fn form(pushes: &Node) -> Option<PushForm> {
     }
 }
 
-/// Rules of allowed pushes, and whether the tool meets any of `objects`.
+/// Checks the rules of pushes, and that the tool can touch at least one of `objects`.
 fn push_rules(pushes: &Node, objects: &[Node], ledger: &mut Ledger) {
     for (key, turn) in
         [("directions", Some(360.0)), ("grip_yaws_deg", Some(360.0)), ("offsets", None)]
     {
         let items = pushes.get(key).map(Node::items).unwrap_or_default();
-        // 180 and -180 degrees are one direction.
+        // 180 and -180 degrees are the same direction.
         let wrapped = |x: f64| turn.map_or(x, |turn| x.rem_euclid(turn));
         for (k, node) in items.iter().enumerate() {
             let value = node.number().map(wrapped);

@@ -1,4 +1,4 @@
-//! What a task file may hold.
+//! Specification of a task file.
 
 use crate::asset::arm::{ARM, BASE, FLANGE, HOME, TOOL_MOUNT, URDF};
 use crate::asset::spec::{ANGLE, FORCE, FRICTION, Key, POSITION, Range, SIZE, Value, numbers};
@@ -12,10 +12,10 @@ use super::object::OBJECT;
 use super::obstacles::OBSTACLES;
 use super::tools::TOOLS;
 
-/// What a task file may hold.
+/// Specification of a task file.
 pub(in crate::asset) static TASK: Value = Value::Map(TASK_KEYS);
 
-/// The keys of a task.
+/// Keys of a task.
 pub(in crate::asset) const TASK_KEYS: &[Key] = &[
     Key::optional("name", Value::Name, "The task's name; by default the file's."),
     Key::optional("description", Value::Text, "One line for people; by default empty."),
@@ -40,7 +40,7 @@ pub(in crate::asset) const TASK_KEYS: &[Key] = &[
     ROBUSTNESS,
 ];
 
-/// How often a plan must work.
+/// Key of the share of replays in which a plan must succeed.
 const ROBUSTNESS: Key = Key::optional(
     "robustness",
     Value::Number(Range {
@@ -53,7 +53,7 @@ const ROBUSTNESS: Key = Key::optional(
      for a plan to count; default 0.75.",
 );
 
-/// What of a scene may be unknown.
+/// Key of the unknown properties of a scene.
 const UNKNOWN_KEY: Key = Key::optional("unknown", UNKNOWN, UNKNOWN_MEANING);
 
 const UNKNOWN: Value = Value::List {
@@ -82,7 +82,7 @@ const SCENE: Value = Value::Map(&[
     FRICTIONS,
 ]);
 
-/// How high tools press.
+/// Key of the height at which tools press.
 pub(in crate::asset) const PUSH_HEIGHT: Key = Key::optional(
     "push_height",
     Value::Number(Range {
@@ -96,7 +96,7 @@ pub(in crate::asset) const PUSH_HEIGHT: Key = Key::optional(
      ahead; by default unknown, as between two flat faces.",
 );
 
-/// What the objects stand on.
+/// Key of the table.
 pub(in crate::asset) const TABLE: Key = Key::optional(
     "table",
     Value::Map(&[
@@ -116,7 +116,7 @@ pub(in crate::asset) const TABLE: Key = Key::optional(
     "The table; by default of friction 0.5 and unlimited.",
 );
 
-/// Joints of one scene.
+/// Specification of the joints of a scene.
 pub(in crate::asset) const JOINTS: Value =
     Value::List { of: &JOINT, items: "joints", min: 0, max: 64 };
 
@@ -160,7 +160,7 @@ const ROBOT: Value = Value::Map(&[
     ),
 ]);
 
-/// How hard the arm can press.
+/// Key of the maximum force of the arm.
 const MAX_FORCE: Key = Key::optional(
     "max_force",
     FORCE,
@@ -168,7 +168,7 @@ const MAX_FORCE: Key = Key::optional(
      default any, with a warning above 150.",
 );
 
-/// Where the end effector can be.
+/// Key of the reach of the end effector.
 pub(super) const REACH_KEY: Key = Key::required(
     "reach",
     Value::Map(&[
@@ -185,7 +185,7 @@ const REACH: Value = Value::Number(Range {
     advice: "reach is measured from the base at the origin, in metres",
 });
 
-/// The pushes that a plan may contain.
+/// Specification of the pushes that a plan may contain.
 const PUSHES: Value = Value::Map(&[
     Key::optional(
         "form",
@@ -281,7 +281,7 @@ const MAX_COUNT: Value = Value::Count(Range {
     advice: "three pushes bring an object around a corner",
 });
 
-/// A height of a tool's underside above the table.
+/// Height of a tool's underside above the table.
 pub(in crate::asset) const LIFT: Value = Value::Number(Range {
     what: "a height in metres",
     low: 0.0,

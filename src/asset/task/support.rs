@@ -1,4 +1,4 @@
-//! Support: the spread of an object's weight over its underside.
+//! Support model: distribution of an object's weight over its underside.
 
 use serde_json::{Value as Json, json};
 
@@ -9,11 +9,11 @@ use crate::asset::spec::{Key, POSITION, Range, Value};
 use crate::asset::take::vector;
 use crate::scene::Support;
 
-/// The key of an object's support.
+/// Key of an object's support.
 pub(in crate::asset) const OBJECT_SUPPORT: Key =
     Key::optional("support", SUPPORT, "How the weight rests on the table; default `even`.");
 
-/// Distribution of an object's weight over its underside.
+/// Specification of the distribution of an object's weight over its underside.
 const SUPPORT: Value = Value::Either(&[
     Value::Word(&["even", "corners"]),
     Value::Variant(&[
@@ -36,7 +36,7 @@ const SUPPORT: Value = Value::Either(&[
     ]),
 ]);
 
-/// Reads the support of an object, or of a part.
+/// Reads the support of an object or of a part.
 pub(in crate::asset) fn support(object: &Node) -> Option<Support> {
     let Some(node) = object.get("support") else { return Some(Support::Even) };
     if let Some(word) = node.text() {

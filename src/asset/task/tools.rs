@@ -1,4 +1,4 @@
-//! The tools of a task file: which there are, and what they cost.
+//! Tools of a task file: the allowed tools and their costs.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use crate::asset::spec::{Key, Range, Value};
 use crate::asset::strict::Ledger;
 use crate::task::{Task, ToolChoice};
 
-/// What tools a task allows.
+/// Key of the allowed tools.
 pub(super) const TOOLS: Key = Key::required(
     "tools",
     Value::Either(&[
@@ -38,12 +38,12 @@ const COST: Key = Key::optional(
      default 0. Tools of levering have none.",
 );
 
-/// The name of a tool in the list.
+/// Returns the name of a tool in the list.
 pub(super) fn tool_name(node: &Node) -> Option<&str> {
     node.text().or_else(|| node.get("name")?.text())
 }
 
-/// Which tools there are.
+/// Returns the allowed tools.
 pub(in crate::asset) fn tools(node: &Node) -> ToolChoice {
     match node.text() {
         Some(_) => ToolChoice::All,
@@ -53,13 +53,13 @@ pub(in crate::asset) fn tools(node: &Node) -> ToolChoice {
     }
 }
 
-/// What they cost, by name, where that is more than nothing.
+/// Returns the positive costs of tools, by name.
 pub(super) fn costs(node: &Node) -> BTreeMap<String, f64> {
     let cost = |node: &Node| Some((tool_name(node)?.to_owned(), node.get("cost")?.number()?));
     node.items().iter().filter_map(cost).filter(|(_, cost)| *cost > 0.0).collect()
 }
 
-/// As in a file.
+/// Returns the tools as in a file.
 pub(in crate::asset) fn emitted_tools(task: &Task) -> Json {
     let ToolChoice::Named(names) = &task.tools else { return json!("all") };
     let tool = |name: &String| match task.tool_costs.get(name) {
@@ -69,7 +69,7 @@ pub(in crate::asset) fn emitted_tools(task: &Task) -> Json {
     names.iter().map(tool).collect()
 }
 
-/// Notes tools that are named twice.
+/// Reports tools that are named twice.
 pub(super) fn check_tools(tools: &Node, ledger: &mut Ledger) {
     for (k, node) in tools.items().iter().enumerate() {
         let name = tool_name(node);
@@ -79,7 +79,7 @@ pub(super) fn check_tools(tools: &Node, ledger: &mut Ledger) {
     }
 }
 
-/// Notes costs where nothing would come of them.
+/// Reports costs where they have no effect.
 pub(super) fn check_free(tools: &Node, ledger: &mut Ledger) {
     for tool in tools.items().iter().filter(|node| node.get("name").is_some()) {
         let advice = "write its name alone: only tools of tasks of pushes have costs";

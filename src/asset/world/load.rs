@@ -1,4 +1,4 @@
-//! Reading a world file together with its task.
+//! Reading of a world file together with its task.
 
 use std::path::Path;
 
@@ -16,10 +16,10 @@ use crate::{
 
 use super::spec::WORLD;
 
-/// Reads a world file: whatever it leaves out is as `task` states it.
+/// Reads a world file; missing values are taken from `task`.
 ///
 /// # Errors
-/// All faults of the file, each with its place.
+/// Returns all faults of the file, each with its place.
 pub fn load_world(path: impl AsRef<Path>, task: &Task) -> Result<Truth, Faults> {
     let (file, text) = read_text(path.as_ref())?;
     let source = Source::of(&file, &text);
@@ -31,7 +31,7 @@ pub fn load_world(path: impl AsRef<Path>, task: &Task) -> Result<Truth, Faults> 
     ledger.finish(truth)
 }
 
-/// Checks a world file as far as that can be done without its task.
+/// Checks a world file as far as possible without its task.
 pub(in crate::asset) fn check_world(text: &str, file: &str) -> Result<(), Faults> {
     let source = Source::of(file, text);
     let mut root = Node::parse(source)?;
@@ -45,7 +45,7 @@ fn items<'a>(root: &'a Node, key: &str) -> &'a [Node] {
     root.get(key).map(Node::items).unwrap_or_default()
 }
 
-/// Notes faults of what refers to the task, or to something else in the file.
+/// Reports faults in references to the task or within the file.
 fn rules(root: &Node, task: &Task, ledger: &mut Ledger) {
     let objects = items(root, "objects");
     unique_names(objects, "objects", ledger);

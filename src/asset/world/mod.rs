@@ -1,4 +1,4 @@
-//! World files: what is really there where a task does not know it.
+//! World files: ground truth for the properties that a task leaves unknown.
 
 mod load;
 mod spec;

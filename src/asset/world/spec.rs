@@ -1,12 +1,12 @@
-//! What a world file may hold.
+//! Specification of a world file.
 
 use crate::asset::spec::{ANGLE, FRICTION, Key, MASS, POSITION, Range, Value};
 use crate::asset::task::{JOINTS, OBJECT_SUPPORT};
 
-/// What a world file may hold.
+/// Specification of a world file.
 pub(in crate::asset) static WORLD: Value = Value::Map(WORLD_KEYS);
 
-/// The keys of a world.
+/// Keys of a world file.
 pub(in crate::asset) const WORLD_KEYS: &[Key] = &[
     Key::optional(
         "joints",

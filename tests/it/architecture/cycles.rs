@@ -1,26 +1,27 @@
-//! Cycles of files inside a module, and types whose methods are spread over files: both may only fall.
+//! Cycles of files inside a module, and types whose methods are spread over files; both counts may
+//! only decrease.
 //!
-//! A file of `src` depends on another of its module if a path in its code that begins with `super::` or
-//! `crate::` leads to a name that the other declares, through re-exports as well. Comments do not count, test
-//! modules do. Tables of contents (`mod.rs`) are no files here. Files that depend on one another, directly
-//! or through others, form a cycle.
+//! A file of `src` depends on another file of its module if its code names an item of that file,
+//! directly or through re-exports. Only paths that begin with `super::` or `crate::` count.
+//! Comments are ignored, test modules are not. Tables of contents (`mod.rs`) do not count as files.
+//! Files that depend on one another, directly or through others, form a cycle.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::Path;
 
 use super::reading::{code_of, in_word, sources};
 
-/// Maximum number of cycles, and of files in one.
+/// Maximum number of cycles, and of files in a cycle.
 const CYCLES: usize = 8;
 const LARGEST: usize = 6;
 
 /// Maximum number of files with methods of one type.
 const FILES_OF_A_TYPE: usize = 3;
 
-/// Segments of a path: of a module from the crate's root, or of a name from where it is written.
+/// Segments of a path: of a module from the crate's root, or of a name from its place of use.
 type Segments = Vec<String>;
 
-/// The files of a crate.
+/// Files of a crate.
 struct Files {
     /// Code by module.
     code: BTreeMap<Segments, String>,
@@ -91,7 +92,7 @@ impl Files {
             if path.ends_with("mod.rs") || module.is_empty() {
                 files.tables.insert(module.clone());
             }
-            // The roots of library and command are both no module.
+            // The roots of library and command are not modules.
             files.code.entry(module).or_default().push_str(&code_of(&text));
         }
         files.read_exports();

@@ -1,18 +1,19 @@
-//! Sources, and names in their code.
+//! Reading of sources, and of the names in their code.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::ROOT;
 
-/// The code of a file, without comments. A test module counts too: it would tie the rooms just as
-/// well.
+/// Returns the code of a file without comments. Test modules are included, because they would also
+/// couple the modules.
 pub(super) fn code_of(text: &str) -> String {
     let code = |line: &str| line.split("//").next().unwrap_or_default().to_owned() + "\n";
     text.lines().map(code).collect()
 }
 
-/// What stands after `crate::` in the code of a file, in order; `crate::{a::b, c}` names several.
+/// Returns the names after `crate::` in the code of a file, in order; `crate::{a::b, c}` contains
+/// several.
 pub(super) fn imports(text: &str, start: &str) -> Vec<String> {
     let code = code_of(text);
     let mut found = Vec::new();
@@ -21,7 +22,7 @@ pub(super) fn imports(text: &str, start: &str) -> Vec<String> {
             found.push(first_word(after));
             continue;
         };
-        // Names stand at the depth of the list itself.
+        // Names are at the depth of the list itself.
         let (mut depth, mut item) = (1, String::new());
         for c in list.chars() {
             depth += i32::from(c == '{') - i32::from(c == '}');
@@ -36,12 +37,12 @@ pub(super) fn imports(text: &str, start: &str) -> Vec<String> {
             }
         }
     }
-    // After the last comma of a list stands nothing.
+    // Nothing follows the last comma of a list.
     found.retain(|name| !name.is_empty());
     found
 }
 
-/// Whether code names something of the crate `name`.
+/// Returns `true` if the code uses an item of the crate `name`.
 pub(super) fn names(code: &str, name: &str) -> bool {
     let path = format!("{name}::");
     let inner = |c| in_word(c) || c == ':';
@@ -56,7 +57,7 @@ pub(super) fn in_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
-/// Every Rust file under `folder`, with its path relative to the repository.
+/// Returns every Rust file under `folder`, with its path relative to the repository.
 pub(super) fn sources(folder: &str) -> Vec<(PathBuf, String)> {
     let root = Path::new(ROOT);
     let mut found = Vec::new();

@@ -1,11 +1,11 @@
-//! Golden messages: what a person sees whose file is wrong. Every fault of a file comes at once,
-//! with its place, what was expected, what was found and what to try.
+//! Golden messages for faulty files. All faults of a file are reported at once, each with its
+//! place, the expected and found content, and advice.
 
 use insta::assert_snapshot;
 use pushplan::asset::{PlanFile, ToolLibrary};
 use pushplan::{scene::Tool, task::Task};
 
-/// A sound task; the tests spoil it.
+/// Valid task, modified by the tests.
 const TASK: &str = "\
 scene:
   table: {friction: 0.5}
@@ -24,7 +24,7 @@ pushes: {form: placed, directions: principal, length: 0.2, speed: 0.1, max_count
 goal: {object: can, position: [0.35, 0.1], tolerance: 0.05}
 ";
 
-/// A sound tool.
+/// Valid tool, modified by the tests.
 const TOOL: &str = "\
 name: tee
 friction: 0.4
@@ -33,7 +33,7 @@ parts:
   - {name: head, size: [0.04, 0.2, 0.05], position: [0.22, 0, 0]}
 ";
 
-/// `text` with every `(old, new)` replaced; each `old` must be there.
+/// Replaces `old` with `new` in `text` for every pair; each `old` must occur.
 fn spoiled(text: &str, changes: &[(&str, &str)]) -> String {
     changes.iter().fold(text.to_owned(), |text, (old, new)| {
         assert!(text.contains(old), "{old}");
@@ -41,12 +41,12 @@ fn spoiled(text: &str, changes: &[(&str, &str)]) -> String {
     })
 }
 
-/// What is said about the task with these changes.
+/// Returns the message for the task with these changes.
 fn task(changes: &[(&str, &str)]) -> String {
     Task::parse(&spoiled(TASK, changes), "t.yaml").unwrap_err().to_string()
 }
 
-/// What is said about the tool with these changes.
+/// Returns the message for the tool with these changes.
 fn tool(changes: &[(&str, &str)]) -> String {
     Tool::parse(&spoiled(TOOL, changes), "t.yaml").unwrap_err().to_string()
 }
@@ -233,7 +233,7 @@ fn a_goal_inside_an_obstacle() {
     t.yaml:15:31: error: at the goal `can` would be inside `wall`
       help: move the goal or the obstacle, or allow a larger tolerance
     "#);
-    // 3.5 cm before the wall its centre may stop 6.5 cm before it, where the can has room.
+    // With a gap of 3.5 cm to the wall, the can fits at a centre distance of 6.5 cm.
     let (old, beside) = at("0.855");
     Task::parse(&spoiled(TASK, &[(old, &beside)]), "t.yaml").unwrap();
 }

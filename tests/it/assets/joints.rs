@@ -1,4 +1,4 @@
-//! Joints in task files: read as meant, written and read again, refused with advice.
+//! Joints in task files: interpretation, round trips, and refusal with advice.
 
 use insta::assert_snapshot;
 use pushplan::asset::{PlanFile, TrajectoryFile};
@@ -36,7 +36,7 @@ fn spoiled(changes: &[(&str, &str)]) -> String {
     })
 }
 
-/// What is said about the task with these changes.
+/// Returns the message for the task with these changes.
 fn faults(changes: &[(&str, &str)]) -> String {
     Task::parse(&spoiled(changes), "t.yaml").unwrap_err().to_string()
 }
@@ -79,7 +79,7 @@ fn joints_and_round_parts_survive_plan_and_trajectory_files() {
         let mut file = plan_file("cluster-neighbour.yaml");
         let turn = 0.1 * f64::from(k);
         file.task = task.clone();
-        // Axes and angles that came from no file.
+        // Axes and angles that did not come from a file.
         file.task.scene.joints[1].guessed = true;
         if let JointKind::Prismatic { axis, .. } = &mut file.task.scene.joints[2].kind {
             *axis = Vector::new(turn.cos(), turn.sin());
@@ -208,7 +208,7 @@ fn masses_too_far_apart_to_be_joined() {
     "#);
 }
 
-/// A row of `count` cans, each joined to the next.
+/// Returns a row of `count` cans, each joined to the next.
 fn row(count: usize) -> String {
     let mut text = String::from("scene:\n  objects:\n");
     for k in 0..count {

@@ -1,4 +1,4 @@
-//! Prisms in files: what they mean, and what is said about wrong ones.
+//! Prisms in files: interpretation, and messages for invalid prisms.
 
 use pushplan::geometry::{ConvexPolygon, Shape, Vector};
 use pushplan::{
@@ -6,7 +6,7 @@ use pushplan::{
     task::Task,
 };
 
-/// A task with an object of this shape, with more keys of the object and of the goal.
+/// Returns a task with an object of this shape, with additional keys of the object and of the goal.
 fn task(shape: &str, object: &str, goal: &str) -> String {
     format!(
         "
@@ -32,7 +32,7 @@ fn read(shape: &str, object: &str, goal: &str) -> Task {
     read
 }
 
-/// The only fault of `text` is said where `place` begins, in these words.
+/// Asserts that the only fault of `text` is at the start of `place`, with these words.
 fn refused(text: &str, place: &str, words: &str) {
     let at = text.find(place).expect("the place is there");
     let line = text[..at].matches('\n').count() + 1;
@@ -52,7 +52,7 @@ fn a_prism_lies_about_its_centroid_or_the_centre_of_mass_that_is_given() {
     let plain = read("{prism: {corners: [[0, 0], [0.09, 0], [0, 0.06]], height: 0.05}}", "", "");
     assert_eq!(base(&plain), ConvexPolygon::new(&corners).unwrap());
     assert_eq!(plain.scene.objects[0].pose.position, Vector::new(0.5, 0.1));
-    // From another origin and clockwise it is the same.
+    // Another origin and clockwise corners give the same prism.
     let other = read("{prism: {corners: [[1, 1], [1, 1.06], [1.09, 1]], height: 0.05}}", "", "");
     for (a, b) in base(&plain).corners().iter().zip(base(&other).corners()) {
         assert!((a - b).norm() < 1e-12);
@@ -63,7 +63,7 @@ fn a_prism_lies_about_its_centroid_or_the_centre_of_mass_that_is_given() {
     let loaded = read(shape, support, "");
     let centre = Vector::new(0.02, 0.02);
     assert_eq!(base(&loaded), ConvexPolygon::balanced(&corners, centre).unwrap());
-    // The points are where they are drawn, in the frame of the corners.
+    // Support points are in the frame of the corners.
     let points = [[0.01, 0.01], [0.06, 0.01], [0.01, 0.04]];
     let points = points.map(|[x, y]| Vector::new(x, y) - centre).to_vec();
     assert_eq!(loaded.scene.objects[0].support, Support::Points(points));
@@ -139,7 +139,7 @@ fn headings_that_look_the_same_count_alike_unless_the_goal_says_otherwise() {
     assert_eq!(alike(square, ", symmetric: true"), 4);
     assert_eq!(alike(square, ", symmetric: false"), 1);
     assert_eq!(alike("{cuboid: {size: [0.08, 0.05, 0.05]}}", ""), 2);
-    // Whole millimetres: a hexagon of 5 cm up to rounding, and one that is none.
+    // In whole millimetres: a hexagon of 5 cm up to rounding, and an irregular one.
     let hexagon = "{prism: {corners: [[0.05, 0], [0.025, 0.043], [-0.025, 0.043], [-0.05, 0], \
                    [-0.025, -0.043], [0.025, -0.043]], height: 0.05}}";
     assert_eq!(alike(hexagon, ""), 6);

@@ -1,5 +1,5 @@
-//! Recordings: what the documentation shows can be read, what is written reads back, replays
-//! give back what was recorded, and everything that is wrong is said with its place.
+//! Recordings: examples of the documentation are readable, written files round-trip, replays
+//! reproduce the recording, and every fault is reported with its place.
 
 use std::path::Path;
 use std::process::Command;
@@ -17,7 +17,7 @@ use pushplan::{
 
 use crate::fixtures::hand;
 
-/// A sound recording; the tests spoil it.
+/// Valid recording, modified by the tests.
 pub const SOUND: &str = "\
 schema_version: 1
 kind: recording
@@ -34,14 +34,14 @@ frames:
   - {pusher: [0.15, 0], objects: [[0.25, 0], [0.5, 0.1, 10]]}
 ";
 
-/// What the documentation's Python writes.
+/// Recording written by the documentation's Python code.
 pub const PUSH: &str = include_str!("push.recording.json");
 
 fn parse(text: &str) -> Result<Recording, String> {
     Recording::parse(text, "r.yaml").map_err(|faults| faults.to_string())
 }
 
-/// The block of `language` in the documentation of the format.
+/// Returns the block of `language` in the documentation of the format.
 fn block(language: &str) -> &str {
     let start = format!("```{language}\n");
     let text = RECORDING_FORMAT.split(&start).nth(1).expect("a block");
@@ -55,7 +55,7 @@ fn what_the_documentation_shows_can_be_read() {
     assert_eq!(example.scene.objects[0].mass, 0.5);
     assert_eq!(example.headings, [false, true]);
 
-    // The produced file is kept for where there is no Python.
+    // The stored file is used if Python is not available.
     let folder = tempfile::tempdir().expect("a folder");
     let python =
         Command::new("python3").args(["-c", block("python")]).current_dir(&folder).status();
@@ -270,7 +270,7 @@ fn everything_wrong_is_said_with_its_place() {
         }
     }
     assert!(missed.is_empty(), "\n{missed}");
-    // Declared, a jump of the pusher is none.
+    // A declared jump of the pusher is not a fault.
     let lifted = SOUND.replace("pusher: [0.15, 0]", "lifted: true, pusher: [0.55, -0.2]");
     assert!(parse(&lifted.replace("[0.25, 0]", "[0.20, 0]")).is_ok());
     let json = "{\"frames\": [{\"pusher\": [NaN, 0.0]}]}";
@@ -278,7 +278,7 @@ fn everything_wrong_is_said_with_its_place() {
     assert!(found.contains("JSON has no NaN"), "{found}");
 }
 
-/// What the planar engine makes of the recorded pusher.
+/// Replays the recorded pusher in the planar engine.
 fn replayed(recording: &Recording) -> Trajectory {
     let motion = recording.replay().motion;
     let job = Job { start: recording.start(), ..Job::stated(&recording.scene, motion) };
@@ -286,7 +286,8 @@ fn replayed(recording: &Recording) -> Trajectory {
     model.rollout(&recording.scene, &[job], Record::Frames).remove(0)
 }
 
-/// Largest distance of any object from its recorded place at the end of a stroke, metres.
+/// Returns the largest distance of any object from its recorded position at the end of a stroke,
+/// metres.
 fn off(recording: &Recording, trajectory: &Trajectory) -> f64 {
     let replay = recording.replay();
     let mut largest: f64 = 0.0;
@@ -302,7 +303,7 @@ fn off(recording: &Recording, trajectory: &Trajectory) -> f64 {
     largest
 }
 
-/// A pusher that turns about the middle of its frame goes nowhere, but its ends do.
+/// A pusher that rotates about the middle of its frame does not translate, but its ends move.
 #[test]
 fn frames_of_a_turning_pusher_are_cut_by_the_travel_of_its_tips() {
     let text = "
@@ -319,9 +320,9 @@ frames:
     let recording = parse(text).expect("a sound recording");
     assert!(!recording.frames[1].seen && recording.frames[2].seen);
     let replay = recording.replay();
-    // 10 cm times 0.7 radians, and a little more for the corners.
+    // 10 cm times 0.7 radians, and slightly more for the corners.
     assert!((7..=9).contains(&replay.motion.strokes.len()), "{}", replay.motion.strokes.len());
-    // Only where the can was seen can anything be compared.
+    // Comparison is possible only in frames that contain the can.
     let instants: Vec<usize> = replay.instants.iter().map(|instant| instant.frame).collect();
     assert_eq!(instants, [2]);
     let last = replay.motion.strokes.last().expect("it moves");

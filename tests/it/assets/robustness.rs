@@ -1,4 +1,4 @@
-//! No text, however damaged, makes a reader panic; what it refuses it explains.
+//! No text, however damaged, makes a reader panic; every refusal has an explanation.
 
 use std::time::{Duration, Instant};
 
@@ -18,7 +18,7 @@ const TASKS: [&str; 3] = [
     include_str!("../../../tasks/reference-chain.yaml"),
 ];
 
-/// Reads `text` in every way and looks at what is said.
+/// Reads `text` in every way and checks the messages.
 fn read(text: &str) {
     explained(Tool::parse(text, "t"));
     explained(Task::parse(text, "t"));
@@ -35,7 +35,7 @@ fn explained<T>(read: Result<T, Faults>) {
     }
 }
 
-/// `text` with the characters from the share `start` on, `length` of them, replaced by `new`.
+/// Replaces `length` characters of `text` from the relative position `start` with `new`.
 fn spoiled(text: &str, start: f64, length: usize, new: &str) -> String {
     let letters: Vec<char> = text.chars().collect();
     let start = (start * letters.len() as f64) as usize;
@@ -74,7 +74,7 @@ proptest! {
     ) {
         let (text, file) = if yaml { (recordings::SOUND, "t") } else { (recordings::PUSH, "t.json") };
         let read = Recording::parse(&spoiled(text, start, length, SNIPPETS[snippet]), file);
-        // What is accepted can also be played.
+        // An accepted recording can also be replayed.
         explained(read.map(|recording| recording.replay()));
     }
 

@@ -1,4 +1,4 @@
-//! Files that the program writes: read back bit by bit, refused when damaged, whole or absent.
+//! Files that the program writes: read back bit for bit, refused when damaged, complete or absent.
 
 use insta::assert_snapshot;
 use pushplan::asset::{
@@ -16,7 +16,7 @@ use pushplan::{
 
 use super::{folder, shipped_tasks};
 
-/// A plan file with everything in it, for the task `name`.
+/// Returns a plan file with all keys for the task `name`.
 pub fn plan_file(name: &str) -> PlanFile {
     let library = ToolLibrary::embedded().unwrap();
     let task = Task::load(folder("tasks").join(name)).unwrap();
@@ -105,7 +105,7 @@ fn written_files_read_back_bit_by_bit() {
     assert_eq!(std::fs::read_dir(place.path()).unwrap().count(), 1, "nothing is left behind");
 }
 
-/// What is said about a plan file with `old` replaced by `new`.
+/// Returns the message for a plan file with `old` replaced by `new`.
 fn damaged(old: &str, new: &str) -> String {
     damaged_in(&PlanFile { fit: None, ..plan_file("pull-back.yaml") }, old, new)
 }
@@ -207,7 +207,8 @@ fn a_file_that_cannot_be_written_leaves_nothing_behind() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_read_only_folder_is_told() {
-    // Not made by permissions: those do not stop the administrator, as whom tests may run.
+    // File permissions cannot be used, because they do not restrict the root user, who may run the
+    // tests.
     let faults = write_atomic("/proc/plan.json", b"new").unwrap_err().to_string();
     assert!(faults.starts_with("/proc/plan.json: error: cannot write the file: "), "{faults}");
 }

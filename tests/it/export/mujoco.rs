@@ -1,4 +1,4 @@
-//! What MuJoCo makes of exported plans: closed forms of friction, and the shipped tasks.
+//! Replay of exported plans in MuJoCo: closed-form friction, and the shipped tasks.
 //!
 //! Needs a Python with the package `mujoco`.
 
@@ -21,14 +21,14 @@ use crate::ROOT;
 use crate::levers::plan_file;
 use crate::mujoco_python::python;
 
-/// Where the box of [`pushed`] stands at the start, metres.
+/// Start of the box of [`pushed`], metres.
 const START: f64 = 0.50;
 
-/// Coefficients of friction of that box: with the table, and with the bar.
+/// Friction coefficients of the box: with the table, and with the bar.
 const TABLE: f64 = 0.45;
 const BAR_FRICTION: f64 = 0.4;
 
-/// A lever-up that turns a plate over, and one with pushes that follow, as the planner found them.
+/// A lever-up that flips a plate, and one followed by pushes, as found by the planner.
 #[test]
 fn shipped_plans_in_space_work_in_mujoco() {
     let Some(python) = python() else { return };
@@ -66,8 +66,8 @@ fn a_box_pushed_flush_slides_on_by_v2_over_2_mu_g() {
 fn a_box_pushed_aside_sticks_within_the_friction_cone_and_slips_outside() {
     for degrees in [10.0_f64, 30.0, 45.0] {
         let Some([x, y, heading]) = pushed(degrees, 0.20, 0.1) else { return };
-        // What the bar carries along goes where its force points: its own way if that lies
-        // within the cone, else along the cone's edge.
+        // A carried box moves along the bar's direction if the direction is within the friction
+        // cone, otherwise along the edge of the cone.
         let way = degrees.to_radians().tan().min(BAR_FRICTION);
         let ahead = 0.20 * degrees.to_radians().cos();
         assert!((y - way * ahead).abs() < 2e-3, "{degrees} degrees: {y}, not {}", way * ahead);
@@ -79,7 +79,7 @@ fn a_box_pushed_aside_sticks_within_the_friction_cone_and_slips_outside() {
 fn prisms_pushed_flush_slide_on_by_v2_over_2_mu_g() {
     let Some(python) = python() else { return };
     let triangle = "corners: [[0, 0], [0.10, 0.06], [0, 0.12]]";
-    // The weight lies over the middle of the face, but not in the middle of the block.
+    // The centre of mass is opposite the middle of the face, but not at the middle of the block.
     let loaded =
         "corners: [[0, 0], [0.1, 0], [0.1, 0.08], [0, 0.08]], centre_of_mass: [0.06, 0.04]";
     for (prism, face) in [(triangle, 0.1 / 3.0), (loaded, 0.06)] {
@@ -152,8 +152,8 @@ goal: {{object: box, position: [0.80, 0.0], tolerance: 0.02}}
     )
 }
 
-/// Where a box ends that a bar pushes flush, moving `degrees` aside of the face's normal by
-/// `length` metres; nowhere without MuJoCo.
+/// Returns the end of a box that a flush bar pushes by `length` metres, at `degrees` to the face's
+/// normal; `None` without MuJoCo.
 fn pushed(degrees: f64, length: f64, speed: f64) -> Option<[f64; 3]> {
     let python = python()?;
     let start = [START - 0.06, 0.0];
@@ -163,7 +163,7 @@ fn pushed(degrees: f64, length: f64, speed: f64) -> Option<[f64; 3]> {
     Some([0, 1, 2].map(|k| pose[k].as_f64().expect("a number")))
 }
 
-/// What the script says of scenes, in the order of their names.
+/// Returns the results of the script for scenes, in the order of their names.
 fn replay(python: &str, scenes: &[(&str, String)]) -> Vec<Json> {
     let folder = TempDir::new().unwrap();
     let script = folder.path().join("replay.py");

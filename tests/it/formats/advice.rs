@@ -1,5 +1,5 @@
-//! What is refused comes with advice, and who follows that is served: every row is a file with a fault, words of
-//! the advice, and the file or the options as the advice says.
+//! Every refusal comes with advice that works when followed. Each row holds a faulty file, words of
+//! the advice, and the file or options changed according to it.
 
 mod bodies;
 mod files;
@@ -12,7 +12,7 @@ use pushplan_import::{Wanted, objects, parse, tool};
 
 use crate::mujoco_python::python;
 
-/// As which a file is imported.
+/// Target of an import.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum As {
     Objects,
@@ -21,7 +21,7 @@ enum As {
 
 use As::{Objects as O, Tool as T};
 
-/// What is left when a file is imported: its notes, or all faults.
+/// Returns the notes of an import, or all its faults.
 fn import(text: &str, what: As, wanted: &Wanted) -> Result<String, String> {
     let (model, _, mut notes) = parse(text, "f").map_err(|faults| faults.to_string())?;
     let more = match what {
@@ -32,10 +32,10 @@ fn import(text: &str, what: As, wanted: &Wanted) -> Result<String, String> {
     Ok(notes.join("\n"))
 }
 
-/// A file, words of the advice with which it is refused, and what is written for what once that is followed.
+/// Faulty file, words of the advice, and the replacements that follow it.
 type Row<'a> = (String, &'a str, &'a [(&'a str, &'a str)]);
 
-/// Every file is refused with its advice, and taken once all its edits are made.
+/// Asserts that every file is refused with its advice, and accepted after all its edits.
 fn edited(what: As, rows: &[Row<'_>]) {
     let wrong = rows.iter().filter_map(|(text, advice, edits)| {
         let followed = edits.iter().fold(text.clone(), |text, (from, to)| text.replace(from, to));
@@ -46,7 +46,8 @@ fn edited(what: As, rows: &[Row<'_>]) {
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
 }
 
-/// Whether a file with these options is refused with this advice, and taken as it says.
+/// Returns `true` if a file with these options is refused with this advice, and accepted when it is
+/// followed.
 fn helped(
     (text, what, first): (&str, As, &Wanted),
     advice: &str,
@@ -63,22 +64,22 @@ fn helped(
 
 const BOX: &str = "<geom type='box' size='.05 .04 .05'/>";
 
-/// A file of MuJoCo with a plane and these bodies.
+/// Returns an MJCF file with a plane and these bodies.
 fn mjcf(bodies: &str) -> String {
     format!("<mujoco><worldbody><geom type='plane' size='1 1 1'/>{bodies}</worldbody></mujoco>")
 }
 
-/// The same with one free body that has this in it.
+/// Returns an MJCF file with one free body that contains `inside`.
 fn free(inside: &str) -> String {
     mjcf(&format!("<body name='b' pos='.5 0 .05'><freejoint/>{inside}</body>"))
 }
 
-/// The same with sections before its bodies.
+/// Returns an MJCF file with `sections` before its free body.
 fn with(sections: &str, inside: &str) -> String {
     free(inside).replace("<mujoco>", &format!("<mujoco>{sections}"))
 }
 
-/// A link of ROS with its mass, and this shape.
+/// Returns a URDF link with its mass and this shape.
 fn link(name: &str, shape: &str) -> String {
     format!(
         "<link name='{name}'><inertial><mass value='.5'/></inertial>\
@@ -90,7 +91,7 @@ fn urdf(inside: &str) -> String {
     format!("<robot name='r'>{inside}</robot>")
 }
 
-/// Two links, and a joint of this type between them with this in it.
+/// Returns two links with a joint of this type between them that contains `inside`.
 fn jointed(kind: &str, inside: &str) -> String {
     let cube = "<box size='.1 .1 .1'/>";
     urdf(&format!(
@@ -101,7 +102,7 @@ fn jointed(kind: &str, inside: &str) -> String {
     ))
 }
 
-/// The corners of a cube of this side, metres.
+/// Returns the corners of a cube with this side, metres.
 fn cube(side: f64) -> String {
     let corner =
         |k: u32| [k & 1, k >> 1 & 1, k >> 2].map(|bit| (side * f64::from(bit)).to_string());
@@ -162,7 +163,7 @@ fn options_do_what_the_advice_says() {
         helped((&text, what, &Wanted::default()), advice, (&text, &wanted)).unwrap();
     }
     import(&held(""), T, &Wanted::default()).expect("`--as tool` imports a tool");
-    // Names that are none are told which there are.
+    // For unknown names, the advice lists the known ones.
     for (text, what, wrong, advice, right) in [
         (held(""), O, freed("x"), "bodies with solids are b", freed("b")),
         (held(""), O, named(&["b"]), "it does not move: --free b lets it stand freely", freed("b")),

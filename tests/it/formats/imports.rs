@@ -1,4 +1,4 @@
-//! Files that others might have written.
+//! Import of files that other programs could have written.
 
 use insta::assert_snapshot;
 use pushplan::{Shape, Vector};
@@ -16,7 +16,7 @@ fn scene(text: &str, wanted: &Wanted) -> Task {
     made.unwrap_or_else(|faults| panic!("{faults}")).value.task
 }
 
-/// Everything that is wrong with a text.
+/// Returns all faults of a text.
 fn faults(text: &str, as_tool: bool) -> String {
     let wanted = Wanted::default();
     let found = parse(text, "f.xml").and_then(|(model, ..)| match as_tool {
@@ -34,10 +34,10 @@ fn mjcf(bodies: &str) -> String {
 fn a_scene_of_mujoco_becomes_a_task() {
     let task = scene(KITCHEN, &Wanted::default());
     assert_snapshot!(task.to_yaml().unwrap());
-    // 2000 kg/m^3 and 6 x 4 x 10 cm, which lies on its largest face but one.
+    // 2000 kg/m^3 and 6 x 4 x 10 cm, resting on its second-largest face.
     let lying = &task.scene.objects[1];
     assert!((lying.mass - 0.48).abs() < 1e-12 && (lying.shape.height() - 0.06).abs() < 1e-12);
-    // The larger of 0.6 and 0.6 is their mean; that of 0.3 and 0.6 is not.
+    // The maximum of 0.6 and 0.6 equals their mean; the maximum of 0.3 and 0.6 does not.
     let pair = |name: &str| {
         let object = task.scene.objects.iter().position(|object| object.name == name);
         task.scene
@@ -74,7 +74,7 @@ fn a_robot_of_fixed_links_becomes_a_tool() {
     let text = include_str!("../../cmd/import.in/hook.urdf");
     let (model, ..) = parse(text, "hook.urdf").unwrap();
     let made = tool(&model, "hook.urdf", &Wanted::default());
-    // Gazebo's friction is of the handle alone.
+    // Gazebo's friction applies only to the handle.
     let text = made.expect_err("two frictions").to_string();
     assert!(
         text.contains("hook.urdf:10:5: error: parts have different frictions, 0.4 and 0.5"),
@@ -184,7 +184,7 @@ fn a_hand_of_an_arm_becomes_a_tool() {
         let (model, ..) = parse(text, "f.xml").expect("a model");
         tool(&model, "f.xml", &Wanted { bodies, ..Wanted::default() })
     };
-    // What is called a tool is one, wherever it hangs; anything else is named.
+    // A body called `tool` is the tool, at any place in the tree; other bodies must be named.
     for (name, bodies) in [("tool", &[][..]), ("palm", &["palm"])] {
         let made = taken(&arm(&hand(name)), bodies).unwrap_or_else(|faults| panic!("{faults}"));
         let [part] = made.value.parts() else { panic!("{:?}", made.value) };

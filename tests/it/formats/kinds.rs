@@ -1,4 +1,4 @@
-//! Files of kinds that others have: each is read, or refused with advice that helps when it is followed.
+//! Kinds of foreign files: each is read, or refused with advice that works when followed.
 
 use pushplan::{Shape, Vector};
 use pushplan::{
@@ -9,7 +9,7 @@ use pushplan_import::{Wanted, objects, parse, tool};
 
 pub(super) type Taken = Result<(Task, String), String>;
 
-/// The task of a text, and all notes; or all faults.
+/// Returns the task of a text with all notes, or all faults.
 fn taken(text: &str, wanted: &Wanted) -> Taken {
     let (model, _, mut notes) = parse(text, "f").map_err(|faults| faults.to_string())?;
     let made = objects(&model, "f", wanted).map_err(|faults| faults.to_string())?;
@@ -29,7 +29,7 @@ fn free(name: &str) -> Wanted {
     Wanted { free: vec![name.into()], ..Wanted::default() }
 }
 
-/// A link of 0.5 kg and 10 x 8 x 6 cm, with more in it.
+/// Returns a link of 0.5 kg and 10 x 8 x 6 cm that also contains `more`.
 fn link(name: &str, more: &str) -> String {
     format!(
         "<link name='{name}'><inertial><mass value='0.5'/></inertial><collision><geometry>\
@@ -152,13 +152,13 @@ fn a_body_of_several_solids_is_one_object_with_its_mass_where_it_should_be() {
     let centre: Vector =
         scene.objects.iter().map(|solid| solid.mass * solid.pose.position).sum::<Vector>() / 0.3;
     assert!((centre - Vector::new(0.53, 0.0)).norm() < 1e-5, "{centre}");
-    // The larger of two frictions is that of all solids.
+    // The larger of two frictions applies to all solids.
     let rough = nut.replace("<geom type='box'", "<geom type='box' friction='.5'");
     let (task, _) = taken(&rough, &all()).expect("a task");
     assert_eq!([0, 1].map(|solid| task.scene.support_friction(solid)), [1.0, 1.0]);
     let again = Task::parse(&task.to_yaml().expect("YAML"), "f").expect("a task");
     assert_eq!(again.scene, task.scene);
-    // Many convex pieces of a disc are that disc.
+    // Many convex pieces of a disc are merged to the disc.
     let slices: String = (0..24)
         .map(|k| {
             format!("<geom type='box' size='.06 .008 .02' euler='0 0 {}'/>", 7.5 * f64::from(k))
@@ -245,7 +245,7 @@ fn what_weighs_nothing_weighs_what_it_is_made_of() {
     let wood = Wanted { density: Some(700.0), ..all() };
     let (task, _) = taken(&text, &wood).expect("as the advice says");
     assert!((task.scene.objects[0].mass - 0.336).abs() < 1e-12);
-    // Parts that are lighter than a task can say weigh more, and the whole as much as before.
+    // Masses of parts below a task's minimum are raised, and the total mass is kept.
     let thin = mjcf(
         "<body name='t' pos='.5 0 .02'><freejoint/><geom type='box' size='.04 .04 .02'/>\
          <geom type='box' size='.002 .02 .02' pos='.042 0 0' density='1'/></body>",
@@ -267,7 +267,7 @@ fn what_is_hollow_weighs_as_its_surface_does() {
         assert!(notes.contains("this geom is hollow"), "{notes}");
         task.scene.objects[0].mass
     };
-    // What MuJoCo makes of 5 kg/m^2.
+    // Reference value from MuJoCo for 5 kg/m^2.
     assert!((hollow("type='box' size='.05 .04 .05' density='5'") - 0.26).abs() < 1e-9);
     let can = 5.0 * std::f64::consts::TAU * 0.04 * 0.14;
     assert!((hollow("type='cylinder' size='.04 .05' density='5'") - can).abs() < 1e-9);

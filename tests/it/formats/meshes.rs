@@ -9,7 +9,7 @@ use pushplan_import::{Reading, Wanted, objects, read};
 
 use super::kinds::{Taken, all};
 
-/// The same of a file in a folder of these files.
+/// Returns the task of a file in a folder of these files, with all notes; or all faults.
 pub(super) fn taken_of(files: &[(&str, &[u8])], reading: &Reading, wanted: &Wanted) -> Taken {
     let folder = tempfile::tempdir().expect("a folder");
     for (name, bytes) in files {
@@ -26,7 +26,7 @@ pub(super) fn taken_of(files: &[(&str, &[u8])], reading: &Reading, wanted: &Want
     Ok((made.value.task, notes.join("\n")))
 }
 
-/// A cube with this side as OBJ.
+/// Returns a cube with this side as OBJ.
 pub(super) fn cube(side: f64) -> Vec<u8> {
     let mut text = String::new();
     for k in 0..8 {
@@ -61,7 +61,7 @@ fn a_mesh_is_a_thing_on_the_table() {
 
 #[test]
 fn a_mesh_that_is_not_convex_has_parts() {
-    // An ell: two cubes' worth of a U, as one closed mesh.
+    // An L-shaped prism as one closed mesh.
     let outline = [[0, 0], [9, 0], [9, 3], [3, 3], [3, 9], [0, 9]];
     let mut text = String::new();
     for z in [0.0, 0.03] {
@@ -100,12 +100,12 @@ fn meshes_and_includes_lie_beside_the_file_or_below_what_is_named() {
     let (task, _) = taken_of(&files, &Reading::default(), &all()).expect("a task");
     let object = &task.scene.objects[0];
     assert!((object.mass - 0.216).abs() < 1e-9 && object.support == Support::Even);
-    // A fault of an included file has its place in that.
+    // A fault of an included file has its place in that file.
     let wrong = assets.replace("<asset>", "<compiler eulerseq='q'/><asset>");
     let files = [files[0], ("parts/assets.xml", wrong.as_bytes()), files[2]];
     let fault = taken_of(&files, &Reading::default(), &all()).expect_err("a fault");
     assert!(fault.contains("assets.xml:2:11: error: the compiler's eulerseq"), "{fault}");
-    // Above it only where somebody says so.
+    // Files above the folder are read only with a root folder.
     let scene = scene.replace("parts/", "../parts/");
     let assets = assets.replace("parts/", "../parts/");
     let files: [(&str, &[u8]); 3] =
@@ -130,7 +130,8 @@ fn bodies_of_other_models_are_attached_where_the_file_says() {
                  <attach model='m' body='tray' prefix='a-'/></body>\
                  <frame pos='.5 -.2 0'><attach model='m' body='can' prefix='b-'/></frame>\
                  </worldbody></mujoco>";
-    // Its own folder of meshes, its own angles; the can hangs on the tray's stand.
+    // The attached model has its own mesh folder and angle unit; the can is attached to the tray's
+    // stand.
     let tray = "<mujoco model='m'><compiler angle='radian' meshdir='meshes'/><asset>\
                 <mesh name='cube' file='cube.obj' scale='.001 .001 .001'/></asset><worldbody>\
                 <body name='stand' pos='9 9 0'><body name='tray' pos='.1 0 .03' euler='0 0 1.5708'>\
@@ -146,14 +147,15 @@ fn bodies_of_other_models_are_attached_where_the_file_says() {
     let (task, _) = taken_of(&files, &Reading::default(), &all()).expect("a task");
     let objects = &task.scene.objects;
     let names: Vec<&str> = objects.iter().map(|one| one.name.as_str()).collect();
-    // A thing is called after the body that has its solids.
+    // An object is named after the body that has its solids.
     assert_eq!(names, ["a-tray", "b-can"]);
     let at = |k: usize| objects[k].pose.position;
     assert!((at(0) - Vector::new(0.5, 0.3)).norm() < 1e-6, "{:?}", at(0));
-    // The cube's corner is its origin.
+    // The origin of the cube is its corner.
     assert!((at(1) - Vector::new(0.53, -0.12)).norm() < 1e-6, "{:?}", at(1));
     assert!((objects[0].mass - 0.3).abs() < 1e-9 && (objects[1].mass - 0.216).abs() < 1e-9);
-    // Faults of the other file are in that, and only where it is attached.
+    // Faults of the attached file have their places in that file, and are reported only where it is
+    // attached.
     let bad = tray.replace("angle='radian'", "eulerseq='q'");
     let wrong = [files[0], ("parts/tray.xml", bad.as_bytes()), files[2]];
     let fault = taken_of(&wrong, &Reading::default(), &all()).expect_err("a fault");
@@ -189,7 +191,7 @@ fn models_that_attach_each_other_or_far_too_much_are_faults_at_once() {
     assert!(own.contains("attach each other"), "{own}");
     let two = [("a.xml".into(), attaching("b.xml", 1)), ("b.xml".into(), attaching("a.xml", 1))];
     assert!(fault(&two).contains("attach each other"));
-    // In no circle, but each names the next twice: 2^14 files, and 4^14 bodies.
+    // There is no cycle, but each file names the next twice: 2^14 files and 4^14 bodies.
     let file = |k: usize| (format!("{k}.xml"), attaching(&format!("{}.xml", k + 1), 4));
     let mut chain: Vec<(String, String)> = (0..14).map(file).collect();
     chain.push(("14.xml".into(), attaching("", 0).replace("file=''", "file='14.xml'")));

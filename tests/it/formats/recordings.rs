@@ -1,4 +1,4 @@
-//! MCAP.
+//! MCAP files.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! Scenes that `pushplan export` wrote, read again.
+//! Scenes written by `pushplan export`, read again.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use pushplan::{
 use pushplan_export::mjcf;
 use pushplan_import::{Imported, ImportedScene, Wanted, objects, parse, tool};
 
-/// A plan of one push with a shipped tool.
+/// Returns a plan of one push with a shipped tool.
 fn plan(task: Task, tool: &Tool) -> PlanFile {
     let push = Push { start: Vector::new(0.3, 0.0), direction: 0.0, length: 0.1, speed: 0.1 };
     let (name, form) = (tool.name.clone(), PushForm::Placed);
@@ -58,7 +58,7 @@ fn same_shape(a: &Shape, b: &Shape, what: &str) {
 
 fn same_scene(a: &Scene, b: &Scene, what: &str) {
     near(a.table_friction, b.table_friction, what);
-    // The robot is whose the task is.
+    // The robot's base depends on the task, so it is not compared.
     let [a_obstacles, b_obstacles] = [a, b].map(|scene| {
         let stated = scene.obstacles.iter().filter(|one| one.name != Robot::BASE);
         stated.collect::<Vec<_>>()
@@ -77,7 +77,7 @@ fn same_scene(a: &Scene, b: &Scene, what: &str) {
         near(object.mass, other.mass, &what);
         near(object.friction, other.friction, &what);
         assert_eq!(object.color, other.color, "{what}");
-        // A prism's corners may begin at another one.
+        // The corners of a prism may begin at another corner.
         let feet: Vec<(Vector, f64)> = other.feet().each().collect();
         assert_eq!(object.feet().count, feet.len(), "{what}");
         for (foot, load) in object.feet().each() {
@@ -124,8 +124,8 @@ fn every_shipped_task_comes_back_with_its_sizes_masses_frictions_and_places() {
     let stick = library.get("stick").unwrap();
     let tasks = tasks();
     assert!(tasks.len() > 10);
-    // The importer makes objects of their own of the solids of a thing, and knows neither joints to the
-    // world nor goals but places in it.
+    // The importer makes separate objects of the solids of a compound object. It supports neither
+    // joints to the world nor goals other than positions and headings.
     let simple = |task: &Task| {
         let scene = &task.scene;
         let placed = |goal: &Goal| {
@@ -146,7 +146,7 @@ fn every_shipped_task_comes_back_with_its_sizes_masses_frictions_and_places() {
         let Imported { value, .. } =
             made.unwrap_or_else(|faults| panic!("{}: {faults}", task.name));
         let ImportedScene { task: found, has_goal } = value;
-        // Where a table ends, and what presses how high, MJCF has no word for.
+        // MJCF cannot express the extents of a table or the height of a push.
         same_scene(&task.scene, &found.scene, &task.name);
         assert!(has_goal && found.name == task.name);
         assert_eq!(task.goals.len(), found.goals.len());
@@ -237,7 +237,7 @@ goal: {object: a, position: [0.60, 0.0], tolerance: 0.02}
         };
         let other = found.joints.iter().find(same).expect("the joint");
         let (limits, theirs) = (joint.limits().unwrap(), other.limits().unwrap());
-        // Seen from the other one, a turn goes the other way, and so does a shift.
+        // Seen from the other object, rotation and translation change their sign.
         let swapped = joint.between != other.between;
         let along = match (joint.kind, other.kind) {
             (JointKind::Prismatic { axis: a, .. }, JointKind::Prismatic { axis: b, .. }) => {
@@ -283,8 +283,8 @@ fn every_shipped_tool_comes_back_as_wide_as_it_was() {
             };
             let (found, stated) = (reach(&value), reach(shipped));
             let what = format!("{} towards {angle}: {found} and {stated}", shipped.name);
-            // Where two pieces cover each other at an outer corner the export moves both back by
-            // 10 mm, which takes the tip off.
+            // Where two pieces overlap at an outer corner, the export shortens both by 10 mm, which
+            // removes the tip.
             assert!((-0.0071..1e-9).contains(&(found - stated)), "{what}");
         }
     }

@@ -1,5 +1,5 @@
-//! A real Chromium without a window, driven over two pipes by the Chrome DevTools protocol:
-//! JSON messages that end in a zero byte, no socket and no library.
+//! Headless Chromium, driven over two pipes by the Chrome DevTools protocol: JSON messages that end
+//! in a zero byte, without sockets or libraries.
 
 use std::env;
 use std::io::{BufRead, BufReader, Write};
@@ -12,29 +12,29 @@ use std::time::Duration;
 use serde_json::{Value as Json, json};
 use tempfile::TempDir;
 
-/// Nothing takes longer, on a busy machine either.
+/// Maximum duration of any operation, even on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(90);
 
-/// A browser with one page.
+/// Browser with one page.
 pub struct Browser {
     child: Child,
     to: ChildStdin,
     from: Receiver<Json>,
     last: u64,
     session: Option<String>,
-    /// What the page did that nobody asked for, in order: requests, messages, faults.
+    /// Unsolicited events of the page, in order: requests, messages, faults.
     pub events: Vec<Json>,
     _profile: TempDir,
 }
 
 impl Browser {
-    /// Starts the program that `PUSHPLAN_CHROMIUM` names, or else `chromium`; `None` if there is
-    /// none, which on a server is a fault.
+    /// Starts the program named by `PUSHPLAN_CHROMIUM`, otherwise `chromium`. Returns `None` if
+    /// there is none, which is a fault in CI.
     pub fn start() -> Option<Self> {
         Self::start_with(&["--disable-gpu"])
     }
 
-    /// The same with these options.
+    /// Starts the browser with these options.
     pub fn start_with(options: &[&str]) -> Option<Self> {
         let named = env::var("PUSHPLAN_CHROMIUM").unwrap_or_else(|_| "chromium".to_owned());
         if Command::new(&named).arg("--version").output().is_err() {
@@ -81,10 +81,10 @@ impl Browser {
         Some(browser)
     }
 
-    /// Opens a file, with what stands behind `#`, and waits until it is there.
+    /// Opens a file with a fragment after `#`, and waits until it is loaded.
     pub fn open(&mut self, file: &Path, part: &str) {
         let url = format!("file://{}#{part}", file.display());
-        // From another page, as a new `#` alone would load nothing.
+        // A blank page first, because changing only the fragment would not load the page again.
         for url in ["about:blank", &url] {
             self.events.clear();
             self.call("Page.navigate", json!({"url": url}));
@@ -92,7 +92,7 @@ impl Browser {
         }
     }
 
-    /// The value of an expression on the page.
+    /// Returns the value of an expression on the page.
     pub fn value(&mut self, expression: &str) -> Json {
         let asked = json!({
             "expression": expression, "returnByValue": true, "awaitPromise": true,
@@ -102,13 +102,13 @@ impl Browser {
         answer["result"]["value"].clone()
     }
 
-    /// The text of the element that a selector finds.
+    /// Returns the text of the element that a selector finds.
     pub fn text(&mut self, selector: &str) -> String {
         let text = self.value(&format!("document.querySelector({}).textContent", json!(selector)));
         text.as_str().unwrap_or_else(|| panic!("{selector}: {text}")).to_owned()
     }
 
-    /// Presses and releases a key as a person does.
+    /// Presses and releases a key.
     pub fn press(&mut self, key: &str) {
         for kind in ["keyDown", "keyUp"] {
             let mut event = json!({"type": kind, "key": key});
@@ -154,15 +154,15 @@ impl Browser {
         }
     }
 
-    /// Addresses that were asked for since the page was opened.
+    /// Returns the addresses requested since the page was opened.
     pub fn requests(&self) -> Vec<&str> {
         let of = |event: &&Json| event["method"] == "Network.requestWillBeSent";
         let sent = self.events.iter().filter(of);
         sent.filter_map(|event| event["params"]["request"]["url"].as_str()).collect()
     }
 
-    /// What was written to the console since the page was opened, faults included; without what
-    /// the browser has to say of the way in which it draws, which changes with its version.
+    /// Returns the console messages since the page was opened, including faults. Messages of the
+    /// browser on its graphics are excluded, because they change with its version.
     pub fn complaints(&self) -> Vec<String> {
         let heard = ["Runtime.consoleAPICalled", "Runtime.exceptionThrown", "Log.entryAdded"];
         let of = |event: &&Json| {
@@ -191,7 +191,7 @@ impl Browser {
         }
     }
 
-    /// Waits for an event that has not come yet, or came since the last call.
+    /// Waits for an event that has not occurred yet, or occurred since the last call.
     fn until(&mut self, method: &str) {
         while !self.events.iter().any(|event| event["method"] == method) {
             let event = self.receive(method);

@@ -1,4 +1,4 @@
-//! The page of a recording: what was seen, and what was believed of it, under one clock.
+//! The page of a recording: observations and beliefs under one clock.
 
 use pushplan::effect::Prior;
 use pushplan::geometry::Vector;
@@ -19,7 +19,7 @@ use crate::fixtures::hand_push;
 
 #[test]
 fn a_recording_is_played_with_what_is_believed_of_it() {
-    // Two rows of three, nearly touching, two of which are joined.
+    // Two rows of three cans, nearly touching, two of which are joined.
     let can = |k: usize| {
         let at = [0.072 * (k / 3) as f64, 0.072 * (k % 3) as f64];
         Object::cylinder(format!("can {k}"), 0.035, 0.1).at(at[0], at[1], 0.0)
@@ -62,7 +62,7 @@ fn a_recording_is_played_with_what_is_believed_of_it() {
         assert_eq!(count(&mut browser, "#belief figure"), pairs);
         assert_eq!(count(&mut browser, "#found tr"), pairs + 1);
         assert_eq!(count(&mut browser, "aside"), 0);
-        // What is believed at a time is what was believed after the last observation before it.
+        // The belief shown at a time is the belief after the last observation before it.
         let observed = recording.observed_frames();
         for step in belief.history().iter().step_by(3) {
             let time = recording.frames[observed[step.observations - 1]].time;
@@ -94,7 +94,7 @@ fn the_command_writes_the_page_and_says_how_to_infer_the_same() {
     let script = plan["python"].as_str().expect("a script");
     let call = "print(pushplan.infer(recording, noise=0.002, mass_ranges=[(0.2, 0.5), (1, 2)]))";
     assert!(script.ends_with(call), "{script}");
-    // One object alone hangs on nothing, and is shown all the same.
+    // A single object has no joints and is also shown.
     let Some(mut browser) = Browser::start() else { return };
     browser.open(&page, "t=0.5");
     assert_eq!(browser.complaints(), Vec::<String>::new());

@@ -1,5 +1,4 @@
-//! The page of a run: what really happened, what was predicted and what was believed, under one
-//! clock.
+//! The page of a run: true motion, predictions and beliefs under one clock.
 
 use pushplan::asset::ToolLibrary;
 use pushplan::geometry::Pose;
@@ -49,7 +48,7 @@ fn a_run_is_played_with_what_was_predicted_and_believed() {
             }
         }
     }
-    // What is believed is what was known then.
+    // The belief shown is the belief at that time.
     let beliefs = |browser: &mut Browser| browser.text("#belief figure output");
     let shares = std::iter::once(&trace.prior[0])
         .chain(trace.steps.iter().map(|step| &step.probabilities[0]));
@@ -57,7 +56,7 @@ fn a_run_is_played_with_what_was_predicted_and_believed() {
         let time = (starts[k] + 1e-3).min(starts[starts.len() - 1]);
         follow(&mut browser, &format!("t={time}"));
         let said = beliefs(&mut browser);
-        // To the tenth of a per cent, by way of thousandths.
+        // Rounded to a tenth of a per cent through thousandths.
         let none = format!("none {:.1} %", (1e3 * shares[0]).round() / 10.0);
         assert!(said.contains(&none), "after {k} pushes: {said}, {none}");
         assert!(said.contains("really "), "{said}");
@@ -66,7 +65,7 @@ fn a_run_is_played_with_what_was_predicted_and_believed() {
     let figures = number(&browser.value("document.querySelectorAll('#belief figure').length"));
     assert_eq!(figures as usize, trace.pairs.len() + numbers);
 
-    // Every push opens its moment, and keys step over it, where two frames share a time.
+    // Every push opens its time, and keys skip the boundary, where two frames share a time.
     for (k, start) in starts.iter().take(trace.steps.len()).enumerate() {
         browser.click(&format!("#run tr:nth-child({}) .open", k + 2));
         let shown = |browser: &mut Browser| number(&browser.value("view.time"));
@@ -89,13 +88,13 @@ fn what_really_happened_is_simulated_again_to_the_bit() {
     for (step, real) in trace.steps.iter().zip(&real) {
         let world: &State = &step.world.as_ref().expect("simulated").state;
         assert_eq!(real.outcome().poses, world.poses);
-        // What was expected of the goal's object is where its prediction ends.
+        // The expected pose of the goal's object is the end of its prediction.
         let expected: Pose =
             step.predicted.last().expect("frames").state.poses[goal(&trace).object];
         assert_eq!(expected, step.expected);
         assert!(step.predicted.len() > 2);
     }
-    // Without a known truth what was seen is played.
+    // Without ground truth, the observations are played.
     let unknown = Trace { truth: None, ..trace };
     assert!(really(&unknown).is_empty());
     let page = run_page(&unknown, &[], Recipe::default(), PageView::Above);
@@ -121,7 +120,7 @@ fn the_command_writes_the_page_and_says_how_to_make_it_again() {
     assert_eq!(plan["command"], format!("pushplan run {task} --world 2 --seed 1"));
     let script = plan["python"].as_str().expect("a script");
     assert!(script.ends_with("print(pushplan.run(task, 2, seed=1))"), "{script}");
-    // A trace of another version is not gone on with.
+    // A trace of another version is not resumed.
     let path = folder.path().join("coupled-or-not.run.json");
     let text = std::fs::read_to_string(&path).expect("a trace");
     let version = format!("\"schema_version\":{TRACE_VERSION}");
@@ -135,7 +134,7 @@ fn goal(trace: &Trace) -> &Goal {
     &trace.task.goals[0]
 }
 
-/// A shipped task, carried out in a drawn world.
+/// Runs a shipped task in a drawn world.
 fn run(name: &str, seed: u64) -> Trace {
     let library = ToolLibrary::embedded().expect("the shipped tools");
     let path = std::path::Path::new(crate::ROOT).join(format!("tasks/{name}.yaml"));

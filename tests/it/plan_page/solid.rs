@@ -1,5 +1,5 @@
-//! The 3-D view of a page: things stand where they were computed, under the same clock and with the
-//! same layers, and a browser that cannot draw it says so.
+//! The 3-D view of a page: objects are drawn at their computed poses, with the same clock and
+//! layers, and a browser without support reports it.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ use tempfile::TempDir;
 use super::browser::Browser;
 use super::{LARGEST, PACKED, exit_code, follow, number, solved, written_with};
 
-/// Software that draws, as servers have no graphics processor.
+/// Options for software rendering, because servers have no graphics processor.
 const DRAWN: [&str; 2] = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 
 #[test]
@@ -45,22 +45,22 @@ fn things_stand_in_3d_where_they_were_computed() {
         let off = (shown[0] - pose.position.x).hypot(shown[1] - pose.position.y);
         assert!(off < 2e-5 && shown[2] == 0.0, "{shown:?} for {pose:?}");
     }
-    // The clock that plays is that of the drawing from above.
+    // The clock is shared with the drawing from above.
     browser.press("Home");
     let start = place(&mut browser, "spatial", object).expect("it is drawn");
     browser.press("End");
     assert_ne!(place(&mut browser, "spatial", object).expect("it is drawn"), start);
-    // Layers come and go.
+    // Layers can be toggled.
     browser.press("2");
     assert_eq!(place(&mut browser, "planar", object), None);
     browser.press("2");
     assert!(place(&mut browser, "planar", object).is_some());
-    // Other plans open in it.
+    // Other plans open in the view.
     browser.click("#plans tr:nth-child(3) .open");
     assert!(place(&mut browser, "predicted", object).is_some());
     browser.click("#plans tr:nth-child(2) .open");
 
-    // By key and by mouse it is seen from elsewhere; a key brings it back.
+    // Keys and mouse move the camera; a key resets it.
     let origin = |browser: &mut Browser| browser.value("solid.pixel([0, 0, 0])");
     browser.press("h");
     let home = origin(&mut browser);
@@ -87,7 +87,8 @@ fn things_stand_in_3d_where_they_were_computed() {
     let requests = browser.requests();
     assert!(requests.len() == 1 && requests[0].starts_with("file://"), "{requests:?}");
 
-    // It is really drawn: the top of the box is blue, and the table where it stood no longer.
+    // The scene is really drawn: the top of the box is blue, and the table at its former position
+    // is not.
     browser.press("Home");
     let [x, y] = [start[0], start[1]];
     let top = [x, y, task.scene.objects[object].shape.height()];
@@ -136,7 +137,7 @@ fn commands_write_it_where_it_is_asked_for() {
         assert_eq!(exit_code(&[command, &["--page", "3d"]].concat()), 0, "{command:?}");
         assert!(page(name).contains("id=\"three\""), "{command:?}");
     }
-    // Without a folder there is no page that could have a view.
+    // Without a folder there is no page for the view.
     assert_eq!(exit_code(&["verify", &plan, "--page", "3d"]), 2);
 }
 
@@ -145,13 +146,13 @@ fn spatial(solution: &Solution) -> pushplan::Trajectory {
     verdict.nominal(Engine::Spatial).and_then(|e| e.trajectory.clone()).expect("recorded")
 }
 
-/// Where an object of a layer is drawn; nothing if it is not.
+/// Returns the position at which an object of a layer is drawn; `None` if it is hidden.
 fn place(browser: &mut Browser, layer: &str, object: usize) -> Option<[f64; 3]> {
     let found = browser.value(&format!("solid.where('{layer}', {object}) ?? null"));
     found.is_array().then(|| [0, 1, 2].map(|k| number(&found[k])))
 }
 
-/// Red, green and blue of what is seen of a point of the world, 0 to 255.
+/// Returns red, green and blue of the pixel that shows a point of the world, 0 to 255.
 fn colour(browser: &mut Browser, [x, y, z]: [f64; 3]) -> [f64; 3] {
     let found = browser.value(&format!(
         "(() => {{ const drawn = document.querySelector('#solid canvas'); solid.render(); \
@@ -167,7 +168,7 @@ fn near(one: &Json, other: &Json) -> bool {
     (0..2).all(|k| (number(&one[k]) - number(&other[k])).abs() < 0.5)
 }
 
-/// Blade and plates of a lever-up in space, and how high its edge is.
+/// Blade and plates of a lever-up in 3-D, and the height of its edge.
 #[test]
 fn a_lever_up_is_seen_from_all_sides() {
     let folder = TempDir::new().expect("a folder");
@@ -209,7 +210,7 @@ fn a_lever_up_is_seen_from_all_sides() {
         let text: f64 = text.trim_end_matches(" mm").parse().expect("millimetres");
         assert!((text - raised(k)).abs() < 0.1, "{text} for {}", raised(k));
     }
-    // The drawing stands behind a key, as a picture that loads nothing.
+    // A key shows the drawing: a picture that loads nothing.
     browser.press("v");
     assert_eq!(browser.value("byId('stage').querySelector('img').naturalWidth > 0"), true);
     assert_eq!(browser.complaints(), Vec::<String>::new());

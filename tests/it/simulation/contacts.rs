@@ -1,4 +1,4 @@
-//! Who meets whom, and what is reported when things go wrong.
+//! Collision pairs, and reports of failures.
 
 use std::sync::Arc;
 
@@ -137,7 +137,7 @@ fn on_ice_waiting_is_given_up_with_a_warning() {
 
 #[test]
 fn a_round_tool_part_stands_upright() {
-    // Lying on its side the hand would be a roller with flat ends.
+    // Lying on its side, the hand would be a roller with flat ends.
     let scene = Scene::new([can()]);
     for (direction, start) in [(0.0, Vector::new(-0.12, 0.0)), (1.2, Vector::zeros())] {
         let along = Vector::new(f64::cos(direction), f64::sin(direction));
@@ -148,13 +148,14 @@ fn a_round_tool_part_stands_upright() {
                 simulator.run(&scene, &Job::stated(&scene, motion.clone()), Record::Outcome);
             let end = trajectory.outcome().poses[0].position;
             let touching = start + along * (0.2 + 0.1);
-            // Round against round does not hold: what the feet of the can are off by grows.
+            // Contact between two round bodies is unstable: the error from the can's feet grows.
             assert!((end - touching).norm() < 8e-3, "{:?}: {end}", simulator.engine());
         }
     }
 }
 
-/// Both engines used to turn the tool about its middle within a frame, and then moved it back.
+/// Regression test: both engines used to rotate the tool about its middle within a frame, and then
+/// moved it back.
 #[test]
 fn a_tool_that_turns_pushes_with_the_end_of_a_long_bar_as_fast_as_that_moves() {
     let length = 0.4;

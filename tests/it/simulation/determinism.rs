@@ -1,4 +1,4 @@
-//! The same job gives the same bits, whoever computes it, and alongside what.
+//! A job gives identical bits, independent of the thread and of the other jobs.
 
 use pushplan::effect::{EffectModel, Job, Simulated};
 use pushplan::geometry::Vector;

@@ -53,7 +53,8 @@ fn colliding_objects_never_gain_energy_while_the_tool_is_away() {
             trajectory.frames.iter().map(|frame| kinetic(&scene, &frame.state)).collect();
         assert!(trajectory.contacts.len() >= 2, "{:?}", trajectory.contacts);
         for (k, pair) in energies.windows(2).enumerate() {
-            // 1 uJ is what a gram gains at 4.5 cm/s: the noise of resting contacts stays below.
+            // 1 uJ is the energy of a gram at 4.5 cm/s: the noise of resting contacts stays below
+            // it.
             assert!(
                 pair[1] <= pair[0] + 1e-6,
                 "{:?}: frame {k}: {} J becomes {} J",

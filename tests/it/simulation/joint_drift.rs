@@ -1,6 +1,6 @@
-//! Joints keep what they hold over long ways, in pairs and in rows of twelve.
+//! Joint constraints hold over long distances, in pairs and in rows of twelve.
 //!
-//! Objects of 0.4 kg in a row across the hand's way, pushed 1 m at 0.21 m/s; the largest violation
+//! Objects of 0.4 kg in a row across the hand's path, pushed 1 m at 0.21 m/s. Largest violation
 //! over all joints and frames, planar / 3-D:
 //!
 //! | row                        | mm at 1/240 s   | mm at 1/480 s   | degrees at 1/240 s |
@@ -26,7 +26,7 @@ use pushplan::{
 
 use crate::fixtures::{brick, can, drift, hand_push, row};
 
-/// A name, and the joint about the point midway between two objects.
+/// Name, and the joint about the midpoint between two objects.
 type Named = (&'static str, fn(Vector) -> JointKind);
 
 const KINDS: [Named; 3] = [
@@ -35,7 +35,7 @@ const KINDS: [Named; 3] = [
     ("prismatic", |_| JointKind::Prismatic { axis: Vector::new(1.0, 0.0), limits: None }),
 ];
 
-/// A push of the hand, 1 m at 0.21 m/s, at `y` metres.
+/// Simulates a push of the hand, 1 m at 0.21 m/s, at `y` metres.
 fn play(scene: &Scene, simulator: &Simulator, y: f64) -> Trajectory {
     let motion = hand_push(Vector::new(-0.13, y), 0.0, 1.0, 0.21);
     simulator.run(scene, &Job::stated(scene, motion.clone()), Record::Frames)
@@ -58,7 +58,7 @@ fn simulators() -> [(&'static str, f64, Simulator); 4] {
 }
 
 /// Asserts that no joint of the row drifts by more than `most` metres, or as many radians per 50
-/// mm, and that half the step drifts less or next to nothing.
+/// mm, and that half the step drifts less or is negligible.
 fn assert_held(name: &str, scene: &Scene, y: f64, most: f64) {
     let mut before = (0.0, 0.0);
     for (engine, step, simulator) in simulators() {

@@ -1,4 +1,4 @@
-//! Limits stop a joint where they say, on both sides, in both engines.
+//! Limits stop a joint at the stated values, on both sides, in both engines.
 
 use pushplan::geometry::{Pose, Vector};
 use pushplan::{
@@ -9,7 +9,7 @@ use pushplan::{
 
 use crate::fixtures::{brick, engines, opened, push, row};
 
-/// A heavy brick and a light one beyond it, 3 cm apart, with a joint.
+/// Returns a heavy brick and a light one beyond it, 3 cm apart, with a joint.
 fn pair(kind: JointKind) -> Scene {
     let mut model = brick();
     model.pose.heading = std::f64::consts::FRAC_PI_2;
@@ -19,8 +19,8 @@ fn pair(kind: JointKind) -> Scene {
     scene
 }
 
-/// The extremes of the joint while the light brick is pushed 10 cm along +x or -x at its far end,
-/// as `value` reads them: over all frames, for either engine.
+/// Returns the extremes of the joint while the light brick is pushed 10 cm along +x or -x at its
+/// far end. `value` reads them over all frames, for either engine.
 fn extremes(scene: &Scene, ahead: bool, value: fn(Pose) -> f64) -> [Span; 2] {
     let (start, direction) = if ahead { (-0.04, 0.0) } else { (0.04, std::f64::consts::PI) };
     let motion = push(Vector::new(start, 0.26), direction, 0.10, 0.1);
@@ -42,7 +42,7 @@ fn a_limit_stops_a_turning_pair_on_either_side() {
     let turned = |pose: Pose| pose.heading;
     let free = pair(JointKind::Revolute { at, limits: None });
     let limited = pair(JointKind::Revolute { at, limits: Some(limits) });
-    // Pushed ahead at its far end the second brick turns right.
+    // Pushed forward at its far end, the second brick rotates clockwise.
     for span in extremes(&free, true, turned) {
         assert!(span.low < limits.low - 0.05, "{span:?}");
     }
@@ -91,7 +91,7 @@ fn a_joint_that_starts_at_its_limit_moves_only_the_other_way() {
 
 #[test]
 fn limits_count_from_the_stated_start_also_after_the_tool_was_lifted() {
-    // Two pushes: the world is rebuilt before the second, where the joint stands at its limit.
+    // Two pushes: the world is rebuilt before the second, when the joint is at its limit.
     let axis = Vector::new(1.0, 0.0);
     let limits = Span::new(-0.02, 0.03);
     let scene = pair(JointKind::Prismatic { axis, limits: Some(limits) });

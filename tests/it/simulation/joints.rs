@@ -1,4 +1,4 @@
-//! Joints hold what they should hold and leave free what they should leave free.
+//! Joints constrain the intended degrees of freedom and leave the others free.
 
 use pushplan::geometry::{Pose, Vector, wrap_angle};
 use pushplan::{
@@ -9,7 +9,7 @@ use pushplan::{
 
 use crate::fixtures::{brick, can, engines, push};
 
-/// Two bricks end to end with a gap of 2 mm, the second pushed from behind, off its centre.
+/// Returns two bricks end to end with a gap of 2 mm, the second pushed from behind, off-centre.
 fn pushed(kind: JointKind) -> (Scene, Vec<State>) {
     let mut second = brick();
     second.name = "second".into();
@@ -28,7 +28,7 @@ fn pushed(kind: JointKind) -> (Scene, Vec<State>) {
     (scene, ends.to_vec())
 }
 
-/// Where a world point of the start, carried by an object, is at the end.
+/// Returns the final position of a world point that an object carries from the start.
 fn carried(scene: &Scene, end: &State, object: usize, point: Vector) -> Vector {
     end.poses[object].point(scene.objects[object].pose.local_point(point))
 }

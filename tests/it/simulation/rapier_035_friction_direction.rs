@@ -1,11 +1,11 @@
-//! A cuboid pushed at a corner, off its centre, turns until it lies flush against the face.
+//! A cuboid pushed at a corner, off-centre, rotates until it is flush with the face.
 //!
-//! Up to rapier 0.34 Coulomb friction acts along -v, against the sliding velocity of a contact
-//! point. From 0.35 on it acts along -K^-1 v, where K maps impulses to velocities: at a corner
-//! that both slides and turns the two differ, the friction force gets a part along the face that
-//! holds the corner, and pushed boxes balance on it (23 % of pushes end more than 10 mm from
-//! Bullet). That is why the version is pinned; this test judges a later upgrade. With rapier
-//! 0.36.1 the 3-D engine leaves those of the larger headings 0.20 to 0.62 rad from flush.
+//! Up to rapier 0.34, Coulomb friction acts along -v, against the sliding velocity of a contact
+//! point. From 0.35 on it acts along -K^-1 v, where K maps impulses to velocities. At a corner that
+//! both slides and rotates the two directions differ. The friction force gets a component along the
+//! face that holds the corner, and pushed boxes balance on it (23 % of pushes end more than 10 mm
+//! from Bullet). The version is therefore pinned, and this test judges a later upgrade. With rapier
+//! 0.36.1 the 3-D engine leaves the boxes with larger headings 0.20 to 0.62 rad from flush.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -14,8 +14,8 @@ use pushplan::{outcome::Record, scene::Scene, task::Job};
 
 use crate::fixtures::{brick, engines, push};
 
-/// Angle between the bar's face and the nearest face of a brick of the given length and width,
-/// metres, that began turned by `heading`, radians, after 25 cm of pushing.
+/// Returns the angle between the bar's face and the nearest face of a brick after 25 cm of pushing.
+/// The brick has the given length and width, metres, and starts with `heading`, radians.
 fn misalignment(length: f64, width: f64, heading: f64, friction: f64) -> [f64; 2] {
     let mut object = brick();
     object.shape = Shape::Cuboid { size: [length, width, 0.05] };
@@ -33,8 +33,8 @@ fn misalignment(length: f64, width: f64, heading: f64, friction: f64) -> [f64; 2
 
 #[test]
 fn a_box_pushed_off_centre_turns_flush() {
-    // Well away from atan(width / length), where the centre is right ahead of the corner and a
-    // box may balance for long by rights.
+    // Well away from atan(width / length), where the centre is right ahead of the corner and a box
+    // may correctly balance for long.
     let starts = [(0.10, 0.06, 0.2), (0.10, 0.06, 0.8), (0.12, 0.05, 0.7), (0.12, 0.05, 0.8)];
     for friction in [0.2, 0.5, 0.8] {
         for (length, width, heading) in starts {

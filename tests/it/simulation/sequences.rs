@@ -1,4 +1,4 @@
-//! Several strokes: placed ones settle and jump, chained ones go on.
+//! Several strokes: placed strokes settle and jump, chained strokes continue.
 
 use std::f64::consts::FRAC_PI_3;
 
@@ -40,7 +40,7 @@ fn a_placed_sequence_is_its_pushes_one_after_another_to_the_bit() {
         assert_eq!(last_of_first.stroke, 0);
         assert!(scene.is_resting(&last_of_first.state));
         assert!(whole.outcome().poses[1].position.x > 0.04, "the second push moves the brick");
-        // Jumping to the next start throws nothing about.
+        // The jump to the next start moves no object.
         let moved = whole.frames[first.frames.len()].state.poses[0].position
             - last_of_first.state.poses[0].position;
         assert!(moved.norm() < 1e-5, "{moved}");
@@ -67,7 +67,7 @@ fn a_chained_sequence_goes_on_without_waiting() {
         let end = trajectory.outcome().poses[0].position;
         // The face ends at x = 0.165; the can leads it by its radius and a slide of 1.1 mm.
         assert!((end.x - 0.2161).abs() < 1e-3, "{:?}: {end}", simulator.engine());
-        // Rubbing along the bar drags it a part of the way aside.
+        // Friction along the bar drags the can sideways by part of the motion.
         assert!(end.y > 1e-3 && end.y < 0.05, "{:?}: {end}", simulator.engine());
     }
 }

@@ -1,4 +1,4 @@
-//! An object that slides freely goes as far as its support law says.
+//! A freely sliding object travels the distance given by its support model.
 
 use pushplan::geometry::{Pose, Shape, Vector, cross};
 use pushplan::sim::Simulator;
@@ -10,11 +10,11 @@ use pushplan::{
 
 use crate::fixtures::{brick, can, engines, push, row};
 
-/// How an object that starts at the origin with `velocity` ends when nothing touches it.
+/// Returns the final pose of an untouched object that starts at the origin with `velocity`.
 fn slide(simulator: &Simulator, object: Object, velocity: Velocity) -> (Pose, f64) {
     let scene = Scene::new([object]);
     let start = State { velocities: vec![velocity], ..scene.start() };
-    // The tool must move somewhere; far behind it meets nothing.
+    // The tool must move somewhere; far behind, it touches nothing.
     let motion = push(Vector::new(-2.0, 0.0), 0.0, 0.05, 0.05);
     let trajectory = simulator.run(
         &scene,
@@ -47,7 +47,8 @@ fn without_spin_it_slides_v_squared_over_two_mu_g() {
 }
 
 /// Integrates a support law independently of any engine, in steps of 50 us, until rest:
-/// `law(heading, velocity)` gives the acceleration. Returns where an object at the origin ends.
+/// `law(heading, velocity)` gives the acceleration. Returns the final pose of an object that starts
+/// at the origin.
 fn integrate(start: Velocity, law: impl Fn(f64, Velocity) -> Velocity) -> Pose {
     let dt = 5e-5;
     let (mut pose, mut velocity) = (Pose::default(), start);
@@ -56,7 +57,7 @@ fn integrate(start: Velocity, law: impl Fn(f64, Velocity) -> Velocity) -> Pose {
         let half = step(velocity, rate, dt / 2.0);
         let rate = law(pose.heading + velocity.angular * dt / 2.0, half);
         let next = step(velocity, rate, dt);
-        // Friction stops an object within one step; it does not send it back.
+        // Friction stops an object within one step; it does not reverse its motion.
         if next.linear.dot(&start.linear) <= 0.0 || next.angular * start.angular < 0.0 {
             break;
         }
@@ -76,7 +77,7 @@ fn step(velocity: Velocity, rate: Velocity, dt: f64) -> Velocity {
 
 const SPINNING: Velocity = Velocity { linear: Vector::new(0.4, 0.3), angular: 12.0 };
 
-/// Places evenly spread over the underside of an object, far more than the engine has feet.
+/// Returns points evenly spread over the underside of an object, far more than the engine has feet.
 fn underside(object: &Object) -> Vec<Vector> {
     let steps = || (0..24).map(|k| (f64::from(k) + 0.5) / 12.0 - 1.0);
     let square = steps().flat_map(|x| steps().map(move |y| Vector::new(x, y)));
@@ -96,7 +97,7 @@ fn underside(object: &Object) -> Vec<Vector> {
     }
 }
 
-/// Force and torque of Coulomb friction under even pressure, in units of the largest force.
+/// Returns force and torque of Coulomb friction under even pressure, in units of the largest force.
 fn drag(places: &[Vector], heading: f64, velocity: Velocity) -> (Vector, f64) {
     let turn = Pose { position: Vector::zeros(), heading };
     let share = 1.0 / places.len() as f64;
@@ -120,7 +121,7 @@ fn with_spin_the_planar_engine_follows_even_pressure_and_goes_further() {
         });
         let (end, _) = slide(&Simulator::planar(), object.clone(), SPINNING);
         let error = (end.position - expected.position).norm();
-        // Sixteen feet, and steps of 4 ms.
+        // Tolerance for sixteen feet and steps of 4 ms.
         assert!(error < 0.8e-3, "{}: {error}", object.name);
         assert!((end.heading - expected.heading).abs() < 0.02, "{end:?} for {expected:?}");
 
@@ -130,7 +131,7 @@ fn with_spin_the_planar_engine_follows_even_pressure_and_goes_further() {
     }
 }
 
-/// Two cans and a brick that fixed joints hold together, of different masses.
+/// Returns two cans and a brick of different masses, connected by fixed joints.
 fn group() -> Scene {
     let mut scene = row(3, &can(), 0.11, |_| JointKind::Fixed);
     scene.objects[1] = Object { pose: Pose::new(0.05, 0.11, 0.4), ..brick() };
@@ -138,7 +139,8 @@ fn group() -> Scene {
     scene
 }
 
-/// How the group ends when it starts with `velocity` about the world's origin, untouched.
+/// Returns the final state of the untouched group that starts with `velocity` about the world's
+/// origin.
 fn slide_group(simulator: &Simulator, scene: &Scene, velocity: Velocity) -> State {
     let mut start = scene.start();
     for (pose, own) in start.poses.iter().zip(&mut start.velocities) {

@@ -1,4 +1,4 @@
-//! What an object stands on decides how it turns, alike in both engines.
+//! The support model of an object determines its rotation, equally in both engines.
 
 use std::sync::Arc;
 
@@ -12,8 +12,8 @@ use pushplan::{
 
 use crate::fixtures::{brick, can};
 
-/// Where an object at the origin ends when a narrow finger pushes it by 15 cm, `aside` metres
-/// beside its centre.
+/// Returns the final pose of an object at the origin that a narrow finger pushes by 15 cm, `aside`
+/// metres beside its centre.
 fn pushed(simulator: &Simulator, object: Object, aside: f64) -> Pose {
     pushed_at(simulator, object, aside, None)
 }
@@ -66,8 +66,8 @@ fn a_box_turns_the_less_the_farther_out_it_rests() {
     }
 }
 
-/// A push R at height z must not tip an object of weight m g, so its load lies z R / (m g) ahead,
-/// which turns it less when it is pushed aside of its centre.
+/// A push R at height z must not tip an object of weight m g, so its load shifts by z R / (m g)
+/// ahead. This reduces its rotation in an off-centre push.
 #[test]
 fn the_higher_a_push_the_less_it_turns_alike_in_the_plane_and_upright_in_3d() {
     let object = brick().standing_on(Support::Corners);

@@ -1,4 +1,4 @@
-//! A turned, mirrored or shifted scene gives the turned, mirrored or shifted result.
+//! A rotated, mirrored or translated scene gives the rotated, mirrored or translated result.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use pushplan::{
 
 use crate::fixtures::{bar, brick, can, engines, row};
 
-/// A scene and a push in it, placed by `place` (a proper or mirrored motion of the plane).
+/// Simulates a scene and a push placed by `place` (a proper or mirrored motion of the plane).
 fn outcome(simulator: &Simulator, objects: &[Object], place: &dyn Fn(Pose) -> Pose) -> Vec<Pose> {
     let placed = objects.iter().cloned().map(|mut object| {
         object.pose = place(object.pose);
@@ -41,9 +41,9 @@ fn cases() -> Vec<Vec<Object>> {
     vec![vec![can()], vec![box_], vec![can(), second]]
 }
 
-/// How far a symmetric result may differ, metres. In `f32` the planar engine differs by 8 um.
-/// The 3-D engine is as good for cuboids, but a cylinder there rests on four points of its rim,
-/// whose places follow the last bits of its lean: up to 2.2 mm in these pushes.
+/// Returns the maximum difference of a symmetric result, metres. In `f32` the planar engine differs
+/// by 8 um. The 3-D engine is equally good for cuboids. A cylinder there rests on four points of
+/// its rim, whose positions follow the last bits of its inclination: up to 2.2 mm in these pushes.
 fn tolerance(engine: Engine, objects: &[Object]) -> f64 {
     match engine {
         Engine::Planar => 0.05e-3,
@@ -146,7 +146,8 @@ fn turning_a_jointed_scene_turns_the_result() {
                 let (a, b) = (end(&plain, Pose::default()), end(&turned, turn));
                 for (a, b) in a.iter().zip(&b) {
                     let error = ((turn * *a).position - b.position).norm();
-                    // What turns or slides against its neighbours feels the last bits more.
+                    // Bodies that rotate or slide against their neighbours are more sensitive to
+                    // rounding.
                     let fixed = plain.joints[0].kind == JointKind::Fixed;
                     let limit = if fixed { tolerance(simulator.engine(), &[]) } else { 1e-3 };
                     assert!(error < limit, "{:?}: {error}", simulator.engine());

@@ -1,4 +1,4 @@
-//! The tool travels exactly what the motion says, and pushes what it meets.
+//! The tool travels exactly along the motion, and pushes the objects in its path.
 
 use pushplan::geometry::Vector;
 use pushplan::{

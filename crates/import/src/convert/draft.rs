@@ -1,4 +1,4 @@
-//! An object of one solid, and what it stands on.
+//! Conversion of a solid to an object, and of the points or area it rests on.
 
 use nalgebra::Point3;
 
@@ -14,41 +14,43 @@ use super::shadow::{area, fewer};
 use super::upright::{Base, Rough, STRAIGHT, Upright};
 use super::weighed::Weighed;
 
-/// A centre of mass nearer to the middle than this is in the middle, metres; of rough outlines, too, if
-/// it is nearer than this share of their size.
+/// Distance from the middle below which a centre of mass counts as centred, metres. For rough
+/// outlines, [`ROUGHLY`] applies in addition, relative to their size.
 const OFF_CENTRE: f64 = 1e-6;
 const ROUGHLY: f64 = 0.02;
 
-/// Differences from what pushplan assumes that are worth a note: a centre of mass above or below
-/// the middle, as a share of the height, and a moment of inertia, as a share of itself.
+/// Relative difference from pushplan's assumptions that deserves a note: height of the centre of
+/// mass above or below the middle (relative to the height), or moment of inertia.
 const WORTH_A_NOTE: f64 = 0.1;
 
-/// A mesh that fills more of the prism around it is as good as that.
+/// Fill ratio above which a mesh counts as equal to its enclosing prism.
 const FULL: f64 = 0.9;
 
-/// What lies on less than this share of what it covers may be round there: a can on its side lies on an
-/// eighth.
+/// Ratio of contact area to covered area below which the underside may be round; a can on its side
+/// has an eighth.
 const STRIP: f64 = 0.25;
 
-/// What stands on less than this share of what it covers does not stand on all of it.
+/// Ratio of contact area to covered area below which the object does not rest on its whole outline.
 const NARROW: f64 = 0.9;
 
-/// The longest thing on a table, metres.
+/// Maximum length of an object on a table, metres.
 const LONGEST: f64 = 2.0;
 
-/// A solid, or several as one, with what else belongs to it.
+/// Solid, or several merged solids, with the spheres it stands on.
 pub(super) struct Standing<'a> {
-    /// What it covers.
+    /// Upright prism or cylinder that represents the solid.
     pub upright: Upright,
-    /// What it is in the file; of several the first.
+    /// Solid in the file; for merged solids, the first.
     pub solid: &'a Solid,
-    /// The points that it stands on.
+    /// Spheres that serve as support points.
     pub feet: Vec<&'a Solid>,
-    /// Whether it is a thing by itself, whose centre of mass decides whether it stands.
+    /// Whether the solid is an object on its own, so that its centre of mass decides whether it
+    /// stands.
     pub alone: bool,
 }
 
-/// An object of a solid and what it stands on; gives its lowest point, too.
+/// Creates an object from a solid and its support points; also returns the height of its lowest
+/// point.
 pub(super) fn draft(
     name: &str,
     standing: &Standing<'_>,
@@ -68,7 +70,8 @@ pub(super) fn draft(
         ledger.fault(foot.place, message, "spheres are the points that a body stands on");
         return None;
     }
-    // An object on feet is as high as the feet and it together; any other keeps its digits.
+    // The height of an object on feet includes the feet; otherwise the height keeps its exact
+    // digits.
     let height = if low < upright.low { upright.top() - low } else { upright.height };
     let middle = upright.middle();
     let seen = |point: Point3<f64>| upright.pose.local_point(Vector::new(point.x, point.y));
@@ -139,7 +142,7 @@ pub(super) fn draft(
     Some((Object { support, mass, friction, pose, color, ..Object::new(name, shape) }, low))
 }
 
-/// The shape of a solid whose centre of mass is `at`; none, with a fault, if it has none.
+/// Returns the shape of a solid whose centre of mass is `at`; reports a fault if there is none.
 fn shape(
     name: &str,
     Standing { upright, solid, .. }: &Standing<'_>,
@@ -186,7 +189,7 @@ fn shape(
             Some(Shape::Cylinder { radius: *radius, height })
         }
         Base::Disc(radius) => {
-            // Of the same area; its corners stand out, its sides lie within.
+            // A polygon of equal area: its corners lie outside the disc, its sides inside.
             let corners = MAX_CORNERS as f64;
             let half = std::f64::consts::PI / corners;
             let reach = radius * (half / (half.sin() * half.cos())).sqrt();
@@ -207,7 +210,7 @@ fn shape(
     }
 }
 
-/// Says how far a mesh is from what stands for it.
+/// Reports the deviation of a mesh from the prism or cylinder that represents it.
 fn roughly(
     name: &str,
     Standing { upright, solid, alone, .. }: &Standing<'_>,
@@ -215,7 +218,7 @@ fn roughly(
     height: f64,
     ledger: &mut Ledger,
 ) {
-    // Of many parts only what is worth it.
+    // For parts, small deviations are not reported.
     if !alone && rough.off < 1e-4 {
         return;
     }
@@ -234,7 +237,7 @@ fn roughly(
     ledger.note(solid.place, note);
 }
 
-/// What a mesh stands on, if that is less than it covers.
+/// Returns the support of a mesh: its contact area, if smaller than its outline.
 fn standing_on(
     name: &str,
     Standing { upright, solid, .. }: &Standing<'_>,
@@ -265,6 +268,6 @@ fn standing_on(
             format!("`{name}` lies on {share:.0} % of what it covers, and is taken not to roll");
         ledger.note(solid.place, note);
     }
-    // Seen from the centre of mass; a little inside, so that all points are under it.
+    // Relative to the centre of mass, and slightly inward, so that all points are under the object.
     Support::Points(corners.into_iter().map(|corner| 0.995 * (corner - at)).collect())
 }

@@ -1,16 +1,16 @@
-//! Small spheres under a solid: the points that it stands on.
+//! Small spheres under a solid, which represent its support points.
 
 use pushplan::geometry::{Footprint, Vector};
 use pushplan::scene::Support;
 
-/// Points that differ by less are the same, metres.
+/// Distance below which two points coincide, metres.
 const SAME: f64 = 1e-6;
 
-/// Most points that a task file can name.
+/// Maximum number of support points in a task file.
 const MOST: usize = 8;
 
-/// How an object of this footprint rests on `points` of its own frame, metres; none if there are too
-/// many to say.
+/// Returns the support model of an object with this footprint that rests on `points`, metres in its
+/// own frame; `None` if there are too many points to state.
 pub(super) fn support(points: &[Vector], footprint: &Footprint) -> Option<Support> {
     let like = |support: &Support| {
         let feet = support.feet(footprint);

@@ -1,4 +1,4 @@
-//! Frictions of pairs, where the mean of two values is not what the file says.
+//! Pair frictions for pairs whose coefficient in the file is not the mean of the two values.
 
 use crate::fault::Ledger;
 use crate::model::{Model, Solid};
@@ -7,14 +7,14 @@ use pushplan::scene::{PairFriction, Scene, Surface};
 use super::objects::Draft;
 use super::statics::Statics;
 
-/// Coefficients that differ by less are the same.
+/// Difference below which two coefficients are equal.
 const SAME: f64 = 1e-9;
 
-/// Most pairs that a task file can name.
+/// Maximum number of pair frictions in a task file.
 const MOST: usize = 256;
 
-/// What a file of pushplan must say about pairs: MuJoCo takes the larger of two values, or what the
-/// file states for the pair.
+/// Returns the pair frictions that a task file must state, because MuJoCo uses the larger of two
+/// values, or the value stated for the pair.
 pub(super) fn frictions(
     model: &Model,
     drafts: &[Draft<'_>],
@@ -33,7 +33,7 @@ pub(super) fn frictions(
             }
         };
         if let Some(table) = statics.table {
-            // A body that does not reach down does not rub.
+            // On feet, only the feet touch the table.
             let below: &[&Solid] = if draft.feet.is_empty() { &[draft.solid] } else { &draft.feet };
             add(Surface::Table, [below, &[table]], statics.table_friction);
         }
@@ -58,7 +58,7 @@ pub(super) fn frictions(
     found
 }
 
-/// How two bodies rub; none, with a fault, if the file contradicts itself about them.
+/// Returns the friction coefficient of two bodies; reports a fault if the file contradicts itself.
 fn coefficient(
     model: &Model,
     solids: [&[&Solid]; 2],
@@ -81,7 +81,7 @@ fn coefficient(
     if !model.larger_friction {
         return Some(Scene::pair_friction(values[0], values[1]));
     }
-    // A foot may rub otherwise than its solid.
+    // The friction of a foot may differ from the friction of its solid.
     let of = |side: usize| {
         let first = solids[side].first()?;
         Some((first.material.rank, first.material.friction.unwrap_or(values[side])))

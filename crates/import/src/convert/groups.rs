@@ -1,4 +1,4 @@
-//! Which bodies are asked for, and which are fixed to which.
+//! Selection of the wanted bodies, and of the bodies fixed to each other.
 
 use crate::fault::Ledger;
 use crate::model::{Model, Motion};
@@ -7,7 +7,7 @@ use super::joints::may_mount;
 use super::names::{bare, same};
 use super::wanted::Wanted;
 
-/// The model in which the bodies that are wanted so stand freely.
+/// Returns the model with the bodies of `wanted.free` detached from the world.
 pub(super) fn freed(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Model {
     let mut model = model.clone();
     for asked in &wanted.free {
@@ -24,13 +24,13 @@ pub(super) fn freed(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Mode
     model
 }
 
-/// Names of the bodies that touch something, and are held in the world.
+/// Returns the names of the bodies that have collision solids.
 pub(super) fn solid_bodies(model: &Model) -> Vec<&str> {
     let touches = |body: &&crate::model::Body| body.solids.iter().any(|s| s.touches);
     model.bodies.iter().skip(1).filter(touches).map(|body| bare(&body.name)).collect()
 }
 
-/// Some names, for a sentence.
+/// Lists names for use in a sentence.
 pub(super) fn listed(names: &[&str]) -> String {
     match names {
         [] => "none".to_owned(),
@@ -39,8 +39,8 @@ pub(super) fn listed(names: &[&str]) -> String {
     }
 }
 
-/// The bodies that stand on the table by themselves, or are joined to the world as a task can say it, in
-/// order; what moves in another way, or is not asked for, is left out with a fault or a note.
+/// Returns the bodies that stand freely on the table or have a joint to the world that a task can
+/// express, in order. Other movable bodies are left out with a fault, unwanted ones with a note.
 pub(super) fn free(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Vec<usize> {
     let fixed = model.rigid(0);
     let mut found = Vec::new();
@@ -98,8 +98,8 @@ pub(super) fn free(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Vec<u
     found
 }
 
-/// Takes over what is wrong with the bodies that are imported; of others it is a note, where some were
-/// chosen.
+/// Adopts the faults of the imported bodies; if bodies were selected, faults of other bodies become
+/// notes.
 pub(super) fn judged(model: &Model, roots: &[usize], wanted: &Wanted, ledger: &mut Ledger) {
     let chosen: Vec<usize> = roots.iter().flat_map(|root| model.below(*root)).collect();
     let mut others = Vec::new();
@@ -118,7 +118,7 @@ pub(super) fn judged(model: &Model, roots: &[usize], wanted: &Wanted, ledger: &m
         let both = names
             .iter()
             .all(|name| chosen.iter().any(|body| model.name_of(*body) == name.as_str()));
-        // What hangs together by a joint does not touch anyhow.
+        // Bodies connected by a joint do not collide with each other in any case.
         let of = |name: &String| model.bodies.iter().position(|body| body.name == *name);
         let joined = match names.each_ref().map(of) {
             [Some(a), Some(b)] => {
@@ -136,7 +136,7 @@ pub(super) fn judged(model: &Model, roots: &[usize], wanted: &Wanted, ledger: &m
     }
 }
 
-/// What holds a body, in words.
+/// Describes the joint that holds a body.
 pub(super) fn held_by(motion: &Motion) -> String {
     match motion {
         Motion::Fixed => "being fixed".to_owned(),
@@ -148,8 +148,8 @@ pub(super) fn held_by(motion: &Motion) -> String {
     }
 }
 
-/// Faults for parts of the file that would change pushes; only notes where bodies were chosen, so
-/// that the others are mentioned.
+/// Reports elements of the file that would change pushes: as faults, or as notes if bodies were
+/// selected.
 pub(super) fn beyond(model: &Model, wanted: &Wanted, ledger: &mut Ledger) {
     for (place, what) in &model.beyond {
         if wanted.bodies.is_empty() {

@@ -1,4 +1,4 @@
-//! Joints between objects, and those that hold objects in the world.
+//! Joints between objects, and joints of objects to the world.
 
 use std::f64::consts::PI;
 
@@ -10,10 +10,10 @@ use pushplan::scene::{Joint, JointKind, Mount, Span};
 use super::groups::held_by;
 use super::objects::Draft;
 
-/// Farthest that limits of turns may be apart, radians.
+/// Maximum difference between the limits of a revolute joint, radians.
 const WIDEST: f64 = 340.0 * PI / 180.0;
 
-/// Joints of everything that is attached to an object by one that is not fixed.
+/// Returns the joints of all bodies that are attached to an object by a joint that is not fixed.
 pub(super) fn joints(
     model: &Model,
     drafts: &[Draft<'_>],
@@ -21,7 +21,7 @@ pub(super) fn joints(
     ledger: &mut Ledger,
 ) -> Vec<Joint> {
     let mut found = Vec::new();
-    // What our own files fix together are objects of their own.
+    // Files written by pushplan keep fixed objects separate, so a fixed joint connects them.
     for (index, draft) in drafts.iter().enumerate() {
         let first = drafts[..index].iter().position(|other| other.group == draft.group);
         found.extend(first.map(|first| Joint::new([first, index], JointKind::Fixed)));
@@ -51,7 +51,7 @@ pub(super) fn joints(
     found
 }
 
-/// Joints of objects to the world.
+/// Returns the joints of objects to the world.
 pub(super) fn mounts(model: &Model, drafts: &[Draft<'_>], ledger: &mut Ledger) -> Vec<Mount> {
     let mut found = Vec::new();
     for (object, draft) in drafts.iter().enumerate() {
@@ -65,7 +65,7 @@ pub(super) fn mounts(model: &Model, drafts: &[Draft<'_>], ledger: &mut Ledger) -
     found
 }
 
-/// Whether a joint may join an object to the world.
+/// Returns `true` if a joint can connect an object to the world.
 pub(super) fn may_mount(motion: &Motion) -> bool {
     match motion {
         Motion::Hinge { axis, .. } => axis.xy().norm() < 1e-3,
@@ -74,7 +74,7 @@ pub(super) fn may_mount(motion: &Motion) -> bool {
     }
 }
 
-/// What a joint allows; none if pushplan has no word for it.
+/// Returns the kind of a joint; `None` if pushplan cannot express it.
 fn kind(motion: &Motion, name: &str, place: Place, ledger: &mut Ledger) -> Option<JointKind> {
     match motion {
         Motion::Hinge { axis, at, limits } if may_mount(motion) => {
@@ -93,7 +93,8 @@ fn kind(motion: &Motion, name: &str, place: Place, ledger: &mut Ledger) -> Optio
     }
 }
 
-/// Limits of turns as a task can say them: at most 340 degrees apart, or none.
+/// Returns the limits of a revolute joint as a task can state them: at most 340 degrees apart, or
+/// none.
 fn turns(limits: Span, name: &str, place: Place, ledger: &mut Ledger) -> Option<Span> {
     let Span { low, high } = limits;
     let degrees = |angle: f64| (angle.to_degrees() * 10.0).round() / 10.0;
@@ -103,7 +104,7 @@ fn turns(limits: Span, name: &str, place: Place, ledger: &mut Ledger) -> Option<
         ledger.note(place, note);
         return None;
     }
-    // The start stays within them.
+    // The start stays within the limits.
     let low = low.max(-(WIDEST - high).max(0.5 * WIDEST));
     let kept = Span { low, high: high.min(low + WIDEST) };
     if kept != limits {

@@ -1,4 +1,4 @@
-//! From bodies of a file to a tool or a scene.
+//! Conversion of the bodies of a file to a tool or a scene.
 
 mod draft;
 mod feet;

@@ -1,30 +1,30 @@
-//! Our names for names of a file.
+//! Conversion of names in a file to names in pushplan.
 
 use pushplan::asset::named_after;
 
-/// What `pushplan export` puts before names.
+/// Prefixes that `pushplan export` adds to names.
 const OURS: [&str; 3] = ["object/", "obstacle/", "tool/"];
 
-/// Names that mean something else in a task file.
+/// Names with a special meaning in a task file.
 const RESERVED: [&str; 2] = ["table", "tool"];
 
-/// The name of a body without what `pushplan export` puts before it.
+/// Returns the name of a body without the prefix that `pushplan export` adds.
 pub(super) fn bare(name: &str) -> &str {
     OURS.iter().find_map(|before| name.strip_prefix(before)).unwrap_or(name)
 }
 
-/// Whether both name the same body.
+/// Returns `true` if both names denote the same body.
 pub(super) fn same(asked: &str, name: &str) -> bool {
     asked == name || asked == bare(name) || named_after(asked) == named_after(bare(name))
 }
 
-/// Names that differ from each other.
+/// Set of names in use, all different.
 #[derive(Default)]
 pub(super) struct Names(Vec<String>);
 
 impl Names {
-    /// Our name for `name`: with dashes for characters that ours cannot hold, and a number after it
-    /// where it is taken.
+    /// Returns a free name for `name`: invalid characters become dashes, and a number is appended
+    /// if the name is taken.
     pub fn take(&mut self, name: &str) -> String {
         let plain = named_after(bare(name));
         let free = |name: &String| !self.0.contains(name) && !RESERVED.contains(&name.as_str());

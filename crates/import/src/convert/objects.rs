@@ -1,4 +1,4 @@
-//! Objects, before they stand on a table.
+//! Conversion of bodies to objects, before they are placed on a table.
 
 use crate::fault::Ledger;
 use crate::model::{Model, Motion, Place, Solid};
@@ -9,25 +9,25 @@ use super::names::Names;
 use super::thing::of_group;
 use super::wanted::Wanted;
 
-/// An object before it stands on a table.
+/// Object before it is placed on a table.
 pub(super) struct Draft<'a> {
     pub object: Object,
-    /// Further solids that are one with it, and where they are in its frame.
+    /// Additional solids of a compound object, with their poses in its frame.
     pub parts: Vec<(Object, Pose)>,
     pub place: Place,
-    /// The body that it is of.
+    /// Index of the body that the object represents.
     pub body: usize,
-    /// The freely movable or jointed body that this is fixed to.
+    /// Index of the freely movable or jointed body that the object is fixed to.
     pub group: usize,
-    /// What touches others.
+    /// Solid that touches other objects.
     pub solid: &'a Solid,
-    /// What touches the table, where the solid does not.
+    /// Spheres that touch the table in place of the solid.
     pub feet: Vec<&'a Solid>,
     /// Height of the lowest point in the world, metres.
     pub low: f64,
 }
 
-/// Objects and joints of everything that hangs on the body `root`.
+/// Returns objects and joints of the body `root` and all bodies attached to it.
 pub(super) fn drafts<'a>(
     model: &'a Model,
     root: usize,
@@ -50,7 +50,7 @@ pub(super) fn drafts<'a>(
     (found, hung)
 }
 
-/// The scene with all these, parts after all things.
+/// Returns the scene with the parts of all objects appended.
 pub(super) fn placed(mut scene: Scene, drafts: &[Draft<'_>]) -> Scene {
     for (index, draft) in drafts.iter().enumerate() {
         for (part, place) in &draft.parts {

@@ -1,5 +1,5 @@
-//! Solids of one body as few pieces: those that together cover hardly more than the body does become
-//! one.
+//! Reduction of the number of solids of a body: solids are merged if the result covers hardly more
+//! area than the body.
 
 use nalgebra::Point3;
 
@@ -9,25 +9,25 @@ use super::draft::Standing;
 use super::shadow::area;
 use super::upright::Upright;
 
-/// The most pieces of a thing: itself and its parts.
+/// Maximum number of solids of an object, including its parts.
 pub(super) const MOST: usize = 17;
 
-/// Up to this many exact solids are kept as they are.
+/// Number of exact solids up to which nothing is merged.
 const FEW: usize = 8;
 
-/// Cells along the longer side of what a body covers.
+/// Number of grid cells along the longer side of the covered area.
 const CELLS: f64 = 160.0;
 
-/// What pieces may cover in addition when they become one, as a share of all.
+/// Maximum additional area of a merge, relative to the covered area.
 const MORE: f64 = 0.01;
 
-/// Pieces whose tops differ by more of the higher one stay apart.
+/// Maximum difference in top height of merged solids, relative to the higher one.
 const LEVEL: f64 = 0.2;
 
-/// Solids with what each weighs, kg.
+/// Solids with their masses, kg.
 pub(super) type Weighed<'a> = Vec<(Standing<'a>, f64)>;
 
-/// Fewer pieces that cover the same; and the area that they cover in addition, as a share.
+/// Returns fewer solids that cover nearly the same area, and the additional area as a share.
 pub(super) fn fewer(mut pieces: Weighed<'_>) -> (Weighed<'_>, f64) {
     let rough = pieces.iter().any(|(piece, _)| piece.upright.rough.is_some());
     if pieces.len() < 2 || !rough && pieces.len() <= FEW {
@@ -68,7 +68,7 @@ pub(super) fn fewer(mut pieces: Weighed<'_>) -> (Weighed<'_>, f64) {
     (pieces, more)
 }
 
-/// One piece around two.
+/// Returns a solid that encloses two solids.
 fn joined(one: &Upright, other: &Upright) -> Option<Upright> {
     let (low, top) = (one.low.min(other.low), one.top().max(other.top()));
     let at = |z: f64| move |point: Vector| Point3::new(point.x, point.y, z);
@@ -81,7 +81,7 @@ fn joined(one: &Upright, other: &Upright) -> Option<Upright> {
     Upright::over(&points, None, false)
 }
 
-/// The table under a body in cells: those that it covers, and those that nothing gets into.
+/// Occupancy grid of the table under a body: covered cells, and cells enclosed by them.
 struct Grid {
     low: Vector,
     cell: f64,
@@ -105,7 +105,7 @@ impl Grid {
                 grid.held[k] = true;
             }
         }
-        // What cannot be reached from outside is as good as solid.
+        // Cells that cannot be reached from outside count as occupied.
         let mut outside = vec![false; grid.held.len()];
         let mut waiting = vec![0];
         while let Some(k) = waiting.pop() {
@@ -125,7 +125,7 @@ impl Grid {
         grid
     }
 
-    /// Cells whose middle a convex outline covers.
+    /// Returns the cells whose centres a convex outline covers.
     fn under(&self, outline: &[Vector]) -> Vec<usize> {
         if outline.len() < 3 || area(outline) <= 0.0 {
             return Vec::new();
@@ -150,7 +150,7 @@ impl Grid {
         found
     }
 
-    /// How much of a convex outline the body does not cover, as a share of what it does.
+    /// Returns the area of a convex outline outside the body, relative to the body's area.
     fn beyond(&self, outline: &[Vector]) -> f64 {
         let free = self.under(outline).into_iter().filter(|k| !self.held[*k]).count();
         free as f64 / self.count as f64

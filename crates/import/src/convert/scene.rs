@@ -1,4 +1,4 @@
-//! A scene, with what the file says of a goal.
+//! Conversion of a model to a scene, with the goals stated in the file.
 
 use crate::fault::Ledger;
 use crate::model::Model;
@@ -17,23 +17,22 @@ use super::objects::{drafts, placed};
 use super::statics::{empty, statics};
 use super::wanted::{Imported, Wanted};
 
-/// Nearest and farthest that the robot of a task reaches whose file knows none, metres; farther where
-/// an object is.
+/// Default reach of the robot, metres; the maximum grows to include every object.
 const REACH: [f64; 2] = [0.1, 0.9];
 
-/// Tolerance of a goal that is not stated, metres.
+/// Tolerance of the placeholder goal, metres.
 const TOLERANCE: f64 = 0.02;
 
-/// A scene and a task around it.
+/// Imported scene, with a task around it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImportedScene {
-    /// A task with this scene; robot and tools, and mostly the goal, stand for yours.
+    /// Task with the imported scene; the robot, the tools and usually the goal are placeholders.
     pub task: Task,
-    /// Whether the goal is that of the file; otherwise it is where the first object is.
+    /// Whether the goal is from the file; otherwise it is the start of the first object.
     pub has_goal: bool,
 }
 
-/// The objects and obstacles of a model on a table.
+/// Converts a model to objects and obstacles on a table.
 ///
 /// # Errors
 /// Everything that pushplan cannot express, each with its place in `file`.
@@ -111,12 +110,13 @@ pub fn objects(
     let name = wanted.name.clone().unwrap_or_else(|| super::tool::name(model, file));
     let task = Task::new(name, scene, Robot::reaching(REACH[0], most), goal);
     let task = goals.into_iter().fold(task, Task::and);
-    // What spans several bodies, such as overlaps, is judged where every task is.
+    // Rules that span several bodies, such as overlaps, are checked by the task reader.
     let read = task.to_yaml().and_then(|text| Task::parse(&text, file));
     let task = match read {
         Ok(task) => Some(task),
         Err(mut faults) => {
-            // A goal that the file does not have is where the object is.
+            // Without a goal in the file, the placeholder goal is at the object, so the fault
+            // concerns the object.
             for fault in faults.0.iter_mut().filter(|_| !has_goal) {
                 if let Some((name, within)) = fault.message.split_once(" would be inside ") {
                     let name = name.trim_start_matches("at the goal ");
@@ -139,10 +139,11 @@ fn shifted(kind: JointKind, shift: Vector) -> JointKind {
     }
 }
 
-/// What is written there as the tolerance of a goal that asks for no place, metres.
+/// Tolerance above which an exported goal has no position, metres.
 const ANYWHERE: f64 = 1e6;
 
-/// The goal as `pushplan export` writes it: x, y, tolerance; heading, its tolerance, headings alike.
+/// Reads a goal in the form of `pushplan export`: x, y, tolerance, heading, heading tolerance,
+/// order of symmetry.
 fn goal(scene: &Scene, object: usize, numbers: &[f64], shift: Vector) -> Option<Goal> {
     let [x, y, tolerance, heading @ ..] = numbers else { return None };
     let goal = match *tolerance < ANYWHERE {

@@ -1,4 +1,4 @@
-//! What a body of any form covers on the table, as a disc or a polygon of few corners.
+//! Projection of a body of any form onto the table: a disc or a polygon with few corners.
 
 use std::f64::consts::{PI, TAU};
 
@@ -6,25 +6,25 @@ use pushplan::geometry::{MAX_CORNERS, Vector, centroid, cross, planar_hull};
 
 use super::upright::Base;
 
-/// A corner that stands out by less is not worth it, metres.
+/// Minimum height of a corner above its neighbours' line to be kept, metres.
 const WORTH: f64 = 2e-4;
 
-/// Corners nearer to each other than this, and those at which the outline turns by less, are left out:
-/// a little more than polygons need, metres and radians.
+/// Minimum distance of corners (metres) and minimum angle at a corner (radians), slightly above the
+/// requirements of polygons.
 const NEAREST: f64 = 1.1e-3;
 const STRAIGHTEST: f64 = 0.018;
 
-/// Directions in which outlines are compared.
+/// Number of directions in which outlines are compared.
 const DIRECTIONS: usize = 360;
 
-/// Area of a polygon, square metres.
+/// Returns the area of a polygon, square metres.
 pub(super) fn area(corners: &[Vector]) -> f64 {
     let next = corners.iter().cycle().skip(1);
     corners.iter().zip(next).map(|(a, b)| cross(*a, *b)).sum::<f64>() / 2.0
 }
 
-/// The disc or polygon that is nearest to the convex hull of points, where it is, and how far its outline
-/// is off at most, metres; none where they lie in a line.
+/// Returns the disc or polygon nearest to the convex hull of points, its position and the maximum
+/// deviation of its outline, metres; `None` if the points are collinear.
 pub(super) fn shadow(points: &[Vector]) -> Option<(Base, Vector, f64)> {
     let outline = planar_hull(points, 0.0);
     let size = area(&outline);
@@ -44,10 +44,11 @@ pub(super) fn shadow(points: &[Vector]) -> Option<(Base, Vector, f64)> {
     Some((Base::Polygon(corners), Vector::zeros(), polygon))
 }
 
-/// At most as many corners as a polygon may have, and only those that are worth it, around the same area.
+/// Simplifies an outline to at most the number of corners that a polygon may have, with equal area;
+/// corners of little effect are removed.
 pub(super) fn fewer(outline: &[Vector]) -> Vec<Vector> {
-    // Of thousands those that are farthest in one of some hundred directions: what follows takes the
-    // square of their number.
+    // Of thousands of corners, only the extreme ones in some hundred directions are kept, because
+    // the loop below takes quadratic time.
     let mut corners = match outline.len() > 2 * DIRECTIONS {
         false => outline.to_vec(),
         true => {
@@ -64,7 +65,7 @@ pub(super) fn fewer(outline: &[Vector]) -> Vec<Vector> {
             break;
         }
         let at = |k: usize| corners[k % count];
-        // How far a corner stands out of the line between its neighbours.
+        // Height of a corner above the line between its neighbours.
         let height = |k: usize| {
             let (before, own, after) = (at(k + count - 1), at(k), at(k + 1));
             let base = after - before;
@@ -105,13 +106,13 @@ fn directions() -> impl Iterator<Item = Vector> {
     })
 }
 
-/// The corner that is farthest in a direction.
+/// Returns the index of the extreme corner in a direction.
 fn farthest(corners: &[Vector], towards: Vector) -> Option<usize> {
     let reach = |k: &usize| corners[*k].dot(&towards);
     (0..corners.len()).max_by(|a, b| reach(a).total_cmp(&reach(b)))
 }
 
-/// How far two convex outlines are apart: the largest difference of how far they reach.
+/// Returns the distance of two convex outlines: the maximum difference of their support functions.
 pub(super) fn apart(outline: &[Vector], other: impl Fn(Vector) -> f64) -> f64 {
     directions().map(|towards| (reach(outline, towards) - other(towards)).abs()).fold(0.0, f64::max)
 }

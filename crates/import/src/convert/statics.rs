@@ -1,4 +1,4 @@
-//! What does not move: the table and the obstacles on it.
+//! Fixed bodies: the table and the obstacles on it.
 
 use crate::fault::Ledger;
 use crate::model::{Model, Outline, Solid};
@@ -11,28 +11,31 @@ use super::shadow::area;
 use super::upright::{Base, Upright};
 use super::wanted::Wanted;
 
-/// Objects stand on what is within this of their undersides, metres: scenes drop them a little.
+/// Height tolerance of bodies that rest on a surface, metres, because scenes often drop objects a
+/// little.
 const STAND: f64 = 5e-3;
 
-/// What is no deeper in the table than this stands on it, metres: programs move it before they begin.
+/// Maximum depth in the table at which an object still counts as standing on it, metres; simulators
+/// correct such overlaps at the start.
 const SUNK: f64 = 0.05;
 
-/// What is no more above the table than this is set down on it, metres.
+/// Maximum height above the table from which an object is set down, metres.
 const DROP: f64 = 0.25;
 
-/// What the objects stand on, and what stands in their way.
+/// Table and obstacles.
 pub(super) struct Statics<'a> {
-    /// What the table is in the file, if it is there at all.
+    /// Solid of the table in the file, if any.
     pub table: Option<&'a Solid>,
     /// Friction value of the table.
     pub table_friction: f64,
-    /// Where it ends, if it does.
+    /// Extents of the table top, if limited.
     pub table_top: Option<TableTop>,
-    /// Obstacles, each with what it is in the file.
+    /// Obstacles, each with its solid in the file.
     pub obstacles: Vec<(Obstacle, &'a Solid)>,
 }
 
-/// Finds table and obstacles around objects; none, with faults, if the objects stand on no table.
+/// Finds table and obstacles around objects; returns `None` and reports faults if the objects stand
+/// on no table.
 pub(super) fn statics<'a>(
     model: &'a Model,
     drafts: &[Draft<'_>],
@@ -83,7 +86,7 @@ pub(super) fn statics<'a>(
             (true, "world") => "obstacle",
             (true, body) => body,
         };
-        // The task says where its robot stands.
+        // The robot's base follows from the task.
         if what.trim_start_matches("obstacle/") == Robot::BASE {
             continue;
         }
@@ -91,7 +94,7 @@ pub(super) fn statics<'a>(
             plane = Some((solid, flat_at(solid, what, ledger)?));
             continue;
         }
-        // Only what was chosen, and the table, may refuse.
+        // Only the selected bodies and the table can cause faults.
         let before = ledger.count();
         let upright = Upright::any(solid, &format!("`{what}`"), ledger);
         if !wanted.bodies.is_empty() {
@@ -134,7 +137,7 @@ pub(super) fn statics<'a>(
 }
 
 impl<'a> Statics<'a> {
-    /// Takes the top of a box as the table.
+    /// Adopts the top of a box as the table.
     fn stand_on(
         &mut self,
         solid: &'a Solid,
@@ -169,7 +172,7 @@ impl<'a> Statics<'a> {
     }
 }
 
-/// Height of a level plane, metres.
+/// Returns the height of a level plane, metres.
 fn flat_at(solid: &Solid, what: &str, ledger: &mut Ledger) -> Option<f64> {
     let normal = solid.pose.rotation * nalgebra::Vector3::z();
     if normal.xy().norm() > 1e-3 || normal.z < 0.0 {
@@ -180,8 +183,8 @@ fn flat_at(solid: &Solid, what: &str, ledger: &mut Ledger) -> Option<f64> {
     Some(solid.pose.translation.z)
 }
 
-/// Height of what the objects stand on, or are dropped on, metres: the highest plane or top of a box that
-/// is under all of them; where none is, that of the lowest object.
+/// Returns the height of the surface under the objects, metres: the highest plane or top of a box
+/// under all of them. Without such a surface, returns the height of the lowest object.
 fn floor(fixed: &[(&str, &Solid)], drafts: &[Draft<'_>], ledger: &mut Ledger) -> f64 {
     let lowest = drafts.iter().map(|draft| draft.low).fold(f64::INFINITY, f64::min);
     let before = ledger.count();
@@ -194,14 +197,14 @@ fn floor(fixed: &[(&str, &Solid)], drafts: &[Draft<'_>], ledger: &mut Ledger) ->
         }
         _ => None,
     });
-    // Sunk in by less than half of its height it is meant to stand on it.
+    // An object that is sunk in by less than half of its height is meant to stand on the surface.
     let half = drafts.iter().map(|draft| draft.object.shape.height() / 2.0);
     let sunk = half.fold(SUNK, f64::min).max(STAND);
     let under = |top: &f64| *top <= lowest + sunk && *top >= lowest - DROP;
     let floor = tops.filter(under).fold(f64::NEG_INFINITY, f64::max);
-    // They are judged later.
+    // Faults of these boxes are reported later.
     ledger.since(before);
-    // A little above, or sunk in, it stands there.
+    // Small differences count as standing on the surface.
     match (floor - lowest).abs() {
         off if off > STAND && floor.is_finite() => floor,
         _ => lowest,
@@ -217,7 +220,8 @@ fn obstacle<'a>(
     names: &mut Names,
     ledger: &mut Ledger,
 ) -> Option<(Obstacle, &'a Solid)> {
-    // No object meets the part of it that is below the table, or passes a little above.
+    // Parts below the table have no effect, and no object passes below an obstacle slightly above
+    // it.
     let z = if upright.low > floor + STAND { upright.low - floor } else { 0.0 };
     let tall = upright.top() - floor - z;
     let friction = solid.material.friction.unwrap_or(wanted.friction);
@@ -226,7 +230,7 @@ fn obstacle<'a>(
         let pose = Pose { position: upright.pose.position, ..upright.pose };
         return Some((Obstacle { name: names.take(what), size, pose, z, friction }, solid));
     }
-    // The least box around it.
+    // The obstacle becomes the smallest enclosing box.
     let outline = upright.outline();
     let (size, pose) = around(&outline);
     let obstacle =
@@ -259,7 +263,8 @@ fn obstacle<'a>(
     Some((obstacle, solid))
 }
 
-/// Sides (metres) and pose of the least rectangle around convex corners: one of its sides is one of theirs.
+/// Returns the sides (metres) and pose of the smallest rectangle around convex corners; it shares a
+/// side with their outline.
 fn around(corners: &[Vector]) -> ([f64; 2], Pose) {
     let boxed = |heading: f64| {
         let frame = Pose { position: Vector::zeros(), heading };
@@ -275,7 +280,7 @@ fn around(corners: &[Vector]) -> ([f64; 2], Pose) {
         .unwrap_or_else(|| boxed(0.0))
 }
 
-/// The scene without objects.
+/// Returns the scene without objects.
 pub(super) fn empty(statics: &Statics<'_>, shift: Vector) -> Scene {
     let mut scene = Scene { table_friction: statics.table_friction, ..Scene::default() };
     scene.table_top = statics.table_top.map(|top| TableTop { middle: top.middle + shift, ..top });

@@ -1,4 +1,4 @@
-//! Bodies that are fixed to each other as one thing: an object, with parts where it has several solids.
+//! Conversion of bodies fixed to each other to one object, compound if it has several solids.
 
 use crate::fault::Ledger;
 use crate::model::{Body, Model, Outline, Solid};
@@ -13,26 +13,27 @@ use super::upright::{Upright, volume};
 use super::wanted::Wanted;
 use super::weighed::{NOTHING, balanced, of_body, of_solid, together};
 
-/// A solid that begins higher above the lowest one hangs in the air, metres.
+/// Height above the lowest solid beyond which a solid counts as raised, metres.
 const HANGS: f64 = 1e-3;
 
-/// A centre of mass that is farther from where it should be is worth a note, metres.
+/// Error of the centre of mass that deserves a note, metres.
 const OFF: f64 = 1e-3;
 
-/// The least mass of a part that a task states, kg.
+/// Minimum mass of a part that a task can state, kg.
 const LEAST: f64 = 1.1e-3;
 
-/// The most solids of one thing.
+/// Maximum number of solids of an object.
 const MANY: usize = 300;
 
-/// A solid that touches, with its body.
+/// Collision solid, with the index of its body.
 type Owned<'a> = (usize, &'a Solid);
 
 fn is_foot(solid: &Solid) -> bool {
     matches!(solid.outline, Outline::Sphere(_))
 }
 
-/// Objects of bodies that are fixed to each other: one, but for what our own files fix together.
+/// Returns the objects of bodies that are fixed to each other: one object, or separate objects for
+/// files written by pushplan.
 pub(super) fn of_group<'a>(
     model: &'a Model,
     group: usize,
@@ -63,7 +64,7 @@ pub(super) fn of_group<'a>(
     if all.len() == 1 || solids.is_empty() && all.len() < 3 {
         solids = vec![(all[0].0, first)];
     }
-    // Spheres are what a single solid stands on; elsewhere they are solids like others.
+    // Spheres are the support points of a single solid; otherwise they are ordinary solids.
     let one_each =
         bodies.iter().all(|body| solids.iter().filter(|(owner, _)| owner == body).count() <= 1);
     if !(one_each && (model.ours || solids.len() == 1)) && all.len() > 1 {
@@ -120,12 +121,12 @@ pub(super) fn of_group<'a>(
     drafted.into_iter().collect()
 }
 
-/// A thing is called like the body that has its only solid, or like the one that all hang on.
+/// Returns the name of an object: the body of its only solid, or the root body of the group.
 fn owner_name(group: &Body, body: &Body, single: bool) -> String {
     if single { body.name.clone() } else { group.name.clone() }
 }
 
-/// What our own files fix together: an object each.
+/// Returns one object per solid for bodies fixed together in a file written by pushplan.
 fn apart<'a>(
     model: &'a Model,
     group: usize,
@@ -157,8 +158,8 @@ fn apart<'a>(
     drafts
 }
 
-/// One object of those where some are above the table, these as its parts: fixed to each other, all would
-/// have to stand.
+/// Merges the objects into a compound object if some are above the table, because separate objects
+/// would all have to stand.
 fn one_where_raised(mut drafts: Vec<Draft<'_>>) -> Vec<Draft<'_>> {
     let low = drafts.iter().map(|draft| draft.low).fold(f64::MAX, f64::min);
     if drafts.iter().all(|draft| draft.low - low <= HANGS) {
@@ -171,7 +172,7 @@ fn one_where_raised(mut drafts: Vec<Draft<'_>>) -> Vec<Draft<'_>> {
     first.parts = drafts
         .map(|Draft { object, low: own, .. }| {
             let z = if own - low > HANGS { own - low } else { 0.0 };
-            // As it was before names lost their slashes.
+            // Restores the name of the part before the slash was replaced.
             let own = object.name.strip_prefix(&format!("{thing}-")).unwrap_or(&object.name);
             let part = Object { name: format!("{thing}/{own}"), z, ..object.clone() };
             (part, pose * object.pose)
@@ -180,7 +181,7 @@ fn one_where_raised(mut drafts: Vec<Draft<'_>>) -> Vec<Draft<'_>> {
     vec![first]
 }
 
-/// Several solids as one object with parts.
+/// Returns several solids as a compound object.
 fn compound<'a>(
     model: &'a Model,
     (group, name): (usize, &str),
@@ -212,7 +213,7 @@ fn compound<'a>(
     }
     let lows = pieces.iter().map(|(piece, _)| piece.upright.low);
     let low = lows.clone().fold(f64::INFINITY, f64::min);
-    // What stands comes first.
+    // Standing solids come first.
     pieces.sort_by_key(|(piece, _)| piece.upright.low - low > HANGS);
     let friction = pieces[0].0.solid.material.friction.unwrap_or(wanted.friction);
     let other = pieces.iter().map(|(piece, _)| piece.solid.material.friction);
@@ -224,7 +225,8 @@ fn compound<'a>(
     let middles: Vec<Vector> =
         pieces.iter().map(|(piece, _)| piece.upright.pose.point(piece.upright.middle())).collect();
     let centre = centre.map(|centre| Vector::new(centre.x, centre.y));
-    // What a task cannot state is made heavier, which shifts the centre again.
+    // Masses too small to be stated are raised, which shifts the centre again, so both steps are
+    // repeated.
     for _ in 0..8 {
         if let Some(centre) = centre {
             balanced(&mut masses, &middles, centre);
@@ -282,8 +284,9 @@ fn compound<'a>(
     Some(Draft { object, parts, place, body, group, solid, feet: Vec::new(), low })
 }
 
-/// Raises solids to where their undersides are above that of the first, metres; where they would hang in
-/// the air or bring the thing down, they reach down instead, and it says how far.
+/// Raises solids to the heights of their undersides above the first solid, metres. If some would
+/// then be unsupported or tip the object over, all are extended down to the table instead, and the
+/// maximum extension is returned.
 fn raised(solids: &mut [Object], undersides: &[f64]) -> Option<f64> {
     let lowest = undersides.iter().copied().fold(f64::MAX, f64::min);
     let first = solids.first()?.pose;
@@ -309,7 +312,7 @@ fn raised(solids: &mut [Object], undersides: &[f64]) -> Option<f64> {
     Some(most)
 }
 
-/// Masses (kg) that a task can state: what is too light for it gets more from the others.
+/// Raises masses (kg) that are too small for a task, and reduces the others accordingly.
 fn heavier(masses: &mut [f64]) {
     let sum: f64 = masses.iter().sum();
     let missing: f64 = masses.iter().map(|mass| (LEAST - mass).max(0.0)).sum();
@@ -322,7 +325,8 @@ fn heavier(masses: &mut [f64]) {
     }
 }
 
-/// Where some are still too light, all get their shares by volume, which a task need not state.
+/// Replaces all masses by shares proportional to volume if some are still too small; such shares
+/// need not be stated.
 fn by_volume(solids: &mut [Object]) {
     if solids.iter().all(|solid| solid.mass >= 0.95 * LEAST) {
         return;
@@ -335,7 +339,7 @@ fn by_volume(solids: &mut [Object]) {
     }
 }
 
-/// What each solid weighs: what the file says, or its share by volume of what its body does.
+/// Assigns masses to solids: stated masses, or shares of the body's mass proportional to volume.
 fn shares<'a>(
     model: &'a Model,
     bodies: &[usize],
@@ -346,7 +350,7 @@ fn shares<'a>(
     for body in bodies {
         let of = &model.bodies[*body];
         let own: Vec<usize> = (0..found.len()).filter(|k| found[*k].2 == *body).collect();
-        // What is only seen weighs as well: it counts with what touches.
+        // Visual solids also have mass; it is distributed over the collision solids.
         let (mass, ..) = of_body(of, wanted.density, ledger)?;
         let space: Vec<f64> =
             own.iter().map(|k| volume(found[*k].0.solid).unwrap_or_default()).collect();
@@ -365,7 +369,7 @@ fn shares<'a>(
             found[k].1 += share;
         }
     }
-    // None may weigh nothing.
+    // Every solid needs a positive mass.
     let least = 1e-3 * found.iter().map(|(_, share, _)| *share).fold(0.0, f64::max);
     if least == 0.0 {
         for (standing, share, _) in found.iter_mut() {

@@ -1,4 +1,4 @@
-//! A tool.
+//! Conversion of a body to a tool.
 
 use std::path::Path;
 
@@ -13,18 +13,18 @@ use super::names::{Names, bare, same};
 use super::upright::{Base, Upright, flat};
 use super::wanted::{Imported, Wanted};
 
-/// Undersides of parts that differ by less are level, metres.
+/// Height difference below which undersides of parts are level, metres.
 const LEVEL: f64 = 1e-3;
 
-/// The tool that one body of a model is, with everything that is fixed to it. Its frame, and its
-/// grip, are those of the body; what it weighs and what holds or moves it does not matter.
+/// Converts a body of a model, with everything fixed to it, to a tool. Frame and grip are the frame
+/// of the body; its mass and joints have no effect.
 ///
 /// # Errors
 /// Everything that pushplan cannot express, each with its place in `file`.
 pub fn tool(model: &Model, file: &str, wanted: &Wanted) -> Result<Imported<Tool>, Faults> {
     let mut ledger = Ledger::new(file, &model.files);
     let body = chosen(model, wanted, &mut ledger);
-    // Only what was chosen may refuse, and the world if nothing was named.
+    // Only the selected body can cause faults, and the world if no body was named.
     let kept: Vec<usize> = body.map_or_else(Vec::new, |body| model.below(body));
     for (index, other) in model.bodies.iter().enumerate() {
         if kept.contains(&index) {
@@ -46,19 +46,19 @@ pub fn tool(model: &Model, file: &str, wanted: &Wanted) -> Result<Imported<Tool>
     Ok(Imported { value, notes })
 }
 
-/// The name of what is imported, if nobody says another: the file's own, or that of the file.
+/// Returns the default name of the import: the model's name, or the stem of the file.
 pub(super) fn name(model: &Model, file: &str) -> String {
     let stem = || Path::new(file).file_stem().unwrap_or_default().to_string_lossy().into_owned();
     named_after(&if model.name.is_empty() { stem() } else { model.name.clone() })
 }
 
-/// The body that is the tool.
+/// Returns the body to import as the tool.
 fn chosen(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Option<usize> {
     let solid = |body: &usize| {
         model.rigid(*body).iter().any(|body| model.bodies[*body].solids.iter().any(|s| s.touches))
     };
     let candidates: Vec<usize> = match &wanted.bodies[..] {
-        // One that says so, which an arm may hold, or the only one.
+        // The body named `tool`, possibly held by an arm, or the only body.
         [] => {
             let said = |body: &usize| model.name_of(*body) == Model::TOOL && solid(body);
             match (1..model.bodies.len()).find(said) {
@@ -91,7 +91,7 @@ fn chosen(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Option<usize> 
     None
 }
 
-/// Which bodies could be the tool, or a piece of it.
+/// Lists the bodies that can be imported as the tool.
 fn names_them(model: &Model) -> String {
     match &solid_bodies(model)[..] {
         [] => "pushplan's tools are solids that touch: <geom>, <collision>, or a mesh".to_owned(),
@@ -126,7 +126,7 @@ fn assemble(
         let of = &model.bodies[*body];
         of.solids.iter().filter(|solid| solid.touches).map(|solid| (of.name.as_str(), solid))
     });
-    // Thousands of parts would be compared with each other first.
+    // Checked first, because thousands of parts would be compared pairwise.
     let count = solids.clone().count();
     if count > MAX_PARTS {
         let message =
@@ -172,11 +172,11 @@ fn assemble(
     }
     let name = match &wanted.name {
         Some(name) => name.clone(),
-        // A scene's name says nothing of one of its bodies.
+        // The name of a scene does not describe one of its bodies.
         None if wanted.bodies.is_empty() && !model.ours => self::name(model, file),
         None => named_after(bare(model.name_of(body))),
     };
-    // Parts that do not touch are rigid all the same, as the file says.
+    // Parts that do not touch are also rigidly connected in the file.
     let joined = match Tool::new(name.clone(), parts.clone()) {
         Err(ToolError::Apart { .. }) => {
             let pairs: Vec<[usize; 2]> = (1..parts.len()).map(|part| [0, part]).collect();

@@ -1,4 +1,4 @@
-//! Solids that stand upright: what they cover on the table, and from where to where they reach.
+//! Representation of solids as upright prisms or cylinders: covered area and height range.
 
 use std::f64::consts::PI;
 
@@ -10,65 +10,67 @@ use pushplan::geometry::{MAX_CORNERS, Pose, Vector, centroid, cross, planar_hull
 
 use super::shadow::{area, shadow};
 
-/// A solid that leans less than this is upright, radians: files round their turns.
+/// Maximum inclination of an upright solid, radians, because files round rotations.
 const LEAN: f64 = 1e-3;
 
-/// Top and bottom of a prism differ by no more than this, metres.
+/// Maximum deviation of the top and bottom corners of a prism, metres.
 const PRISM: f64 = 2e-4;
 
-/// What is flatter cannot be pushed, metres.
+/// Minimum height of a solid that can be pushed, metres.
 const THIN: f64 = 1e-3;
 
-/// What is so near to the lowest point of a mesh, metres, or within a hundredth of its height, stands.
+/// Height above the lowest point within which points of a mesh touch the table, metres; at least a
+/// hundredth of its height.
 const LEVEL: f64 = 3e-4;
 
-/// Corners nearer than this to the line between their neighbours are left out, metres.
+/// Distance from the line between its neighbours below which a corner is left out, metres.
 pub(super) const STRAIGHT: f64 = 1e-6;
 
-/// Points around a circle that stand for it.
+/// Number of points that approximate a circle.
 const AROUND: usize = 48;
 
-/// What an upright solid covers on the table, in its own frame, metres.
+/// Area that an upright solid covers on the table, in its own frame, metres.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Base {
-    /// A rectangle of these full extents about the origin.
+    /// Rectangle of these full extents about the origin.
     Rectangle([f64; 2]),
-    /// A disc of this radius about the origin.
+    /// Disc of this radius about the origin.
     Disc(f64),
-    /// A convex polygon, counter-clockwise.
+    /// Convex polygon, counter-clockwise.
     Polygon(Vec<Vector>),
 }
 
-/// An upright solid.
+/// Upright prism or cylinder.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Upright {
-    /// What it covers.
+    /// Covered area.
     pub base: Base,
-    /// The frame of that in the world.
+    /// Pose of the covered area in the world.
     pub pose: Pose,
-    /// Height of its underside, metres.
+    /// Height of the underside, metres.
     pub low: f64,
-    /// From there to its top, metres.
+    /// Height from underside to top, metres.
     pub height: f64,
-    /// How it differs from the solid, where it does.
+    /// Deviation from the original solid, if any.
     pub rough: Option<Rough>,
 }
 
-/// How a solid differs from the prism or cylinder over what it covers.
+/// Deviation of a solid from the prism or cylinder that encloses it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Rough {
-    /// The outlines are apart by so much at most, metres.
+    /// Maximum distance of the outlines, metres.
     pub off: f64,
     /// Share of the prism that the solid fills.
     pub fill: f64,
-    /// Corners of what it stands on, in the frame of the base, metres; none where nobody knows.
+    /// Corners of the contact area, in the frame of the base, metres; empty if unknown.
     pub stands: Vec<Vector>,
-    /// Corners of what it covers in the world, metres.
+    /// Corners of the covered area in the world, metres.
     pub outline: Vec<Vector>,
 }
 
 impl Upright {
-    /// The solid standing upright; `None`, with a fault, if it does not or cannot be expressed.
+    /// Converts a solid that stands upright; returns `None` and reports a fault if it leans or
+    /// cannot be expressed.
     pub fn of(solid: &Solid, what: &str, ledger: &mut Ledger) -> Option<Self> {
         match &solid.outline {
             Outline::Box(half) => match standing_box(&solid.pose, *half) {
@@ -113,8 +115,9 @@ impl Upright {
         }
     }
 
-    /// The solid as the upright prism or cylinder over what it covers, however it lies: one among several
-    /// that hold each other up. `None`, with a fault, if it cannot be expressed.
+    /// Converts a solid in any orientation to the enclosing upright prism or cylinder, for solids
+    /// that support each other. Returns `None` and reports a fault if the solid cannot be
+    /// expressed.
     pub fn any(solid: &Solid, what: &str, ledger: &mut Ledger) -> Option<Self> {
         let is_upright = match &solid.outline {
             Outline::Box(half) => standing_box(&solid.pose, *half).is_some(),
@@ -137,7 +140,7 @@ impl Upright {
         found
     }
 
-    /// The upright prism or cylinder over points of the world; none where they are flat.
+    /// Returns the upright prism or cylinder over points in the world; `None` if they are flat.
     pub fn over(points: &[Point3<f64>], volume: Option<f64>, rests: bool) -> Option<Self> {
         let heights = || points.iter().map(|point| point.z);
         let low = heights().fold(f64::INFINITY, f64::min);
@@ -147,7 +150,7 @@ impl Upright {
         if height < THIN {
             return None;
         }
-        // In the frame of a disc, which has its own middle.
+        // In the frame of the base, whose origin is the centre of a disc.
         let under = points.iter().filter(|point| point.z - low <= LEVEL.max(0.01 * height));
         let under: Vec<Vector> = under.map(|point| Vector::new(point.x, point.y) - at).collect();
         let pose = Pose { position: at, heading: 0.0 };
@@ -159,12 +162,12 @@ impl Upright {
         Some(found)
     }
 
-    /// Height of its top above the origin, metres.
+    /// Returns the height of the top above the origin, metres.
     pub fn top(&self) -> f64 {
         self.low + self.height
     }
 
-    /// Area of the base, square metres.
+    /// Returns the area of the base, square metres.
     pub fn area(&self) -> f64 {
         match &self.base {
             Base::Rectangle([x, y]) => x * y,
@@ -173,7 +176,8 @@ impl Upright {
         }
     }
 
-    /// Corners of what it covers in the world, metres; those of a disc lie around it.
+    /// Returns the corners of the covered area in the world, metres; a disc is approximated by
+    /// points on it.
     pub fn outline(&self) -> Vec<Vector> {
         if let Some(rough) = &self.rough {
             return rough.outline.clone();
@@ -191,7 +195,7 @@ impl Upright {
         corners.into_iter().map(|corner| self.pose.point(corner)).collect()
     }
 
-    /// Where an even weight has its middle, in the frame of the base, metres.
+    /// Returns the centroid of the base in its frame, metres.
     pub fn middle(&self) -> Vector {
         match &self.base {
             Base::Polygon(corners) => centroid(corners),
@@ -199,7 +203,7 @@ impl Upright {
         }
     }
 
-    /// Whether a point of the world's plane is over it.
+    /// Returns `true` if the base contains a point of the table plane, given in the world.
     pub fn covers(&self, point: Vector) -> bool {
         let local = self.pose.local_point(point);
         match &self.base {
@@ -213,7 +217,7 @@ impl Upright {
     }
 }
 
-/// Volume of a solid, m^3, wherever it stands; none if it has none that could be told.
+/// Returns the volume of a solid in any orientation, m^3; `None` if it is unknown.
 pub(super) fn volume(solid: &Solid) -> Option<f64> {
     match &solid.outline {
         Outline::Box([x, y, z]) => Some(8.0 * x * y * z),
@@ -229,7 +233,8 @@ pub(super) fn volume(solid: &Solid) -> Option<f64> {
     }
 }
 
-/// Points whose convex hull the outline is, in its own frame; those of round ones lie on them.
+/// Returns points whose convex hull approximates the outline, in its own frame; for round outlines
+/// the points lie on the surface.
 fn cloud(outline: &Outline) -> Vec<Point3<f64>> {
     let ball = |radii: [f64; 3], shift: f64| {
         (0..=AROUND / 2).flat_map(move |row| {
@@ -264,11 +269,11 @@ fn cloud(outline: &Outline) -> Vec<Point3<f64>> {
     }
 }
 
-/// What to do with what lies on its round side.
+/// Advice for solids that rest on a round side.
 const ROLLS: &str = "nobody knows how far it would roll: stand it upright, or put a box in its place if it cannot \
     roll or does not move";
 
-/// What to do with a shape that cannot be expressed.
+/// Advice for shapes that cannot be expressed.
 pub(super) const PRIMITIVES: &str = "put a box, an upright cylinder or a mesh (STL, OBJ) in its place, or let \
     it touch nothing";
 
@@ -278,18 +283,18 @@ fn leans<T>(solid: &Solid, what: &str, ledger: &mut Ledger) -> Option<T> {
     None
 }
 
-/// The pose of an upright frame seen from above, and that of a leaning one without its turn.
+/// Returns the pose of an upright frame seen from above; for a leaning frame, without its rotation.
 pub(super) fn flat(pose: &Isometry3<f64>) -> Pose {
     let ([x, y], ahead) = ([pose.translation.x, pose.translation.y], pose.rotation * Vector3::x());
     let upright = ahead.z.abs() < LEAN;
     Pose::new(x, y, if upright { ahead.y.atan2(ahead.x) } else { 0.0 })
 }
 
-/// A box that stands on any of its faces.
+/// Returns a box that stands on any of its faces.
 fn standing_box(pose: &Isometry3<f64>, half: [f64; 3]) -> Option<Upright> {
     let axes = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| pose.rotation * axis);
     let up = (0..3).find(|k| axes[*k].xy().norm() <= LEAN)?;
-    // The box's own x ahead, unless that is what stands up.
+    // The heading is the direction of the box's own x axis, unless that axis is vertical.
     let [ahead, aside] = match up {
         2 => [0, 1],
         1 => [0, 2],
@@ -306,7 +311,7 @@ fn standing_box(pose: &Isometry3<f64>, half: [f64; 3]) -> Option<Upright> {
     })
 }
 
-/// The upright prism whose corners these points are, or why they do not make one.
+/// Returns the upright prism with these corners, or the reason why they do not form one.
 fn prism(pose: &Isometry3<f64>, points: &[Point3<f64>]) -> Result<Upright, String> {
     let frame = flat(pose);
     let placed: Vec<Point3<f64>> = points.iter().map(|point| pose * point).collect();

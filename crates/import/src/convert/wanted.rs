@@ -1,29 +1,29 @@
-//! What is asked for, and the result.
+//! Options and result of an import.
 
 use pushplan::geometry::Vector;
 
-/// What is asked for.
+/// Options of an import.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wanted {
-    /// Names of the bodies that are imported; all that can be, if there are none.
+    /// Names of the bodies to import; if empty, all that can be imported.
     pub bodies: Vec<String>,
-    /// Names of bodies that stand freely although the file holds them.
+    /// Names of bodies to detach from the world, so that they stand freely.
     pub free: Vec<String>,
     /// Density of bodies that state no mass, kg/m^3.
     pub density: Option<f64>,
-    /// What the tool or task is called; by default after the file.
+    /// Name of the tool or task; by default from the file.
     pub name: Option<String>,
     /// Friction value of bodies that state none.
     pub friction: f64,
-    /// How far everything is shifted on the table, metres.
+    /// Translation of everything on the table, metres.
     pub shift: Vector,
 }
 
 impl Wanted {
-    /// Friction value of bodies that state none: plain wood.
+    /// Default friction value: plain wood.
     pub const FRICTION: f64 = pushplan::scene::Scene::FRICTION;
 
-    /// Whether a body is asked for by its name in the file or its name here.
+    /// Returns `true` if a body is selected, by its name in the file or its name in pushplan.
     pub(super) fn takes(&self, name: &str) -> bool {
         self.bodies.is_empty() || self.bodies.iter().any(|body| super::names::same(body, name))
     }
@@ -42,11 +42,11 @@ impl Default for Wanted {
     }
 }
 
-/// What was imported.
+/// Result of an import.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Imported<T> {
-    /// The thing itself.
+    /// Imported tool or scene.
     pub value: T,
-    /// Where it differs slightly from the file, each with its place.
+    /// Small differences from the file, each with its place.
     pub notes: Vec<String>,
 }

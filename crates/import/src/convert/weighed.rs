@@ -1,4 +1,4 @@
-//! What bodies and solids weigh, and where their centres of mass are.
+//! Masses and centres of mass of bodies and solids.
 
 use std::f64::consts::PI;
 
@@ -10,14 +10,14 @@ use pushplan::geometry::Vector;
 
 use super::upright::volume;
 
-/// A mass this small is none, kg.
+/// Mass below which a body counts as massless, kg.
 pub(super) const NOTHING: f64 = 1e-9;
 
-/// Mass (kg), centre of mass in the world (metres) and moment of inertia about the vertical through it
-/// (kg m^2); no centre where that is the middle of the only solid.
+/// Mass (kg), centre of mass in the world (metres) and moment of inertia about the vertical through
+/// it (kg m^2). The centre is `None` if it is the middle of the only solid.
 pub(super) type Weighed = (f64, Option<Point3<f64>>, Option<f64>);
 
-/// The middle of a solid of even weight, in the world, metres.
+/// Returns the centroid of a homogeneous solid in the world, metres.
 pub(super) fn middle(solid: &Solid) -> Point3<f64> {
     match &solid.outline {
         Outline::Mesh(mesh) => solid.pose * mesh.middle,
@@ -25,9 +25,10 @@ pub(super) fn middle(solid: &Solid) -> Point3<f64> {
     }
 }
 
-/// Mass, centre of mass and moment of inertia of one body; `density` (kg/m^3) where it states none.
+/// Returns mass, centre of mass and moment of inertia of a body; `density` (kg/m^3) applies if it
+/// states no mass.
 pub(super) fn of_body(body: &Body, density: Option<f64>, ledger: &mut Ledger) -> Option<Weighed> {
-    // A mass of zero is how some say that they do not know it.
+    // Some files state a mass of zero to mean that it is unknown.
     let known = |mass: &f64| *mass > NOTHING || density.is_none();
     if let Some((mass, centre, moment)) = body.inertial.filter(|(mass, ..)| known(mass)) {
         return Some((mass, Some(centre), moment));
@@ -36,7 +37,7 @@ pub(super) fn of_body(body: &Body, density: Option<f64>, ledger: &mut Ledger) ->
         return Some((density * volume, Some(centre), None));
     }
     let mut parts = Vec::new();
-    // Nor does anybody know it who says so of each solid.
+    // The mass is also unknown if every solid states zero.
     let nothing = |solid: &Solid| solid.material.weight == Weight::Mass(0.0);
     let unknown = density.is_some() && body.solids.iter().all(nothing);
     for solid in &body.solids {
@@ -57,7 +58,7 @@ pub(super) fn of_body(body: &Body, density: Option<f64>, ledger: &mut Ledger) ->
     let heavy: Vec<_> = parts.iter().filter(|(mass, _)| *mass > 0.0).collect();
     match heavy[..] {
         [] => Some((mass, None, None)),
-        // One solid has its weight in its own middle, which knows prisms, too.
+        // A single solid has its centre of mass in its own middle, which is also known for prisms.
         [(_, solid)] if !matches!(solid.outline, Outline::Mesh(_)) => Some((mass, None, None)),
         _ => {
             let moment = heavy.iter().map(|(mass, solid)| *mass * middle(solid).coords);
@@ -66,7 +67,7 @@ pub(super) fn of_body(body: &Body, density: Option<f64>, ledger: &mut Ledger) ->
     }
 }
 
-/// The same of bodies that are fixed to each other.
+/// Returns mass, centre of mass and moment of inertia of bodies that are fixed to each other.
 pub(super) fn together(
     model: &Model,
     bodies: &[usize],
@@ -96,7 +97,7 @@ pub(super) fn together(
     }
 }
 
-/// What one solid weighs, kg.
+/// Returns the mass of a solid, kg.
 pub(super) fn of_solid(solid: &Solid, density: Option<f64>, ledger: &mut Ledger) -> Option<f64> {
     let (density, size, what) = match (solid.material.weight, density) {
         (Weight::Mass(mass), _) => return Some(mass),
@@ -122,7 +123,7 @@ pub(super) fn of_solid(solid: &Solid, density: Option<f64>, ledger: &mut Ledger)
     size.map(|size| density * size)
 }
 
-/// Area around a solid, m^2; none if it has none that could be told.
+/// Returns the surface area of a solid, m^2; `None` if it is unknown.
 fn surface(solid: &Solid) -> Option<f64> {
     match &solid.outline {
         Outline::Box([x, y, z]) => Some(8.0 * (x * y + y * z + z * x)),
@@ -135,15 +136,15 @@ fn surface(solid: &Solid) -> Option<f64> {
     }
 }
 
-/// Masses (kg) near to these of solids at these places (metres), so that their common centre is at
-/// `centre`: those ahead get more, those behind less. What is left between is given back, metres.
+/// Adjusts masses (kg) of solids at `places` (metres) so that their common centre approaches
+/// `centre`. Returns the remaining distance, metres.
 pub(super) fn balanced(masses: &mut [f64], places: &[Vector], centre: Vector) -> f64 {
     let sum: f64 = masses.iter().sum();
     let common = |masses: &[f64]| {
         let moment = masses.iter().zip(places).map(|(mass, place)| *mass * *place);
         moment.sum::<Vector>() / sum
     };
-    // Weights below none are cut off, and the rest tried again.
+    // Negative masses are clamped to zero, and the step is repeated.
     for _ in 0..20 {
         let now = common(masses);
         let off = centre - now;

@@ -1,4 +1,4 @@
-//! Files that a file names: only those in its folder or below it, unless somebody says how far up.
+//! Access to files that a file names: only in its folder or below, unless a root folder is given.
 
 use std::fs::File;
 use std::io::Read;
@@ -6,37 +6,37 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// The longest file that is read, bytes: meshes have some megabytes.
+/// Maximum size of a file, bytes; meshes have some megabytes.
 const LONGEST: u64 = 64 << 20;
 
-/// The most files that name files in turn, and how many lead to one.
+/// Maximum number of files that name further files, and their maximum nesting depth.
 const MOST: usize = 200;
 const DEEPEST: usize = 16;
 
-/// What keeps a file from being read, and what to do.
+/// Reason why a file is not read, with advice.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refused {
     /// Description of the fault.
     pub message: String,
-    /// Remedy.
+    /// Suggested fix.
     pub advice: String,
 }
 
-/// Where the files are that a file names.
+/// Locations of the files that a file names.
 #[derive(Clone, Debug, Default)]
 pub struct Files {
-    /// The folder of the file; none if there is a text alone.
+    /// Folder of the file; `None` for a text without a file.
     folder: Option<PathBuf>,
-    /// The folder that they must be in or below.
+    /// Folder that must contain all named files.
     root: Option<PathBuf>,
-    /// The file, and those that led to it.
+    /// The file and its chain of including files.
     trail: Vec<PathBuf>,
-    /// How many files were found that name files of their own.
+    /// Number of files found so far that name further files.
     entered: Arc<AtomicUsize>,
 }
 
 impl Files {
-    /// Those of the file `path`, in or below `root` or its own folder.
+    /// Creates the access for the file `path`, restricted to `root` or the folder of the file.
     pub fn of(path: &Path, root: Option<&Path>) -> Self {
         let folder = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
         let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
@@ -45,7 +45,8 @@ impl Files {
         Self { folder: Some(folder), root: Some(root), trail, entered: Arc::default() }
     }
 
-    /// Those of another file that it found; none where that leads in a circle, or to far too many.
+    /// Returns the access for another file that was found; `None` if the chain is circular or too
+    /// long.
     pub fn within(&self, path: &Path) -> Option<Self> {
         let entered = self.entered.fetch_add(1, Ordering::Relaxed);
         if entered >= MOST || self.trail.len() >= DEEPEST || self.trail.iter().any(|on| on == path)
@@ -56,7 +57,7 @@ impl Files {
         Some(Self { folder: path.parent().map(Path::to_path_buf), trail, ..self.clone() })
     }
 
-    /// The file of that name, which `base`, a folder of the file's own, may stand before.
+    /// Finds the file `name`, optionally in the folder `base` that the file states.
     pub fn find(&self, base: &str, name: &str) -> Result<PathBuf, Refused> {
         let (Some(folder), Some(root)) = (&self.folder, &self.root) else {
             return Err(Refused {
@@ -85,13 +86,13 @@ impl Files {
         Err(outside(name, &root, &real))
     }
 
-    /// The file at a path, if it exists and may be read.
+    /// Returns the file at a path, if it exists and may be read.
     pub fn beside(&self, path: &str) -> Option<PathBuf> {
         let root = self.root.as_ref()?.canonicalize().ok()?;
         Path::new(path).canonicalize().ok().filter(|real| real.starts_with(root))
     }
 
-    /// A file of a ROS package: its folder is one around the file, or stands beside it.
+    /// Finds a file of a ROS package, whose folder contains the file or is beside it.
     fn in_package(&self, root: &Path, rest: &str) -> Result<PathBuf, Refused> {
         let missing = || Refused {
             message: format!("there is no file package://{rest} in or below {}", root.display()),
@@ -108,7 +109,7 @@ impl Files {
             .ok_or_else(missing)
     }
 
-    /// The bytes of a file that [`Files::find`] found.
+    /// Returns the bytes of a file found by [`Files::find`].
     pub fn bytes(path: &Path) -> Result<Vec<u8>, Refused> {
         let refused = |what: String, advice: &str| Refused {
             message: format!("{} {what}", path.display()),
@@ -127,7 +128,7 @@ impl Files {
     }
 }
 
-/// Says which folder has to be named for a file that lies elsewhere.
+/// Returns the refusal of a file outside the root, with the folder to name instead.
 fn outside(name: &str, root: &Path, real: &Path) -> Refused {
     let shared = root.components().zip(real.components()).take_while(|(a, b)| a == b);
     let shared: PathBuf =

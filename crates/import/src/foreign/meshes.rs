@@ -1,4 +1,4 @@
-//! Files of meshes.
+//! Mesh files.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -7,16 +7,16 @@ use pushplan::geometry::Vector3;
 
 use super::{Files, Refused};
 
-/// Corners, in the unit of the file, and triangles that name them.
+/// Vertices, in the unit of the file, and triangles as vertex indices.
 pub(super) type Triangles = (Vec<Vector3>, Vec<[u32; 3]>);
 
-/// The most triangles of a mesh.
+/// Maximum number of triangles of a mesh.
 const MOST: usize = 1_000_000;
 
-/// The triangles of a mesh file.
+/// Reads the triangles of a mesh file.
 ///
 /// # Errors
-/// A file that cannot be read, is none of these kinds, or has too many triangles.
+/// The file cannot be read, has another format, or has too many triangles.
 pub fn load(path: &Path) -> Result<Triangles, Refused> {
     let refused = |message: String, advice: &str| Refused { message, advice: advice.to_owned() };
     let bytes = Files::bytes(path)?;
@@ -48,7 +48,7 @@ pub fn load(path: &Path) -> Result<Triangles, Refused> {
 }
 
 fn stl(mut bytes: Vec<u8>) -> Result<Triangles, String> {
-    // Some programs begin binary files with the word that text begins with: their length tells.
+    // Some programs start binary files with the keyword of text files; the file size decides.
     let count = bytes.get(80..84).and_then(|four| four.try_into().ok()).map(u32::from_le_bytes);
     let binary = count.is_some_and(|count| 84 + 50 * u64::from(count) == bytes.len() as u64);
     if binary {
@@ -62,7 +62,7 @@ fn stl(mut bytes: Vec<u8>) -> Result<Triangles, String> {
 
 fn obj(bytes: &[u8]) -> Result<Triangles, String> {
     let options = tobj::LoadOptions { triangulate: true, ..tobj::LoadOptions::default() };
-    // Materials are only seen.
+    // Materials are not needed.
     let none = |_: &Path| Err(tobj::LoadError::GenericFailure);
     let (models, _) = tobj::load_obj_buf(&mut Cursor::new(bytes), &options, none)
         .map_err(|error| error.to_string())?;
@@ -77,7 +77,8 @@ fn obj(bytes: &[u8]) -> Result<Triangles, String> {
     Ok((points, faces))
 }
 
-/// Four counts, of corners, normals, texture coordinates and triangles; then each of those.
+/// Reads MSH: the numbers of vertices, normals, texture coordinates and triangles, followed by
+/// their data.
 fn msh(bytes: &[u8]) -> Result<Triangles, String> {
     let word = |k: usize| {
         let four = bytes.get(4 * k..4 * k + 4)?;

@@ -1,7 +1,7 @@
-//! Parts of files of other programs that several readers need: XML, URDF, meshes, and the files that a
-//! file names.
+//! Shared parts of the readers of other formats: XML, URDF, meshes, and the files that a file
+//! names.
 //!
-//! Mesh files are read by `stl_io` and `tobj`; MSH, an array of numbers, by itself.
+//! Mesh files are read with `stl_io` and `tobj`; MSH, an array of numbers, is read directly.
 
 mod files;
 mod meshes;

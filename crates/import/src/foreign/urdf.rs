@@ -1,4 +1,4 @@
-//! Elements of URDF that every reader of it needs: origins, shapes, axes and limits of joints.
+//! URDF elements shared by all its readers: origins, shapes, axes and limits of joints.
 
 use roxmltree::Node;
 
@@ -8,7 +8,7 @@ use crate::model::Outline;
 
 use super::xml::{Flaw, element, elements, number, numbers};
 
-/// The pose that an `origin` states.
+/// Pose stated by an `origin` element.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Origin {
     /// Position, metres.
@@ -17,12 +17,12 @@ pub struct Origin {
     pub rpy: [f64; 3],
 }
 
-/// The shape of a collision element.
+/// Shape of a collision element.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Geometry {
-    /// A solid about its middle; other elements by their names.
+    /// Solid about its centre; unknown elements are kept by name.
     Solid(Outline),
-    /// A mesh in a file.
+    /// Mesh file.
     Mesh {
         /// Name of the file.
         file: String,
@@ -31,10 +31,10 @@ pub enum Geometry {
     },
 }
 
-/// Reads the `origin` of an element; the default where there is none.
+/// Reads the `origin` of an element; returns the default if there is none.
 ///
 /// # Errors
-/// Numbers that are none, or too few or too many.
+/// Invalid numbers, or a wrong count of numbers.
 pub fn origin<'a>(node: Node<'a, 'a>) -> Result<Origin, Flaw> {
     let Some(origin) = element(node, "origin") else { return Ok(Origin::default()) };
     let three = |name: &str| origin.attribute_node(name).map_or(Ok([0.0; 3]), numbers::<3>);
@@ -44,7 +44,7 @@ pub fn origin<'a>(node: Node<'a, 'a>) -> Result<Origin, Flaw> {
 /// Reads the shape of a collision element.
 ///
 /// # Errors
-/// No shape, or one without its sizes.
+/// The shape or one of its sizes is missing.
 pub fn geometry<'a>(collision: Node<'a, 'a>) -> Result<Geometry, Flaw> {
     let shape = element(collision, "geometry").and_then(|geometry| elements(geometry).next());
     let missing = || Flaw::of(collision, "this collision has no geometry", "add <geometry>");
@@ -82,10 +82,10 @@ pub fn geometry<'a>(collision: Node<'a, 'a>) -> Result<Geometry, Flaw> {
     })
 }
 
-/// Reads the axis of a joint in its own frame, a unit vector; x where the joint has none.
+/// Reads the axis of a joint in its own frame, a unit vector; the default is x.
 ///
 /// # Errors
-/// An axis without length.
+/// The axis has length zero.
 pub fn axis<'a>(joint: Node<'a, 'a>) -> Result<Vector3, Flaw> {
     let stated = element(joint, "axis").and_then(|axis| axis.attribute_node("xyz"));
     let axis = Vector3::from(stated.map_or(Ok([1.0, 0.0, 0.0]), numbers::<3>)?);
@@ -94,16 +94,16 @@ pub fn axis<'a>(joint: Node<'a, 'a>) -> Result<Vector3, Flaw> {
     })
 }
 
-/// Reads a number of the `limit` of a joint, if it is stated.
+/// Reads a number of the `limit` of a joint, if stated.
 ///
 /// # Errors
-/// Anything but one number.
+/// The value is not a single number.
 pub fn limit<'a>(joint: Node<'a, 'a>, name: &str) -> Result<Option<f64>, Flaw> {
     let stated = element(joint, "limit").and_then(|limit| limit.attribute_node(name));
     stated.map(number).transpose()
 }
 
-/// The name of the link at an end of a joint, `parent` or `child`; empty where it is missing.
+/// Returns the name of the link at an end of a joint, `parent` or `child`; empty if it is missing.
 pub fn end<'a>(joint: Node<'a, 'a>, side: &str) -> &'a str {
     element(joint, side).and_then(|node| node.attribute("link")).unwrap_or_default()
 }

@@ -1,20 +1,20 @@
-//! Elements of XML, and numbers in their attributes.
+//! XML elements, and numbers in their attributes.
 
 use roxmltree::{Attribute, Node};
 
-/// A fault of an element or attribute.
+/// Fault of an element or attribute.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Flaw {
-    /// Byte of the text at which it begins.
+    /// Byte offset in the text.
     pub at: usize,
     /// Description of the fault.
     pub message: String,
-    /// Remedy.
+    /// Suggested fix.
     pub advice: String,
 }
 
 impl Flaw {
-    /// A fault of an element.
+    /// Creates a fault of an element.
     pub fn of(node: Node, message: impl Into<String>, advice: impl Into<String>) -> Self {
         Self { at: node.range().start, message: message.into(), advice: advice.into() }
     }
@@ -24,12 +24,12 @@ impl Flaw {
     }
 }
 
-/// Elements below `node`, in order.
+/// Returns the child elements of `node`, in order.
 pub fn elements<'a>(node: Node<'a, 'a>) -> impl Iterator<Item = Node<'a, 'a>> {
     node.children().filter(Node::is_element)
 }
 
-/// The first element of that name below `node`.
+/// Returns the first child element of `node` with this name.
 pub fn element<'a>(node: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
     elements(node).find(|child| child.tag_name().name() == name)
 }
@@ -37,7 +37,7 @@ pub fn element<'a>(node: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
 /// Reads all numbers of an attribute.
 ///
 /// # Errors
-/// A word that is not a number, or not a finite one.
+/// A word is not a finite number.
 pub fn list(attribute: Attribute) -> Result<Vec<f64>, Flaw> {
     let number = |word: &str| match word.parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
@@ -52,7 +52,7 @@ pub fn list(attribute: Attribute) -> Result<Vec<f64>, Flaw> {
 /// Reads exactly `N` numbers of an attribute.
 ///
 /// # Errors
-/// Another count of numbers, and those of [`list`].
+/// A different count of numbers, and the errors of [`list`].
 pub fn numbers<const N: usize>(attribute: Attribute) -> Result<[f64; N], Flaw> {
     let found = list(attribute)?;
     let count = found.len();
@@ -66,7 +66,7 @@ pub fn numbers<const N: usize>(attribute: Attribute) -> Result<[f64; N], Flaw> {
 /// Reads one number of an attribute.
 ///
 /// # Errors
-/// Numbers as read by [`numbers`].
+/// The errors of [`numbers`].
 pub fn number(attribute: Attribute) -> Result<f64, Flaw> {
     numbers::<1>(attribute).map(|[number]| number)
 }

@@ -1,4 +1,4 @@
-//! A mesh, and how much it holds.
+//! Mesh, with its volume, surface area and centre of mass.
 
 use std::collections::HashMap;
 
@@ -6,41 +6,41 @@ use nalgebra::Point3;
 
 use pushplan::geometry::convex_hull;
 
-/// A mesh in the frame of its solid.
+/// Mesh in the frame of its solid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
-    /// Corners, metres.
+    /// Vertices, metres.
     pub points: Vec<Point3<f64>>,
-    /// Triangles of corners, by index, outside counter-clockwise.
+    /// Triangles as vertex indices, counter-clockwise seen from outside.
     pub faces: Vec<[u32; 3]>,
     /// Volume, cubic metres.
     pub volume: f64,
-    /// Area of its surface, square metres.
+    /// Surface area, square metres.
     pub surface: f64,
-    /// Its centre of mass, metres.
+    /// Centre of mass, metres.
     pub middle: Point3<f64>,
 }
 
-/// How the volume of a mesh is counted.
+/// Method of computing the volume of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Counted {
-    /// Every triangle with its centre counts for as much as it holds, on whichever side: MuJoCo's
+    /// Sum of the unsigned volumes of the tetrahedra between each triangle and the centre: MuJoCo's
     /// `legacy`.
     Unsigned,
-    /// What it encloses.
+    /// Enclosed volume.
     Enclosed,
-    /// What its convex hull holds.
+    /// Volume of the convex hull.
     Hull,
-    /// Nothing: it is as heavy as its surface.
+    /// Zero volume; the mass is proportional to the surface area.
     Shell,
 }
 
-/// The faces of a mesh and the numbers that follow from them.
+/// Volume, surface area and centre of mass.
 type Bulk = (f64, f64, Point3<f64>);
 
 impl Mesh {
-    /// The mesh of these corners and triangles, of which there may be none: then it is their hull. None if
-    /// it holds nothing, or if a number is none.
+    /// Creates a mesh from vertices and triangles; without triangles, it is the convex hull of the
+    /// vertices. Returns `None` if the mesh is flat or a number is invalid.
     pub fn new(points: Vec<Point3<f64>>, faces: Vec<[u32; 3]>, counted: Counted) -> Option<Self> {
         let finite = |point: &Point3<f64>| point.iter().all(|number| number.abs() < 1e9);
         if !points.iter().all(finite) {
@@ -65,13 +65,14 @@ impl Mesh {
         })
     }
 
-    /// Volume of its convex hull, cubic metres; zero if it is flat.
+    /// Returns the volume of the convex hull, cubic metres; zero if it is flat.
     pub fn hull_volume(&self) -> f64 {
         hull(&self.points)
             .map_or(0.0, |(corners, faces)| bulk(&corners, &faces, Counted::Enclosed).0)
     }
 
-    /// Whether every side of a triangle is that of one other triangle, the other way round.
+    /// Returns `true` if every edge of a triangle is shared with exactly one other triangle, in the
+    /// opposite direction.
     pub fn is_closed(&self) -> bool {
         let mut numbers = HashMap::new();
         let place = |point: &Point3<f64>| point.coords.map(|x| (x * 1e7).round() as i64);
@@ -106,7 +107,8 @@ fn hull(points: &[Point3<f64>]) -> Option<Faces> {
     Some((corners.into_iter().map(Point3::from).collect(), faces))
 }
 
-/// Volume, surface and centre of mass, by tetrahedra of the triangles and the middle of the surface.
+/// Computes volume, surface area and centre of mass from tetrahedra between the triangles and the
+/// centroid of the surface.
 fn bulk(points: &[Point3<f64>], faces: &[[u32; 3]], counted: Counted) -> Bulk {
     let triangles = || faces.iter().map(|face| face.map(|corner| points[corner as usize].coords));
     let (mut surface, mut weighted) = (0.0, nalgebra::Vector3::zeros());
@@ -130,9 +132,9 @@ fn bulk(points: &[Point3<f64>], faces: &[[u32; 3]], counted: Counted) -> Bulk {
         (volume, moment / volume)
     };
     let (volume, middle) = held(origin);
-    // MuJoCo moves a mesh to its centre of mass and counts again from there.
+    // MuJoCo moves a mesh to its centre of mass and computes the volume again from there.
     let volume = if counted == Counted::Unsigned { held(middle).0 } else { volume };
-    // Turned inside out it encloses as much.
+    // A mesh turned inside out encloses the same volume.
     (volume.abs(), surface, middle.into())
 }
 

@@ -1,6 +1,6 @@
 //! Meshes: STL, OBJ and MuJoCo's own MSH.
 //!
-//! A mesh counts by its convex hull, as in MuJoCo and Bullet, and weighs as much as it holds.
+//! A mesh collides as its convex hull, as in MuJoCo and Bullet; its mass follows from its volume.
 
 mod bulk;
 mod read;

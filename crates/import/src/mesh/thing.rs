@@ -1,4 +1,4 @@
-//! A mesh by itself: one body that stands freely.
+//! Import of a mesh file as one free body.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -13,19 +13,19 @@ use pushplan::geometry::convex_parts;
 use super::bulk::{Counted, Mesh};
 use super::read::load;
 
-/// The largest and the smallest thing that is pushed about on a table, metres along its longest side.
+/// Minimum and maximum length of an object on a table, metres along its longest side.
 const SIZES: [f64; 2] = [0.004, 2.0];
 
-/// What is likely: a thing that is held in a hand, metres.
+/// Likely length of an object: it fits in a hand, metres.
 const LIKELY: [f64; 2] = [0.02, 0.6];
 
 /// Units of drawings, metres.
 const UNITS: [(&str, f64); 4] = [("mm", 1e-3), ("cm", 1e-2), ("m", 1.0), ("in", 0.0254)];
 
-/// A mesh that fills more of its hull than this is taken as that.
+/// Fill ratio of the convex hull above which a mesh counts as convex.
 const CONVEX: f64 = 0.97;
 
-/// The language of a mesh file by the end of its name.
+/// Returns the language of a mesh file by its extension.
 pub(crate) fn language(path: &Path) -> Option<Language> {
     match path.extension()?.to_string_lossy().to_lowercase().as_str() {
         "stl" => Some(Language::Stl),
@@ -34,7 +34,7 @@ pub(crate) fn language(path: &Path) -> Option<Language> {
     }
 }
 
-/// A mesh as a body, with notes.
+/// Reads a mesh as a body, with notes.
 pub(crate) fn model(path: &Path, _: Language, unit: f64) -> Result<(Model, Vec<String>), Faults> {
     let file = path.display().to_string();
     let fault = |message: String, advice: String| Fault::of_file(&file, message, advice);
@@ -94,7 +94,7 @@ pub(crate) fn model(path: &Path, _: Language, unit: f64) -> Result<(Model, Vec<S
     Ok((Model { name, files: vec![file], bodies, ..Model::default() }, notes))
 }
 
-/// Convex parts of a mesh that is far from convex.
+/// Decomposes a mesh that is far from convex into convex parts.
 fn parts(mesh: &Mesh) -> Option<Vec<Mesh>> {
     if !mesh.is_closed() || mesh.volume > CONVEX * mesh.hull_volume() {
         return None;

@@ -11,15 +11,15 @@ use crate::read::parsed;
 use crate::xml::Source;
 use pushplan::asset::Fault;
 
-/// The most bodies that a model has with those that it attaches.
+/// Maximum number of bodies of a model, including attached bodies.
 const MOST: usize = 5000;
 
-/// The models that a file names, or what is wrong with them.
+/// Models that a file names, or their faults.
 #[derive(Default)]
 pub(super) struct Models(HashMap<String, Result<Model, Vec<Fault>>>);
 
 impl Models {
-    /// Reads the file that an element `model` names; what is wrong with it matters where it is attached.
+    /// Reads the file named by a `model` element; its faults are reported where it is attached.
     pub fn add<'a>(&mut self, source: &mut Source<'a>, node: Node<'a, 'a>, files: &Files) {
         let Some(file) = node.attribute("file") else {
             source.fault(node, "this model names no file", "name its `file`");
@@ -41,7 +41,7 @@ impl Models {
         let shown = path.display().to_string();
         let found = parsed(&text, &shown, &inner);
         let found = found.map(|(mut model, _, notes)| {
-            // Of those of the file itself, which no body has.
+            // Notes of the file itself, which belong to no body.
             model.bodies[0].notes.extend(notes);
             let first = source.ledger.more_files(&model.files);
             let moved = |place: &mut Place| place.file += first;
@@ -58,7 +58,8 @@ impl Models {
         self.0.insert(name.unwrap_or_default(), found.map_err(|faults| faults.0));
     }
 
-    /// Takes the bodies that an element `attach` names into `model`, below its body `onto` and at `pose`.
+    /// Copies the bodies named by an `attach` element into `model`, below its body `onto` and at
+    /// `pose`.
     pub fn attach<'a>(
         &self,
         source: &mut Source<'a>,
@@ -92,7 +93,7 @@ impl Models {
             return source.fault(node, message, "attach fewer");
         }
         let prefix = node.attribute("prefix").unwrap_or_default();
-        // It hangs here as it hangs there.
+        // The body keeps its pose relative to its former parent.
         let there = other.bodies[top]
             .parent
             .map_or_else(Isometry3::identity, |parent| other.bodies[parent].pose);

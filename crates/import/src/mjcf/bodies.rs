@@ -1,4 +1,4 @@
-//! The tree of bodies.
+//! Tree of bodies.
 
 use nalgebra::{Isometry3, Point3, Vector3};
 use roxmltree::Node;
@@ -11,23 +11,24 @@ use super::geoms::Context;
 
 const TURNS: [&str; 6] = ["axisangle", "euler", "pos", "quat", "xyaxes", "zaxis"];
 
-/// Elements of a body that nothing touches or moves.
+/// Elements of a body that affect neither contact nor motion.
 const UNSEEN: [&str; 3] = ["site", "camera", "light"];
 
-/// Where something is read: below which body, at which pose, with which class.
+/// Context of an element: parent body, pose and default class.
 #[derive(Clone, Copy)]
 struct Within<'a> {
     body: usize,
     pose: Isometry3<f64>,
     class: Option<&'a str>,
-    /// Bodies and frames around it.
+    /// Number of bodies and frames around it.
     depth: usize,
 }
 
-/// Bodies and frames in each other: more than any robot has joints, and less than a stack holds.
+/// Maximum nesting depth of bodies and frames: more than any robot has joints, and safe for the
+/// stack.
 const DEEPEST: usize = 200;
 
-/// Takes in an element `worldbody`.
+/// Reads a `worldbody` element.
 pub(super) fn world<'a>(
     source: &mut Source<'a>,
     context: &Context<'a>,
@@ -44,7 +45,7 @@ pub(super) fn world<'a>(
     );
 }
 
-/// Reads what is in a body or frame.
+/// Reads the content of a body or frame.
 fn inside<'a>(
     source: &mut Source<'a>,
     context: &Context<'a>,
@@ -91,13 +92,13 @@ fn inside<'a>(
                 source.fault(child, message, FLATTEN);
             }
         }
-        // What is wrong with a body matters to those who want it.
+        // Faults of a body matter only if the body is imported.
         model.bodies[within.body].faults.extend(source.ledger.since(before));
         model.bodies[within.body].notes.extend(source.ledger.notes_since(noted));
     }
 }
 
-/// How to get rid of what MuJoCo's compiler computes.
+/// Advice to let MuJoCo's compiler expand an element.
 pub(super) const FLATTEN: &str = "have MuJoCo write it out: `python3 -c \"import mujoco; \
     mujoco.mj_saveLastXML('flat.xml', mujoco.MjModel.from_xml_path('FILE'))\"`, or take it out";
 
@@ -146,7 +147,7 @@ fn body<'a>(
     let pose = within.pose * pose;
     let depth = within.depth + 1;
     inside(source, context, node, Within { body: index, pose, class, depth }, model);
-    // What is stated counts only where the compiler says so.
+    // Whether a stated inertia is used depends on the compiler's settings.
     match (context.compiler.from_geoms, &model.bodies[index].inertial) {
         (Some(true), _) => model.bodies[index].inertial = None,
         (Some(false), None) => {
@@ -157,7 +158,8 @@ fn body<'a>(
     }
 }
 
-/// The tool that the arm of an exported plan holds, wherever: upright in its own frame.
+/// Reads the tool that the arm of an exported plan holds; it is upright in its own frame at any
+/// pose.
 fn held<'a>(
     source: &mut Source<'a>,
     context: &Context<'a>,
@@ -207,7 +209,7 @@ fn inertial<'a>(
     }
 }
 
-/// How a joint lets its body move.
+/// Returns the motion that a joint allows.
 fn joint<'a>(
     source: &mut Source<'a>,
     context: &Context<'a>,

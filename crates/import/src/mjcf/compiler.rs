@@ -1,4 +1,4 @@
-//! What the compiler and the options of a file say.
+//! Compiler settings and options of a file.
 
 use nalgebra::UnitQuaternion;
 use roxmltree::Node;
@@ -8,26 +8,27 @@ use crate::xml::Source;
 
 use super::defaults::{Defaults, Lookup};
 
-/// How numbers of a file are meant.
+/// Interpretation of the numbers in a file.
 #[derive(Clone, Debug)]
 pub(super) struct Compiler {
-    /// Whether angles are degrees.
+    /// Whether angles are in degrees.
     pub degrees: bool,
-    /// The axes of Euler angles.
+    /// Axes of Euler angles.
     pub letters: [char; 3],
-    /// Whether masses follow from geoms even where a body states one; none: only where it does not.
+    /// Whether masses follow from geoms even if a body states a mass; `None`: only if it states
+    /// none.
     pub from_geoms: Option<bool>,
-    /// The groups of geoms that have mass, where a body states none.
+    /// Range of the groups of geoms that have mass, for bodies that state no mass.
     pub groups: [f64; 2],
-    /// The folder of meshes.
+    /// Folder of meshes.
     pub meshes: String,
-    /// Whether names of files lose their folders.
+    /// Whether folders are stripped from file names.
     pub strip: bool,
-    /// Whether meshes count for what they enclose, as an old attribute has it.
+    /// Whether the volume of a mesh is its enclosed volume, as set by an old attribute.
     pub exact: bool,
 }
 
-/// Attributes of the compiler that change nothing that is read here.
+/// Attributes of the compiler that do not affect the import.
 const HARMLESS: [&str; 14] = [
     "alignfree",
     "autolimits",
@@ -60,7 +61,7 @@ impl Default for Compiler {
 }
 
 impl Compiler {
-    /// Takes in an element `compiler`.
+    /// Reads a `compiler` element.
     pub fn read<'a>(&mut self, source: &mut Source<'a>, node: Node<'a, 'a>) {
         for attribute in node.attributes() {
             let (name, value) = (attribute.name(), attribute.value());
@@ -99,12 +100,12 @@ impl Compiler {
         }
     }
 
-    /// An angle of the file in radians.
+    /// Converts an angle of the file to radians.
     pub fn angle(&self, value: f64) -> f64 {
         if self.degrees { value.to_radians() } else { value }
     }
 
-    /// The turn that an element states; none, with a fault, if it cannot be one.
+    /// Returns the rotation that an element states; `None` with a fault if it is invalid.
     pub fn turn<'a>(
         &self,
         source: &mut Source<'a>,
@@ -133,7 +134,7 @@ impl Compiler {
                 return None;
             };
             turn = found;
-            // An element's own turn goes before one of its class, of whatever kind.
+            // A rotation of the element itself takes precedence over one of its class, of any kind.
             if element.node.attribute_node(name).is_some() {
                 break;
             }

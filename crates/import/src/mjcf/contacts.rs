@@ -1,4 +1,4 @@
-//! Pairs of geoms that touch by their own rules.
+//! Explicit contact pairs and exclusions.
 
 use roxmltree::Node;
 
@@ -8,7 +8,7 @@ use crate::xml::{Source, elements};
 use super::defaults::Lookup;
 use super::geoms::Context;
 
-/// Takes in an element `contact`.
+/// Reads a `contact` element.
 pub(super) fn pairs<'a>(
     source: &mut Source<'a>,
     context: &Context<'a>,

@@ -6,24 +6,24 @@ use roxmltree::{Attribute, Node};
 
 use crate::xml::{Source, elements};
 
-/// The class of elements that name none.
+/// Class of elements that name none.
 const MAIN: &str = "main";
 
-/// Deepest nesting of classes, less than a stack holds.
+/// Maximum nesting depth of classes, safe for the stack.
 const DEEPEST: usize = 200;
 
-/// An element whose attributes are looked for, with the class that its body gives to what names
-/// none.
+/// Element whose attributes are looked up, with the default class that its body sets for elements
+/// without a class.
 #[derive(Clone, Copy)]
 pub(super) struct Lookup<'a, 'c> {
     pub node: Node<'a, 'a>,
     pub class: Option<&'c str>,
 }
 
-/// The attributes that classes give to elements which do not state them.
+/// Default attributes by class.
 #[derive(Default)]
 pub(super) struct Defaults<'a> {
-    /// By name: the class that it goes on from, and its attributes by element and name.
+    /// Parent class and attributes of every class, by class name; attributes by element and name.
     classes: HashMap<&'a str, Class<'a>>,
 }
 
@@ -34,7 +34,7 @@ struct Class<'a> {
 }
 
 impl<'a> Defaults<'a> {
-    /// Takes in an element `default` and those in it.
+    /// Reads a `default` element and the nested ones.
     pub fn read(&mut self, source: &mut Source<'a>, node: Node<'a, 'a>, parent: Option<&'a str>) {
         source.only(node, &[&["class"]]);
         let name = match (node.attribute("class"), parent) {
@@ -66,15 +66,15 @@ impl<'a> Defaults<'a> {
         }
     }
 
-    /// The attribute `name` of an element: its own, or that of its class, of the class that this goes
-    /// on from, and so on.
+    /// Returns the attribute `name` of an element: its own, or inherited from its class or the
+    /// nearest parent class that has it.
     pub fn find(&self, element: Lookup<'a, '_>, name: &str) -> Option<Attribute<'a, 'a>> {
         let Lookup { node, class } = element;
         if let Some(own) = node.attribute_node(name) {
             return Some(own);
         }
         let tag = node.tag_name().name();
-        // A free joint takes nothing from joints, nor has a body any defaults.
+        // A free joint does not inherit from `joint`, and bodies have no defaults.
         let mut class = Some(node.attribute("class").or(class).unwrap_or(MAIN));
         while let Some(found) = class.and_then(|class| self.classes.get(class)) {
             if let Some(value) = found.values.get(&(tag, name)) {
@@ -85,7 +85,7 @@ impl<'a> Defaults<'a> {
         None
     }
 
-    /// Notes a class that does not exist.
+    /// Reports a class that does not exist.
     pub fn check(&self, source: &mut Source<'a>, node: Node<'a, 'a>, attribute: &str) {
         let Some(named) = node.attribute_node(attribute) else { return };
         if named.value() != MAIN && !self.classes.contains_key(named.value()) {

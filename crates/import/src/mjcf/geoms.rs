@@ -1,4 +1,4 @@
-//! Geoms: one solid each.
+//! Geoms, each of which becomes one solid.
 
 use std::collections::HashSet;
 
@@ -13,10 +13,10 @@ use super::compiler::Compiler;
 use super::defaults::{Defaults, Lookup};
 use super::meshes::Meshes;
 
-/// Density of a geom that states neither mass nor density, kg/m^3: MuJoCo's, that of water.
+/// Density of a geom that states neither mass nor density, kg/m^3: MuJoCo's default, water.
 const DENSITY: f64 = 1000.0;
 
-/// Friction value of a geom that states none: MuJoCo's.
+/// Friction value of a geom that states none: MuJoCo's default.
 const FRICTION: f64 = 1.0;
 
 /// Attributes that are read.
@@ -45,7 +45,7 @@ const READ: [&str; 22] = [
     "hfield",
 ];
 
-/// Attributes that change only how contacts give way, or what is seen.
+/// Attributes that affect only contact softness or appearance.
 const HARMLESS: [&str; 11] = [
     "fitscale",
     "fluidcoef",
@@ -60,20 +60,20 @@ const HARMLESS: [&str; 11] = [
     "user",
 ];
 
-/// What is needed besides a geom's element to read it.
+/// Context needed to read a geom's element.
 pub(super) struct Context<'a> {
     pub compiler: Compiler,
     pub defaults: Defaults<'a>,
-    /// Those that geoms name.
+    /// Meshes that geoms name.
     pub meshes: Meshes<'a>,
-    /// Those that are attached.
+    /// Models that the file attaches.
     pub models: Models,
-    /// Names of geoms that touch what a pair says.
+    /// Names of geoms in explicit contact pairs.
     pub paired: HashSet<&'a str>,
 }
 
 impl<'a> Context<'a> {
-    /// The pose of an element in its parent's frame; none, with a fault, if it cannot be one.
+    /// Returns the pose of an element in its parent's frame; `None` with a fault if it is invalid.
     pub fn pose(&self, source: &mut Source<'a>, element: Lookup<'a, '_>) -> Option<Isometry3<f64>> {
         let position = match self.defaults.find(element, "pos") {
             Some(position) => source.numbers::<3>(position)?,
@@ -83,7 +83,8 @@ impl<'a> Context<'a> {
         Some(Isometry3::from_parts(Translation3::from(position), turn))
     }
 
-    /// The solid of a geom whose parent stands at `parent`; none, with faults, if it has none.
+    /// Returns the solid of a geom whose parent has the pose `parent`; `None` with faults if it has
+    /// none.
     pub fn solid(
         &self,
         source: &mut Source<'a>,
@@ -104,7 +105,7 @@ impl<'a> Context<'a> {
         if let Some(ends) = find("fromto") {
             let [a, b, c, d, e, f] = source.numbers(ends)?;
             let (from, to) = (Vector3::new(a, b, c), Vector3::new(d, e, f));
-            // MuJoCo's z axis points back, from the second point to the first.
+            // MuJoCo's z axis points from the second point to the first.
             let along = from - to;
             let turn = turns::z_axis(along.into()).unwrap_or_else(UnitQuaternion::identity);
             pose = Isometry3::from_parts(Translation3::from((from + to) / 2.0), turn);
@@ -166,7 +167,7 @@ impl<'a> Context<'a> {
             (None, Some(density)) => Weight::Density(source.number(density)?),
             (None, None) => Weight::Density(DENSITY),
         };
-        // What is hollow weighs as its surface does.
+        // The mass of a shell follows from its surface area.
         let is_shell =
             hollow.is_some() || matches!(outline, Outline::Mesh(mesh) if mesh.volume == 0.0);
         let weight = match weight {

@@ -1,4 +1,4 @@
-//! Meshes that geoms name: of files, or with their vertices in the file itself.
+//! Meshes that geoms name: from files, or with vertices in the file itself.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -17,7 +17,7 @@ use crate::xml::Source;
 use super::defaults::Lookup;
 use super::geoms::Context;
 
-/// Elements `mesh` under their names, and those that are read already.
+/// Elements `mesh` by name, and a cache of the meshes already read.
 pub(super) struct Meshes<'a> {
     files: &'a Files,
     stated: HashMap<String, Node<'a, 'a>>,
@@ -25,17 +25,17 @@ pub(super) struct Meshes<'a> {
 }
 
 impl<'a> Meshes<'a> {
-    /// No meshes, with the files that they may be in.
+    /// Creates an empty collection; mesh files are looked up in `files`.
     pub fn of(files: &'a Files) -> Self {
         Self { files, stated: HashMap::new(), read: RefCell::default() }
     }
 
-    /// One more.
+    /// Adds a mesh element.
     pub fn add(&mut self, name: &str, mesh: Node<'a, 'a>) {
         self.stated.insert(name.to_owned(), mesh);
     }
 
-    /// The outline of the mesh of that name; none, with a fault, if there is none.
+    /// Returns the outline of the mesh with this name; `None` with a fault if there is none.
     pub fn outline(
         &self,
         source: &mut Source<'a>,
@@ -119,7 +119,7 @@ impl<'a> Meshes<'a> {
             }
             (None, None) => return Some(Outline::Other("a mesh without vertices".to_owned())),
         };
-        // A mirrored mesh is inside out.
+        // Mirroring turns a mesh inside out.
         if scale.iter().product::<f64>() < 0.0 {
             faces.iter_mut().for_each(|face| face.swap(1, 2));
         }

@@ -1,8 +1,8 @@
-//! MJCF, the files of MuJoCo.
+//! MJCF, the format of MuJoCo.
 //!
-//! Read as MuJoCo reads them: classes of defaults, angles and Euler letters of the compiler, frames,
-//! masses of geoms from densities where a body states none. What a program would have to compute
-//! first (`replicate`, composites) is a fault that says how to have MuJoCo do it.
+//! Files are read as in MuJoCo: classes of defaults, angle unit and Euler sequence of the compiler,
+//! frames, and masses from the densities of geoms if a body states none. Elements that need a
+//! compiler (`replicate`, composites) are faults, with the advice to let MuJoCo expand them.
 
 mod attach;
 mod bodies;

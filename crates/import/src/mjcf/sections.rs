@@ -1,4 +1,4 @@
-//! The sections of a file.
+//! Sections of a file.
 
 use std::collections::HashSet;
 
@@ -17,13 +17,13 @@ use super::defaults::Defaults;
 use super::geoms::Context;
 use super::meshes::Meshes;
 
-/// Sections that do not affect how pushes end.
+/// Sections that do not affect the result of pushes.
 const HARMLESS: [&str; 4] = ["visual", "statistic", "size", "sensor"];
 
 /// Sections that move or hold bodies in ways that pushplan cannot express.
 const BEYOND: [&str; 5] = ["actuator", "equality", "tendon", "deformable", "extension"];
 
-/// The model of an element `mujoco`; none, with faults, if it cannot be read.
+/// Reads a `mujoco` element; returns `None` with faults if it cannot be read.
 pub(crate) fn model<'a>(
     source: &mut Source<'a>,
     root: Node<'a, 'a>,
@@ -39,7 +39,7 @@ pub(crate) fn model<'a>(
         models: Models::default(),
         paired: HashSet::new(),
     };
-    // Sections that others depend on come first, wherever they are.
+    // Sections that others depend on are read first, regardless of their order in the file.
     for section in elements(root) {
         match section.tag_name().name() {
             "compiler" => context.compiler.read(source, section),
@@ -55,7 +55,7 @@ pub(crate) fn model<'a>(
                 let names = ends.flat_map(|pair| ["geom1", "geom2"].map(|end| pair.attribute(end)));
                 context.paired.extend(names.flatten());
             }
-            // Whether there is an arm of ours; MuJoCo writes it last.
+            // Detects an exported arm early, because MuJoCo writes this section last.
             "custom" => custom(source, section, &mut model),
             _ => {}
         }
@@ -88,7 +88,7 @@ pub(crate) fn model<'a>(
 
 fn meshes<'a>(section: Node<'a, 'a>, context: &mut Context<'a>) {
     for mesh in elements(section).filter(|asset| asset.has_tag_name("mesh")) {
-        // A mesh without a name is called like its file.
+        // A mesh without a name has the stem of its file as name.
         let stem = || std::path::Path::new(mesh.attribute("file")?).file_stem()?.to_str();
         if let Some(name) = mesh.attribute("name").or_else(stem) {
             context.meshes.add(name, mesh);
@@ -96,7 +96,7 @@ fn meshes<'a>(section: Node<'a, 'a>, context: &mut Context<'a>) {
     }
 }
 
-/// Options that change how things move.
+/// Reports options that change the motion of bodies.
 fn option<'a>(source: &mut Source<'a>, option: Node<'a, 'a>) {
     gravity(source, option);
     for (name, what) in [("density", "the medium"), ("viscosity", "the medium"), ("wind", "wind")] {
@@ -116,7 +116,7 @@ fn option<'a>(source: &mut Source<'a>, option: Node<'a, 'a>) {
     }
 }
 
-/// Pushes are planned on a level table on earth.
+/// Reports gravity other than on a level table on earth.
 fn gravity<'a>(source: &mut Source<'a>, option: Node<'a, 'a>) {
     let Some(stated) = option.attribute_node("gravity") else { return };
     let Some([x, y, z]) = source.numbers(stated) else { return };
@@ -132,7 +132,7 @@ fn gravity<'a>(source: &mut Source<'a>, option: Node<'a, 'a>) {
     }
 }
 
-/// What `pushplan export` says there. Of goals places and headings are taken over.
+/// Reads data written by `pushplan export`; goals keep only positions and headings.
 fn custom<'a>(source: &mut Source<'a>, section: Node<'a, 'a>, model: &mut Model) {
     for text in elements(section).filter(|node| node.has_tag_name("text")) {
         let name = text.attribute("name").unwrap_or_default();

@@ -1,4 +1,4 @@
-//! The form of an entry that asks for something in a goal.
+//! Form of an entry that states a demand in a goal.
 
 use serde_json::Value as Json;
 
@@ -10,46 +10,46 @@ use crate::{
     task::{Demand, Goal},
 };
 
-/// One way to ask for something in a goal.
+/// Kind of demand that a goal can state.
 pub(in crate::asset::task) struct Ask {
-    /// The key that asks, and others that come with it.
+    /// Main key of the demand, followed by its additional keys.
     pub keys: &'static [Key],
-    /// Property of the object that is asked for.
+    /// Property of the object that the demand concerns.
     pub about: About,
-    /// Demand on an object, an index into the scene's objects, from the goal's node; `None` if a key is
-    /// faulty.
+    /// Reads the demand on an object (index into the scene's objects) from the goal's node; returns
+    /// `None` if a key is faulty.
     pub read: fn(&Node, usize, &Scene) -> Option<Demand>,
-    /// Keys of a demand of this kind in a file.
+    /// Returns the keys of a demand of this kind in a file.
     pub write: fn(&Demand, &Goal, &Scene) -> Option<Json>,
-    /// Notes faults that span several keys.
+    /// Reports faults that span several keys.
     pub check: fn(&Asked, &mut Ledger),
 }
 
-/// Property of the object that a demand is about: no goal asks for two places, or two headings.
+/// Property of the object that a demand concerns. No goal asks for two positions or two headings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(in crate::asset::task) enum About {
-    /// A place, with any heading or one that another key asks for.
+    /// Position, with any heading or a heading given by another key.
     Place,
-    /// Place and heading at once.
+    /// Position and heading at once.
     Pose,
-    /// A heading.
+    /// Heading.
     Turn,
-    /// A state that lever-ups bring about.
+    /// State reached by a lever-up.
     Lifted,
 }
 
-/// A goal whose keys are checked: its node, the name of its object, and the scene.
+/// Goal under check: its node, the name of its object, and the scene.
 pub(in crate::asset::task) struct Asked<'a> {
-    /// The goal.
+    /// Node of the goal.
     pub goal: &'a Node,
-    /// Name of its object.
+    /// Name of the goal's object.
     pub name: &'a Node,
-    /// The scene.
+    /// Node of the scene.
     pub scene: &'a Node,
 }
 
 impl<'a> Asked<'a> {
-    /// Returns the items of a list of the scene.
+    /// Returns the items of a list in the scene.
     pub fn section(&self, key: &str) -> &'a [Node] {
         self.scene.get(key).map(Node::items).unwrap_or_default()
     }

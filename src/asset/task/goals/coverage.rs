@@ -1,4 +1,4 @@
-//! Goals of coverage: how much of its own outline at a pose an object is to cover.
+//! Coverage goals: share of the object's outline at a goal pose that the object must cover.
 
 use serde_json::{Value as Json, json};
 
@@ -14,10 +14,10 @@ use crate::{
 
 use super::ask::{About, Ask};
 
-/// The share that Push-T asks for.
+/// Default share, as in Push-T.
 const SHARE: f64 = 0.95;
 
-/// Entry for a share of the object's own outline that is to be covered, and the pose of that outline.
+/// Entry for the covered share of the object's own outline, and the pose of that outline.
 pub(super) const COVERAGE: Ask = Ask {
     keys: &[Key::optional(
         "coverage",
@@ -49,14 +49,14 @@ pub(super) const COVERAGE: Ask = Ask {
     check: |_, _| {},
 };
 
-/// The coverage of a goal of `object`.
+/// Returns the coverage in a goal of `object`.
 fn covering(node: &Node, object: usize, scene: &Scene) -> Option<Box<Coverage>> {
     let share = number_or(node, "share", SHARE)?;
     let heading = angle(node, "heading_deg", 0.0)?;
     Coverage::of(scene, object, Pose { position: position(node)?, heading }, share)
 }
 
-/// As in a file.
+/// Returns the coverage as in a file.
 fn emitted(coverage: &Coverage) -> Json {
     let position = coverage.place.position;
     json!({

@@ -1,4 +1,4 @@
-//! Goals off the table: what is to fall over one of its edges.
+//! Goals of falling off the table, over any edge or a given one.
 
 use serde_json::{Value as Json, json};
 
@@ -14,13 +14,13 @@ use crate::{
 
 use super::ask::{About, Ask, Asked};
 
-/// Over any edge.
+/// Word for any edge.
 const ANY: &str = "any";
 
-/// The shortest part of an edge that may be asked for, metres.
+/// Minimum length of the part of an edge that a goal may name, metres.
 const SHORTEST: f64 = 0.02;
 
-/// Over which edge an object is to fall.
+/// Entry for the edge over which an object must fall.
 pub(super) const OFF_TABLE: Ask = Ask {
     keys: &[Key::optional(
         "off_table",
@@ -54,7 +54,7 @@ pub(super) const OFF_TABLE: Ask = Ask {
     check,
 };
 
-/// The fall of a goal of `object`.
+/// Returns the fall in a goal of `object`.
 fn fall(node: &Node, object: usize, scene: &Scene) -> Option<Box<Fall>> {
     let name = node.get("edge").unwrap_or(node).text()?;
     let over = Edge::ALL.into_iter().find(|edge| edge.name() == name);
@@ -72,7 +72,7 @@ fn span(node: &Node) -> Option<Span> {
     }
 }
 
-/// As in a file.
+/// Returns the fall as in a file.
 fn emitted(fall: &Fall) -> Json {
     let name = fall.over.map_or(ANY, Edge::name);
     match fall.between {
@@ -81,7 +81,7 @@ fn emitted(fall: &Fall) -> Json {
     }
 }
 
-/// Notes what is wrong with a fall.
+/// Reports the faults of a fall.
 fn check(asked: &Asked, ledger: &mut Ledger) {
     let Asked { goal, name, scene } = *asked;
     let Some(node) = goal.get("off_table") else { return };
@@ -107,7 +107,7 @@ fn check(asked: &Asked, ledger: &mut Ledger) {
     }
 }
 
-/// A part of an edge lies on the table, the smaller place first.
+/// Checks that a part of an edge lies on the table and that its limits are in order.
 fn check_part(between: &Node, edge: Option<&str>, scene: &Node, ledger: &mut Ledger) {
     let Some(Span { low, high }) = span(between) else { return };
     if high - low < SHORTEST {

@@ -1,4 +1,4 @@
-//! Goals of a side that is up.
+//! Goals of the side that faces up.
 
 use serde_json::json;
 
@@ -7,7 +7,7 @@ use crate::task::{Demand, Flipped};
 
 use super::ask::{About, Ask};
 
-/// Side on which the object rests.
+/// Entry for the side on which the object rests.
 pub(super) const FLIPPED: Ask = Ask {
     keys: &[Key::optional(
         "flipped",

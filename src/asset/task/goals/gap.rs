@@ -1,4 +1,4 @@
-//! Goals that are a relation between two things: touching, beside each other, clear of each other.
+//! Goals of the gap between two bodies: touching, side by side, or clear of each other.
 
 use serde_json::{Value as Json, json};
 
@@ -14,10 +14,10 @@ use crate::{
 
 use super::ask::{About, Ask, Asked};
 
-/// Limits are at least so far apart, metres: simulators themselves differ by millimetres.
+/// Minimum difference between the limits, metres, because even simulators differ by millimetres.
 const PLAY: f64 = 0.001;
 
-/// How far apart two things are to be.
+/// Entry for the distance between two bodies.
 pub(super) const GAP: Ask = Ask {
     keys: &[Key::optional(
         "gap",
@@ -56,7 +56,7 @@ pub(super) const GAP: Ask = Ask {
     check,
 };
 
-/// The gap of a goal of `object`.
+/// Returns the gap in a goal of `object`.
 fn gap(node: &Node, object: usize, scene: &Scene) -> Option<Box<Gap>> {
     let name = node.get("to")?.text()?;
     let obstacle = || scene.obstacles.iter().position(|obstacle| obstacle.name == name);
@@ -65,7 +65,7 @@ fn gap(node: &Node, object: usize, scene: &Scene) -> Option<Box<Gap>> {
     Gap::between(scene, object, to, limits)
 }
 
-/// As in a file.
+/// Returns the gap as in a file.
 fn emitted(gap: &Gap, scene: &Scene) -> Json {
     let mut json = json!({"to": gap.name(scene)});
     if gap.min > 0.0 || gap.max.is_infinite() {
@@ -77,7 +77,7 @@ fn emitted(gap: &Gap, scene: &Scene) -> Json {
     json
 }
 
-/// Notes what is wrong with a gap.
+/// Reports the faults of a gap.
 fn check(asked: &Asked, ledger: &mut Ledger) {
     let Some(gap) = asked.goal.get("gap") else { return };
     let bodies = [asked.section("objects"), asked.section("obstacles")];

@@ -9,7 +9,7 @@ use crate::scene::Scene;
 use crate::task::Goal;
 use crate::task::demand::Group;
 
-/// Number of objects that reach the goal.
+/// Minimum number of objects that must reach the goal.
 pub(super) const AT_LEAST: Key = Key::optional(
     "at_least",
     Value::Count(Range {
@@ -21,7 +21,7 @@ pub(super) const AT_LEAST: Key = Key::optional(
     "How many of the `objects` must reach the goal, whichever they are; by default all.",
 );
 
-/// Returns goals of the objects of one entry, or the one goal that so many of them reach theirs.
+/// Returns the goals of the objects of one entry, or one group goal if `at_least` is given.
 pub(super) fn grouped(goal: &Node, members: Vec<Goal>) -> Option<Vec<Goal>> {
     match goal.get("at_least") {
         Some(node) => Some(vec![Group::of(members, node.number()? as usize)?]),
@@ -29,7 +29,7 @@ pub(super) fn grouped(goal: &Node, members: Vec<Goal>) -> Option<Vec<Goal>> {
     }
 }
 
-/// Returns a group as in a file, `entry` being what one goal is.
+/// Returns a group as in a file; `entry` writes the goal of one member.
 pub(super) fn emitted(
     group: &Group,
     scene: &Scene,
@@ -43,7 +43,7 @@ pub(super) fn emitted(
     Some(Json::Object(keys))
 }
 
-/// Notes a number without objects, or more than there are.
+/// Reports `at_least` without objects, or above their number.
 pub(super) fn check(goal: &Node, ledger: &mut Ledger) {
     let Some(node) = goal.get("at_least") else { return };
     let Some(names) = goal.get("objects").map(Node::items) else {

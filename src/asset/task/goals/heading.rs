@@ -9,10 +9,10 @@ use crate::task::{Demand, Facing};
 
 use super::ask::{About, Ask};
 
-/// Tolerance of a heading where none is stated, degrees.
+/// Default tolerance of a heading, degrees.
 pub(super) const HEADING_TOLERANCE: f64 = 10.0;
 
-/// A heading in the world, or in the frame of an object.
+/// Entry for a heading in the world or in the frame of an object.
 pub(super) const HEADING: Ask = Ask {
     keys: &[
         Key::optional("heading_deg", ANGLE, "Wanted heading, degrees; by default any."),

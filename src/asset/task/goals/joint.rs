@@ -1,4 +1,4 @@
-//! Goals of how far a joint has come.
+//! Goals of a joint's displacement.
 
 use crate::asset::node::Node;
 use crate::asset::spec::{ANGLE, Key, SHIFT_LIMIT};
@@ -14,7 +14,7 @@ use crate::{
 use super::ask::{About, Ask, Asked};
 use super::heading::HEADING_TOLERANCE;
 
-/// Turn of a revolute joint, which files hold as the heading that it leads to.
+/// Entry for the rotation of a revolute joint, stored as the resulting heading.
 pub(super) const TURN: Ask = Ask {
     keys: &[Key::optional(
         "joint_deg",
@@ -33,7 +33,7 @@ pub(super) const TURN: Ask = Ask {
     check: |asked, ledger| has_joint(asked, ("joint_deg", "revolute"), ledger),
 };
 
-/// Shift of a prismatic joint, which files hold as the position that it leads to.
+/// Entry for the displacement of a prismatic joint, stored as the resulting position.
 pub(super) const SHIFT: Ask = Ask {
     keys: &[Key::optional(
         "joint",
@@ -51,7 +51,7 @@ pub(super) const SHIFT: Ask = Ask {
     check: |asked, ledger| has_joint(asked, ("joint", "prismatic"), ledger),
 };
 
-/// An object whose joint is to come somewhere has one of the right kind.
+/// Checks that the object of a joint goal has exactly one movable joint, of the right kind.
 fn has_joint(asked: &Asked, (key, kind): (&str, &str), ledger: &mut Ledger) {
     let Some(node) = asked.goal.get(key) else { return };
     let joints = asked.section("joints");
@@ -86,7 +86,7 @@ fn has_joint(asked: &Asked, (key, kind): (&str, &str), ledger: &mut Ledger) {
     }
 }
 
-/// A joint does not come farther than its limits.
+/// Checks that the wanted displacement is within the limits of the joint.
 fn within_limits(wanted: &Node, joint: &Node, asked: &Asked, ledger: &mut Ledger) {
     let limits = joint.get("limits").or_else(|| joint.get("limits_deg"));
     let [Some(low), Some(high)] =
@@ -97,7 +97,7 @@ fn within_limits(wanted: &Node, joint: &Node, asked: &Asked, ledger: &mut Ledger
     let to_world = moving(joint, asked.section("objects"), asked.section("obstacles")).is_some();
     let between = joint.get("between").map(Node::items).unwrap_or_default();
     let first = between.first().and_then(Node::text) == asked.name.text();
-    // Limits are those of the second object against the first.
+    // Limits describe the motion of the second object relative to the first.
     let (low, high) = if first && !to_world { (-high, -low) } else { (low, high) };
     if wanted.number().is_some_and(|wanted| wanted < low || wanted > high) {
         let name = asked.name.text().unwrap_or("?");
@@ -106,8 +106,8 @@ fn within_limits(wanted: &Node, joint: &Node, asked: &Asked, ledger: &mut Ledger
     }
 }
 
-/// Where an object is once its joint has come this far, radians or metres: in the world, or in the frame
-/// of the object that it is joined to.
+/// Returns the pose of an object after its joint has moved by `by`, radians or metres. The pose is
+/// in the world, or in the frame of the object at the other end of the joint.
 fn come(scene: &Scene, object: usize, by: f64) -> Option<(Pose, Option<usize>)> {
     let start = scene.objects[object].pose;
     if let Some(mount) = scene.mounts.iter().find(|mount| mount.object == object) {
@@ -117,7 +117,7 @@ fn come(scene: &Scene, object: usize, by: f64) -> Option<(Pose, Option<usize>)> 
     let mut joints = scene.joints.iter().filter(|joint| moves(&joint.kind));
     let joint = joints.find(|joint| joint.between.contains(&object))?;
     let [first, second] = joint.between;
-    // Joints count how far the second object has come against the first.
+    // Displacements describe the motion of the second object relative to the first.
     let (other, by) = if second == object { (first, by) } else { (second, -by) };
     let frame = scene.objects[other].pose.inverse() * start;
     let there = match joint.kind {

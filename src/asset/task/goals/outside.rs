@@ -11,7 +11,7 @@ use crate::task::{Demand, Outside};
 
 use super::ask::{About, Ask, Asked};
 
-/// An obstacle that the object leaves.
+/// Entry for an obstacle that the object must leave.
 pub(super) const OUTSIDE: Ask = Ask {
     keys: &[Key::optional(
         "outside",
@@ -32,7 +32,7 @@ pub(super) const OUTSIDE: Ask = Ask {
     check,
 };
 
-/// Notes an obstacle that is not there.
+/// Reports an unknown obstacle.
 fn check(asked: &Asked, ledger: &mut Ledger) {
     let Some((node, name)) = asked.goal.get("outside").and_then(|node| Some((node, node.text()?)))
     else {

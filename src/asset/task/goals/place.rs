@@ -1,4 +1,4 @@
-//! Goals at a point.
+//! Goals of a position.
 
 use serde_json::json;
 

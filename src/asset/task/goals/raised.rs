@@ -7,7 +7,7 @@ use crate::task::{Demand, Raised};
 
 use super::ask::{About, Ask};
 
-/// Height to which an edge is lifted.
+/// Entry for the height to which an edge is lifted.
 pub(super) const RAISED: Ask = Ask {
     keys: &[Key::optional(
         "raised",

@@ -1,4 +1,4 @@
-//! Goals in a region, or outside of one.
+//! Goals inside or outside a region.
 
 use serde_json::json;
 
@@ -17,7 +17,7 @@ const OUTSIDE: Key = Key::optional(
     "Whether the centre must lie outside of it instead; default false.",
 );
 
-/// An area for the centre.
+/// Entry for a region that must contain the centre, or exclude it.
 pub(super) const REGION: Ask = Ask {
     keys: &[Key::optional(
         "region",

@@ -1,4 +1,4 @@
-//! Bodies, joints and tables of MuJoCo's files.
+//! Bodies, joints and tables in MJCF files.
 
 use super::{As::Objects as O, BOX, Row, edited, free, mjcf};
 

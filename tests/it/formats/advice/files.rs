@@ -5,10 +5,10 @@ use pushplan_import::Reading;
 use super::super::kinds::all;
 use super::super::meshes::{cube, taken_of};
 
-/// Files by their names, the first of which is imported with this root.
+/// Files by name, of which the first is imported, and the root folder.
 type Folder<'a> = (&'a [(&'a str, &'a str)], Option<&'a str>);
 
-/// Whether the first of some files is refused with this advice, and taken once that is followed.
+/// Returns `true` if the first file is refused with this advice, and accepted once it is followed.
 fn helped(refused: Folder<'_>, advice: &str, followed: Folder<'_>) {
     let solid = cube(60.0);
     let taken = |(files, root): Folder<'_>| {

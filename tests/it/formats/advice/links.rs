@@ -1,4 +1,4 @@
-//! Links and joints of ROS.
+//! Links and joints in URDF files.
 
 use pushplan_import::Wanted;
 
@@ -101,7 +101,7 @@ fn links_and_joints_of_urdf_become_what_the_advice_says() {
         (gazebo("<kinematic>1</kinematic>"), "take it out", &[("<kinematic>1</kinematic>", "")]),
     ];
     edited(O, rows);
-    // Or without <inertial>, and of a material.
+    // Without <inertial>, a density is required.
     let wood = Wanted { density: Some(700.0), ..Wanted::default() };
     for (text, advice) in [
         (parted(""), "such as --density 700"),

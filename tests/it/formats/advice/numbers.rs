@@ -1,4 +1,4 @@
-//! Numbers and names of MuJoCo's files.
+//! Numbers and names in MJCF files.
 
 use super::{As::Objects as O, BOX, Row, edited, free, mesh, with};
 
@@ -119,7 +119,7 @@ fn numbers_and_names_of_mjcf_are_corrected_as_the_advice_says() {
             "write `0 0 -9.81`",
             &[("'0 0 0'", "'0 0 -9.81'")],
         ),
-        // The table stood upright.
+        // The table is upright.
         (
             with("<option gravity='0 -9.81 0'/>", BOX)
                 .replace("'plane'", "'plane' zaxis='0 1 0'")
