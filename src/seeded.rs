@@ -1,10 +1,10 @@
-//! Seeded random numbers: one generator for each item, whatever else is drawn.
+//! Seeded random numbers: one independent generator for each item.
 
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
-/// The generator of item `index` under `seed`, the same however many items are drawn, in
-/// whatever order and on whichever thread.
+/// Returns the generator of item `index` under `seed`. It does not depend on the number of items,
+/// on their order or on the thread.
 pub fn generator(seed: u64, index: u64) -> Pcg64 {
     Pcg64::seed_from_u64(mix(mix(seed).wrapping_add(index)))
 }
