@@ -16,7 +16,7 @@
 //! where `x₀` is the initial state, `d` the distance of the object from the goal in units of its
 //! tolerance, and `f_θ` the state at rest after the pushes `u`. The distance counts the position,
 //! and the heading if the goal states one. A push has a start, a direction, a length and a speed.
-//! Among plans of different length, the shortest that passes is taken.
+//! The shortest plan that passes is taken.
 //!
 //! If a [`Task`] allows it, a flat object is levered up, turned over or lifted out of a confined
 //! place. A lever-up is a [`Step`] of a [`Plan`] like a push, and a plan may push, lever and push

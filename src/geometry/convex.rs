@@ -10,7 +10,7 @@ const VOXELS: u32 = 48;
 /// Maximum number of parts.
 const MOST: u32 = 24;
 
-/// Concavity, as a share of the whole, below which a part is not divided further.
+/// Concavity below which a part is not divided further, relative to the whole.
 const CONCAVITY: f64 = 0.02;
 
 /// Corners, metres, and triangles as indices of corners.

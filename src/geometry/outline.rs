@@ -1,9 +1,9 @@
 //! Decomposition of the union of rectangles into a few rectangles, such that each straight stretch
 //! of the boundary belongs entirely to one of them.
 //!
-//! All rectangles have sides along the axes. Their edges divide the plane into a grid. Among the
-//! largest rectangles that fit into the union, those needed to hold every stretch of its boundary
-//! from end to end, and every cell, are taken.
+//! The sides of all rectangles lie along the axes, and their edges divide the plane into a grid.
+//! The decomposition takes the largest rectangles in the union, as far as they are needed to hold
+//! every stretch of its boundary from end to end, and every cell.
 
 use super::Rim;
 use super::rim::corner;
@@ -14,7 +14,7 @@ const IN_LINE: f64 = 1e-4;
 /// An axis-aligned rectangle: its lower left and upper right corner, metres.
 pub type Extent = [[f64; 2]; 2];
 
-/// One rectangle of the decomposition.
+/// A rectangle of the decomposition.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutlinePiece {
     /// Extent of the rectangle.

@@ -22,7 +22,7 @@ const INSIDE: f64 = 1e-4;
 /// Minimum angle by which the outline turns at a corner, radians: one degree.
 const STRAIGHT: f64 = 0.0175;
 
-/// Deviation below which a rotated polygon coincides with itself, as a share of its size: corners
+/// Deviation below which a rotated polygon coincides with itself, relative to its size: corners
 /// given in whole millimetres are rounded.
 const ALIKE: f64 = 0.01;
 
@@ -179,8 +179,8 @@ impl ConvexPolygon {
 
     /// Returns the mean distance of the area's points from the origin, metres.
     pub fn mean_radius(&self) -> f64 {
-        // Over the triangle of a side and the origin, the integral of r is h / 3 times the integral
-        // of sqrt(h^2 + t^2) along the side, h being the side's distance.
+        // The integral of r over the triangle of a side and the origin is h / 3 times the integral
+        // of sqrt(h^2 + t^2) along the side. h is the side's distance from the origin.
         let whole: f64 = self
             .sides()
             .map(|(a, b)| {

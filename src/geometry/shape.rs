@@ -117,9 +117,9 @@ impl Footprint {
 
     /// Returns the mean distance of the shape's points from its centre, metres.
     ///
-    /// Under uniform pressure this is the ratio of the maximum friction torque to the maximum
-    /// friction force of the support, the length `c` of the ellipsoidal limit surface (Goyal, Ruina
-    /// and Papadopoulos 1991; Lynch and Howe 1992).
+    /// This is the length `c` of the ellipsoidal limit surface under uniform pressure: the ratio of
+    /// the maximum friction torque to the maximum friction force of the support (Goyal, Ruina and
+    /// Papadopoulos 1991; Lynch and Howe 1992).
     pub fn mean_radius(&self) -> f64 {
         match *self {
             Footprint::Disc { radius } => 2.0 * radius / 3.0,
