@@ -37,7 +37,7 @@ pub struct Network {
     strange: Option<Strange>,
 }
 
-/// A table fit and the forward pass for objects unlike those of the fit.
+/// A table fit and the forward pass for objects unlike the objects of the fit.
 #[derive(Clone)]
 struct Strange {
     fit: TableFit,
@@ -224,7 +224,7 @@ fn has_guesses(job: &Job) -> bool {
 
 /// Returns the job with guessed anchors and axes treated as known ones.
 ///
-/// With a guessed joint, neither analytic model nor projection restores the joint, and the errors
+/// Neither analytic model nor projection restores a guessed joint, and the errors
 /// of the network accumulate. On 60 dense and 60 sparse scenes of nine objects its error is 44.5
 /// and 60.4 mm; with the same geometry treated as known it is 21.0 and 39.0, as for the analytic
 /// model.
