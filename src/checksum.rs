@@ -1,4 +1,4 @@
-//! A checksum that finds damage to files; it proves no origin.
+//! A checksum that detects damage to files; it does not prove their origin.
 
 /// Returns the 64-bit FNV-1a checksum (Fowler, Noll and Vo; RFC 9923).
 pub fn checksum(bytes: &[u8]) -> u64 {

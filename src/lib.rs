@@ -49,7 +49,7 @@
 //! }
 //! ```
 //!
-//! Lengths are metres, angles radians, masses kilograms and times seconds throughout; the table is
+//! Lengths are metres, angles radians, masses kilograms and times seconds throughout. The table is
 //! the plane z = 0 with z up, and x points forward from the robot's base at the origin.
 //!
 //! # Dependencies

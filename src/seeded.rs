@@ -10,7 +10,7 @@ pub fn generator(seed: u64, index: u64) -> Pcg64 {
 }
 
 /// The finaliser of SplitMix64 (Steele, Lea and Flood 2014, doi:10.1145/2660193.2660195):
-/// neighbouring indices give unrelated generators.
+/// adjacent indices give unrelated generators.
 fn mix(value: u64) -> u64 {
     let mut z = value.wrapping_add(0x9E37_79B9_7F4A_7C15);
     z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);

@@ -94,7 +94,7 @@ impl<'a> Count<'a> {
 pub struct Cancel(Arc<AtomicBool>);
 
 impl Cancel {
-    /// Asks the job to stop.
+    /// Requests cancellation of the job.
     pub fn cancel(&self) {
         self.0.store(true, Ordering::Relaxed);
     }

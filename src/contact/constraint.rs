@@ -25,8 +25,8 @@ pub(super) enum Status {
     Open,
     /// Sticking: both equations are satisfied.
     Sticks,
-    /// Sliding: the first equation is satisfied. The second force is this share of the first: an edge of
-    /// the friction cone, or zero without a second equation.
+    /// Sliding: the first equation is satisfied. The second force is this share of the first: an
+    /// edge of the friction cone, or zero without a second equation.
     Slides(f64),
 }
 

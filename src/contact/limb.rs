@@ -16,13 +16,13 @@ pub(super) struct Limb {
     pub child: usize,
     /// Whether the child is the tie's first group, which changes the sign of its equations.
     pub turned: bool,
-    /// P.
+    /// Rows of the parent, P.
     pub on_parent: [Vector3<f64>; 2],
-    /// C.
+    /// Rows of the child, C.
     pub on_child: [Vector3<f64>; 2],
-    /// S.
+    /// Stiffness of the joint, S.
     pub stiffness: Matrix2<f64>,
-    /// The columns of W, and of W S.
+    /// Columns of W, and of W S.
     pub answer: [Vector3<f64>; 2],
     pub drawn: [Vector3<f64>; 2],
     /// Twists per force with the parent fixed.

@@ -1,4 +1,4 @@
-//! Frames of a single unjointed object with a limited number of contacts, solved side by side by
+//! Frames of a single unjointed object with at most two contacts, solved side by side by
 //! [`pushplan_kernel`]. The motions equal the results of [`super::prior`] to the last bit.
 
 use pushplan_kernel::Tally;

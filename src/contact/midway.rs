@@ -2,7 +2,7 @@
 //!
 //! Normals rotate while bodies move. With initial normals a solution is exact to first order only:
 //! a disc pushed by a disc leaves sideways, and each frame would push it slightly too straight.
-//! With the normals at half the frame the change of every gap is exact to second order, because
+//! Normals at half the frame make the change of every gap exact to second order, because
 //! (|q| - |p|) = (q - p) . (p + q) / (|p| + |q|) and the last factor is the direction at half the
 //! frame.
 

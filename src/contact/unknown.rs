@@ -20,8 +20,8 @@
 //!
 //! The first equation follows because displacements are the mean of both velocities times the time,
 //! which makes their errors second order in T. A group that travels less than half of v0 T has come
-//! to rest within the frame, at t = 2 |xi| / |v0| (lengths weighted by M); any other group moves
-//! all the time. Without forces this is the distance v0^2 / (2 mu g) of free sliding, for which
+//! to rest within the frame, at t = 2 |xi| / |v0| (lengths weighted by M). Other groups move for
+//! the whole frame. Without forces this is the distance v0^2 / (2 mu g) of free sliding, for which
 //! [`super::coast`] is exact.
 
 use nalgebra::{Matrix3, Vector3};

@@ -1,9 +1,9 @@
 //! Contact points of two footprints that touch or are close.
 //!
 //! Two flat faces meet in a line whose ends carry the contact. Up to two points are therefore
-//! returned, like in the manifold of a contact solver. This is not taken from parry because the
-//! graph needs both points also at a distance, with the same numbers in either argument order, and
-//! many of them for every step of every rollout.
+//! returned, as in the contact manifold of a physics engine. Parry is not used because the graph
+//! also needs both points at a distance, and the same numbers in either argument order. The
+//! computation is batched for every step of every rollout.
 
 use pushplan_kernel::Follows;
 

@@ -78,7 +78,7 @@ impl Pose {
 impl Mul for Pose {
     type Output = Pose;
 
-    #[allow(clippy::suspicious_arithmetic_impl)] // composing turns adds their angles
+    #[allow(clippy::suspicious_arithmetic_impl)] // composing rotations adds their angles
     /// Composes two poses: `b` is given in the frame of `a`, and `a * b` in the parent frame of
     /// `a`.
     #[inline]

@@ -19,10 +19,10 @@ const BEYOND: f64 = 1e-3;
 /// boundary belongs to one of its rectangles.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rim {
-    /// Stretches of the sides that face +x, +y, -x, -y, as ranges of the coordinate along the
-    /// side in the rectangle's frame, metres.
+    /// Exposed stretches of the sides that face +x, +y, -x, -y, as ranges of the coordinate along
+    /// the side in the rectangle's frame, metres.
     pub sides: [Vec<(f64, f64)>; 4],
-    /// The corners (+,+), (-,+), (-,-), (+,-).
+    /// Exposed corners: (+,+), (-,+), (-,-), (+,-).
     pub corners: [bool; 4],
 }
 

@@ -51,7 +51,7 @@ impl Outline {
         (0..self.count).map(|k| Side::new(corners[k], corners[(k + 1) % corners.len()]))
     }
 
-    /// Returns the signed distance of the corner nearest to the inner side of `side`, metres.
+    /// Returns the minimum signed distance of the corners from `side`, positive outside, metres.
     fn beyond(&self, side: &Side) -> f64 {
         let out = |corner: &Vector| side.out.dot(&(corner - side.from));
         self.corners().iter().map(out).fold(f64::INFINITY, f64::min)

@@ -26,17 +26,18 @@ pub const NOBODY: u32 = u32::MAX;
 pub struct Batch {
     /// Nodes, N.
     pub nodes: Vec<Node>,
-    /// [N, NODE_EVEN].
+    /// Even node features, [N, NODE_EVEN].
     pub node_even: Vec<f32>,
-    /// [N, NODE_ODD].
+    /// Odd node features, [N, NODE_ODD].
     pub node_odd: Vec<f32>,
-    /// [K, GIVEN_EVEN]; the parts of a tool share one row, see [`Given`].
+    /// Even features of bodies with prescribed motion, [K, GIVEN_EVEN]; the parts of a tool share
+    /// one row, see [`Given`].
     pub given_even: Vec<f32>,
-    /// [K, GIVEN_ODD].
+    /// Odd features of bodies with prescribed motion, [K, GIVEN_ODD].
     pub given_odd: Vec<f32>,
-    /// [R, RELATION_EVEN].
+    /// Even relation features, [R, RELATION_EVEN].
     pub relation_even: Vec<f32>,
-    /// [R, RELATION_ODD].
+    /// Odd relation features, [R, RELATION_ODD].
     pub relation_odd: Vec<f32>,
     /// Receiver of every relation as a node index, `[R]`.
     pub receivers: Vec<u32>,

@@ -25,7 +25,7 @@ pub(super) enum RelationKind {
         /// Displacement of the sender's point along the receiver's surface in the analytic model,
         /// metres.
         slip: f64,
-        /// Normal force over mu m g, the friction of the receiver with the table.
+        /// Normal force over mu m g, the table friction of the receiver.
         load: f64,
     },
     /// A joint between the bodies.

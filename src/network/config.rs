@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 pub struct Config {
     /// Hidden width: one half even, one half odd under mirroring.
     pub width: usize,
-    /// Propagation steps L. Two carry a push through a chain of three objects in both
-    /// directions, since the relation encoder already sees each pair.
+    /// Number of propagation steps, L. Two carry a push through a chain of three objects in both
+    /// directions, because the relation encoder already sees each pair.
     pub steps: usize,
 }
 

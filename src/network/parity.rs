@@ -3,8 +3,8 @@
 //! A hidden row is a function on the two-element group {as is, mirrored}, stored by its even and
 //! odd parts e and o. This is a group-equivariant network for the group of one reflection (Cohen
 //! and Welling 2016). A linear map that commutes with mirroring acts on e and o separately, at half
-//! the cost of a dense one; the rectifier acts on the two values e + o and e - o. Tensors are [2,
-//! M, h]: parity, rows, half the width.
+//! the cost of a dense one. The rectifier acts on the two values e + o and e - o. Tensors are
+//! [2, M, h]: parity, rows, half the width.
 
 use pulp::{Arch, Simd, WithSimd};
 

@@ -34,7 +34,7 @@ pub struct ErrorCard {
 pub struct Source {
     /// Source of the ground truth, with the version of a third-party engine.
     pub truth: String,
-    /// Seed of the episodes.
+    /// Random seed of the episodes.
     pub seed: u64,
     /// Number of episodes.
     pub episodes: u64,
@@ -53,7 +53,7 @@ pub struct PredictorCard {
     pub ranges: Ranges,
     /// Training data sets.
     pub sources: Vec<Source>,
-    /// Optimiser steps taken.
+    /// Number of optimiser steps.
     pub steps: u64,
     /// Errors of final positions of one object on the training's own held-out episodes, if there
     /// were any.

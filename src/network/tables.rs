@@ -31,22 +31,22 @@ impl Tables {
 /// Tables of several graphs: N nodes, K bodies with prescribed motion, R relations.
 #[derive(Clone, Copy, Debug)]
 pub struct Rows<'a> {
-    /// [N, even].
+    /// Even node features, [N, even].
     pub node_even: &'a [f32],
-    /// [N, odd].
+    /// Odd node features, [N, odd].
     pub node_odd: &'a [f32],
-    /// [K, even].
+    /// Even features of bodies with prescribed motion, [K, even].
     pub given_even: &'a [f32],
-    /// [K, odd].
+    /// Odd features of bodies with prescribed motion, [K, odd].
     pub given_odd: &'a [f32],
-    /// [R, even].
+    /// Even relation features, [R, even].
     pub relation_even: &'a [f32],
-    /// [R, odd].
+    /// Odd relation features, [R, odd].
     pub relation_odd: &'a [f32],
     /// Receiver of every relation as a node index, `[R]`.
     pub receivers: &'a [u32],
-    /// Sender of every relation, `[R]`: a node index; from [`crate::graph::GIVEN`] on, the row of a
-    /// body with prescribed motion; [`crate::graph::NOBODY`] for neither.
+    /// Sender of every relation, `[R]`: a node index, [`crate::graph::GIVEN`] plus the row of a body
+    /// with prescribed motion, or [`crate::graph::NOBODY`].
     pub senders: &'a [u32],
 }
 

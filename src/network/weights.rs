@@ -56,10 +56,10 @@ pub struct Weights<C> {
 /// Reason why a weights file cannot be used.
 #[derive(Error)]
 pub enum WeightsError {
-    /// The file cannot be read.
+    /// A file that cannot be read.
     #[error("cannot read the file: {0}")]
     Unreadable(#[from] std::io::Error),
-    /// Not a safetensors file.
+    /// A file that is not a safetensors file.
     #[error("not a weights file: {0}")]
     Format(#[from] safetensors::SafeTensorError),
     /// A safetensors file of another program or another network.
@@ -68,7 +68,7 @@ pub enum WeightsError {
         /// Key of this network.
         key: &'static str,
     },
-    /// The card cannot be read.
+    /// A card that cannot be read.
     #[error("the weights file's card is damaged: {0}")]
     Card(#[from] serde_json::Error),
     /// A file of another format version.
@@ -102,12 +102,12 @@ pub enum WeightsError {
     Value {
         /// Name of the number.
         name: String,
-        /// The number.
+        /// Value of the number.
         value: f64,
         /// Sound range.
         expected: &'static str,
     },
-    /// A parameter is missing, of a wrong shape or not finite.
+    /// A parameter that is missing, of a wrong shape or not finite.
     #[error("the weights file is damaged: {0}")]
     Parameter(#[from] ParameterError),
 }
@@ -119,7 +119,7 @@ impl fmt::Debug for WeightsError {
     }
 }
 
-/// The text of the metadata.
+/// Contents of the metadata text.
 #[derive(Serialize, Deserialize)]
 struct Header<C> {
     format: u32,

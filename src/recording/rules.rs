@@ -28,7 +28,7 @@ const TURNED: f64 = 0.05;
 /// A body of a recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Body {
-    /// The tool.
+    /// The pusher.
     Pusher,
     /// The object with this index.
     Object(usize),

@@ -28,7 +28,7 @@ pub struct LeverCard {
     pub moving: Statistics,
     /// Number of lever-ups in the training data.
     pub episodes: u64,
-    /// Optimiser steps taken.
+    /// Number of optimiser steps.
     pub steps: u64,
 }
 
