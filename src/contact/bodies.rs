@@ -186,7 +186,7 @@ pub struct Bodies {
     pub push_height_known: bool,
     /// Rigid groups of objects, single objects included.
     pub groups: Groups,
-    /// Lowest object connected with every object by joints of any kind.
+    /// Mechanism of every object: the lowest object connected with it by joints of any kind.
     pub mechanisms: Vec<usize>,
     /// Numbering of all pairs of the scene and the tool, listed or not.
     pub pairs: Pairs,

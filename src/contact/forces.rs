@@ -7,7 +7,7 @@ use crate::{geometry::Vector, scene::State};
 
 use super::{bodies::Bodies, prior::Prior, twist::shift};
 
-/// The forces of a frame, averaged over its duration.
+/// The forces of a frame, taken as constant over its duration.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameForces<'a> {
     bodies: &'a Bodies,

@@ -35,7 +35,7 @@ pub enum ModelError {
     },
 }
 
-/// Same text as [`Display`](fmt::Display), so that it is readable when it leaves `main`.
+/// Prints the text of [`Display`](fmt::Display), which is readable when it leaves `main`.
 impl fmt::Debug for ModelError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)

@@ -21,8 +21,8 @@ pub trait EffectModel: Send + Sync {
     /// Returns the trust in the model for a job.
     fn trust(&self, scene: &Scene, job: &Job) -> Trust;
 
-    /// Returns `true` if the model accepts `job`: [`EffectModel::trust`] without errors and
-    /// warnings, for use in every rollout.
+    /// Returns `true` if the model accepts `job`: a cheap form of [`EffectModel::trust`] without
+    /// errors and warnings, for every rollout.
     fn takes(&self, scene: &Scene, job: &Job) -> bool {
         self.trust(scene, job) != Trust::NotMine
     }

@@ -2,8 +2,8 @@
 //!
 //! Two flat faces meet in a line whose ends carry the contact. Up to two points are therefore
 //! returned, as in the contact manifold of a physics engine. Parry is not used because the graph
-//! also needs both points at a distance, and the same numbers in either argument order. The
-//! computation is batched for every step of every rollout.
+//! also needs both points at a distance, and the same numbers in either argument order, for many
+//! pairs in every step of every rollout.
 
 use pushplan_kernel::Follows;
 

@@ -3,8 +3,8 @@
 //! Errors of single frames hardly predict the error of a whole push, because most of them cancel.
 //! The spread is therefore learned from final errors: the spread of an object is a floor plus a
 //! positive number for each of its frames, S = s + sum over t of exp(w x_t + b). Here x_t is the
-//! even half of the hidden row from which corrections are read. The fit is a maximum likelihood
-//! one, with errors of whole pushes exponentially distributed around S.
+//! even half of the hidden row from which corrections are read. The fit maximises the likelihood of
+//! errors of whole pushes that are exponentially distributed around S.
 
 use serde::{Deserialize, Serialize};
 

@@ -19,7 +19,7 @@ pub struct Parameters {
     pub values: BTreeMap<String, Vec<f32>>,
 }
 
-/// Returns the [`layout_of`] pushes.
+/// Returns the parameters of the push network, see [`layout_of`].
 pub fn layout(config: &Config) -> Layout {
     layout_of(&Tables::PUSHES, config)
 }
@@ -67,7 +67,7 @@ pub fn layout_of(tables: &Tables, config: &Config) -> Layout {
 }
 
 impl Parameters {
-    /// Returns the [`Parameters::fresh_of`] pushes.
+    /// Returns initial values of the push network, see [`Parameters::fresh_of`].
     pub fn fresh(config: &Config, seed: u64) -> Self {
         Self::fresh_of(&Tables::PUSHES, config, seed)
     }

@@ -8,7 +8,7 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-/// Rectifies the even and odd part of one number.
+/// Rectifies a pair of numbers that is given by its even and odd part.
 #[inline(always)]
 pub(super) fn rectify(even: f32, odd: f32) -> (f32, f32) {
     let as_is = (even + odd).max(0.0);

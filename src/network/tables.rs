@@ -45,8 +45,8 @@ pub struct Rows<'a> {
     pub relation_odd: &'a [f32],
     /// Receiver of every relation as a node index, `[R]`.
     pub receivers: &'a [u32],
-    /// Sender of every relation, `[R]`: a node index, [`crate::graph::GIVEN`] plus the row of a body
-    /// with prescribed motion, or [`crate::graph::NOBODY`].
+    /// Sender of every relation, `[R]`: a node index, [`crate::graph::GIVEN`] plus the row of a
+    /// body with prescribed motion, or [`crate::graph::NOBODY`].
     pub senders: &'a [u32],
 }
 

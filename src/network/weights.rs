@@ -112,7 +112,7 @@ pub enum WeightsError {
     Parameter(#[from] ParameterError),
 }
 
-/// Same text as [`Display`](fmt::Display), so that it is readable when it leaves `main`.
+/// Prints the text of [`Display`](fmt::Display), which is readable when it leaves `main`.
 impl fmt::Debug for WeightsError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)

@@ -23,7 +23,7 @@ const ROUNDING: f64 = 1e-7;
 /// The currently relevant bodies of a scene.
 pub type Listed = Subset<SceneIndex, ListIndex>;
 
-/// The rule that selects relevant bodies, and its validity.
+/// Construction and validity of the neighbour list.
 #[derive(Clone, Debug, Default)]
 pub struct Reach {
     /// Positions of the listed objects when the list was made.

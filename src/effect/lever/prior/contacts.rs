@@ -6,8 +6,8 @@ use crate::scene::GRAVITY;
 use super::body::Body;
 use super::setup::{BladePose, Setup};
 
-/// Penetration beyond which the blade is lost, metres; otherwise it stays below the underside's
-/// plane.
+/// Penetration beyond which a contact with the blade is dropped, metres; otherwise the blade stays
+/// below the underside's plane.
 const INSIDE: f64 = 6e-3;
 
 /// A contact of the plate.
@@ -27,8 +27,8 @@ pub(super) struct Contact {
     pub surface: Vector3,
 }
 
-/// Number of possible contacts with the blade. Each of its two long edges has the tip and the
-/// crossings with the outline.
+/// Number of possible contacts with the blade: the tip and the outline's crossings at each of its
+/// long edges, and the feet.
 pub(super) const ON_BLADE: usize = 136;
 
 /// Finds the contacts that a step of `step` seconds may close. Contacts with the blade come first.
