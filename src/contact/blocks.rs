@@ -8,7 +8,7 @@ pub(super) const NOBODY: GroupIndex = GroupIndex(usize::MAX);
 /// Blocks of groups coupled by pressing contacts or by joints.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Blocks {
-    /// Parent of every group in a disjoint-set forest; the first group of a block is its own parent.
+    /// Parent of every group in a disjoint-set forest; the first of a block is its own parent.
     first: Vec<usize>,
 }
 
