@@ -1,11 +1,11 @@
-//! A checksum that finds damage to files; it proves no origin.
+//! A checksum that detects damage to files; it does not prove their origin.
 
-/// FNV-1a with 64 bits (Fowler, Noll and Vo; RFC 9923).
+/// Returns the 64-bit FNV-1a checksum (Fowler, Noll and Vo; RFC 9923).
 pub fn checksum(bytes: &[u8]) -> u64 {
     extend(0xCBF2_9CE4_8422_2325, bytes)
 }
 
-/// The checksum of what `sum` is that of, followed by `bytes`.
+/// Returns the checksum of a text followed by `bytes`, given the checksum `sum` of the text.
 pub fn extend(sum: u64, bytes: &[u8]) -> u64 {
     bytes.iter().fold(sum, |sum, &byte| (sum ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3))
 }

@@ -1,4 +1,4 @@
-//! One error for all that the public interface returns.
+//! The error type of the public interface.
 
 use std::fmt;
 
@@ -12,27 +12,27 @@ use crate::solve::SolveError;
 
 /// Any error of the public interface, for `fn main() -> Result<(), pushplan::Error>`.
 ///
-/// Rust prints an error that leaves `main` by [`Debug`](fmt::Debug); here that is the text of
-/// [`Display`](fmt::Display): with file, line and advice where a file is at fault.
+/// Rust prints an error that leaves `main` with [`Debug`](fmt::Debug). Here that is the text of
+/// [`Display`](fmt::Display): file, line and advice where a file is at fault.
 #[derive(Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// Files with faults, or two tools of one name.
+    /// Faults in files, or two tools of one name.
     #[error(transparent)]
     Files(#[from] Faults),
-    /// Parts that do not make a tool.
+    /// Parts that do not form a tool.
     #[error(transparent)]
     Tool(#[from] ToolError),
-    /// Corners that do not make a convex polygon.
+    /// Corners that do not form a convex polygon.
     #[error(transparent)]
     Polygon(#[from] PolygonError),
-    /// An effect model that cannot be made, for its weights.
+    /// An effect model that cannot be built because of its weights.
     #[error(transparent)]
     Model(#[from] ModelError),
     /// A text that does not name an effect model.
     #[error(transparent)]
     Spec(#[from] SpecError),
-    /// A task that cannot even be tried.
+    /// A task that cannot be attempted.
     #[error(transparent)]
     Task(#[from] SolveError),
     /// An error of a crate that builds on this one.

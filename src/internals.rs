@@ -1,6 +1,6 @@
-//! The rooms of the crate, for reading and for experiments; nothing here is promised to stay.
+//! The modules of the crate, for reading and for experiments; none of them is stable.
 //!
-//! Each imports only from rooms before it, in this order:
+//! Each module imports only from modules before it, in this order:
 //!
 //! geometry, scene, task, outcome, recording, asset, sim, contact, graph, network, rollout, effect,
 //! plan, verify, solve

@@ -13,24 +13,25 @@
 //!             verified    a replay in a 3-D engine ends within the tolerance of g, at rest
 //! ```
 //!
-//! where `x₀` is where everything stands, `d` the distance of the object from the goal in units of
-//! its tolerance (position, and heading where one is asked for), and `f_θ` where everything comes
-//! to rest after the pushes `u`, each a start, a direction, a length and a speed. Of plans of
-//! different length the shortest that passes is taken.
+//! where `x₀` is the initial state, `d` the distance of the object from the goal in units of its
+//! tolerance, and `f_θ` the state at rest after the pushes `u`. The distance counts the position,
+//! and the heading if the goal states one. A push has a start, a direction, a length and a speed.
+//! The shortest plan that passes is taken.
 //!
-//! Where a [`Task`] allows it a flat object is levered up, turned over or taken out of where it lies: a
-//! lever-up is a [`Step`] of a [`Plan`] like a push, and a plan may push, lever and push again.
+//! If a [`Task`] allows it, a flat object is levered up, turned over or lifted out of a confined
+//! place. A lever-up is a [`Step`] of a [`Plan`] like a push, and a plan may push, lever and push
+//! again.
 //!
-//! `f` is an [`EffectModel`]: a closed-form model of contacts (the *prior*), that prior corrected
-//! by a trained network, or a physics engine, each slower and more exact than the one before. A
-//! [`Planner`] searches candidates with it, refines the best of them by small quadratic programmes
-//! and has them replayed in 3-D, by code that shares nothing with the search. Not finding a plan
-//! is an answer, [`PlanStatus`], and not an error.
+//! `f` is an [`EffectModel`]: a closed-form model of contacts (the analytic model), that model
+//! corrected by a trained network, or a physics engine, each slower and more exact than the one
+//! before. A [`Planner`] searches candidates with it, refines the best by small quadratic
+//! programmes and replays them in 3-D with code that is independent of the search. Not finding a
+//! plan is an answer, [`PlanStatus`], and not an error.
 //!
 //! # Example
 //!
-//! A can behind a wall is pulled 17 cm towards the robot, in a task and with one of the tools that come
-//! with the library:
+//! A can behind a wall is pulled 17 cm towards the robot. The task and the tools come with the
+//! library:
 //!
 //! ```
 //! use pushplan::{Effort, PlanStatus, Planner, Task, ToolLibrary};
@@ -48,20 +49,20 @@
 //! }
 //! ```
 //!
-//! Lengths are metres, angles radians, masses kilograms and times seconds throughout; the table is
+//! Lengths are metres, angles radians, masses kilograms and times seconds throughout. The table is
 //! the plane z = 0 with z up, and x points forward from the robot's base at the origin.
 //!
 //! # Dependencies
 //!
-//! None of its crates needs a C compiler. CI counts them, at most 120, with `cargo tree -p pushplan -e
-//! normal,build --prefix none --no-dedupe | sort -u | wc -l`.
+//! None of the dependencies needs a C compiler. CI counts them, at most 120, with `cargo tree -p
+//! pushplan -e normal,build --prefix none --no-dedupe | sort -u | wc -l`.
 //!
 //! # Crates that build on it
 //!
-//! This crate plans and verifies; it reads and writes the files of tasks, tools, plans and recordings.
-//! These crates carry that outward, and it knows none of them:
+//! This crate plans and verifies; it reads and writes the files of tasks, tools, plans and
+//! recordings. The crates below extend it, and it depends on none of them:
 //!
-//! | crate | what it adds |
+//! | crate | adds |
 //! |---|---|
 //! | `pushplan-arm` | robot arms: call `pushplan_arm::install()`, and tasks may name a URDF |
 //! | `pushplan-act` | the closed loop, beliefs about objects, fits from recordings |
@@ -72,12 +73,12 @@
 //! | `pushplan-export` | MJCF, MCAP and joint trajectories out |
 //! | `pushplan-command` | the command `pushplan` |
 //!
-//! Only what this page lists of this crate is meant to stay stable.
+//! Only the items of this crate that this page lists are meant to stay stable.
 //!
 //! # Internals
 //!
-//! What planning is made of is in [`internals`]: one module for each step, open to read and to
-//! use, but without promises.
+//! The module [`internals`] opens the planning pipeline, one module for each step, without promises
+//! of stability.
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 

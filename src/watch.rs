@@ -1,54 +1,56 @@
-//! How a caller follows, and stops, a long job.
+//! Progress and cancellation of long jobs.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Duration;
 
-/// A clock that browsers have, too.
+/// A clock that also works in browsers.
 pub use web_time::Instant;
 
-/// Follows a long job and stops it. The one trait for everything that takes a while: solving,
-/// benchmarks, data, training. Called from many threads; a method that is not needed can be left
-/// out.
+/// A progress observer that can cancel a long job.
+///
+/// Every long job reports to this trait: solving, benchmarks, data, training. Its methods are
+/// called from many threads; each has an empty default.
 pub trait Watch: Sync {
-    /// What is being done now, such as a stage of solving or a task of a benchmark.
+    /// Reports the current activity, such as a stage of solving or a task of a benchmark.
     fn stage(&self, what: &str) {
         let _ = what;
     }
 
-    /// `done` of `total` units of the stage are finished.
+    /// Reports that `done` of `total` units of the stage are finished.
     fn progress(&self, done: u64, total: u64) {
         let _ = (done, total);
     }
 
-    /// The best answer so far, one line, whenever there is a better one.
+    /// Reports the best answer so far in one line, whenever there is a better one.
     fn so_far(&self, answer: &str) {
         let _ = answer;
     }
 
-    /// A first result, one line, long before the last one.
+    /// Reports a first result in one line, long before the last one.
     fn line(&self, text: &str) {
         let _ = text;
     }
 
-    /// Something that people should know, such as a damaged record that is made again.
+    /// Reports a condition that the user should see, such as a damaged record that is rebuilt.
     fn note(&self, message: &str) {
         let _ = message;
     }
 
-    /// Whether to stop; asked before every unit.
+    /// Returns `true` if the job should stop; called before every unit.
     fn cancelled(&self) -> bool {
         false
     }
 }
 
-/// Nobody follows and nothing stops.
+/// An observer that ignores reports and never cancels.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Unwatched;
 
 impl Watch for Unwatched {}
 
-/// Forwards cancellation alone: many jobs run side by side, and reports of each would be noise.
+/// An observer that forwards cancellation only, because reports of many parallel jobs would be
+/// noise.
 pub struct Quiet<'a>(pub &'a dyn Watch);
 
 impl Watch for Quiet<'_> {
@@ -57,7 +59,7 @@ impl Watch for Quiet<'_> {
     }
 }
 
-/// Counts the finished units of a stage, from any number of threads.
+/// A thread-safe counter of the finished units of a stage.
 pub struct Count<'a> {
     watch: &'a dyn Watch,
     done: AtomicU64,
@@ -65,20 +67,20 @@ pub struct Count<'a> {
 }
 
 impl<'a> Count<'a> {
-    /// Tells `watch` that `done` of `total` units are finished, and every further one.
+    /// Reports to `watch` that `done` of `total` units are finished, and then every further unit.
     pub fn new(watch: &'a dyn Watch, done: usize, total: usize) -> Self {
         let (done, total) = (done as u64, total as u64);
         watch.progress(done, total);
         Self { watch, done: AtomicU64::new(done), total }
     }
 
-    /// One more is finished.
+    /// Counts one more finished unit.
     pub fn one(&self) {
         self.watch.progress(self.done.fetch_add(1, Ordering::Relaxed) + 1, self.total);
     }
 }
 
-/// Stops a job from another thread: whoever holds a clone can.
+/// A cancellation handle: a job that watches it stops when any clone is cancelled.
 ///
 /// ```
 /// use pushplan::watch::{Cancel, Watch};
@@ -92,7 +94,7 @@ impl<'a> Count<'a> {
 pub struct Cancel(Arc<AtomicBool>);
 
 impl Cancel {
-    /// Asks the job to stop.
+    /// Requests cancellation of the job.
     pub fn cancel(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
@@ -104,14 +106,14 @@ impl Watch for Cancel {
     }
 }
 
-/// Follows as another does, and stops when a time is over.
+/// An observer that forwards to another one and cancels at a deadline.
 pub struct Until<'a> {
     watch: &'a dyn Watch,
     end: Option<Instant>,
 }
 
 impl<'a> Until<'a> {
-    /// Like `watch`, for at most `limit` from now.
+    /// Forwards to `watch` for at most `limit` from now.
     pub fn new(watch: &'a dyn Watch, limit: Option<Duration>) -> Self {
         // A limit beyond the range of the clock is no limit.
         Self { watch, end: limit.and_then(|limit| Instant::now().checked_add(limit)) }

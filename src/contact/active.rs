@@ -1,10 +1,9 @@
-//! The forces of a frame's contacts at fixed weights, found exactly.
+//! Active-set method: exact contact forces of a frame at fixed weights.
 //!
-//! If it is known which contacts stick, slide and stay open, they ask for linear equations; once
-//! these are solved, their answer tells which contacts do. Alternating the two is Newton's method
-//! on a semismooth equation (Alart and Curnier 1991, doi:10.1016/0045-7825(91)90022-X), and in the
-//! plane it nearly always ends after one or two rounds. Where it does not, [`super::approach`]
-//! answers.
+//! The equations are linear for known states of all contacts (sticking, sliding or open), and their
+//! solution determines the states. Alternating the two is Newton's method on a semismooth equation
+//! (Alart and Curnier 1991, doi:10.1016/0045-7825(91)90022-X), and in the plane it nearly always
+//! ends after one or two rounds. Otherwise [`super::approach`] is used.
 
 use nalgebra::{Vector2, Vector3};
 use pushplan_kernel::{
@@ -21,49 +20,50 @@ use super::{
     unknown::Unknown,
 };
 
-/// Most equations at once: what many objects that jam would need is cheaper by iteration.
+/// Maximum number of simultaneous equations; larger jams are cheaper by iteration.
 const MOST: usize = 64;
 
-/// Memory that is reused.
+/// Reusable memory of the method.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ActiveSet {
     /// Values of all constraints without their forces.
     free: Vec<Vector2<f64>>,
     rows: Vec<Row>,
-    /// The rows by the blocks that they are of.
+    /// Rows sorted by block.
     order: Vec<(usize, usize)>,
     blocks: Blocks,
-    /// What force and torque on every group add to the row at hand, where joints carry them on.
+    /// Contribution of force and torque on every group to the present row, transmitted through
+    /// joints.
     felt: Vec<Vector3<f64>>,
-    /// The equations of a block, row by row, each with what it asks for at its end.
+    /// The equations of a block, row by row, each with its target at the end.
     matrix: Vec<f64>,
-    /// Numbers of the sets that were tried.
+    /// Numbers of the sets tried so far.
     seen: Vec<u64>,
 }
 
-/// An equation of a constraint that presses, and the force that meets it.
+/// An equation of a pressing constraint, and the force that satisfies it.
 #[derive(Clone, Copy, Debug)]
 struct Row {
     constraint: usize,
-    /// Which of the constraint's two equations it is.
+    /// Index of the equation among the constraint's two.
     equation: usize,
-    /// The groups that it is about; [`NOBODY`] is the second where the other body's motion is given.
+    /// Groups of the equation; the second is [`NOBODY`] for a body with prescribed motion.
     groups: [GroupIndex; 2],
-    /// A unit of the force along normal and tangent.
+    /// Unit force along normal and tangent.
     along: Vector2<f64>,
-    /// The force and torque that it puts on the groups.
+    /// Force and torque on the groups.
     press: [Vector3<f64>; 2],
-    /// How much of the equation's value a force and torque on either of them are.
+    /// Contribution of a force and torque on either group to the equation's value.
     moved: [Vector3<f64>; 2],
-    /// By how much more than the groups' own answer the force gives way.
+    /// Additional compliance of the force.
     give: f64,
     target: f64,
     force: f64,
 }
 
 impl ActiveSet {
-    /// Finds forces and twists, beginning with what the constraints did last; whether that went
-    /// well. If not, the constraints' forces are those of before.
+    /// Computes forces and twists, starting from the last states of the constraints. Returns `true`
+    /// on success; otherwise the constraints keep their previous forces.
     pub fn solve(
         &mut self,
         unknowns: &mut [Unknown],
@@ -86,9 +86,9 @@ impl ActiveSet {
         let mut together = TOGETHER;
         self.seen.clear();
         for round in 0..ROUNDS {
-            // What a set leads to depends on the set alone, so one that comes again means a circle.
-            // Looked for after two rounds, which nearly always are enough, and not for one group,
-            // whose bits are those of its lane.
+            // The next set depends on the present set alone, so a repeated set means a cycle. The
+            // check starts after two rounds, which nearly always suffice. It is omitted for a
+            // single group, whose bits must match the kernel's lanes.
             if several && round > 1 {
                 let set = number(constraints);
                 if self.seen.contains(&set) {
@@ -115,7 +115,7 @@ impl ActiveSet {
         false
     }
 
-    /// Lists the equations that hold if every constraint does what it is taken to do.
+    /// Lists the equations implied by the assumed states of the constraints.
     fn list(&mut self, constraints: &[Constraint]) {
         let Self { rows, free, .. } = self;
         rows.clear();
@@ -147,8 +147,8 @@ impl ActiveSet {
         }
     }
 
-    /// Fills in the equations of `count` groups and solves them; whether they have an answer.
-    /// Groups that stand apart are solved apart.
+    /// Sets up the equations of `count` groups and solves them block by block; returns `true` if
+    /// they have a solution.
     fn eliminate(
         &mut self,
         count: usize,
@@ -168,7 +168,7 @@ impl ActiveSet {
             for row in block.iter().map(|&(_, row)| &rows[row]) {
                 let others = block.iter().map(|&(_, other)| &rows[other]);
                 if joints.is_empty() {
-                    // Only the two groups feel it.
+                    // The force only acts on the two groups.
                     let [a, b] = row.groups;
                     matrix.extend(others.map(|other| {
                         let felt = |k: usize| match other.groups[k] {
@@ -206,7 +206,7 @@ impl ActiveSet {
         true
     }
 
-    /// Sets the trial forces found.
+    /// Stores the computed trial forces.
     fn apply(&self, constraints: &mut [Constraint]) {
         constraints.iter_mut().for_each(|constraint| constraint.trial = Vector2::zeros());
         for row in &self.rows {
@@ -215,9 +215,9 @@ impl ActiveSet {
     }
 }
 
-/// Whether every constraint would do under its trial force what it was taken to do, which is then its
-/// force. If not, all are taken to do what they would, or where not `together` only the one that is
-/// farthest off.
+/// Returns `true` if every constraint's state under its trial force is the assumed one, and then
+/// accepts the trial forces. Otherwise all constraints take their new states, or, if not
+/// `together`, only the one with the largest error.
 fn agreed(
     unknowns: &[Unknown],
     constraints: &mut [Constraint],
@@ -228,7 +228,8 @@ fn agreed(
     let mut worst: Option<(usize, Status, f64)> = None;
     for (k, constraint) in constraints.iter_mut().enumerate() {
         constraint.read(unknowns);
-        // What is open and not violated stays so, and most are; of one group, to the bits of its lane.
+        // Open contacts without violation stay open, and most are such. A single group must match
+        // the bits of the kernel's lanes.
         if several && constraint.status == Status::Open && !constraint.asks() {
             continue;
         }
@@ -254,7 +255,7 @@ fn agreed(
     false
 }
 
-/// A number for what all constraints do, the same for the same set.
+/// Returns a hash of the states of all constraints.
 fn number(constraints: &[Constraint]) -> u64 {
     constraints.iter().fold(0, |number: u64, constraint| {
         let does = match constraint.status {

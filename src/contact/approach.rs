@@ -1,9 +1,9 @@
-//! The forces of a frame's contacts at fixed weights, approached where [`super::active`] finds
-//! none: where much jams.
+//! Iterative contact forces of a frame at fixed weights, for jams in which [`super::active`] finds
+//! no solution.
 //!
-//! Accelerated projected Jacobi steps, each body's mass split among its constraints (Tonge,
-//! Benevolenski and Voroshilov 2012, doi:10.1145/2185520.2185601; Nesterov 1983), which unlike
-//! Gauss-Seidel do not depend on the order of anything.
+//! Accelerated projected Jacobi steps, with each body's mass divided among its constraints (Tonge,
+//! Benevolenski and Voroshilov 2012, doi:10.1145/2185520.2185601; Nesterov 1983). Unlike
+//! Gauss-Seidel steps they are independent of any order.
 
 use super::{
     constraint::{Constraint, Tie},
@@ -11,20 +11,20 @@ use super::{
     unknown::Unknown,
 };
 
-/// Most steps.
+/// Maximum number of steps.
 const ITERATIONS: usize = 10;
 
-/// A change of a whole round of steps below this ends them, metres.
+/// Change in a step below which the iteration ends, metres.
 const SETTLED: f64 = 5e-6;
 
-/// Memory that is reused.
+/// Reusable memory of the iteration.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Approach {
     active: Vec<f64>,
 }
 
 impl Approach {
-    /// Forces and twists, beginning with the forces that the constraints have.
+    /// Computes forces and twists, starting from the forces of the constraints.
     pub fn run(
         &mut self,
         unknowns: &mut [Unknown],
@@ -68,8 +68,8 @@ impl Approach {
                 constraint.trial = force + carry * change;
                 constraint.force = force;
             }
-            // Momentum that points away from the answer is dropped (O'Donoghue and Candes
-            // 2015, doi:10.1007/s10208-013-9150-3).
+            // Adaptive restart: momentum that points away from the solution is dropped (O'Donoghue
+            // and Candes 2015, doi:10.1007/s10208-013-9150-3).
             if against > 0.0 {
                 momentum = 1.0;
                 constraints.iter_mut().for_each(|c| c.trial = c.force);

@@ -1,4 +1,4 @@
-//! Which objects a frame's equations are about: those that may do anything but coast.
+//! Selection of the objects in a frame's equations: those that may do more than slide freely.
 
 use crate::{
     geometry::Turn,
@@ -14,35 +14,35 @@ use super::{
     subset::Subset,
 };
 
-/// The objects that are awake in a frame, and memory to look at them by themselves.
+/// The awake objects of a frame, gathered as bodies of their own.
 ///
-/// Nothing else enters the equations, so that a prediction cannot depend, not even in its last bit,
-/// on objects elsewhere.
+/// Other objects do not enter the equations, so that a prediction cannot depend on distant objects,
+/// not even in its last bit.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Awake {
     flags: Vec<bool>,
     share: Share,
-    /// What touches or is joined.
+    /// Connected sets of objects that touch or are joined.
     sets: DisjointSets,
     subset: Subset<ListIndex, AwakeIndex>,
     state: State,
     coasts: Vec<Motion>,
     turns: Vec<Turn>,
-    /// Where nothing is awake.
+    /// Empty data for frames without awake objects.
     nothing: (Bodies, State),
 }
 
-/// How many of the objects are awake.
+/// Share of the objects that is awake.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 enum Share {
     #[default]
     None,
-    /// They are gathered.
+    /// Awake objects are gathered.
     Some,
     All,
 }
 
-/// Bodies under numbers of their own, with their state, how they would coast and how they are turned.
+/// Bodies in their own numbering, with state, free sliding and rotations.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View<'a> {
     pub bodies: &'a Bodies,
@@ -52,8 +52,8 @@ pub(super) struct View<'a> {
 }
 
 impl Awake {
-    /// Finds those near a moving part, those that move near anything or in a joint, and those in
-    /// touch or jointed with such an object.
+    /// Finds the awake objects: objects near a moving part, moving objects near another body or in
+    /// a joint, and objects in contact or jointed with an awake one.
     pub fn find(
         &mut self,
         bodies: &Bodies,
@@ -86,7 +86,7 @@ impl Awake {
         for mount in &bodies.mounts {
             awake[mount.object] |= moving(mount.object);
         }
-        // Whatever wakes one also wakes all that it is joined to.
+        // An awake object wakes all objects connected with it.
         let lowest = sets.names();
         for object in 0..awake.len() {
             awake[lowest[object]] |= awake[object];
@@ -96,8 +96,7 @@ impl Awake {
         }
     }
 
-    /// Takes the objects that are awake by themselves and reduces `contacts` to theirs; returns
-    /// whether there are any.
+    /// Gathers the awake objects and reduces `contacts` to theirs; returns `true` if there are any.
     pub fn gather(
         &mut self,
         bodies: &Bodies,
@@ -143,7 +142,7 @@ impl Awake {
         true
     }
 
-    /// Those of the given objects that were gathered.
+    /// Returns the gathered objects.
     pub fn view<'a>(
         &'a self,
         bodies: &'a Bodies,
@@ -164,7 +163,7 @@ impl Awake {
         }
     }
 
-    /// The number on the list of an object that was gathered.
+    /// Returns the list index of a gathered object.
     pub fn listed(&self, object: AwakeIndex) -> ListIndex {
         match self.share {
             Share::Some => self.subset.outer(object),

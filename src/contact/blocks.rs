@@ -1,19 +1,19 @@
-//! Which groups are solved together, and which separately.
+//! Partition of groups into blocks that are solved separately.
 
 use super::{eliminated::Eliminated, index::GroupIndex};
 
-/// No group.
+/// Marker for the absence of a group.
 pub(super) const NOBODY: GroupIndex = GroupIndex(usize::MAX);
 
-/// Which groups feel each other's forces, through contacts that press or through joints.
+/// Blocks of groups coupled by pressing contacts or by joints.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Blocks {
-    /// For every group one of those solved with it, itself if it is the first.
+    /// Parent of every group in a disjoint-set forest; the first of a block is its own parent.
     first: Vec<usize>,
 }
 
 impl Blocks {
-    /// Of a number of groups, of which these `pairs` press on each other.
+    /// Finds the blocks of `count` groups, of which these `pairs` press on each other.
     pub fn find(
         &mut self,
         count: usize,
@@ -28,7 +28,7 @@ impl Blocks {
         }
     }
 
-    /// The lowest group that `group` is together with.
+    /// Returns the lowest group of the block of `group`.
     #[inline]
     pub fn of(&self, group: GroupIndex) -> usize {
         let mut at = group.0;

@@ -1,4 +1,4 @@
-//! What a frame's equations need to know about every body, computed once per rollout.
+//! Data of every body for a frame's equations, computed once per rollout.
 
 use std::sync::Arc;
 
@@ -19,17 +19,18 @@ use super::{
 /// A movable body.
 #[derive(Clone, Copy, Debug)]
 pub struct Movable {
-    /// Which object of the scene.
+    /// Index of the object in the scene.
     pub index: SceneIndex,
-    /// What it covers on the table.
+    /// Footprint on the table.
     pub footprint: Footprint,
-    /// Radius of a circle about the centre that holds it, metres.
+    /// Radius of the bounding circle about the centre, metres.
     pub radius: f64,
     /// Mean distance c of the support's points from the centre, metres.
     pub support: f64,
-    /// (c / rho)^2, the ratio of the spin's friction deceleration (in c omega) to the slide's.
+    /// (c / rho)^2, the ratio of the rotational friction deceleration (in c omega) to the
+    /// translational.
     pub spin: f64,
-    /// How its speeds fall while it slides and spins.
+    /// Decrease of both speeds during sliding with rotation.
     pub(super) fall: Fall,
     /// Friction deceleration mu g, m/s^2.
     pub deceleration: f64,
@@ -39,42 +40,43 @@ pub struct Movable {
     pub friction: f64,
     /// Vertical extent, metres.
     pub height: f64,
-    /// Heights above the table between which it is, metres.
+    /// Range of heights above the table, metres.
     pub span: (f64, f64),
-    /// What the table carries of it, and of parts above the table, as a share of its own weight.
+    /// Load on the table from the object, and from parts above the table, relative to the object's
+    /// own weight.
     pub carried: f64,
-    /// How far the load moves when it is pressed as hard as friction resists, metres.
+    /// Displacement of the load under a push as large as the friction, metres.
     pub lean: f64,
-    /// Mean height of where the tool can press on it, metres; zero where it passes over.
+    /// Mean height at which the tool can push, metres; zero if the tool passes over.
     pub face_height: f64,
 }
 
 impl Movable {
-    /// Largest friction of the table, N.
+    /// Returns the maximum table friction, N.
     pub fn load(&self) -> f64 {
         self.mass * self.deceleration * self.carried
     }
 
-    /// Whether what is between these two heights is as high as some of it.
+    /// Returns `true` if this range of heights overlaps the object's range.
     pub fn meets(&self, (low, high): (f64, f64)) -> bool {
         low < self.span.1 && self.span.0 < high
     }
 }
 
-/// A body whose motion is given: a tool part or an obstacle.
+/// A body with prescribed motion: a tool part or an obstacle.
 #[derive(Clone, Copy, Debug)]
 pub struct Given {
-    /// Which part of the tool, or which obstacle of the scene.
+    /// Index of the part of the tool, or of the obstacle of the scene.
     pub index: usize,
-    /// What it covers on the table.
+    /// Footprint on the table.
     pub footprint: Footprint,
     /// Tool parts: pose in the tool frame. Obstacles: pose in the world.
     pub pose: Pose,
-    /// The turn by that pose's heading.
+    /// Rotation by the heading of `pose`.
     pub turn: Turn,
     /// Friction value.
     pub friction: f64,
-    /// Heights above the table between which it is, metres.
+    /// Range of heights above the table, metres.
     pub span: (f64, f64),
 }
 
@@ -83,26 +85,26 @@ pub struct Given {
 pub struct Jointed {
     /// Indices of the two objects.
     pub between: [usize; 2],
-    /// What it allows.
+    /// Kind of the joint.
     pub kind: JointKind,
-    /// The joint's frame as seen from each of the two, see [`crate::scene::Joint::frames`].
+    /// The joint's frame relative to each object, see [`crate::scene::Joint::frames`].
     pub frames: [Pose; 2],
-    /// The turn by the heading of the first of these.
+    /// Rotation by the heading of the first frame.
     pub turn: Turn,
-    /// Range of turns (radians) or shifts (metres) against the start, where limited.
+    /// Range of rotations (radians) or displacements (metres) relative to the start, if limited.
     pub limits: Option<Span>,
     /// Whether anchor or axis is only a guess.
     pub guessed: bool,
 }
 
 impl Jointed {
-    /// How its two sides stand when the objects are at `poses`.
+    /// Returns the relative pose of the joint's sides with the objects at `poses`.
     pub fn separation(&self, poses: &[Pose]) -> Separation {
         Separation::of(&self.frames, self.between.map(|object| poses[object]))
     }
 
-    /// The same where the turns by the objects' headings are known, and where the first side's axis x
-    /// then points.
+    /// Returns the relative pose of the joint's sides and the direction of the first side's x axis,
+    /// given the rotations of the objects.
     pub(super) fn separation_turned(&self, poses: &[Pose], turns: &[Turn]) -> (Separation, Vector) {
         let end = |side: usize| {
             let (object, frame) = (self.between[side], &self.frames[side]);
@@ -120,29 +122,30 @@ impl Jointed {
 pub struct Mounted {
     /// Index of the object.
     pub object: usize,
-    /// What it allows.
+    /// Kind of the joint.
     pub kind: JointKind,
-    /// The joint's frame in the world, and as seen from the object, see [`crate::scene::Mount::frames`].
+    /// The joint's frame in the world, and relative to the object, see
+    /// [`crate::scene::Mount::frames`].
     pub frames: [Pose; 2],
-    /// Range of turns (radians) or shifts (metres) against the start, where limited.
+    /// Range of rotations (radians) or displacements (metres) relative to the start, if limited.
     pub limits: Option<Span>,
 }
 
 impl Mounted {
-    /// How its two sides stand when the object is at `pose`.
+    /// Returns the relative pose of the joint's sides with the object at `pose`.
     pub fn separation(&self, pose: &Pose) -> Separation {
         Separation { ends: [self.frames[0], *pose * self.frames[1]] }
     }
 }
 
-/// Which objects move as one, because fixed joints hold them together.
+/// Rigid groups: objects held together by fixed joints.
 #[derive(Clone, Debug, Default)]
 pub struct Groups {
-    /// The group of every object.
+    /// Group of every object.
     pub of: Vec<GroupIndex>,
-    /// The objects of every group, in order.
+    /// Objects of every group, in order.
     pub members: Vec<Vec<usize>>,
-    /// Every object's pose in the frame of the first object of its group.
+    /// Pose of every object in the frame of its group's first object.
     pub places: Vec<Pose>,
 }
 
@@ -158,16 +161,16 @@ impl Groups {
     }
 }
 
-/// All bodies of a scene with a tool in it.
+/// Bodies of a scene with a tool.
 #[derive(Clone, Debug, Default)]
 pub struct Bodies {
     /// Objects, in the order of the scene.
     pub objects: Vec<Movable>,
-    /// The pieces of the tool's outline.
+    /// Pieces of the tool's outline.
     pub parts: Vec<Given>,
-    /// What all pieces of the outline cover, with their poses in the tool frame, whether here or not.
+    /// Footprints of all outline pieces, with their poses in the tool frame, listed or not.
     pub outline: Arc<[(Footprint, Pose)]>,
-    /// Where every piece of the outline can be touched.
+    /// Exposed boundary of every outline piece.
     pub rims: Arc<[Option<Rim>]>,
     /// Obstacles.
     pub obstacles: Vec<Given>,
@@ -175,23 +178,23 @@ pub struct Bodies {
     pub joints: Vec<Jointed>,
     /// Joints between objects and the world.
     pub mounts: Vec<Mounted>,
-    /// What every object of the scene stands on.
+    /// Support of every object of the scene.
     pub feet: Arc<[Arc<Feet>]>,
-    /// Whether that is known.
+    /// Whether the supports are known.
     pub supports_known: bool,
-    /// Whether it is known how high the tool presses.
+    /// Whether the height of the tool's push is known.
     pub push_height_known: bool,
-    /// Objects that fixed joints make one rigid body, single ones included.
+    /// Rigid groups of objects, single objects included.
     pub groups: Groups,
-    /// For every object the lowest one that joints of any kind connect it with.
+    /// Mechanism of every object: the lowest object connected with it by joints of any kind.
     pub mechanisms: Vec<usize>,
-    /// All pairs of the scene and the tool, whether here or not.
+    /// Numbering of all pairs of the scene and the tool, listed or not.
     pub pairs: Pairs,
-    /// Those whose friction is not the mean of the two values, by the scene's numbers.
+    /// Friction of pairs for which it is not the mean of the two values, in the scene's numbering.
     pub frictions: Arc<[PairFriction]>,
 }
 
-/// The other body of a contact, by its number in the bodies at hand.
+/// The other body of a contact, by its index in the bodies at hand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Partner {
     /// An object.
@@ -203,15 +206,15 @@ pub enum Partner {
 }
 
 impl Bodies {
-    /// Whether the tool can be touched where a body meets number `part` of its pieces, placed there:
-    /// not at a seam between pieces.
+    /// Returns `true` if the contact `point` with outline piece `part`, placed there, lies on the
+    /// tool's boundary and not on a seam between pieces.
     pub fn shows(&self, part: usize, placed: &Placed, point: &ContactPoint) -> bool {
         self.rims[self.parts[part].index].as_ref().is_none_or(|rim| {
             rim.shows(placed.local_point(point.on_second), placed.local_vector(point.normal))
         })
     }
 
-    /// Coefficient of friction of an object and another body.
+    /// Returns the coefficient of friction of an object and another body.
     pub fn friction(&self, object: usize, with: Partner) -> f64 {
         let body = &self.objects[object];
         let (surface, value) = match with {
@@ -228,13 +231,13 @@ impl Bodies {
         pair_friction(&self.frictions, body.index.0, surface, [body.friction, value])
     }
 
-    /// What the object with that number here stands on.
+    /// Returns the support of an object.
     pub fn feet(&self, object: usize) -> &Feet {
         &self.feet[self.objects[object].index.0]
     }
 
-    /// The bodies of `scene` and a `tool` whose underside is `lift` metres above the table,
-    /// under `physics`.
+    /// Collects the bodies of `scene` and a `tool` whose underside is `lift` metres above the
+    /// table, under `physics`.
     pub fn new(scene: &Scene, tool: &Tool, lift: f64, physics: &Physics) -> Self {
         let objects = scene
             .objects
@@ -340,7 +343,7 @@ impl Bodies {
         }
     }
 
-    /// The lasting id of an object and another body.
+    /// Returns the persistent id of an object and another body.
     pub fn pair(&self, object: usize, with: Partner) -> PairId {
         let with = match with {
             Partner::Object(other) => Body::Object(self.objects[other].index.0),

@@ -1,37 +1,37 @@
-//! One contact, limit or joint as equations between two rigid groups, and the force that would
-//! meet a contact alone.
+//! Equations of a contact, limit or joint between two rigid groups, and the force that would
+//! satisfy a contact alone.
 
 use nalgebra::{Matrix2, Vector2, Vector3};
 use pushplan_kernel::settings::{GIVE, MIN_COMPLIANCE, OPEN};
 
 use super::{index::GroupIndex, unknown::Unknown};
 
-/// What a constraint allows for its two forces.
+/// Complementarity law of a constraint's two forces.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Law {
-    /// The first is not negative and its value becomes at least the target; the second is
-    /// unused.
+    /// Inequality: the first force is not negative and its value is at least the target; the second
+    /// is unused.
     AtLeast,
-    /// The same, and the second lies within the friction cone of the first and draws its value
-    /// to the target.
+    /// Inequality with friction: the second force also lies within the friction cone of the first
+    /// and draws its value to the target.
     Contact { friction: f64 },
 }
 
-/// What a constraint does.
+/// State of a constraint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) enum Status {
-    /// Nothing presses.
+    /// Open: no force.
     #[default]
     Open,
-    /// Both of its equations hold.
+    /// Sticking: both equations are satisfied.
     Sticks,
-    /// The first does, and the second force is this share of the first: an edge of the friction
-    /// cone, or nothing where there is no second.
+    /// Sliding: the first equation is satisfied. The second force is this share of the first: an
+    /// edge of the friction cone, or zero without a second equation.
     Slides(f64),
 }
 
 /// Two scalar equations between groups `a` and `b`: `to . twist(a) - from . twist(b)` against
-/// `target`, metres. Without `b` the other body's motion is given, and part of the target.
+/// `target`, metres. Without `b` the other body's motion is prescribed, and part of the target.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Constraint {
     pub a: GroupIndex,
@@ -40,20 +40,20 @@ pub(super) struct Constraint {
     pub from: [Vector3<f64>; 2],
     pub target: [f64; 2],
     pub law: Law,
-    /// What it does, as far as is known.
+    /// Assumed or last known state.
     pub status: Status,
     pub force: Vector2<f64>,
     /// The force that the next iteration starts from.
     pub trial: Vector2<f64>,
     /// `to . twist(a) - from . twist(b)` under the trial forces, metres.
     pub value: Vector2<f64>,
-    /// A^-1 J^T of either body: its twists by forces of one.
+    /// A^-1 J^T of either body: its twists under unit forces.
     pub moved: [[Vector3<f64>; 2]; 2],
     /// J A^-1 J^T of either body.
     pub own: [Matrix2<f64>; 2],
-    /// By how much a force of one gives way.
+    /// Additional compliance of a force.
     pub give: f64,
-    /// Whether these three are known at the present weights.
+    /// Whether `moved`, `own` and `give` are valid at the present weights.
     pub weighed: bool,
 }
 
@@ -84,7 +84,7 @@ impl Constraint {
         }
     }
 
-    /// Takes how its bodies answer its forces from their present weights.
+    /// Computes the response of its bodies to its forces at their present weights.
     #[inline]
     pub fn weigh(&mut self, unknowns: &[Unknown]) {
         self.moved[0] = self.to.map(|row| unknowns[self.a.0].inverse * row);
@@ -97,13 +97,13 @@ impl Constraint {
         self.weighed = true;
     }
 
-    /// J A^-1 J^T of both bodies.
+    /// Returns J A^-1 J^T of both bodies.
     #[inline]
     pub fn alone(&self) -> Matrix2<f64> {
         self.own[0] + self.own[1]
     }
 
-    /// Adds its trial forces to what presses on its bodies.
+    /// Adds its trial forces to the forces on its bodies.
     #[inline]
     pub fn press(&self, unknowns: &mut [Unknown]) {
         let trial = &self.trial;
@@ -120,8 +120,7 @@ impl Constraint {
         }
     }
 
-    /// By how much more than it should a force along the normal gives way where the contact slides
-    /// and wedges.
+    /// Returns the additional compliance along the normal of a contact that slides and wedges.
     #[inline]
     pub fn wedge(&self, edge: f64) -> f64 {
         let k = self.alone();
@@ -129,7 +128,7 @@ impl Constraint {
         (MIN_COMPLIANCE * knn - (knn + edge * k.m12)).max(0.0)
     }
 
-    /// Takes its value from how the bodies move.
+    /// Computes its value from the motion of the bodies.
     #[inline]
     pub fn read(&mut self, unknowns: &[Unknown]) {
         self.value = apply(&self.to, &unknowns[self.a.0].twist);
@@ -138,26 +137,26 @@ impl Constraint {
         }
     }
 
-    /// Whether its forces move its bodies by more than rounding does.
+    /// Returns `true` if its forces move its bodies by more than rounding.
     #[inline]
     pub fn presses(&self) -> bool {
         self.trial.x * (self.own[0].m11 + self.own[1].m11) > OPEN
     }
 
-    /// Whether it is one of a joint's limits.
+    /// Returns `true` for a limit of a joint.
     #[inline]
     pub fn is_limit(&self) -> bool {
         matches!(self.law, Law::AtLeast)
     }
 
-    /// Whether it is violated by more than rounding.
+    /// Returns `true` if it is violated by more than rounding.
     #[inline]
     pub fn asks(&self) -> bool {
         self.target[0] > self.value.x + OPEN
     }
 
-    /// What this constraint would do, and the forces that would meet it, if nothing else changed,
-    /// the compliance being `k` and the trial forces and its value what they are.
+    /// Returns the state and forces that would satisfy this constraint alone, for the compliance
+    /// `k` and the present trial forces and value.
     #[inline]
     pub fn respond(&self, k: &Matrix2<f64>) -> (Status, Vector2<f64>) {
         let pressed = |normal: f64, edge: f64| match normal > 0.0 {
@@ -177,7 +176,7 @@ impl Constraint {
                 if stick.x >= 0.0 && stick.y.abs() <= friction * stick.x {
                     return (Status::Sticks, stick);
                 }
-                // Sliding: on the edge of the cone that the sticking force lies beyond.
+                // Sliding: on the edge of the cone beyond which the sticking force lies.
                 let edge = friction * stick.y.signum();
                 let compliance = (knn + edge * knt).max(MIN_COMPLIANCE * knn);
                 pressed((left.x + knn * self.trial.x + knt * self.trial.y) / compliance, edge)
@@ -186,8 +185,8 @@ impl Constraint {
     }
 }
 
-/// Two scalar equations that a joint keeps exactly: `to . twist(b) - from . twist(a) = target`,
-/// metres. Without `a` it holds its group to the world.
+/// Two scalar equations that a joint satisfies exactly: `to . twist(b) - from . twist(a) = target`,
+/// metres. Without `a` it connects its group to the world.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tie {
     pub a: Option<GroupIndex>,
@@ -199,7 +198,7 @@ pub(super) struct Tie {
 }
 
 impl Tie {
-    /// Adds its forces to what presses on its groups.
+    /// Adds its forces to the forces on its groups.
     #[inline]
     pub fn press(&self, unknowns: &mut [Unknown]) {
         unknowns[self.b.0].pressed += self.to[0] * self.force.x + self.to[1] * self.force.y;
@@ -209,13 +208,13 @@ impl Tie {
     }
 }
 
-/// J W^T of two pairs of rows.
+/// Returns J W^T of two pairs of rows.
 #[inline]
 pub(super) fn product(j: &[Vector3<f64>; 2], w: &[Vector3<f64>; 2]) -> Matrix2<f64> {
     Matrix2::new(j[0].dot(&w[0]), j[0].dot(&w[1]), j[1].dot(&w[0]), j[1].dot(&w[1]))
 }
 
-/// J twist.
+/// Returns J twist.
 #[inline]
 pub(super) fn apply(j: &[Vector3<f64>; 2], twist: &Vector3<f64>) -> Vector2<f64> {
     Vector2::new(j[0].dot(twist), j[1].dot(twist))

@@ -1,19 +1,20 @@
-//! Joints eliminated: how joined groups respond to forces at fixed weights.
+//! Elimination of joints: the response of joined groups to forces at fixed weights.
 //!
-//! Joints close no loop, so every mechanism is a tree of groups, and a group without children can
-//! be eliminated by what its parent feels of it (as articulated bodies are: Featherstone 1983,
+//! Joints close no loop, so every mechanism is a tree of groups. A group without children can be
+//! eliminated by its effect on its parent (like articulated bodies: Featherstone 1983,
 //! doi:10.1177/027836498300200102, here of first order). With the resistance A of the child, its
-//! rows C of the joint and those P of its parent,
+//! rows C of the joint and the rows P of its parent,
 //!
 //! ```text
 //! A x = f + C^T force,  C x - P x_parent = target
 //! S = (C A^-1 C^T)^-1,  W = A^-1 C^T,  G = W S P
 //! x = (A^-1 - W S W^T) f + W S target + G x_parent
-//! A_parent + P^T S P  and  f_parent + G^T f - P^T S target  are the parent's then
+//! A_parent + P^T S P  and  f_parent + G^T f - P^T S target  then apply to the parent
 //! ```
 //!
-//! from the leaves to the root, and back for the twists: as many steps as there are joints. A joint to the
-//! world is one whose parent does not move: x_parent = 0. Its group is the root of its mechanism.
+//! from the leaves to the root, and back for the twists: as many steps as there are joints. The
+//! parent of a joint to the world does not move: x_parent = 0. Its group is the root of its
+//! mechanism.
 
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
@@ -24,30 +25,30 @@ use super::{
     unknown::Unknown,
 };
 
-/// Memory that is reused.
+/// Eliminated joints, with reusable memory.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Eliminated {
-    /// The ties, each with the groups that it joins, from the roots of all mechanisms to their
-    /// leaves.
+    /// Ties with the groups that they join, from the roots of all mechanisms to their leaves.
     limbs: Vec<Limb>,
-    /// The ties to the world, of as many roots; each is its own parent, which feels nothing of it.
+    /// Ties to the world, each of a different root; each root is entered as its own parent, and no
+    /// effect is passed on.
     anchors: Vec<Limb>,
-    /// Which groups are roots, or connected to one, as far as the tree has grown.
+    /// Whether each group is a root, or already connected to one.
     reached: Vec<bool>,
-    /// Which groups are connected by ties: the root of the mechanism of each.
+    /// Root of the mechanism of each group.
     mechanism: Vec<usize>,
-    /// For every group with its descendants: the resistance, and what presses.
+    /// Resistance of every group with its descendants, and the force on it.
     resistance: Vec<Matrix3<f64>>,
     load: Vec<Vector3<f64>>,
-    /// How the groups' twists differ from those without what presses.
+    /// Difference of the groups' twists from their free twists.
     moved: Vec<Vector3<f64>>,
-    /// The twist of every group by forces on every other, row by row; empty without ties.
+    /// Twist of every group per force on every other, row by row; empty without ties.
     blocks: Vec<Matrix3<f64>>,
 }
 
 impl Eliminated {
-    /// Finds which of the groups `ties` join. One that closed a loop would be left out; nothing
-    /// makes such ties.
+    /// Finds the groups that `ties` join. A tie that closes a loop is left out; valid input has
+    /// none.
     pub fn hang(&mut self, groups: usize, ties: &[Tie]) {
         let Self { limbs, anchors, reached, mechanism, .. } = self;
         limbs.clear();
@@ -61,7 +62,7 @@ impl Eliminated {
         reached.resize(groups, false);
         let to_world = ties.iter().enumerate().filter(|(_, tie)| tie.a.is_none());
         anchors.extend(to_world.map(|(index, tie)| Limb::new(index, [tie.b.0; 2], false)));
-        // None holds more than one of a mechanism, as that would close a loop.
+        // No mechanism has two, because they would close a loop.
         let held = anchors.iter().map(|anchor| anchor.child);
         for root in held.chain(0..groups) {
             if std::mem::replace(&mut reached[root], true) {
@@ -87,7 +88,7 @@ impl Eliminated {
         }
     }
 
-    /// Takes the present weights.
+    /// Computes the responses at the present weights.
     pub fn prepare(&mut self, unknowns: &[Unknown], ties: &[Tie]) {
         let nothing = self.is_empty();
         let Self { limbs, anchors, mechanism, resistance, blocks, .. } = self;
@@ -114,7 +115,7 @@ impl Eliminated {
         for (k, limb) in limbs.iter().enumerate() {
             let Limb { parent, child, carried, held, .. } = limb;
             let root = mechanism[*child];
-            // All groups of the same root stand together, parents before children.
+            // Groups of one root are adjacent, parents before children.
             let above = limbs[..k].iter().rev().take_while(|other| mechanism[other.child] == root);
             for other in above.map(|other| other.child).chain([root]) {
                 let block = carried * blocks[parent * count + other];
@@ -126,26 +127,26 @@ impl Eliminated {
         }
     }
 
-    /// The number of the mechanism that a group belongs to.
+    /// Returns the index of the mechanism of a group.
     #[inline]
     pub fn mechanism(&self, group: GroupIndex) -> usize {
         self.mechanism[group.0]
     }
 
-    /// Whether joints let one of two groups feel forces on the other.
+    /// Returns `true` if joints transmit forces between two groups.
     #[inline]
     fn couples(&self, one: GroupIndex, other: GroupIndex) -> bool {
         !self.is_empty() && self.mechanism[one.0] == self.mechanism[other.0]
     }
 
-    /// Whether nothing hangs together.
+    /// Returns `true` if there are no joints.
     #[inline]
     pub fn is_empty(&self) -> bool {
         self.limbs.is_empty() && self.anchors.is_empty()
     }
 
-    /// Adds to `felt` what force and torque on every group make of `value` times the twist of `group`;
-    /// without joints only its own do.
+    /// Adds to `felt` the contribution of force and torque on every group to `value` times the
+    /// twist of `group`. Without joints only the group itself contributes.
     #[inline]
     pub fn feel(&self, group: GroupIndex, value: &Vector3<f64>, felt: &mut [Vector3<f64>]) {
         let own = self.mechanism[group.0];
@@ -157,13 +158,15 @@ impl Eliminated {
         }
     }
 
-    /// The twist that force and torque on `other` give to `one`, which it [couples](Self::couples).
+    /// Returns the twist of `one` per force and torque on `other`, which it
+    /// [couples](Self::couples).
     #[inline]
     fn block(&self, one: GroupIndex, other: GroupIndex) -> &Matrix3<f64> {
         &self.blocks[one.0 * self.mechanism.len() + other.0]
     }
 
-    /// Takes how the bodies of a constraint answer its forces, if that is not known at the present weights.
+    /// Computes the response of a constraint's bodies to its forces, unless it is valid at the
+    /// present weights.
     #[inline]
     pub fn weigh(&self, constraint: &mut Constraint, unknowns: &[Unknown]) {
         if !constraint.weighed {
@@ -174,8 +177,8 @@ impl Eliminated {
         }
     }
 
-    /// J M J^T of either side of a constraint, M being how the groups answer; all of it on the first
-    /// side where both belong to one mechanism.
+    /// Returns J M J^T of either side of a constraint, where M is the response of the groups. If
+    /// both belong to one mechanism, the first side contains everything.
     #[inline]
     pub fn own(&self, constraint: &Constraint) -> [Matrix2<f64>; 2] {
         let between = |(g, to): (GroupIndex, &[Vector3<f64>; 2]),
@@ -194,7 +197,7 @@ impl Eliminated {
         [own + other - across - across.transpose(), Matrix2::zeros()]
     }
 
-    /// Twists without forces, the ties met.
+    /// Computes twists without contact forces, with the ties satisfied.
     pub fn release(&mut self, unknowns: &mut [Unknown], ties: &mut [Tie]) {
         match self.is_empty() {
             true => unknowns.iter_mut().for_each(|unknown| unknown.twist = unknown.free),
@@ -202,7 +205,7 @@ impl Eliminated {
         }
     }
 
-    /// Twists from trial forces, the ties met.
+    /// Computes twists from trial forces, with the ties satisfied.
     pub fn spread(
         &mut self,
         unknowns: &mut [Unknown],

@@ -1,9 +1,9 @@
-//! Gaussian elimination with pivots of a few dense equations.
+//! Gaussian elimination with pivoting for small dense systems.
 
 /// Solves n equations of n + 1 numbers each, row by row; the last number of equation k becomes the
-/// k-th unknown. Returns whether all of them are finite.
+/// k-th unknown. Returns `true` if all unknowns are finite.
 pub(super) fn solve_in_place(matrix: &mut [f64], n: usize) -> bool {
-    // Most frames have no more; with three objects these save a twelfth of all instructions.
+    // Most frames have at most eight; with three objects this saves a twelfth of all instructions.
     match n {
         1 => solve_few::<1>(matrix),
         2 => solve_few::<2>(matrix),
@@ -31,8 +31,8 @@ fn solve_few<const N: usize>(lines: &mut [f64]) -> bool {
     true
 }
 
-/// The unknowns of `matrix` x = `target`, if all of them are finite: those of [`solve_many`] to the bit, in
-/// less time as the compiler knows how many they are.
+/// Solves `matrix` x = `target`, if all unknowns are finite. The bits equal [`solve_many`]'s, in
+/// less time because the size is a constant.
 #[inline(always)]
 pub(super) fn solve<const N: usize>(
     mut matrix: [[f64; N]; N],
@@ -53,7 +53,7 @@ pub(super) fn solve<const N: usize>(
         let inverse = 1.0 / first[k];
         for row in k + 1..N {
             let share = matrix[row][k] * inverse;
-            // What is before the pivot is not looked at again.
+            // Entries before the pivot are not used again.
             for (entry, above) in matrix[row].iter_mut().zip(&first) {
                 *entry -= share * above;
             }

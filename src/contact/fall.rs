@@ -1,11 +1,11 @@
-//! How an object that slides and spins comes to rest, in closed form.
+//! Closed-form stopping motion of an object that slides and rotates.
 //!
-//! See [`super::coast`] for the equations: the speeds fall as v = v0 u and c omega = c omega0 u^k
-//! while u goes from one to zero, and mu g dt = -s du / u.
+//! See [`super::coast`] for the equations: the speeds decrease as v = v0 u and c omega = c omega0
+//! u^k while u decreases from one to zero, and mu g dt = -s du / u.
 
-/// Gauss-Legendre quadrature over y from 0 to 1 where u = y^2, which leaves the integrands smooth:
-/// u and the weight 2 y w of every node. Distances are within 4e-5 of the exact integrals and the
-/// time within 3e-3, for k from 0.7 to 1 (discs have 8/9, thin rods 3/4).
+/// Nodes u and weights 2 y w of a Gauss-Legendre quadrature over y from 0 to 1. The substitution u
+/// = y^2 makes the integrands smooth. Distances are within 4e-5 of the exact integrals and the time
+/// within 3e-3, for k from 0.7 to 1 (discs have 8/9, thin rods 3/4).
 const NODES: [(f64, f64); 4] = [
     node(0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
     node(0.330_009_478_207_571_9, 0.326_072_577_431_273_07),
@@ -17,29 +17,30 @@ const fn node(y: f64, weight: f64) -> (f64, f64) {
     (y * y, 2.0 * y * weight)
 }
 
-/// u^k at the nodes of the quadrature over the speeds of a sliding object: the same for each of
-/// its motions.
+/// Values of u^k at the nodes of the quadrature over the speeds of a sliding object, which are
+/// common to all its motions.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fall([f64; NODES.len()]);
 
-/// How an object comes to rest.
+/// Stopping time, distance and rotation of an object.
 pub(super) struct Rest {
-    /// Seconds.
+    /// Stopping time, seconds.
     pub time: f64,
-    /// Metres.
+    /// Distance, metres.
     pub travel: f64,
-    /// Times the length c, metres.
+    /// Rotation times the length c, metres.
     pub turn: f64,
 }
 
 impl Fall {
-    /// Of an object with the ratio `spin`, k, of its spin's deceleration to its slide's.
+    /// Creates the values for an object with the ratio `spin`, k, of rotational to translational
+    /// deceleration.
     pub fn new(spin: f64) -> Self {
         Self(NODES.map(|(u, _)| u.powf(spin)))
     }
 
-    /// The motion of an object left alone with this speed and `spin`, c times the angular velocity,
-    /// both in m/s; `deceleration`, mu g, in m/s^2.
+    /// Returns the stopping motion of a free object with this speed and `spin`, c times the angular
+    /// velocity, both in m/s; `deceleration`, mu g, is in m/s^2.
     pub fn come_to_rest(&self, deceleration: f64, speed: f64, spin: f64) -> Rest {
         let mut rest = Rest { time: 0.0, travel: 0.0, turn: 0.0 };
         for ((u, weight), power) in NODES.into_iter().zip(self.0) {

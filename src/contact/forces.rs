@@ -1,4 +1,4 @@
-//! The forces of a frame as a whole, and the effect of each alone.
+//! The forces of a frame, and the effect of each alone.
 
 use nalgebra::Vector3;
 use pushplan_kernel::LoneSolution;
@@ -7,7 +7,7 @@ use crate::{geometry::Vector, scene::State};
 
 use super::{bodies::Bodies, prior::Prior, twist::shift};
 
-/// The forces of a frame taken as a whole.
+/// The forces of a frame, taken as constant over its duration.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameForces<'a> {
     bodies: &'a Bodies,
@@ -15,7 +15,7 @@ pub struct FrameForces<'a> {
     found: Found<'a>,
 }
 
-/// What has found them.
+/// Solver that found the forces.
 #[derive(Clone, Copy, Debug)]
 enum Found<'a> {
     Alone(&'a LoneSolution),
@@ -27,12 +27,12 @@ impl<'a> FrameForces<'a> {
         Self { bodies, state, found: Found::Together(prior) }
     }
 
-    /// Those of a frame of one object.
+    /// Creates the forces of a frame of one object.
     pub(super) fn alone(bodies: &'a Bodies, state: &'a State, solution: &'a LoneSolution) -> Self {
         Self { bodies, state, found: Found::Alone(solution) }
     }
 
-    /// The force of contact `index` along its normal, newtons.
+    /// Returns the force of contact `index` along its normal, newtons.
     pub fn normal(&self, index: usize) -> f64 {
         match self.found {
             Found::Alone(solution) => solution.normal[index],
@@ -40,8 +40,8 @@ impl<'a> FrameForces<'a> {
         }
     }
 
-    /// The motion that the force of contact `index` alone gives to `object`: shift (metres) and
-    /// turn (radians).
+    /// Returns the motion of `object` under the force of contact `index` alone: displacement
+    /// (metres) and rotation (radians).
     pub fn by_contact(&self, index: usize, object: usize) -> (Vector, f64) {
         let prior = match self.found {
             Found::Alone(solution) => {
@@ -59,7 +59,8 @@ impl<'a> FrameForces<'a> {
         self.moved(prior, object, &pressed)
     }
 
-    /// The same for the force of joint `index`; none for a joint within a rigid group.
+    /// Returns the motion of `object` under the force of joint `index` alone; zero for a joint
+    /// within a rigid group.
     pub fn by_joint(&self, index: usize, object: usize) -> (Vector, f64) {
         let none = (Vector::zeros(), 0.0);
         let Found::Together(prior) = self.found else { return none };

@@ -1,4 +1,4 @@
-//! One frame: what is awake in it, and how that moves.
+//! A frame: its awake objects and their motion.
 
 use crate::{
     geometry::{Pose, Turn, Vector},
@@ -16,49 +16,51 @@ use super::{
     points::{Contact, MARGIN, Scenery, find_contacts},
 };
 
-/// What a frame begins with, and what the tool does in it.
+/// Initial state of a frame, and the tool's motion in it.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameProblem<'a> {
-    /// The bodies that matter.
+    /// Relevant bodies.
     pub bodies: &'a Bodies,
-    /// Where their objects are and how they move.
+    /// Poses and velocities of their objects.
     pub state: &'a State,
-    /// What the tool does.
+    /// Motion of the tool.
     pub step: &'a FrameStep,
-    /// Unit vector of the tool's motion, the last one while it stands still.
+    /// Unit vector of the tool's motion; the last one while the tool stands still.
     pub axis: Vector,
 }
 
-/// Memory of a frame, which it leaves for the next.
+/// Memory of a frame, reused by the next.
 #[derive(Clone, Debug, Default)]
 pub struct Frame {
     coasts: Vec<Motion>,
     turns: Vec<Turn>,
     pub(super) contacts: Vec<Contact>,
     awake: Awake,
-    /// Of the objects that are awake.
+    /// Motions of the awake objects.
     pub(super) motions: Vec<Motion>,
-    /// Its solution, if it is a frame of a lone object.
+    /// Solution of the kernel, for a frame of a single object.
     pub(super) lone: Option<LoneSolution>,
 }
 
-/// A solved frame. Only objects that may do anything but coast enter its equations; everything
-/// public here is about those objects, under their numbers in `bodies`.
+/// A solved frame.
+///
+/// Its equations contain only awake objects, which may do more than slide freely. The public fields
+/// describe these objects, in the numbering of `bodies`.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameSolution<'a> {
-    /// The objects that are awake, the tool's parts and the obstacles.
+    /// Awake objects, tool parts and obstacles.
     pub bodies: &'a Bodies,
-    /// The objects' state as the frame begins.
+    /// Initial state of the objects.
     pub state: &'a State,
-    /// What the tool does.
+    /// Motion of the tool.
     pub step: &'a FrameStep,
-    /// Unit vector of the tool's motion, the last one while it stands still.
+    /// Unit vector of the tool's motion; the last one while the tool stands still.
     pub axis: Vector,
-    /// What the objects would do if nothing touched or held them.
+    /// Motions of the objects in free sliding, without contacts and joints.
     pub coasts: &'a [Motion],
-    /// What they do.
+    /// Actual motions of the objects.
     pub motions: &'a [Motion],
-    /// Where bodies touch or may come to.
+    /// Contact points that are closed or may close.
     pub contacts: &'a [Contact],
     all: &'a [Motion],
     awake: &'a Awake,
@@ -67,21 +69,20 @@ pub struct FrameSolution<'a> {
 /// Two bodies that touch, or come to touch, in a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch {
-    /// The two.
+    /// Id of the pair.
     pub pair: PairId,
-    /// Whether they would overlap if the first of them (see [`super::Pairs::bodies`]) only
-    /// coasted, and whether if the second did; one of it at least.
+    /// Whether the bodies would overlap if the first of them (see [`super::Pairs::bodies`]) only
+    /// slid freely, and if the second did; at least one entry is true.
     pub stops: [bool; 2],
-    /// How deep they are inside each other as the frame begins, metres; negative before they
-    /// touch.
+    /// Initial penetration, metres; negative before the bodies touch.
     pub depth: f64,
-    /// Unit, into the first.
+    /// Unit normal, into the first body.
     pub normal: Vector,
 }
 
 impl Frame {
-    /// Finds how everything coasts, what touches and what is awake, and takes that by itself;
-    /// returns whether anything is.
+    /// Computes free sliding, contacts and awake objects, and gathers the awake objects. Returns
+    /// `true` if there are any.
     pub(super) fn wake(&mut self, FrameProblem { bodies, state, step, .. }: FrameProblem) -> bool {
         let Self { coasts, turns, contacts, awake, motions, lone } = self;
         *lone = None;
@@ -96,7 +97,7 @@ impl Frame {
         awake.gather(bodies, state, (coasts, turns), contacts)
     }
 
-    /// What is awake, by itself.
+    /// Returns the awake objects and their surroundings.
     pub(super) fn scenery<'a>(&'a self, problem: FrameProblem<'a>) -> Scenery<'a> {
         let View { bodies, state, coasts, turns } =
             self.awake.view(problem.bodies, problem.state, &self.coasts, &self.turns);
@@ -120,12 +121,12 @@ impl Frame {
 }
 
 impl FrameSolution<'_> {
-    /// Which of the frame's objects an object that is awake is.
+    /// Returns the index of an awake object on the frame's list.
     pub fn listed(&self, object: AwakeIndex) -> ListIndex {
         self.awake.listed(object)
     }
 
-    /// Fills `motions` with those of all of the frame's objects, awake or not.
+    /// Fills `motions` with the motions of all objects of the frame, awake or not.
     pub fn fill(&self, motions: &mut Vec<Motion>) {
         motions.clear();
         motions.extend_from_slice(self.all);
@@ -134,7 +135,7 @@ impl FrameSolution<'_> {
         }
     }
 
-    /// What touches, or comes to.
+    /// Returns the contacts that are closed or close in the frame.
     pub fn touches(&self) -> impl Iterator<Item = Touch> {
         self.contacts.iter().filter_map(|contact| {
             let stops = contact.sights().map(|sight| {

@@ -1,11 +1,10 @@
-//! Joints hold exactly: the errors that a network's corrections leave are projected out after every
-//! frame.
+//! Exact joints: joint errors from a network's corrections are projected out after every frame.
 //!
-//! Members of a fixed group get the rigid motion nearest to theirs; groups are then moved
-//! against each other until every revolute and prismatic joint, and every limit, is met: the
-//! smallest move, weighted by masses and moments of inertia, so that momentum is kept (the
-//! projection of position based dynamics, Müller et al. 2007,
-//! doi:10.1016/j.jvcir.2007.01.005, for all joints at once).
+//! Members of a fixed group get the nearest rigid motion. Groups are then moved relative to each
+//! other until every revolute and prismatic joint, and every limit, is satisfied. The motion is the
+//! smallest one, weighted by masses and moments of inertia, so that momentum is conserved (the
+//! projection of position based dynamics, Müller et al. 2007, doi:10.1016/j.jvcir.2007.01.005, for
+//! all joints at once).
 
 use nalgebra::{DMatrix, DVector};
 
@@ -19,7 +18,7 @@ use super::{
     index::GroupIndex,
 };
 
-/// Newton steps, and the error at which they end, metres.
+/// Maximum number of Newton steps, and the error at which they end, metres.
 const STEPS: usize = 8;
 const HELD: f64 = 1e-10;
 
@@ -35,8 +34,8 @@ struct Group {
     ease: f64,
 }
 
-/// Brings poses and velocities of jointed objects to what their joints allow, wherever one of
-/// those that `moved` says is among them.
+/// Projects poses and velocities of jointed objects onto their joints, in every mechanism with an
+/// object that `moved`.
 pub fn hold(bodies: &Bodies, state: &mut State, moved: impl Fn(usize) -> bool) {
     if bodies.joints.is_empty() && bodies.mounts.is_empty() {
         return;
@@ -46,7 +45,7 @@ pub fn hold(bodies: &Bodies, state: &mut State, moved: impl Fn(usize) -> bool) {
         touched[mechanism] |= moved(object);
     }
     let wanted = |joint: &Jointed| {
-        // A guessed axis is no reason to move anything.
+        // A guessed axis does not justify moving anything.
         !joint.guessed && touched[bodies.mechanisms[joint.between[0]]]
     };
     let own = bodies.joints.iter().filter(|joint| wanted(joint));
@@ -95,7 +94,7 @@ pub fn hold(bodies: &Bodies, state: &mut State, moved: impl Fn(usize) -> bool) {
         }
         let Group { pose, velocity, spin, .. } = groups[group.0];
         let held = pose * places[object];
-        // Turns are counted, so a heading changes by the difference only.
+        // Full rotations are counted, so a heading changes by the difference only.
         let turn = wrap_angle(held.heading - state.poses[object].heading);
         let heading = state.poses[object].heading + turn;
         state.poses[object] = Pose { position: held.position, heading };
@@ -106,7 +105,7 @@ pub fn hold(bodies: &Bodies, state: &mut State, moved: impl Fn(usize) -> bool) {
 }
 
 impl Group {
-    /// What nothing moves; it comes after all others.
+    /// The immovable world; its index follows all groups.
     const WORLD: Self = Self {
         pose: Pose { position: Vector::new(0.0, 0.0), heading: 0.0 },
         velocity: Vector::new(0.0, 0.0),
@@ -116,33 +115,34 @@ impl Group {
     };
 }
 
-/// A joint to hold: between two groups, of which one may be the world.
+/// A joint to satisfy between two groups, of which one may be the world.
 struct Held<'a> {
     between: [GroupIndex; 2],
-    /// Its objects; of the world there is none.
+    /// Objects of the joint; `None` for the world.
     objects: [Option<usize>; 2],
-    /// Its frame as seen from each of them, or in the world.
+    /// The joint's frame relative to each object, or in the world.
     frames: &'a [Pose; 2],
     kind: JointKind,
     limits: Option<Span>,
 }
 
 impl<'a> Held<'a> {
-    /// Of two objects.
+    /// Creates the joint of two objects.
     fn between(bodies: &Bodies, joint: &'a Jointed) -> Self {
         let Jointed { frames, kind, limits, .. } = joint;
         let between = joint.between.map(|object| bodies.groups.of[object]);
         Self { between, objects: joint.between.map(Some), frames, kind: *kind, limits: *limits }
     }
 
-    /// Of an object and the world, which comes after all groups.
+    /// Creates the joint of an object and the world, whose index follows all groups.
     fn to_world(bodies: &Bodies, mount: &'a Mounted) -> Self {
         let Mounted { frames, kind, limits, object } = mount;
         let between = [GroupIndex(bodies.groups.members.len()), bodies.groups.of[*object]];
         Self { between, objects: [None, Some(*object)], frames, kind: *kind, limits: *limits }
     }
 
-    /// How its sides stand when objects have these places in their groups.
+    /// Returns the relative pose of the joint's sides, with the objects at these places in their
+    /// groups.
     fn separation(&self, groups: &[Group], places: &[Pose]) -> Separation {
         let end = |side: usize| match self.objects[side] {
             Some(object) => groups[self.between[side].0].pose * places[object],
@@ -152,7 +152,7 @@ impl<'a> Held<'a> {
     }
 }
 
-/// Every object's pose in the frame of its group's centre of mass.
+/// Returns every object's pose in the frame of its group's centre of mass.
 fn place(bodies: &Bodies) -> Vec<Pose> {
     let mut places = bodies.groups.places.clone();
     for members in &bodies.groups.members {
@@ -162,13 +162,13 @@ fn place(bodies: &Bodies) -> Vec<Pose> {
     places
 }
 
-/// Mean of a vector over `members`, weighted by mass.
+/// Returns the mean of a vector over `members`, weighted by mass.
 fn centre(bodies: &Bodies, members: &[usize], of: impl Fn(usize) -> Vector) -> Vector {
     let mass: f64 = members.iter().map(|&k| bodies.objects[k].mass).sum();
     members.iter().map(|&k| of(k) * bodies.objects[k].mass).sum::<Vector>() / mass
 }
 
-/// The rigid motion of a group nearest to its members'.
+/// Returns the rigid motion of a group nearest to its members' motions.
 fn gather(bodies: &Bodies, state: &State, members: &[usize]) -> Group {
     let own = |k: usize| {
         let body = &bodies.objects[k];
@@ -186,7 +186,7 @@ fn gather(bodies: &Bodies, state: &State, members: &[usize]) -> Group {
         spin += mass * cross(arm, state.velocities[k].linear - velocity)
             + own(k) * state.velocities[k].angular;
     }
-    // Two steps bring the best heading from that of the first member to rounding.
+    // Two steps bring the best heading from the first member's to rounding.
     let mut base = state.poses[members[0]].heading;
     for _ in 0..STEPS {
         let mut turn = 0.0;
@@ -211,16 +211,16 @@ fn gather(bodies: &Bodies, state: &State, members: &[usize]) -> Group {
     }
 }
 
-/// One scalar equation: what the second group's displacement beyond the first's must be.
+/// A scalar equation for the displacement of the second group relative to the first.
 #[derive(Clone, Copy, Debug)]
 struct Row {
-    /// The two groups.
+    /// Groups of the equation.
     between: [GroupIndex; 2],
-    /// Direction of displacement, zero for a turn.
+    /// Direction of displacement; zero for a rotation.
     shift: Vector,
-    /// What a turn of either group contributes, metres per radian.
+    /// Contribution of a rotation of either group, metres per radian.
     turns: [f64; 2],
-    /// Metres.
+    /// Residual, metres.
     missing: f64,
 }
 
@@ -244,14 +244,14 @@ impl Row {
         }
     }
 
-    /// Lets `act` move both groups against each other along this row.
+    /// Calls `act` to move both groups relative to each other along this row.
     fn each_side(&self, groups: &mut [Group], mut act: impl FnMut(&mut Group, Vector, f64)) {
         let [a, b] = self.between;
         act(&mut groups[a.0], -self.shift, -self.turns[0]);
         act(&mut groups[b.0], self.shift, self.turns[1]);
     }
 
-    /// The row's entries for `group`: signed shift and turn.
+    /// Returns the row's entries for `group`: signed displacement and rotation.
     fn side(&self, group: GroupIndex) -> Option<(Vector, f64)> {
         if group == self.between[0] {
             Some((-self.shift, -self.turns[0]))
@@ -263,7 +263,7 @@ impl Row {
     }
 }
 
-/// The rows of all joints between different groups. A limit has one once it is exceeded.
+/// Returns the rows of all joints between different groups. A limit has one once it is exceeded.
 fn rows(joints: &[Held], places: &[Pose], groups: &[Group], limited: &mut [bool]) -> Vec<Row> {
     let mut rows = Vec::with_capacity(3 * joints.len());
     for (joint, limited) in joints.iter().zip(limited) {
@@ -301,7 +301,7 @@ fn rows(joints: &[Held], places: &[Pose], groups: &[Group], limited: &mut [bool]
     rows
 }
 
-/// The impulses along the rows that together make up for what each of them is missing.
+/// Returns the impulses along the rows that together remove the residuals.
 fn solve(rows: &[Row], groups: &[Group], missing: impl Fn(&Row) -> f64) -> DVector<f64> {
     let count = rows.len();
     let mut coupling = DMatrix::zeros(count, count);
@@ -315,7 +315,7 @@ fn solve(rows: &[Row], groups: &[Group], missing: impl Fn(&Row) -> f64) -> DVect
                 coupling[(p, q)] += s.dot(&u) * lightness + t * v * ease;
             }
         }
-        // Rows of a forest of joints are independent but for limits that say the same twice.
+        // Rows of a forest of joints are independent except for duplicate limits.
         coupling[(p, p)] *= 1.0 + 1e-9;
     }
     let missing = DVector::from_iterator(count, rows.iter().map(missing));

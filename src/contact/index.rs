@@ -1,15 +1,15 @@
-//! Numberings: the same object has a number in its scene, one on the list of what matters now and
-//! one among those awake in a frame.
+//! Index types: an object has an index in its scene, another on the list of relevant bodies and
+//! another among the objects awake in a frame.
 //!
-//! Inside this module a bare `usize` is a number in the [`super::Bodies`] at hand; where two
-//! numberings meet, these types keep them apart.
+//! Inside this module a bare `usize` is an index into the [`super::Bodies`] at hand. These types
+//! keep the numberings apart where two of them meet.
 
-/// A number that an object has in one numbering.
+/// The index of an object in one numbering.
 pub trait Index: Copy + Eq {
-    /// The object in this place.
+    /// Creates the index of this position.
     fn at(place: usize) -> Self;
 
-    /// Its place.
+    /// Returns the position.
     fn place(self) -> usize;
 }
 
@@ -32,12 +32,12 @@ macro_rules! numberings {
 }
 
 numberings! {
-    /// Among the objects of the scene.
+    /// Index among the objects of the scene.
     SceneIndex;
-    /// Among the objects that a rollout looks at now, or all of them where it looks at everything.
+    /// Index among the objects listed by a rollout, which are all objects without pruning.
     ListIndex;
-    /// Among the objects that a frame's equations are about.
+    /// Index among the objects in a frame's equations.
     AwakeIndex;
-    /// Among the rigid groups of the bodies at hand.
+    /// Index among the rigid groups of the bodies at hand.
     GroupIndex;
 }

@@ -1,4 +1,4 @@
-//! Joints as equations of a frame: ties, and limits where they are near.
+//! Joints as equations of a frame: ties, and limits that are near.
 
 use nalgebra::{Vector2, Vector3};
 
@@ -16,17 +16,17 @@ use super::{
     unknown::Unknown,
 };
 
-/// A limit this far off, or nearer, is watched: metres, or radians at [`JOINT_ARM`].
+/// Distance to a limit below which it is a constraint: metres, or radians at [`JOINT_ARM`].
 const NEAR_LIMIT: f64 = 0.03;
 
-/// Two rows of a joint between two groups, or between the world and a group: of the second against
-/// the first.
+/// Two rows of a joint between two groups, or between the world and a group: motion of the second
+/// relative to the first.
 pub(super) struct Rows {
     between: (Option<GroupIndex>, GroupIndex),
     to: [Vector3<f64>; 2],
     from: [Vector3<f64>; 2],
     target: [f64; 2],
-    /// Whether they are a limit, of one row, and not the joint itself.
+    /// Whether the rows are a limit, with one row only, and not the joint itself.
     pub limit: bool,
 }
 
@@ -52,21 +52,21 @@ impl Rows {
     }
 }
 
-/// A joint between different groups, or between the world and a group, as a frame begins.
+/// A joint between different groups, or between the world and a group, in its initial state.
 pub(super) struct Held {
     between: (Option<GroupIndex>, GroupIndex),
     kind: JointKind,
     limits: Option<Span>,
-    /// Where its frame is on either side, and the axis that a prismatic one slides along.
+    /// Position of the joint's frame on either side, and the sliding axis of a prismatic joint.
     ends: [Vector; 2],
     slides: Vector,
-    /// How far the second side is off the first, and turned against it.
+    /// Initial offset and rotation of the second side relative to the first.
     apart: Vector,
     turned: f64,
 }
 
 impl Held {
-    /// Of two objects; `None` if they are in one group.
+    /// Creates the joint of two objects; `None` if they are in one group.
     pub fn between(Scenery { bodies, state, turns, .. }: Scenery, joint: &Jointed) -> Option<Self> {
         let [first, second] = joint.between.map(|object| bodies.groups.of[object]);
         if first == second {
@@ -90,7 +90,7 @@ impl Held {
         })
     }
 
-    /// Of an object and the world.
+    /// Creates the joint of an object and the world.
     pub fn to_world(Scenery { bodies, state, .. }: Scenery, mount: &Mounted) -> Self {
         let start = mount.separation(&state.poses[mount.object]);
         Self {
@@ -104,8 +104,8 @@ impl Held {
         }
     }
 
-    /// The rows where its groups have come to: first its own, then its limits. How many there are
-    /// depends on the start of the frame alone.
+    /// Returns the rows at the groups' present positions through `add`: first of the joint, then of
+    /// its limits. Their number depends on the start of the frame alone.
     pub fn rows(&self, axis: Vector, unknowns: &[Unknown], mut add: impl FnMut(Rows)) {
         let Self { between, limits, ends, slides, apart, turned, .. } = *self;
         let first = between.0.map(|group| &unknowns[group.0]);
@@ -123,7 +123,8 @@ impl Held {
             JointKind::Fixed => {}
             JointKind::Revolute { .. } => {
                 let on_first = first.map_or(ends[0], |group| group.moved(ends[0]));
-                // Along the tool's motion and across it, so that they turn with the scene.
+                // Directions along and across the tool's motion, so that they rotate with the
+                // scene.
                 let directions = [axis, perpendicular(axis)];
                 add(
                     directions.map(|d| to(d, on_second)),
@@ -141,8 +142,8 @@ impl Held {
                 }
             }
             JointKind::Prismatic { .. } => {
-                // Both bodies at the second's frame: it slides along an axis that turns with the
-                // first.
+                // Both bodies at the second's frame, which slides along an axis that rotates with
+                // the first.
                 let slide = first.map_or(slides, |group| group.turn.of(slides));
                 let across = perpendicular(slide);
                 let at = on_second;
@@ -163,14 +164,15 @@ impl Held {
     }
 }
 
-/// All joints of a frame: those between objects that move against each other, then those to the world.
+/// Returns all joints of a frame: between objects that move relative to each other, then to the
+/// world.
 fn all(scenery: Scenery<'_>) -> impl Iterator<Item = Held> + '_ {
     let bodies = scenery.bodies;
     let between = bodies.joints.iter().filter_map(move |joint| Held::between(scenery, joint));
     between.chain(bodies.mounts.iter().map(move |mount| Held::to_world(scenery, mount)))
 }
 
-/// Turns the rows of all joints, and of their limits, to where the groups have come to.
+/// Rotates the rows of all joints and limits to the groups' present positions.
 pub(super) fn turn_joints(
     scenery: Scenery,
     axis: Vector,

@@ -1,5 +1,5 @@
-//! A joint between a group and its parent, and what the two feel of each other through it; see
-//! [`super::eliminated`] for the letters.
+//! A joint between a group and its parent, with the response that it transmits; see
+//! [`super::eliminated`] for the symbols.
 
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
@@ -8,33 +8,33 @@ use super::{
     unknown::Unknown,
 };
 
-/// A tie, and how the child group responds.
+/// A tie, and the response of the child group.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limb {
     pub tie: usize,
     pub parent: usize,
     pub child: usize,
-    /// Whether the child is the tie's first group, which turns its equations' sign.
+    /// Whether the child is the tie's first group, which changes the sign of its equations.
     pub turned: bool,
-    /// P.
+    /// Rows of the parent, P.
     pub on_parent: [Vector3<f64>; 2],
-    /// C.
+    /// Rows of the child, C.
     pub on_child: [Vector3<f64>; 2],
-    /// S.
+    /// Stiffness of the joint, S.
     pub stiffness: Matrix2<f64>,
-    /// The columns of W, and of W S.
+    /// Columns of W, and of W S.
     pub answer: [Vector3<f64>; 2],
     pub drawn: [Vector3<f64>; 2],
-    /// Twists by forces while the parent stays where it is.
+    /// Twists per force with the parent fixed.
     pub held: Matrix3<f64>,
-    /// G: the child's twist by its parent's.
+    /// G: the child's twist per twist of its parent.
     pub carried: Matrix3<f64>,
-    /// What the joint still asks for where all groups move freely, metres.
+    /// Residual of the joint if all groups move freely, metres.
     pub left: Vector2<f64>,
 }
 
 impl Limb {
-    /// Of the tie with this index; it has not been weighed yet.
+    /// Creates a limb for the tie with this index, without weights.
     #[inline]
     pub fn new(tie: usize, [parent, child]: [usize; 2], turned: bool) -> Self {
         let (rows, none) = ([Vector3::zeros(); 2], Matrix3::zeros());
@@ -54,8 +54,8 @@ impl Limb {
         }
     }
 
-    /// Takes how the child responds, whose resistance with its descendants has this inverse;
-    /// returns what the parent feels of that as a resistance of its own.
+    /// Computes the child's response from the inverse resistance of the child with its descendants.
+    /// Returns the resistance that this adds to the parent.
     #[inline]
     pub fn weigh(&mut self, tie: &Tie, inverse: &Matrix3<f64>) -> Matrix3<f64> {
         (self.on_parent, self.on_child) =
@@ -70,7 +70,7 @@ impl Limb {
         outer(&times(&self.on_parent, &self.stiffness), &self.on_parent)
     }
 
-    /// Takes what its tie still asks for where all groups move freely.
+    /// Computes the residual of its tie if all groups move freely.
     #[inline]
     pub fn ask(&mut self, tie: &Tie, unknowns: &[Unknown]) {
         let target = Vector2::from(tie.target) * if self.turned { -1.0 } else { 1.0 };
@@ -79,13 +79,13 @@ impl Limb {
     }
 }
 
-/// The inverse of a resistance to shifts and turns.
+/// Inverts a resistance to displacements and rotations.
 #[inline]
 pub(super) fn inverse(weight: &Matrix3<f64>) -> Matrix3<f64> {
     let det = weight.m11 * weight.m22 - weight.m12 * weight.m12;
     let shifts = Matrix2::new(weight.m22, -weight.m12, -weight.m12, weight.m11) / det;
     let coupled = Vector2::new(weight.m13, weight.m23);
-    // Turning about the point that turning alone leaves in place.
+    // Compliance of a rotation about the centre of resistance.
     let about = -shifts * coupled;
     let turn = 1.0 / (weight.m33 + coupled.dot(&about));
     let shifts = shifts + about * about.transpose() * turn;
@@ -95,19 +95,19 @@ pub(super) fn inverse(weight: &Matrix3<f64>) -> Matrix3<f64> {
     )
 }
 
-/// J^T force.
+/// Returns J^T force.
 #[inline]
 pub(super) fn pull(j: &[Vector3<f64>; 2], force: &Vector2<f64>) -> Vector3<f64> {
     j[0] * force.x + j[1] * force.y
 }
 
-/// The columns of J^T S.
+/// Returns the columns of J^T S.
 #[inline]
 fn times(j: &[Vector3<f64>; 2], s: &Matrix2<f64>) -> [Vector3<f64>; 2] {
     [pull(j, &s.column(0).into_owned()), pull(j, &s.column(1).into_owned())]
 }
 
-/// The sum of u v^T over two columns of each.
+/// Returns the sum of u v^T over two columns of each.
 #[inline]
 fn outer(u: &[Vector3<f64>; 2], v: &[Vector3<f64>; 2]) -> Matrix3<f64> {
     u[0] * v[0].transpose() + u[1] * v[1].transpose()

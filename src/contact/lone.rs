@@ -1,5 +1,5 @@
-//! The frames of one object that nothing is joined to, in at most two contacts: the motions of [`super::prior`]
-//! to the last bit, solved several frames side by side by [`pushplan_kernel`].
+//! Frames of a single unjointed object with at most two contacts, solved side by side by
+//! [`pushplan_kernel`]. The motions equal the results of [`super::prior`] to the last bit.
 
 use pushplan_kernel::Tally;
 use pushplan_kernel::{Effort, LoneContact, LoneFrame, MANY, MOST, batch, solve};
@@ -12,22 +12,22 @@ use super::{
     points::{Contact, Scenery},
 };
 
-/// A frame that waits to be solved. In this order lanes wait the least for each other.
+/// A frame to be solved. This order minimises the waiting of lanes for each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Waiting {
     pub contacts: usize,
-    /// Work on the frame before.
+    /// Solver effort in the previous frame.
     pub effort: Effort,
     pub place: usize,
 }
 
-/// Returns `true` for a frame that is solved here.
+/// Returns `true` for a frame that the kernel can solve.
 pub(super) fn is_lone(scenery: &Scenery, contacts: &[Contact]) -> bool {
     let bodies = scenery.bodies;
     bodies.objects.len() == 1 && bodies.mounts.is_empty() && contacts.len() <= MOST
 }
 
-/// Solves the frames that are `waiting`: leaves the solution with each, if its forces were found.
+/// Solves the `waiting` frames and stores the solution in each, if its forces were found.
 pub(super) fn solve_each(
     problems: &[Option<FrameProblem>],
     frames: &mut [Frame],
@@ -41,7 +41,7 @@ pub(super) fn solve_each(
     }
 }
 
-/// Solves the frames that are `waiting` side by side.
+/// Solves the `waiting` frames side by side.
 fn solve_together(
     problems: &[Option<FrameProblem>],
     frames: &mut [Frame],
@@ -62,14 +62,14 @@ fn solve_together(
     }
 }
 
-/// The numbers of a lone frame.
+/// Returns the kernel's input for a frame.
 fn numbers<'a>(scenery: Scenery<'a>, contacts: &[Contact]) -> LoneFrame<'a> {
     let Scenery { bodies, state, step, coasts, turns, .. } = scenery;
     let (body, coast, velocity) = (&bodies.objects[0], &coasts[0], &state.velocities[0]);
     let travel = (step.to.position - step.from.position).norm();
     let mut met = [None; MOST];
     for (met, contact) in met.iter_mut().zip(contacts) {
-        // Obstacles stay where they are, so only faces and corners matter.
+        // Obstacles do not move, so only faces and corners matter.
         let radius = match contact.with {
             Partner::Part(index) => radius(&bodies.parts[index].footprint),
             _ => None,
@@ -103,7 +103,7 @@ fn numbers<'a>(scenery: Scenery<'a>, contacts: &[Contact]) -> LoneFrame<'a> {
     }
 }
 
-/// The radius of a disc.
+/// Returns the radius of a disc.
 fn radius(footprint: &Footprint) -> Option<f64> {
     match footprint {
         Footprint::Disc { radius } => Some(*radius),

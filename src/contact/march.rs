@@ -1,7 +1,7 @@
-//! A frame solved in pieces.
+//! Solution of a frame in substeps.
 //!
-//! Where several objects meet, what happens first decides what happens next; in one step for
-//! the whole frame everything happens at once.
+//! The order of events matters for several objects; a single step for the whole frame makes
+//! everything happen at once.
 
 use crate::{
     geometry::{Turn, Vector},
@@ -16,29 +16,30 @@ use super::{
     prior::Prior,
 };
 
-/// Contacts count in a piece when their gap is at most this beyond what both could travel in it,
-/// metres; see [`super::MARGIN`]. The least that is enough for pushed bodies that turn: with 8 mm
-/// none of 60 pushes of 1 to 10 objects ends elsewhere by 0.01 mm.
+/// Gap, beyond the possible travel of both bodies in a substep, up to which contacts count, metres;
+/// see [`super::MARGIN`]. The value is the smallest that suffices for pushed bodies that rotate:
+/// with 8 mm the end changes by less than 0.01 mm in each of 60 pushes of 1 to 10 objects.
 const MARGIN: f64 = 1e-3;
 
-/// Memory that marching reuses.
+/// Reusable memory of the substeps.
 #[derive(Clone, Debug, Default)]
 pub(super) struct March {
     pub prior: Prior,
     state: State,
     coasts: Vec<Motion>,
     turns: Vec<Turn>,
-    /// How far any point of an object may be from where it was as the frame began, metres.
+    /// Upper bound on the displacement of any point of an object since the start of the frame,
+    /// metres.
     moved: Vec<f64>,
     contacts: Vec<Contact>,
     last: Vec<Contact>,
 }
 
 impl March {
-    /// The `motions` of all objects in the frame, by `pieces` smaller steps.
+    /// Computes the `motions` of all objects in the frame by `pieces` substeps.
     ///
-    /// Only pairs that have one of the frame's `known` contacts can touch. So nothing can enter
-    /// that the frame as a whole does not know of, however fast a body becomes within it.
+    /// Only pairs with one of the frame's `known` contacts can touch. No other pair can enter,
+    /// however fast a body becomes within the frame.
     pub fn run(
         &mut self,
         Scenery { bodies, state, step, turns: turns_before, .. }: Scenery,

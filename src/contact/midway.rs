@@ -1,9 +1,10 @@
-//! A contact's geometry part-way through a frame.
+//! Geometry of a contact at an instant within a frame.
 //!
-//! Normals turn while bodies move. With those of the frame's start an answer is exact to first
-//! order only: a disc pushed by a disc leaves sideways, and each frame would push it a little
-//! too straight. With those half-way the change of every gap is exact to second order, because
-//! (|q| - |p|) = (q - p) . (p + q) / (|p| + |q|) and the last factor is the direction half-way.
+//! Normals rotate while bodies move. With initial normals a solution is exact to first order only:
+//! a disc pushed by a disc leaves sideways, and each frame would push it slightly too straight.
+//! Normals at half the frame make the change of every gap exact to second order, because
+//! (|q| - |p|) = (q - p) . (p + q) / (|p| + |q|) and the last factor is the direction at half the
+//! frame.
 
 use crate::{
     geometry::{Follows, Footprint, Turn, Vector},
@@ -17,18 +18,18 @@ use super::{
     unknown::Unknown,
 };
 
-/// A contact at some moment of a frame. World axes, metres.
+/// Contact geometry at an instant of a frame. World axes, metres.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Midway {
-    /// Unit, from the other body into the object.
+    /// Unit normal, from the other body into the object.
     pub normal: Vector,
-    /// From the centre of the object's group to the contact point.
+    /// Vector from the centre of the object's group to the contact point.
     pub arm: Vector,
-    /// From the centre of the other's group to it; zero where its motion is given.
+    /// Vector from the centre of the other group to the contact point; zero for prescribed motion.
     pub other_arm: Vector,
 }
 
-/// `contact` where the groups have come to, when `share` of the frame is done.
+/// Returns the geometry of `contact` after a `share` of the frame's motion.
 #[inline]
 pub(super) fn midway(
     bodies: &Bodies,
@@ -50,7 +51,7 @@ pub(super) fn midway(
             let point = state.poses[contact.object].position + contact.arm - contact.gap * normal;
             let footprint = match with {
                 Partner::Part(index) => &bodies.parts[index].footprint,
-                // Obstacles stay where they are, so only faces and corners matter.
+                // Obstacles do not move, so only faces and corners matter.
                 _ => &Footprint::Rectangle { half: Vector::new(0.0, 0.0) },
             };
             let radius = if let Footprint::Disc { radius } = footprint { *radius } else { 0.0 };
@@ -74,7 +75,7 @@ pub(super) fn midway(
             if usable { between / now } else { contact.normal }
         }
     };
-    // A face is met wherever the other's point has come to.
+    // A face is touched at the current position of the other body's point.
     let (p, q) = match contact.follows {
         Follows::First => (second.point(normal), second.point(normal)),
         Follows::Second => (first.point(-normal), first.point(-normal)),
@@ -83,11 +84,11 @@ pub(super) fn midway(
     Midway { normal, arm: p - first.moves.centre(), other_arm: q - second.moves.centre() }
 }
 
-/// How one of the two bodies moves.
+/// Motion of one of the two bodies.
 #[derive(Clone, Copy)]
 enum Moves<'a> {
     With(&'a Unknown),
-    /// By itself: a point of it, how far that has come, and the turn.
+    /// Prescribed motion: a point of the body, its displacement, and the rotation.
     Given {
         about: Vector,
         by: Vector,
@@ -104,7 +105,7 @@ impl Moves<'_> {
         }
     }
 
-    /// Where a point of the body has come to.
+    /// Returns the current position of a point of the body.
     #[inline]
     fn moved(&self, point: Vector) -> Vector {
         match self {
@@ -113,7 +114,7 @@ impl Moves<'_> {
         }
     }
 
-    /// Where the point has come to that arms are counted from.
+    /// Returns the current position of the reference point of arms.
     #[inline]
     fn centre(&self) -> Vector {
         match self {
@@ -123,13 +124,13 @@ impl Moves<'_> {
     }
 }
 
-/// One of the two bodies.
+/// A body of the contact.
 #[derive(Clone, Copy)]
 struct Side<'a> {
     moves: Moves<'a>,
-    /// Contact point at the frame's start.
+    /// Initial contact point.
     point: Vector,
-    /// Centre and radius of a disc, at the frame's start.
+    /// Initial centre and radius of a disc.
     round: Option<(Vector, f64)>,
 }
 
@@ -143,8 +144,8 @@ impl<'a> Side<'a> {
         Self { moves, point, round }
     }
 
-    /// The contact point on the body: a disc rolls beneath its own, `outward` being the
-    /// direction from its centre; a corner takes it along.
+    /// Returns the contact point on the body. The point of a disc stays in the direction `outward`
+    /// from its centre; a corner moves with the body.
     #[inline]
     fn point(&self, outward: Vector) -> Vector {
         match self.round {

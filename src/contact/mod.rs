@@ -1,10 +1,11 @@
-//! The equations of a frame: what contacts, joints, friction with the table and inertia make of
-//! a state while the tool moves a little.
+//! The equations of a frame: the effect of contacts, joints, table friction and inertia on a state
+//! during a small motion of the tool.
 //!
-//! Closed form and implicit, second order in time, joints eliminated, independent of any order;
-//! objects that nothing can push in a frame coast or stay, exactly. Nothing is learned here, and
-//! nothing is known of the network that corrects it. One frame at a time, or those of candidates side
-//! by side: the loop over time is in [`crate::rollout`].
+//! The solution is in closed form and implicit, second order in time, with joints eliminated, and
+//! independent of any order. Objects that nothing can push in a frame slide freely or stay,
+//! exactly. This module contains no learning and does not depend on the network that corrects its
+//! results. It solves single frames, or frames of several candidates side by side: the loop over
+//! time is in [`crate::rollout`].
 
 mod active;
 mod approach;

@@ -1,17 +1,17 @@
-//! Lasting names of pairs of bodies.
+//! Persistent identifiers of pairs of bodies.
 //!
-//! What is on a list, awake or in touch changes from frame to frame, and so do all numbers that
-//! follow from it. Anything kept about a pair over time is kept under its id.
+//! The listed, awake and touching bodies change from frame to frame, and so do all indices derived
+//! from them. Data kept about a pair over time are therefore stored under its id.
 
 use crate::scene::Body;
 
 use super::index::SceneIndex;
 
-/// A pair of an object and another body of one scene and tool: the same in every frame.
+/// Identifier of a pair of an object and another body of one scene and tool, constant over frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PairId(u32);
 
-/// All pairs of a scene with a tool in it.
+/// Numbering of all pairs of a scene with a tool.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Pairs {
     objects: usize,
@@ -20,13 +20,13 @@ pub struct Pairs {
 }
 
 impl Pairs {
-    /// Of a scene with these numbers of objects and obstacles, and a tool with this number of
-    /// parts.
+    /// Creates the numbering for a scene with these numbers of objects and obstacles, and a tool
+    /// with this number of parts.
     pub fn new(objects: usize, obstacles: usize, parts: usize) -> Self {
         Self { objects, obstacles, parts }
     }
 
-    /// The pair of `object` and `with`; of two objects in either order.
+    /// Returns the pair of `object` and `with`; two objects may be in either order.
     pub fn id(&self, object: SceneIndex, with: Body) -> PairId {
         let (row, column) = match with {
             Body::Object(other) => (object.0.min(other), object.0.max(other)),
@@ -36,7 +36,7 @@ impl Pairs {
         PairId((row * self.columns() + column) as u32)
     }
 
-    /// The two bodies of a pair, of two objects the lower one first.
+    /// Returns the two bodies of a pair, for two objects the lower index first.
     pub fn bodies(&self, pair: PairId) -> (SceneIndex, Body) {
         let (row, column) = (pair.0 as usize / self.columns(), pair.0 as usize % self.columns());
         let with = if column < self.objects {
@@ -49,7 +49,8 @@ impl Pairs {
         (SceneIndex(row), with)
     }
 
-    /// A row for every object has a column for every body; objects meet above the diagonal.
+    /// Returns the number of columns: one for every body. Each object has a row, and pairs of
+    /// objects lie above the diagonal.
     fn columns(&self) -> usize {
         self.objects + self.obstacles + self.parts
     }

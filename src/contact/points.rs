@@ -1,4 +1,4 @@
-//! Contacts: points of two bodies close enough to matter in a frame, each pair once.
+//! Contact points of bodies close enough to matter in a frame, each pair once.
 
 use crate::{
     geometry::{
@@ -14,55 +14,55 @@ use super::{
     pairs::PairId,
 };
 
-/// Pairs count as related when their gap is at most this beyond what both could travel in the
-/// frame, metres: room for the turning of long bodies.
+/// Gap, beyond the possible travel of both bodies in the frame, up to which a pair is related,
+/// metres: a margin for the rotation of long bodies.
 pub const MARGIN: f64 = 0.008;
 
 /// A contact point of an object with another body. World axes, metres.
 #[derive(Clone, Copy, Debug)]
 pub struct Contact {
-    /// The two bodies over all frames.
+    /// Persistent id of the two bodies.
     pub pair: PairId,
-    /// The first object.
+    /// Index of the first object.
     pub object: usize,
-    /// The other body; an object of a higher number, or one whose motion is given.
+    /// The other body: an object of a higher index, or a body with prescribed motion.
     pub with: Partner,
-    /// From the object's centre to the point on it.
+    /// Vector from the object's centre to its contact point.
     pub arm: Vector,
-    /// From the other's centre to the point on it; zero where its motion is given.
+    /// Vector from the other centre to its contact point; zero for prescribed motion.
     pub other_arm: Vector,
-    /// Unit, from the other body into the object.
+    /// Unit normal, from the other body into the object.
     pub normal: Vector,
     /// Distance along the normal, negative where the bodies overlap.
     pub gap: f64,
     /// Coefficient of friction.
     pub friction: f64,
-    /// Displacement of the point on a body whose motion is given.
+    /// Displacement of the contact point on a body with prescribed motion.
     pub given: Vector,
-    /// Turn of that body, radians.
+    /// Rotation of that body, radians.
     pub(super) given_turn: f64,
-    /// What the normal turns with.
+    /// The body or bodies with which the normal rotates.
     pub(super) follows: Follows,
 }
 
-/// What a frame's contacts depend on.
+/// The data on which a frame's contacts depend.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scenery<'a> {
     pub bodies: &'a Bodies,
     pub state: &'a State,
     pub step: &'a FrameStep,
     pub coasts: &'a [Motion],
-    /// By the objects' headings.
+    /// Rotations by the objects' headings.
     pub turns: &'a [Turn],
-    /// How much farther off than both could travel a point may be and still count, metres.
+    /// Maximum gap of a contact beyond the possible travel of both bodies, metres.
     pub margin: f64,
 }
 
-/// What everything in a frame needs of the tool.
+/// Precomputed motion of the tool in a frame.
 struct Pusher {
     from: Turn,
     to: Turn,
-    /// How far it turns, radians.
+    /// Rotation during the frame, radians.
     turned: f64,
 }
 
@@ -73,8 +73,8 @@ impl Pusher {
     }
 }
 
-/// Every contact point close enough to matter in this frame. Objects of one rigid group do not
-/// touch each other.
+/// Finds every contact point close enough to matter in this frame. Objects of one rigid group do
+/// not touch each other.
 pub(super) fn find_contacts(scenery: Scenery, contacts: &mut Vec<Contact>) {
     let bodies = scenery.bodies;
     contacts.clear();
@@ -104,8 +104,8 @@ pub(super) fn find_contacts(scenery: Scenery, contacts: &mut Vec<Contact>) {
     }
 }
 
-/// The contact points of those pairs alone that have some in `known`, which are of a moment since when
-/// no point of any object has `moved` by more than that.
+/// Finds the contact points of the pairs in `known`. `known` belongs to an earlier state, since
+/// which no point of an object has moved by more than its entry in `moved`.
 pub(super) fn find_again(
     scenery: Scenery,
     known: &[Contact],
@@ -114,11 +114,11 @@ pub(super) fn find_again(
 ) {
     contacts.clear();
     let tool = Pusher::new(scenery.step);
-    // The points of a pair stand together, the nearest first.
+    // The points of a pair are adjacent, the nearest first.
     for points in known.chunk_by(|one, next| one.pair == next.pair) {
         let Contact { object, with, gap, .. } = points[0];
         let nearer = match with {
-            // What is nearest may be a seam, which does not count.
+            // The nearest point may lie on a seam, which does not count.
             Partner::Part(_) => f64::INFINITY,
             Partner::Obstacle(_) => moved[object],
             Partner::Object(other) => moved[object] + moved[other],
@@ -132,20 +132,20 @@ pub(super) fn find_again(
 }
 
 impl Scenery<'_> {
-    /// An object as the frame begins.
+    /// Returns an object in its initial pose.
     fn placed(&self, object: usize) -> Placed<'_> {
         let footprint = &self.bodies.objects[object].footprint;
         Placed::turned(footprint, self.state.poses[object], self.turns[object])
     }
 
-    /// How far apart an object and another body may be for their points to count, metres.
+    /// Returns the maximum gap at which points of an object and another body count, metres.
     fn reach(&self, object: usize, with: Partner) -> f64 {
         let Self { bodies, step, coasts, .. } = *self;
         let travel = (step.to.position - step.from.position).norm();
         let own = |object: usize| {
             coasts[object].shift.norm() + coasts[object].turn.abs() * bodies.objects[object].radius
         };
-        // While the tool turns, its far ends travel more than its frame; margins allow for that.
+        // The far ends of a rotating tool travel more than its frame; margins allow for that.
         let reach = self.margin + travel + own(object);
         match with {
             Partner::Object(other) => reach + own(other),

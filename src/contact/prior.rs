@@ -1,5 +1,5 @@
-//! The prior motion of every object in a frame: the result of contacts, joints, friction and
-//! inertia to second order in time, for the network to correct.
+//! The analytic motion of every object in a frame, which the network corrects: the result of
+//! contacts, joints, friction and inertia to second order in time.
 
 use nalgebra::Vector3;
 use pushplan_kernel::{
@@ -21,32 +21,32 @@ use super::{
     unknown::Unknown,
 };
 
-/// A target that no motion of a frame falls short of, metres.
+/// A target below every displacement of a frame, metres.
 const OUT_OF_REACH: f64 = -10.0;
 
-/// The prior and what it is made of.
+/// The analytic model and its systems of equations.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Prior {
-    /// Of every object.
+    /// Motion of every object.
     pub motions: Vec<Motion>,
     pub system: System,
-    /// The tie of every joint that is not within a group.
+    /// Tie of every joint; `None` within a group.
     pub joints: Vec<Option<usize>>,
     pub velocities: System,
-    /// Of every group, in the last frame.
+    /// Gain of every group in the last frame.
     gains: Vec<Gain>,
 }
 
 impl Prior {
-    /// Solves the frame. Constraint k of the system is contact k, along its normal and its
-    /// tangent; those of the joints follow.
+    /// Solves the frame. Constraint k of the system is contact k, along its normal and its tangent;
+    /// the constraints of joints follow.
     pub fn solve(&mut self, scenery: Scenery, axis: Vector, contacts: &[Contact]) {
         self.press(scenery, axis, contacts, None);
         self.end(scenery, axis, contacts);
     }
 
-    /// The same for a frame after one just solved that had the contacts `last`: forces begin as
-    /// they were there, and motions as they went on there.
+    /// Solves a frame that follows the one just solved, which had the contacts `last`. Forces and
+    /// motions of that frame are the warm start.
     pub fn follow(
         &mut self,
         scenery: Scenery,
@@ -58,14 +58,14 @@ impl Prior {
         self.end(scenery, axis, contacts);
     }
 
-    /// From the displacements on: the velocities, and both for every object.
+    /// Completes the solution after the displacements: velocities, then the motion of every object.
     fn end(&mut self, scenery: Scenery, axis: Vector, contacts: &[Contact]) {
         self.release(scenery, axis, contacts);
         self.collect(scenery);
     }
 
-    /// The displacements and the forces that make them, which begin as those of the contacts `last`
-    /// of the frame before, if this one follows it; the motions are not touched.
+    /// Computes displacements and their forces. If this frame follows another, the forces of its
+    /// contacts `last` are the warm start. The motions are not changed.
     pub fn press(
         &mut self,
         scenery: Scenery,
@@ -88,13 +88,13 @@ impl Prior {
                 _ => None,
             };
             let law = Law::Contact { friction: contact.friction };
-            // Their rows follow when it is known how things move.
+            // Rows are set once motions are known.
             let rows = [Vector3::zeros(); 2];
             let ends = ((groups[contact.object], rows), (other, rows));
             system.constraints.push(Constraint::new(ends.0, ends.1, [0.0; 2], law));
         }
         for (k, contact) in contacts.iter().enumerate() {
-            // By the points on both, so that it does not matter which comes first.
+            // Compared by the points on both bodies, so that their order does not matter.
             let far = |n: usize| {
                 (last[n].arm - contact.arm).norm_squared()
                     + (last[n].other_arm - contact.other_arm).norm_squared()
@@ -114,7 +114,7 @@ impl Prior {
         };
         let mut own = 0;
         for joint in &bodies.joints {
-            // Each has one tie; they come before those to the world.
+            // Each joint has one tie, and joints between objects come before joints to the world.
             let held = Held::between(scenery, joint);
             held.iter().for_each(&mut add);
             joints.push(held.map(|_| own));
@@ -136,8 +136,8 @@ impl Prior {
         });
     }
 
-    /// The velocities at the frame's end: the same equations for v T, with everything where it
-    /// has come to, in which what has come into contact stays there.
+    /// Computes the velocities at the frame's end: the same equations for v T, in the final
+    /// configuration. Closed contacts stay closed.
     fn release(&mut self, scenery: Scenery, axis: Vector, contacts: &[Contact]) {
         let Scenery { bodies, state, .. } = scenery;
         let Self { system, velocities, gains, .. } = self;
@@ -169,15 +169,15 @@ impl Prior {
         }));
     }
 
-    /// Every object's motion from those of its group; groups turn exactly, so that what is
-    /// fixed stays so.
+    /// Computes every object's motion from its group's; groups rotate exactly, so that fixed joints
+    /// stay fixed.
     fn collect(&mut self, Scenery { bodies, state, step, coasts, .. }: Scenery) {
         self.motions.clear();
         for (k, &group) in bodies.groups.of.iter().enumerate() {
             let unknown = &self.system.unknowns[group.0];
             let alone = bodies.groups.members[group.0].len() == 1;
             if alone && unknown.pressed == Vector3::zeros() {
-                // Nothing holds it: it coasts, exactly.
+                // An object without forces slides freely, exactly.
                 self.motions.push(coasts[k]);
                 continue;
             }
@@ -195,7 +195,7 @@ impl Prior {
     }
 }
 
-/// Turns the rows of a contact's constraint to where the contact is `at`.
+/// Rotates the rows of a contact's constraint to the contact geometry `at`.
 #[inline]
 fn face(contact: &Contact, at: &Midway, constraint: &mut Constraint) {
     let directions = [at.normal, perpendicular(at.normal)];
@@ -205,8 +205,8 @@ fn face(contact: &Contact, at: &Midway, constraint: &mut Constraint) {
     }
 }
 
-/// The tangential displacement at which a contact does not slide. Friction acts only after the
-/// gap has closed: the sliding before is not held back.
+/// Returns the tangential displacement at which a contact does not slide. Friction acts only after
+/// the gap has closed: earlier sliding is not resisted.
 #[inline]
 fn sliding_in_touch(
     coasts: &[Motion],
@@ -228,7 +228,7 @@ fn sliding_in_touch(
         }
         _ => (contact.given, contact.given),
     };
-    // How far the two would have come into each other had either only coasted.
+    // Overlap of the two bodies if either had only slid freely.
     let closing = (other - own_coast).dot(&at.normal).max((other_coast - own).dot(&at.normal));
     let before = if closing > contact.gap { contact.gap / closing } else { 1.0 };
     held + before * ((own_coast - other_coast).dot(&tangent))

@@ -1,27 +1,27 @@
-//! A contact as one of its two bodies sees it.
+//! A contact from the view of one of its two bodies.
 
 use crate::geometry::Vector;
 use pushplan_kernel::Motion;
 
 use super::{bodies::Partner, points::Contact};
 
-/// A contact as one of its two bodies, the receiver, sees it.
+/// A contact from the view of one of its two bodies, the receiver.
 #[derive(Clone, Copy, Debug)]
 pub struct Sight<'a> {
-    /// The object that sees it.
+    /// Index of the receiving object.
     pub receiver: usize,
     /// The other body.
     pub sender: Partner,
-    /// Unit, into the receiver.
+    /// Unit normal, into the receiver.
     pub normal: Vector,
-    /// From the centres of receiver and sender to the points on them, metres; zero for a sender
-    /// whose motion is given.
+    /// Vectors from the centres of receiver and sender to the points on them, metres; zero for a
+    /// sender with prescribed motion.
     pub arms: [Vector; 2],
     contact: &'a Contact,
 }
 
 impl Contact {
-    /// Both sights of the contact: of its object, and of the other one if that can move.
+    /// Returns the views of both bodies; `None` for a body that cannot move.
     pub fn sights(&self) -> [Option<Sight<'_>>; 2] {
         let [arm, other_arm] = [self.arm, self.other_arm];
         let first = Sight {
@@ -46,7 +46,7 @@ impl Contact {
 }
 
 impl Sight<'_> {
-    /// Displacement of the sender's point when objects move as in `motions`, metres.
+    /// Returns the displacement of the sender's point when objects move by `motions`, metres.
     pub fn sent(&self, motions: &[Motion]) -> Vector {
         match self.sender {
             Partner::Object(sender) => motions[sender].at(self.arms[1]),
@@ -54,8 +54,8 @@ impl Sight<'_> {
         }
     }
 
-    /// How far the bodies would overlap if the receiver only coasted while the sender moves as
-    /// in `motions`, metres.
+    /// Returns the overlap of the bodies if the receiver only slides freely while the sender moves
+    /// by `motions`, metres.
     pub fn overlap(&self, coast: &Motion, motions: &[Motion]) -> f64 {
         let relative = self.sent(motions) - coast.at(self.arms[0]);
         (relative.dot(&self.normal) - self.contact.gap).max(0.0)

@@ -1,4 +1,4 @@
-//! The equations of frames, and the forces behind the motions.
+//! The solver of frame equations, which also provides the forces behind the motions.
 
 use super::{
     forces::FrameForces,
@@ -10,13 +10,12 @@ use super::{
 };
 use pushplan_kernel::Tally;
 
-/// Steps that a frame of several objects is solved in. What they do to each other depends on
-/// what happens first: of 60 sparse trajectories with fixed joints the mean error of a stroke is
-/// 3.4 mm with 1, 1.06 with 4 and 1.07 with 8. One object alone needs no such care.
+/// Number of substeps for a frame of several objects. Their interaction depends on the order of
+/// events: over 60 sparse trajectories with fixed joints the mean error of a stroke is 3.4 mm with
+/// 1, 1.06 with 4 and 1.07 with 8. A single object needs only one step.
 const PIECES: usize = 4;
 
-/// The equations of frames, and memory to solve them that one leaves for the next. The answer
-/// depends on the frame alone.
+/// A solver of frame equations with reusable memory. The solution depends on the frame alone.
 #[derive(Clone, Debug, Default)]
 pub struct FrameSolver {
     frame: Frame,
@@ -32,7 +31,7 @@ struct Equations {
 }
 
 impl FrameSolver {
-    /// What all frames so far took.
+    /// Returns the statistics of all frames so far.
     pub fn tally(&self) -> Tally {
         let Equations { prior, march, tally, .. } = &self.equations;
         let mut tally = *tally;
@@ -43,12 +42,12 @@ impl FrameSolver {
         tally
     }
 
-    /// The motions of all objects in the frame.
+    /// Returns the motions of all objects in the frame.
     pub fn solve<'a>(&'a mut self, problem: FrameProblem<'a>) -> FrameSolution<'a> {
         self.solve_with_forces_of_few(problem, 0).0
     }
 
-    /// The same, with the forces that have this effect over the whole frame.
+    /// Returns the motions and the forces with the same effect over the whole frame.
     pub fn solve_with_forces<'a>(
         &'a mut self,
         problem: FrameProblem<'a>,
@@ -59,7 +58,7 @@ impl FrameSolver {
         (frame.solution(problem), equations.forces(problem, frame))
     }
 
-    /// The same, without the forces where more than `most` objects are awake.
+    /// Returns the motions, and the forces if at most `most` objects are awake.
     pub fn solve_with_forces_of_few<'a>(
         &'a mut self,
         problem: FrameProblem<'a>,
@@ -70,13 +69,14 @@ impl FrameSolver {
         equations.finish(problem, frame, most)
     }
 
-    /// Begins all `problems` that there are, each on a frame of its own: finds what is awake, and
-    /// solves frames of one object side by side. [`Self::finish`] gives the solutions.
+    /// Begins all `problems` that are `Some`, each on its own frame: finds awake objects, and
+    /// solves frames of one object side by side. [`Self::finish`] returns the solutions.
     pub fn begin(&mut self, problems: &[Option<FrameProblem>], frames: &mut [Frame]) {
         self.equations.begin(problems, frames);
     }
 
-    /// The motions in a frame that has begun, and the forces if at most `most` objects are awake.
+    /// Returns the motions of a frame begun before, and the forces if at most `most` objects are
+    /// awake.
     pub fn finish<'a>(
         &'a mut self,
         problem: FrameProblem<'a>,
@@ -112,7 +112,8 @@ impl Equations {
         (frame.solution(problem), few.then(|| self.forces(problem, frame)))
     }
 
-    /// Finds motions, and forces if at most `most` objects are awake; returns whether so few are.
+    /// Computes motions, and forces if at most `most` objects are awake; returns `true` in that
+    /// case.
     fn end(&mut self, problem: FrameProblem, frame: &mut Frame, most: usize) -> bool {
         let Self { prior, march, .. } = self;
         let mut motions = std::mem::take(&mut frame.motions);

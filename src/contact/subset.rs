@@ -1,4 +1,4 @@
-//! Some of the bodies at hand, under numbers of their own.
+//! Subsets of bodies, in a numbering of their own.
 
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -10,21 +10,21 @@ use super::{
     index::{GroupIndex, Index},
 };
 
-/// Bodies taken from others, in their order there, and where each comes from: objects that are
-/// numbered by `Outer` there and by `Own` here.
+/// A subset of bodies in their original order, with their origin. Objects have an index `Outer` in
+/// the whole and `Own` in the subset.
 ///
-/// Whoever fills the lists takes all objects of a mechanism or none of them.
+/// The lists must contain all objects of a mechanism or none.
 #[derive(Clone, Debug)]
 pub struct Subset<Outer, Own> {
-    /// Which objects; the place in this list is their number in `bodies`.
+    /// Taken objects; the position in this list is their index in `bodies`.
     pub objects: Vec<Outer>,
-    /// Which parts of the tool.
+    /// Taken parts of the tool.
     pub parts: Vec<usize>,
-    /// Which obstacles.
+    /// Taken obstacles.
     pub obstacles: Vec<usize>,
-    /// The bodies themselves.
+    /// Data of the taken bodies.
     pub bodies: Bodies,
-    /// Number in `bodies` of every object that is taken.
+    /// Index in `bodies` of every taken object.
     number: Vec<usize>,
     own: PhantomData<Own>,
 }
@@ -43,7 +43,7 @@ impl<Outer, Own> Default for Subset<Outer, Own> {
 }
 
 impl<Outer: Index, Own: Index> Subset<Outer, Own> {
-    /// Lists everything in `whole`.
+    /// Lists all bodies of `whole`.
     pub fn list_all(&mut self, whole: &Bodies) {
         self.objects.clear();
         self.objects.extend((0..whole.objects.len()).map(Outer::at));
@@ -53,17 +53,17 @@ impl<Outer: Index, Own: Index> Subset<Outer, Own> {
         self.obstacles.extend(0..whole.obstacles.len());
     }
 
-    /// The number in `bodies` of `object`, which must be taken.
+    /// Returns the index in `bodies` of `object`, which must be taken.
     pub fn own(&self, object: Outer) -> Own {
         Own::at(self.number[object.place()])
     }
 
-    /// Where object `own` of `bodies` comes from.
+    /// Returns the outer index of object `own` of `bodies`.
     pub fn outer(&self, own: Own) -> Outer {
         self.objects[own.place()]
     }
 
-    /// Fills `own` with the states of the objects that are taken.
+    /// Fills `own` with the states of the taken objects.
     pub fn gather_state(&self, whole: &State, own: &mut State) {
         own.poses.clear();
         own.poses.extend(self.objects.iter().map(|k| whole.poses[k.place()]));
@@ -71,7 +71,7 @@ impl<Outer: Index, Own: Index> Subset<Outer, Own> {
         own.velocities.extend(self.objects.iter().map(|k| whole.velocities[k.place()]));
     }
 
-    /// Puts the states of the objects that are taken back where they come from.
+    /// Writes the states of the taken objects back into `whole`.
     pub fn return_state(&self, own: &State, whole: &mut State) {
         for (k, object) in self.objects.iter().enumerate() {
             whole.poses[object.place()] = own.poses[k];
@@ -79,7 +79,7 @@ impl<Outer: Index, Own: Index> Subset<Outer, Own> {
         }
     }
 
-    /// Fills `bodies` with what the lists name, on the memory that it has.
+    /// Fills `bodies` with the listed bodies, reusing its memory.
     pub fn gather(&mut self, whole: &Bodies) {
         let Self { objects, parts, obstacles, bodies, number, .. } = self;
         number.resize(whole.objects.len(), 0);

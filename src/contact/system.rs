@@ -1,5 +1,5 @@
-//! The equations of one frame: what contacts and joints ask of rigid groups that rub on the
-//! table, and their solution.
+//! The equations of one frame and their solution: contacts and joints between rigid groups with
+//! table friction.
 //!
 //! Implicit time stepping (Moreau 1988; Stewart and Trinkle 1996, doi:10.1002/(SICI)1097-0207
 //! (19960815)39:15<2673::AID-NME972>3.0.CO;2-I) over a whole frame: with the resistance A of
@@ -11,7 +11,7 @@
 //!
 //! with contacts (f_n >= 0, no overlap) and Coulomb friction (|f_t| <= mu f_n); joints are
 //! eliminated. A depends on the length of xi, which is taken from the last iterate (iteratively
-//! reweighted least squares). At fixed weights [`super::active`] finds the forces.
+//! reweighted least squares). At fixed weights [`super::active`] computes the forces.
 
 use nalgebra::Vector3;
 use pushplan_kernel::{
@@ -31,46 +31,49 @@ use super::{
     unknown::Unknown,
 };
 
-/// [`SETTLED`] for displacements of more than [`FEW`] groups, of which a seventh of the time is saved
-/// so: of 4800 sparse and dense trajectories the mean errors of scenes with fixed joints that touch
-/// grow by 0.03 to 0.09 mm, the others by no more than chance. With few objects they would be 3 %
-/// larger, and velocities are what errors grow from: with 5e-5 for them, too, a quarter larger.
+/// Tolerance in place of [`SETTLED`] for displacements of more than [`FEW`] groups, which saves a
+/// seventh of the time. Over 4800 sparse and dense trajectories the mean errors of scenes with
+/// fixed joints that touch grow by 0.03 to 0.09 mm, the others by no more than chance. With few
+/// objects they would be 3 % larger. Errors grow from velocities: with 5e-5 also for velocities
+/// they would be a quarter larger.
 const SETTLED_IN_A_CROWD: f64 = 5e-5;
 const FEW: usize = 3;
 
-/// [`SETTLED`] for the velocities of more than [`FEW`] groups where joints hold some, of which an eighth
-/// of the time is saved so: of 800 trajectories of nine objects with mixed joints no error is larger
-/// than with 1e-5 by more than chance. Mean errors of six in dense scenes are 7 and 2 % larger, and 3 and
-/// 1 % larger than with 1e-7. Without joints they would be a tenth larger.
+/// Tolerance in place of [`SETTLED`] for the velocities of more than [`FEW`] groups with joints,
+/// which saves an eighth of the time. Over 800 trajectories of nine objects with mixed joints no
+/// error is larger than with 1e-5 by more than chance. Mean errors of six in dense scenes are 7 and
+/// 2 % larger, and 3 and 1 % larger than with 1e-7. Without joints they would be a tenth larger.
 const SETTLED_IN_JOINTS: f64 = 5e-5;
 
-/// Unknowns and rows of one frame.
+/// Unknowns and constraints of one frame.
 #[derive(Clone, Debug, Default)]
 pub(super) struct System {
     pub unknowns: Vec<Unknown>,
     pub quantity: Quantity,
-    /// Contacts and limits.
+    /// Contacts and joint limits.
     pub constraints: Vec<Constraint>,
-    /// Joints: whatever the contacts do, these hold.
+    /// Joints, which hold whatever the contacts do.
     pub ties: Vec<Tie>,
-    /// The constraints of the last frame, and whether this one follows it.
+    /// Constraints of the last frame, and whether this frame follows it.
     last: Vec<Constraint>,
     follows: bool,
     before: Vec<Vector3<f64>>,
     active: ActiveSet,
     approach: Approach,
     joints: Eliminated,
-    /// Of all systems so far.
+    /// Statistics of all systems so far.
     pub tally: Tally,
 }
 
 impl System {
-    /// The groups of `bodies`, without contacts and joints yet. They begin as they move already,
-    /// and with what they gained by that in the last frame if this one follows it; else what rests
-    /// coasts, and `reach` is how far that is first assumed to move (metres). All of this only
-    /// decides where the iteration begins. One group alone begins at rest, as its load then has
-    /// time to follow what presses: of 700 pushes of one object the median error is 0.61 mm so and
-    /// 0.69 mm otherwise, and of several objects it is not larger.
+    /// Sets up the groups of `bodies`, without contacts and joints.
+    ///
+    /// The initial motion is the present one, plus the gains of the last frame if this frame
+    /// follows it. Otherwise groups at rest slide freely, with an assumed displacement of `reach`
+    /// metres. These values only affect the start of the iteration. A single group begins at rest,
+    /// because its load then has time to follow the contact forces: over 700 pushes of one object
+    /// the median error is 0.61 mm, against 0.69 mm otherwise. For several objects it is not
+    /// larger.
     pub fn begin(&mut self, scenery: Scenery, reach: f64, gains: Option<&[Gain]>) {
         std::mem::swap(&mut self.constraints, &mut self.last);
         let follows = gains.is_some();
@@ -83,7 +86,7 @@ impl System {
         let several = unknowns.len() > 1;
         for (unknown, members) in unknowns.iter_mut().zip(&bodies.groups.members) {
             unknown.place(members, scenery);
-            // One alone is touched, or nothing would be asked.
+            // A single group is in contact, otherwise the frame would not be solved.
             unknown.held |= !several;
         }
         for joint in &bodies.joints {
@@ -118,16 +121,17 @@ impl System {
         }
     }
 
-    /// Lets constraint `index` begin with the force of the last frame's constraint `last`.
+    /// Warm start: initialises constraint `index` with the force of the last frame's constraint
+    /// `last`.
     pub fn warm(&mut self, index: usize, last: usize) {
         let (constraint, last) = (&mut self.constraints[index], &self.last[last]);
         constraint.force = last.force;
         constraint.status = last.status;
     }
 
-    /// The same groups, joints, limits and what presses of the contacts in `other`, which has been
-    /// solved, but for another quantity; it begins where that has ended, with what was gained from
-    /// there in the last frame if that followed one.
+    /// Copies groups, joints, limits and pressing contacts of the solved system `other`, for
+    /// another quantity. The initial motion is the solution of `other`, plus the gain from there in
+    /// the last frame if `other` followed one.
     pub fn continue_from(&mut self, other: &System, gains: &[Gain], scenery: Scenery) {
         self.follows = true;
         self.unknowns.clone_from(&other.unknowns);
@@ -143,8 +147,8 @@ impl System {
         self.weigh(scenery);
     }
 
-    /// Solves for forces and twists. `turn` may turn rows and move targets after each update of
-    /// the weights, as it follows from how everything moves.
+    /// Solves for forces and twists. `turn` may rotate rows and move targets after each update of
+    /// the weights, according to the motions.
     pub fn solve(
         &mut self,
         scenery: Scenery,
@@ -159,8 +163,8 @@ impl System {
             Quantity::Velocity if self.ties.is_empty() => SETTLED,
             Quantity::Velocity => SETTLED_IN_JOINTS,
         };
-        // Where one update finds no right set of contacts, the next ones hardly would: among nine
-        // to twelve objects in joints a sixth of all sets were looked at for nothing so.
+        // After an update without a valid set of contacts, later ones rarely find one. With nine to
+        // twelve objects in joints, this saves a sixth of all sets.
         let mut found = true;
         for update in 0..UPDATES {
             if update > 0 {
@@ -195,20 +199,21 @@ impl System {
         }
     }
 
-    /// Takes how joints and constraints answer at the present weights.
+    /// Computes the response of joints and constraints at the present weights.
     fn answer(&mut self) {
         let Self { unknowns, constraints, ties, joints, .. } = self;
         joints.prepare(unknowns, ties);
         constraints.iter_mut().for_each(|constraint| constraint.weighed = false);
     }
 
-    /// Forces and twists at fixed weights, by a set of contacts that is right; whether one was found.
+    /// Computes forces and twists at fixed weights by the active-set method; returns `true` on
+    /// success.
     fn search(&mut self) -> bool {
         let Self { unknowns, constraints, ties, active, joints, tally, .. } = self;
         active.solve(unknowns, constraints, ties, joints, tally)
     }
 
-    /// The same by iteration.
+    /// Computes forces and twists at fixed weights iteratively.
     fn approach(&mut self) {
         let Self { unknowns, constraints, ties, approach, joints, tally, .. } = self;
         tally.approached += 1;

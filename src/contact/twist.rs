@@ -1,16 +1,17 @@
-//! Twists of rigid groups: shift of the centre and turn, as one vector (x, y, turn).
+//! Twists of rigid groups: displacement of the centre and rotation in one vector (x, y, angle).
 
 use nalgebra::Vector3;
 
 use crate::geometry::{Vector, cross, perpendicular};
 
-/// The row of the displacement along `direction` of a point `arm` metres from a group's centre.
+/// Returns the row of the displacement along `direction` of a point `arm` metres from a group's
+/// centre.
 #[inline]
 pub(super) fn along(direction: Vector, arm: Vector) -> Vector3<f64> {
     Vector3::new(direction.x, direction.y, cross(arm, direction))
 }
 
-/// Displacement of a point `arm` metres from a group's centre, to first order, metres.
+/// Returns the displacement of a point `arm` metres from a group's centre, to first order, metres.
 #[inline]
 pub(super) fn shift(twist: &Vector3<f64>, arm: Vector) -> Vector {
     Vector::new(twist.x, twist.y) + twist.z * perpendicular(arm)

@@ -1,23 +1,28 @@
-//! A rigid group as the unknown of a frame's equations, and how it resists being moved.
+//! A rigid group as the unknown of a frame's equations, and its resistance to motion.
 //!
-//! Every point under an object drags with its share of the weight against its own motion (Coulomb;
-//! Goyal, Ruina and Papadopoulos 1991): a point that moves by d and carries the share n of an
-//! object of mass m answers with mu n m g d / |d|. Written with a weight K that depends on the motion
-//! xi = (shift, turn), that is K xi, the sum of mu n m g / |d| J^T J over all points, J giving d from
-//! xi. All of it is taken where the points are half-way (for the velocity: where they end), as
-//! contacts are: a long object's far points otherwise drag the wrong way by half of its turn. Where
-//! contacts press, the load moves ahead (see [`crate::scene::Physics::lean`]). Inertia M adds, with
-//! velocities v0 at the start of the frame of T seconds, of which it moves for t,
+//! Every support point of an object opposes its own motion with its share of the weight (Coulomb;
+//! Goyal, Ruina and Papadopoulos 1991). A point that moves by d and carries the share n of an
+//! object of mass m resists with mu n m g d / |d|.
+//!
+//! This is K xi for the motion xi = (displacement, rotation). The weight K, which depends on xi, is
+//! the sum of mu n m g / |d| J^T J over all points, and J gives d from xi. K is evaluated with the
+//! points at half the motion (for the velocity: at its end), like contacts. Otherwise the far
+//! points of a long object would drag in a direction wrong by half its rotation. The load moves
+//! ahead under contact forces (see [`crate::scene::Physics::lean`]).
+//!
+//! Inertia M adds, with velocities v0 at the start of the frame of T seconds, of which the group
+//! moves for t,
 //!
 //! ```text
-//! (K + 2 M / t^2) xi     = 2 M v0 / t + f      for the displacement
-//! (K +   M / T^2) (v T)  =   M v0 / T + f      for the velocity at the end
+//! (K + 2 M / t^2) xi   = 2 M v0 / t + f    for the displacement
+//! (K +   M / T^2) (v T)  =   M v0 / T + f    for the velocity at the end
 //! ```
 //!
-//! the first because displacements are the mean of both velocities times the time, which keeps their
-//! errors of second order in T. What goes less far than half of v0 T has come to rest on the way, at t
-//! = 2 |xi| / |v0| (lengths weighted by M); anything else moves all the time. Without forces that is
-//! the way v0^2 / (2 mu g) that a free object slides, and [`super::coast`] says it exactly.
+//! The first equation follows because displacements are the mean of both velocities times the time,
+//! which makes their errors second order in T. A group that travels less than half of v0 T has come
+//! to rest within the frame, at t = 2 |xi| / |v0| (lengths weighted by M). Other groups move for
+//! the whole frame. Without forces this is the distance v0^2 / (2 mu g) of free sliding, for which
+//! [`super::coast`] is exact.
 
 use nalgebra::{Matrix3, Vector3};
 use pushplan_kernel::{
@@ -36,54 +41,54 @@ use super::{
     twist::{along, shift},
 };
 
-/// What does not change while a member's frame is solved.
+/// Constants of a member during the solution of a frame.
 #[derive(Clone, Copy, Debug)]
 struct Member {
-    /// Where its own x axis points at the start of the frame, a unit vector.
+    /// Initial direction of its own x axis, a unit vector.
     axis: Vector,
-    /// Its mass, kg, and its moment of inertia, kg m^2.
+    /// Mass, kg, and moment of inertia, kg m^2.
     inertia: (f64, f64),
 }
 
-/// How a group moves when a frame begins.
+/// Initial momentum of a group.
 #[derive(Clone, Copy, Debug)]
 struct Momentum {
-    /// Of its centre, kg m/s, and of turning about it, kg m^2/s.
+    /// Momentum of the centre, kg m/s, and angular momentum about it, kg m^2/s.
     sum: Vector3<f64>,
-    /// The sum of m v^2 over its members, J.
+    /// Sum of m v^2 over the members, J.
     square: f64,
 }
 
 /// A rigid group and its motion.
 #[derive(Debug, Default)]
 pub(super) struct Unknown {
-    /// Mean position of its members at the start of the frame.
+    /// Mean initial position of the members.
     pub centre: Vector,
     members: Vec<Member>,
     /// Force and torque per displacement.
     pub resistance: Matrix3<f64>,
-    /// Displacement per force and torque, the inverse of the resistance.
+    /// Displacement per force and torque: the inverse of the resistance.
     pub inverse: Matrix3<f64>,
-    /// How it moved as the frame began, if that has been computed.
+    /// Initial momentum, if computed.
     momentum: Option<Momentum>,
-    /// Its motion without contacts and joints.
+    /// Motion without contacts and joints.
     pub free: Vector3<f64>,
-    /// Shift of the centre, metres, and turn, radians.
+    /// Displacement of the centre, metres, and rotation, radians.
     pub twist: Vector3<f64>,
     /// Force and torque of all contacts and joints.
     pub pressed: Vector3<f64>,
     /// Whether any contact presses.
     pub touched: bool,
-    /// Whether it may do anything but coast where none does.
+    /// Whether the group may do more than slide freely even if no contact presses.
     pub held: bool,
-    /// How hard contacts and joints press, as a share of the largest friction, at most one: what
-    /// moves the load ahead.
+    /// Force of contacts and joints relative to the maximum friction, at most one. It moves the
+    /// load ahead.
     pressing: Vector,
-    /// Updates of the weights in this frame, and the motion that they were last taken for, if they
-    /// were.
+    /// Number of updates of the weights in this frame, and the motion of the last update, if any.
     updates: usize,
     weighed: Option<Vector3<f64>>,
-    /// The share of its motion that is looked at, see [`Self::look`], and the turn then.
+    /// Share of the motion at which the group is evaluated, see [`Self::look`], and its rotation
+    /// there.
     pub share: f64,
     pub turn: Turn,
 }
@@ -93,7 +98,7 @@ impl Clone for Unknown {
         Self { members: self.members.clone(), ..*self }
     }
 
-    /// On the memory that is there: it happens in every frame.
+    /// Reuses the memory, because this happens in every frame.
     fn clone_from(&mut self, other: &Self) {
         let mut members = std::mem::take(&mut self.members);
         members.clone_from(&other.members);
@@ -102,7 +107,7 @@ impl Clone for Unknown {
 }
 
 impl Unknown {
-    /// Puts the group where its `members` are; it has not moved yet.
+    /// Initialises the group from its `members`, without displacement.
     pub fn place(&mut self, members: &[usize], Scenery { bodies, state, turns, .. }: Scenery) {
         let positions = members.iter().map(|&k| state.poses[k].position);
         self.centre = positions.sum::<Vector>() / members.len() as f64;
@@ -119,13 +124,13 @@ impl Unknown {
         self.held = members.len() > 1;
     }
 
-    /// Whether it does what it would do alone on the table, so that its equations need not be known.
+    /// Returns `true` if the group slides freely, so that its equations are not needed.
     #[inline]
     pub fn coasts(&self) -> bool {
         !self.touched && !self.held
     }
 
-    /// Moves as its only `member` coasts.
+    /// Sets the motion to the free sliding of its only `member`.
     pub fn coast(&mut self, member: usize, scenery: Scenery, quantity: Quantity) {
         let (coast, duration) = (&scenery.coasts[member], scenery.step.duration);
         self.free = match quantity {
@@ -138,20 +143,20 @@ impl Unknown {
         self.twist = self.free;
     }
 
-    /// Looks at the group when `share` of its present motion is done.
+    /// Evaluates the group at `share` of its present motion.
     #[inline]
     pub fn look(&mut self, share: f64) {
         self.share = share;
         self.turn = Turn::by(share * self.twist.z);
     }
 
-    /// Where a point of the group has come to then.
+    /// Returns the position of a point of the group at the evaluated instant.
     #[inline]
     pub fn moved(&self, point: Vector) -> Vector {
         self.centre + self.share * self.twist.xy() + self.turn.of(point - self.centre)
     }
 
-    /// Nothing presses on it, as far as is known.
+    /// Resets the contact forces to zero.
     #[inline]
     pub fn forget(&mut self) {
         self.pressed = Vector3::zeros();
@@ -159,16 +164,16 @@ impl Unknown {
         self.touched = false;
     }
 
-    /// Another quantity is wanted now, which is unknown without the equations where anything but
-    /// the table has held the group.
+    /// Prepares for another quantity, which is unknown without the equations if anything but the
+    /// table has held the group.
     #[inline]
     pub fn turn_to_another(&mut self) {
         self.weighed = None;
         self.held |= self.touched;
     }
 
-    /// How far it comes if it goes on as its `members` move when the frame begins. After a turn these do
-    /// not quite move as one any more, so all of them count.
+    /// Returns the displacement of the group at the initial velocities of its `members`. The mean
+    /// of all members is taken, because after a rotation their motions are not exactly rigid.
     #[inline]
     pub fn as_it_began(
         &self,
@@ -180,13 +185,13 @@ impl Unknown {
         step.duration * sum / members.len() as f64
     }
 
-    /// Moves as what presses makes it.
+    /// Sets the motion from the forces on the group.
     #[inline]
     pub fn settle(&mut self) {
         self.twist = self.free + self.inverse * self.pressed;
     }
 
-    /// How its `members` move when the frame begins.
+    /// Returns the initial momentum of its `members`.
     fn momentum(&self, members: &[usize], Scenery { state, .. }: Scenery) -> Momentum {
         let mut momentum = Momentum { sum: Vector3::zeros(), square: 0.0 };
         for (&k, Member { inertia: (mass, inertia), .. }) in members.iter().zip(&self.members) {
@@ -200,8 +205,8 @@ impl Unknown {
         momentum
     }
 
-    /// For how many of the frame's seconds it moves, if it comes as far as it does now or its
-    /// members come by `reach` metres.
+    /// Returns the number of seconds for which the group moves, given its present motion, or a
+    /// displacement of its members by `reach` metres.
     fn moving(
         &self,
         members: &[usize],
@@ -223,8 +228,8 @@ impl Unknown {
         moving(square, start.square, step.duration)
     }
 
-    /// Takes resistance and free motion when its members move as they do now, or by `reach`
-    /// metres each.
+    /// Computes resistance and free motion from the present motion of the members, or for
+    /// displacements by `reach` metres each.
     pub fn weigh(
         &mut self,
         members: &[usize],
@@ -259,7 +264,7 @@ impl Unknown {
             }
             Quantity::Velocity => (1.0 / (duration * duration), momentum.sum / duration),
         };
-        // Velocities are those of where displacements have brought it, at which it is looked already.
+        // The velocity is evaluated at the end of the displacement, which is already set.
         if let (Quantity::Displacement, None) = (quantity, reach) {
             self.look(HALF);
         }
@@ -291,9 +296,9 @@ impl Unknown {
     }
 }
 
-/// For how many of a frame's seconds a group moves that comes as far as the root of `square`, when
-/// in each of them the speed it began with would bring it as far as the root of `start`; lengths are
-/// weighted by its inertia.
+/// Returns the number of seconds for which a group moves within a frame. `square` is the squared
+/// displacement, and `start` the squared displacement at the initial speed; lengths are weighted by
+/// inertia.
 #[inline]
 fn moving(square: f64, start: f64, duration: f64) -> f64 {
     if start == 0.0 {
@@ -302,7 +307,7 @@ fn moving(square: f64, start: f64, duration: f64) -> f64 {
     (2.0 * (square / start).sqrt()).max(LEAST * duration).min(duration)
 }
 
-/// The moments of what resists an object, about its centre in world axes: N/m, N, N m.
+/// Moments of the resistance of an object about its centre, world axes: N/m, N, N m.
 struct Rub {
     sum: f64,
     first: Vector,
@@ -316,8 +321,8 @@ impl Rub {
         Self { sum: rub * drag.sum, first: rub * drag.first, second: rub * drag.second }
     }
 
-    /// The resistance against shifts of a point and turns about it, `arm` leading from there to the
-    /// object's centre.
+    /// Returns the resistance to displacements of a point and rotations about it. `arm` leads from
+    /// the point to the object's centre.
     #[inline]
     fn about(&self, arm: Vector) -> Matrix3<f64> {
         let first = self.first + self.sum * arm;
@@ -327,12 +332,12 @@ impl Rub {
     }
 }
 
-/// The inverse of a resistance [[s, 0, -y], [0, s, x], [-y, x, t]], in closed form.
+/// Inverts a resistance [[s, 0, -y], [0, s, x], [-y, x, t]] in closed form.
 #[inline]
 fn inverse(weight: &Matrix3<f64>) -> Matrix3<f64> {
     let (s, x, y, t) = (weight.m11, weight.m23, -weight.m13, weight.m33);
     let (p, q) = (-x / s, y / s);
-    // Turning about the point that turning alone leaves in place.
+    // Compliance of a rotation about the centre of resistance.
     let turn = 1.0 / (t - (x * x + y * y) / s);
     Matrix3::new(
         1.0 / s + q * q * turn,

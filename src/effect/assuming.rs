@@ -1,4 +1,4 @@
-//! A model that is told other things about a scene than its jobs say.
+//! A model whose assumptions about a scene differ from the statements of its jobs.
 
 use std::sync::Arc;
 
@@ -16,8 +16,8 @@ use super::{EffectModel, Trust};
 
 /// A model under assumptions: `network,joints=none`, `planar,friction=70%`.
 ///
-/// The simulator with a slightly shifted start shows its own spread: errors that no model can
-/// be expected to undercut.
+/// The simulator with a slightly shifted start shows its own spread, a lower bound on the error of
+/// any model.
 #[derive(Clone, Debug)]
 pub struct Assuming<M> {
     model: M,
@@ -26,7 +26,7 @@ pub struct Assuming<M> {
 }
 
 impl<M: EffectModel> Assuming<M> {
-    /// `model`, told `assumptions` in every rollout.
+    /// Applies `assumptions` to `model` in every rollout.
     pub fn new(model: M, assumptions: Assumptions) -> Self {
         let spec = model.spec().clone().assuming(assumptions);
         Self { model, assumptions, spec }
@@ -38,7 +38,7 @@ impl<M: EffectModel> EffectModel for Assuming<M> {
         &self.spec
     }
 
-    /// Errors were measured with what is true.
+    /// Returns the trust without errors, because these were measured with true values.
     fn trust(&self, scene: &Scene, job: &Job) -> Trust {
         match self.model.trust(scene, &told(self.assumptions, scene, job)) {
             Trust::Mine { warnings, .. } => Trust::Mine { error: None, warnings },
@@ -56,7 +56,7 @@ impl<M: EffectModel> EffectModel for Assuming<M> {
     }
 }
 
-/// The job as it is under these assumptions.
+/// Returns the job under these assumptions.
 fn told(assumptions: Assumptions, scene: &Scene, job: &Job) -> Job {
     let Assumptions { joints, friction, start } = assumptions;
     let mut job = job.clone();
@@ -82,8 +82,8 @@ fn told(assumptions: Assumptions, scene: &Scene, job: &Job) -> Job {
     job
 }
 
-/// A start with every object shifted by `metres` in a random direction; objects that joints
-/// connect move together, so that the joints still hold.
+/// Shifts every object of a start by `metres` in a random direction. Objects connected by joints
+/// move together, so that the joints still hold.
 pub fn shifted_start(start: &State, physics: &Physics, metres: f64, rng: &mut Pcg64) -> State {
     let shifts: Vec<Vector> = start
         .poses
@@ -100,8 +100,8 @@ pub fn shifted_start(start: &State, physics: &Physics, metres: f64, rng: &mut Pc
     state
 }
 
-/// Directions come from the start itself, so that a job gives the same trajectory whatever jobs
-/// come with it.
+/// Creates a generator from the start itself, so that the trajectory of a job does not depend on
+/// the other jobs.
 fn directions(start: &State) -> Pcg64 {
     Pcg64::seed_from_u64(start.poses.iter().fold(0u64, |seed, pose| {
         (seed ^ pose.position.x.to_bits() ^ pose.position.y.to_bits().rotate_left(32))

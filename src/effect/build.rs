@@ -1,4 +1,4 @@
-//! From the name of a model to the model; the shipped weights, available from any directory.
+//! Construction of a model from its name; the shipped weights, available from any directory.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -14,11 +14,11 @@ use super::{
     Simulated, Still, UpTo,
 };
 
-/// Where effect models come from.
+/// Factory of effect models.
 pub struct EffectModels;
 
 impl EffectModels {
-    /// The shipped weights with their card.
+    /// Returns the shipped weights with their card.
     ///
     /// # Errors
     /// [`ModelError::Shipped`] if the library was built around a damaged weights file.
@@ -26,7 +26,7 @@ impl EffectModels {
         PredictorWeights::from_bytes(pushplan_models::BRDPN).map_err(ModelError::Shipped)
     }
 
-    /// The weights of the first part of `spec` that is a network, if one is.
+    /// Returns the weights of the first part of `spec` that is a network, if there is one.
     ///
     /// # Errors
     /// [`ModelError`] if they cannot be used.
@@ -38,7 +38,7 @@ impl EffectModels {
         file.map(load).transpose()
     }
 
-    /// The model that `spec` describes.
+    /// Builds the model described by `spec`.
     ///
     /// ```
     /// use pushplan::effect::{EffectModel, EffectModels};
@@ -54,20 +54,21 @@ impl EffectModels {
         Self::fitted(spec, None)
     }
 
-    /// The same, its networks with what was learnt about a table; other models know only what a
-    /// scene states, see [`TableFit::state`].
+    /// Builds the model described by `spec`, with a table fit for its networks. Other models use
+    /// only the statements of a scene, see [`TableFit::state`].
     ///
     /// # Errors
-    /// [`ModelError`] if it needs weights that cannot be used, or if those of a network are others
-    /// than the fit's.
+    /// [`ModelError`] if it needs weights that cannot be used, or if the weights of a network
+    /// differ from the fit's.
     pub fn fitted(spec: &ModelSpec, fit: Option<&TableFit>) -> Result<Routed, ModelError> {
         let first = Routed::new(levering(spec.first(), fit)?);
         spec.others().iter().try_fold(first, |routed, other| Ok(routed.or(part(other, fit)?)))
     }
 }
 
-/// A part that takes lever-ups as well: by the network of lever-ups where it is one, else by their
-/// prior. A weights file of lever-ups is one of those alone, and pushes are the prior's.
+/// Returns a part that also accepts lever-ups: by the lever-up network if the part is a network,
+/// otherwise by the analytic model. A weights file of lever-ups contains only these, and pushes
+/// then use the analytic model.
 fn levering(part: &ModelPart, fit: Option<&TableFit>) -> Result<Arc<dyn EffectModel>, ModelError> {
     let levers: Arc<dyn EffectModel> = match &part.kind {
         ModelKind::Simulated { engine: Engine::Spatial, .. } => return self::part(part, fit),

@@ -1,4 +1,4 @@
-//! A model of pushes and one of lever-ups as one effect model.
+//! Combination of a model of pushes and a model of lever-ups.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use crate::task::Job;
 
 use super::{EffectModel, Trust};
 
-/// Two models, each of which gets the motions that it knows; named after the model of pushes.
+/// Two models, each for its kind of motion; named after the model of pushes.
 #[derive(Clone)]
 pub struct ByMotion {
     pushes: Arc<dyn EffectModel>,
@@ -16,7 +16,7 @@ pub struct ByMotion {
 }
 
 impl ByMotion {
-    /// `pushes` for jobs that stay in the plane, `levers` for the others.
+    /// Uses `pushes` for jobs that stay in the plane, `levers` for the others.
     pub fn new(pushes: Arc<dyn EffectModel>, levers: Arc<dyn EffectModel>) -> Self {
         Self { pushes, levers }
     }

@@ -1,4 +1,4 @@
-//! Errors of making effect models.
+//! Errors of building effect models.
 
 use std::fmt;
 
@@ -6,36 +6,36 @@ use thiserror::Error;
 
 use crate::network::WeightsError;
 
-/// Why a model cannot be made.
+/// Reason why a model cannot be built.
 #[derive(Error)]
 pub enum ModelError {
-    /// The library was built around a damaged weights file.
+    /// A damaged weights file in the library itself.
     #[error("the shipped weights are broken: {0}")]
     Shipped(#[source] WeightsError),
-    /// A weights file that is missing, damaged or not of pushplan.
+    /// A weights file that is missing, damaged or foreign.
     #[error("{path}: {error}")]
     File {
-        /// The file.
+        /// Path of the file.
         path: String,
-        /// What is wrong with it.
+        /// Error of the file.
         #[source]
         error: WeightsError,
     },
-    /// A model from outside of the library.
+    /// A model from outside the library.
     #[error("the library has no model `{0}`; build it where it is defined")]
     Custom(&'static str),
-    /// What was learnt about a table belongs to another network.
+    /// A table fit that was learned with another network.
     #[error(
         "the fit was learnt with other weights ({weights}) than those of the model; fit again with \
          this model"
     )]
     Fit {
-        /// Checksum of the weights that it was learnt with.
+        /// Checksum of the weights with which the fit was learned.
         weights: String,
     },
 }
 
-/// The text of [`Display`](fmt::Display), so that it reads well when it leaves `main`.
+/// Prints the text of [`Display`](fmt::Display), which is readable when it leaves `main`.
 impl fmt::Debug for ModelError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)

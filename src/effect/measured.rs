@@ -1,39 +1,41 @@
-//! What was measured of models that carry no card: errors on held-out pushes, and the ranges in
-//! which they were measured.
+//! Measurements of models without a card: errors on held-out pushes, and the ranges of these
+//! measurements.
 
 use crate::scene::{Engine, ModelKind, Ranges, Rate, Span, TRAINED_SLIDE, TRAINED_TURN};
 
-/// Errors of final positions on held-out pushes, metres, against the planar engine at its default
-/// step; none of an engine at its default step, which is itself a truth.
+/// Errors of final positions on held-out pushes, metres, against the 2-D engine at its default
+/// step; zero for an engine at its default step, which is itself a ground truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantiles {
-    /// Median.
+    /// Median error.
     pub median: f64,
-    /// 95th percentile.
+    /// 95th percentile of the error.
     pub p95: f64,
 }
 
 /// Errors on pushes of 20 cm at 0.1 m/s, objects that moved more than 1 cm.
 struct Errors {
-    /// With one object on the table.
+    /// Errors with one object on the table.
     one: Quantiles,
-    /// With two or three that touch.
+    /// Errors with two or three objects that touch.
     several: Quantiles,
 }
 
-/// `pushplan-lab evaluate --on single touching`: 2000 pushes of seed 7 each.
+/// Errors of the analytic model from `pushplan-lab evaluate --on single touching`: 2000 pushes of
+/// seed 7 each.
 const PRIOR: Errors = Errors {
     one: Quantiles { median: 0.16e-3, p95: 2.32e-3 },
     several: Quantiles { median: 0.24e-3, p95: 2.74e-3 },
 };
 
-/// The same pushes: the shipped network, frame by frame.
+/// Errors of the shipped network on the same pushes, frame by frame.
 const NETWORK: Errors = Errors {
     one: Quantiles { median: 0.15e-3, p95: 2.35e-3 },
     several: Quantiles { median: 0.25e-3, p95: 2.76e-3 },
 };
 
-/// `pushplan-lab tradeoff --pushes 500 --seed 7`: the planar engine with fewer steps a second.
+/// Errors of the 2-D engine with fewer steps a second, from `pushplan-lab tradeoff --pushes 500
+/// --seed 7`.
 const COARSE_PLANAR: [(u16, Errors); 3] = [
     (
         120,
@@ -58,8 +60,8 @@ const COARSE_PLANAR: [(u16, Errors); 3] = [
     ),
 ];
 
-/// Errors of a model where `objects` come into play, if they were measured. More than three objects
-/// were not measured; they count as three.
+/// Returns the measured errors of a model for a number of reachable `objects`, if they exist. More
+/// than three objects were not measured; they count as three.
 pub(super) fn measured(kind: &ModelKind, objects: impl FnOnce() -> usize) -> Option<Quantiles> {
     let errors = match *kind {
         ModelKind::PRIOR => &PRIOR,
@@ -76,13 +78,14 @@ pub(super) fn measured(kind: &ModelKind, objects: impl FnOnce() -> usize) -> Opt
     Some(if objects() > 1 { errors.several } else { errors.one })
 }
 
-/// What the prior was measured on: the scenes and pushes of `pushplan-lab evaluate`, with the shipped
-/// tools and in crowds, and those that the network is trained on.
+/// Ranges in which the analytic model was measured: the scenes and pushes of `pushplan-lab
+/// evaluate`, with the shipped tools and in crowds, and those on which the network is trained.
 ///
-/// Outside (`cargo test --release -p pushplan-lab -- --ignored the_prior_hides_no_defect_either`, 22
-/// pushes of seed 7 in each cell) it is wrong at 2 m/s, where the tool turns by 90 degrees in a push,
-/// where it is set down into an object, and nearly without friction; a single object may have any
-/// mass and size. Inside it is wrong in front of a wall after 5 cm, and warns of 15 pushes in 22.
+/// Outside (`cargo test --release -p pushplan-lab -- --ignored the_prior_hides_no_defect_either`,
+/// 22 pushes of seed 7 in each cell) it is wrong in four cases: at 2 m/s, if the tool rotates by 90
+/// degrees in a push, if the tool is set down into an object, and nearly without friction. A single
+/// object may have any mass and size. Inside it is wrong in front of a wall after 5 cm, and warns
+/// of 15 pushes in 22.
 pub const PRIOR_RANGES: Ranges = Ranges {
     objects: Span::new(1.0, 12.0),
     mass: Span::new(0.05, 3.0),

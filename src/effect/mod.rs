@@ -1,8 +1,8 @@
-//! What a tool motion does to a scene, whatever computes it.
+//! Effect models: prediction of the effect of a tool motion on a scene.
 //!
-//! Planner, benchmarks and trade-off see only [`EffectModel`]; the network, its prior and the engines
-//! implement it, as rungs of one ladder of speed and accuracy. Nothing
-//! is searched here.
+//! Planner, benchmarks and trade-off depend only on [`EffectModel`]. The network, the analytic
+//! model and the engines implement it at different speed and accuracy. This module contains no
+//! search.
 
 mod assuming;
 mod build;

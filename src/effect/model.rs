@@ -12,32 +12,32 @@ use super::Trust;
 
 /// Predicts the effect of tool motions.
 ///
-/// Implementations run a batch of jobs in parallel on the current rayon pool and return the
-/// same bits for any number of threads, trajectories in the order of the jobs.
+/// Implementations run a batch of jobs in parallel on the current rayon pool. The result has the
+/// order of the jobs, with the same bits for any number of threads.
 pub trait EffectModel: Send + Sync {
-    /// What it is.
+    /// Returns the model identifier and settings.
     fn spec(&self) -> &ModelSpec;
 
-    /// How far it is to be trusted with a job.
+    /// Returns the trust in the model for a job.
     fn trust(&self, scene: &Scene, job: &Job) -> Trust;
 
-    /// Whether the model takes `job` at all: [`EffectModel::trust`] without errors and warnings,
-    /// as every rollout asks for it.
+    /// Returns `true` if the model accepts `job`: a cheap form of [`EffectModel::trust`] without
+    /// errors and warnings, for every rollout.
     fn takes(&self, scene: &Scene, job: &Job) -> bool {
         self.trust(scene, job) != Trust::NotMine
     }
 
-    /// Rolls every job out until everything rests. Every trajectory says which model made it,
-    /// which may be one of several that this one chooses among.
+    /// Rolls every job out until everything rests. Every trajectory states the model that computed
+    /// it, which may be one of several between which this model chooses.
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory>;
 
-    /// Rolls jobs out in turn as one trajectory, see [`in_turn`]; nothing without jobs.
+    /// Rolls jobs out in turn as one trajectory, see [`in_turn`]; `None` without jobs.
     fn in_turn(&self, scene: &Scene, jobs: &[Job], record: Record) -> Option<Trajectory> {
         in_turn(&[jobs.to_vec()], record, |jobs| self.rollout(scene, jobs, record)).pop()
     }
 }
 
-/// A pointer to a model is one itself.
+/// Implements the trait for a pointer to a model.
 macro_rules! models_behind {
     ($($pointer:ident),*) => {$(
         impl<M: EffectModel + ?Sized> EffectModel for $pointer<M> {

@@ -1,4 +1,4 @@
-//! The network as an effect model: the BRDPN physics predictor corrects the prior.
+//! The network as an effect model: the BRDPN physics predictor corrects the analytic model.
 
 use std::sync::Arc;
 
@@ -15,18 +15,18 @@ use crate::{
 
 use super::{EffectModel, ModelError, Quantiles, Trust, measured::measured, trust::outside};
 
-/// Jobs that share a network batch: enough rows to keep the matrix products busy, few enough
-/// that the cores share a search evenly. In solves in which the network rolls out everything it
-/// adds 46 us a rollout with 32, 44 with 64, 40 with 128 and 42 with 256; from 128 on a batch of the
-/// search keeps two cores busy at most. Fixed, so that results do not depend on the number of
-/// threads.
+/// Number of jobs that share a network batch: enough rows to keep the matrix products busy, few
+/// enough that the cores share a search evenly. In solves in which the network computes every
+/// rollout, it adds 46 us a rollout with 32, 44 with 64, 40 with 128 and 42 with 256. From 128 on,
+/// a batch of the search occupies at most two cores. The number is fixed, so that results do not
+/// depend on the number of threads.
 const CHUNK: usize = 64;
 
-/// Where nine of ten pushes like one end within no less than this, metres, a warning says so: three
-/// times what is usual.
+/// Expected error from which a prediction is doubtful, metres: the 90th percentile for similar
+/// pushes. Three times the usual value.
 const DOUBTFUL: f64 = 0.02;
 
-/// Predicts with trained weights.
+/// A model that predicts with trained weights.
 #[derive(Clone)]
 pub struct Network {
     spec: ModelSpec,
@@ -37,7 +37,7 @@ pub struct Network {
     strange: Option<Strange>,
 }
 
-/// What a fit says where it was not learnt.
+/// A table fit and the forward pass for objects unlike the objects of the fit.
 #[derive(Clone)]
 struct Strange {
     fit: TableFit,
@@ -45,7 +45,7 @@ struct Strange {
 }
 
 impl Network {
-    /// A model of these weights, which [`EffectModel::spec`] takes for the shipped ones.
+    /// Creates a model with these weights, which [`EffectModel::spec`] reports as the shipped ones.
     pub fn new(weights: PredictorWeights) -> Self {
         let errors = weights.card.errors.as_ref();
         Self {
@@ -58,8 +58,8 @@ impl Network {
         }
     }
 
-    /// A model of weights from a file; with `steps` propagation steps instead of those that it was
-    /// trained with, and `stride` frames predicted as one. Measured errors are those of the
+    /// Creates a model with weights from a file. `steps` replaces the number of propagation steps
+    /// of the training, and `stride` frames are predicted as one. Measured errors apply to the
     /// weights as trained, frame by frame.
     pub fn with(
         weights: PredictorWeights,
@@ -79,20 +79,20 @@ impl Network {
         model
     }
 
-    /// The same with `head` added to its last layer; measured errors are those without it.
+    /// Adds `head` to the last layer; measured errors are without it.
     ///
     /// # Panics
-    /// If it is of another width, see [`Self::effect_width`].
+    /// If the head has another width, see [`Self::effect_width`].
     pub fn adapted(mut self, head: &Head) -> Self {
         self.forward = self.forward.with_head(head);
         self
     }
 
-    /// The same with what was learnt about a table. Where something on it is like none of the
-    /// objects that this was learnt on, [`OTHER_OBJECTS`] of it counts.
+    /// Applies a table fit. If an object of the scene resembles none of the objects of the fit,
+    /// only the share [`OTHER_OBJECTS`] of the fit applies.
     ///
     /// # Errors
-    /// [`ModelError::Fit`] if it was learnt with other weights.
+    /// [`ModelError::Fit`] if the fit was learned with other weights.
     pub fn fitted(mut self, fit: &TableFit) -> Result<Self, ModelError> {
         let foreign = || ModelError::Fit { weights: fit.weights.clone() };
         let own = self.weights.checksum().map_err(ModelError::Shipped)?;
@@ -104,7 +104,7 @@ impl Network {
         Ok(self)
     }
 
-    /// The forward pass for `scene`.
+    /// Returns the forward pass for `scene`.
     fn forward_in(&self, scene: &Scene) -> &Forward {
         match &self.strange {
             Some(Strange { fit, less }) if !fit.strange(scene).is_empty() => less,
@@ -112,15 +112,15 @@ impl Network {
         }
     }
 
-    /// What the weights are.
+    /// Returns the weights.
     pub fn weights(&self) -> &PredictorWeights {
         &self.weights
     }
 }
 
 impl Network {
-    /// A trajectory with what is expected of any object that was moved, and a warning where that is
-    /// much.
+    /// Adds to a trajectory the constant expected error of every moved object, and a warning if the
+    /// expected error is large.
     fn doubted(&self, scene: &Scene, mut trajectory: Trajectory) -> Trajectory {
         let Some(doubt) = self.forward.doubts() else { return trajectory };
         let Trajectory { spreads, warnings, .. } = &mut trajectory;
@@ -140,19 +140,21 @@ impl Network {
         &self.forward
     }
 
-    /// Returns the settings of its rollouts.
+    /// Returns the settings of the rollouts.
     pub fn settings(&self) -> RollSettings {
         self.settings
     }
 
-    /// Number of [`Self::effects`] of a pair.
+    /// Returns the number of [`Self::effects`] of a pair.
     pub fn effect_width(&self) -> usize {
         self.forward.half()
     }
 
-    /// What propagation says to each other of these pairs of objects while `job` is rolled out (the
-    /// effects of Li et al., ICRA 2019, eq. 3, in the last step): the half that does not change
-    /// under mirroring, summed over both directions, averaged over frames; a row a pair.
+    /// Returns the propagation effects of these pairs of objects in a rollout of `job`, one row for
+    /// each pair.
+    ///
+    /// These are the effects of Li et al., ICRA 2019, eq. 3, in the last propagation step. The rows
+    /// contain their even half, summed over both directions and averaged over frames.
     pub fn effects(&self, scene: &Scene, job: &Job, pairs: &[[usize; 2]]) -> Vec<Vec<f32>> {
         let job = if has_guesses(job) { &without_guesses(job) } else { job };
         let mut means = PairMeans::new(scene, job, self.effect_width());
@@ -220,11 +222,11 @@ fn has_guesses(job: &Job) -> bool {
     job.physics.joints.iter().any(|joint| joint.guessed)
 }
 
-/// The job with guessed anchors and axes taken for known ones.
+/// Returns the job with guessed anchors and axes treated as known ones.
 ///
-/// Where a joint is a guess, neither prior nor projection pulls its objects together again, and the
-/// network's errors add up: on 60 dense and 60 sparse scenes of nine objects it ends 44.5 and 60.4
-/// mm off, with the same geometry taken for known 21.0 and 39.0, as the prior does.
+/// Neither analytic model nor projection restores a guessed joint, and the errors of the network
+/// accumulate. Its errors on 60 dense and 60 sparse scenes of nine objects are 44.5 and 60.4 mm.
+/// Treating the same geometry as known reduces them to 21.0 and 39.0, as for the analytic model.
 pub fn without_guesses(job: &Job) -> Job {
     let mut job = job.clone();
     if has_guesses(&job) {

@@ -1,4 +1,4 @@
-//! The prior as an effect model: the closed-form solution of every frame, uncorrected.
+//! The analytic model as an effect model: the closed-form solution of every frame, uncorrected.
 
 use rayon::prelude::*;
 
@@ -11,11 +11,11 @@ use crate::{
 
 use super::{EffectModel, PRIOR_RANGES, Trust, measured::measured, trust::outside};
 
-/// Jobs that one thread rolls out on the same memory: few enough that two cores share a coarse search
-/// evenly.
+/// Number of jobs that one thread rolls out on the same memory: few enough that two cores share a
+/// coarse search evenly.
 const CHUNK: usize = 32;
 
-/// The prior alone, without any network: the cheapest level with physics in it.
+/// The analytic model without any network: the cheapest model with physics.
 #[derive(Clone, Debug)]
 pub struct Prior {
     spec: ModelSpec,
@@ -23,7 +23,7 @@ pub struct Prior {
 }
 
 impl Prior {
-    /// The prior with `stride` frames predicted as one.
+    /// Creates the analytic model with `stride` frames predicted as one.
     pub fn new(stride: Stride) -> Self {
         let settings = RollSettings { stride: stride.frames(), ..RollSettings::default() };
         Self { spec: ModelKind::Prior { stride }.into(), settings }

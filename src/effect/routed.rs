@@ -1,5 +1,5 @@
-//! Several models for one task: each job goes to the first that takes it, and what happens where
-//! that one should not be trusted.
+//! Several models for one task: each job is given to the first model that accepts it, with a policy
+//! for jobs outside its ranges.
 
 use std::fmt;
 use std::sync::Arc;
@@ -16,17 +16,17 @@ use crate::{
 
 use super::{EffectModel, Quantiles, Simulated, Trust};
 
-/// What to do outside of a model's ranges, and where its own rollout shows that it went wrong (see
-/// [`Warning::questions_model`]).
+/// Policy for jobs outside a model's ranges, and for rollouts that question the model themselves
+/// (see [`Warning::questions_model`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outside {
-    /// Simulate in the plane instead: as expensive as the planar engine, where it is needed.
+    /// Simulate in 2-D instead, at the cost of the engine for these jobs.
     Simulate,
-    /// Predict, and say so.
+    /// Predict, and add a warning.
     #[default]
     Warn,
-    /// Give no prediction.
+    /// Return no prediction.
     Refuse,
 }
 
@@ -40,11 +40,12 @@ impl fmt::Display for Outside {
     }
 }
 
-/// Where a prediction differs from the planar simulation by less, metres, nothing is said of it: engines
-/// differ by more.
+/// Difference between prediction and 2-D simulation below which no warning is added, metres:
+/// engines differ by more.
 const SAME: f64 = 1e-3;
 
-/// Models of which each job gets the first that takes it, or else the last.
+/// Models in order of preference: a job is given to the first that accepts it, otherwise to the
+/// last.
 #[derive(Clone)]
 pub struct Routed {
     models: Vec<Arc<dyn EffectModel>>,
@@ -53,7 +54,7 @@ pub struct Routed {
     planar: Simulated,
 }
 
-/// Which model a job goes to, and the warnings about that.
+/// The model of a job, and its warnings.
 struct Route {
     model: usize,
     error: Option<Quantiles>,
@@ -61,22 +62,21 @@ struct Route {
 }
 
 impl Routed {
-    /// `model` for all jobs.
+    /// Uses `model` for all jobs.
     pub fn new(model: Arc<dyn EffectModel>) -> Self {
         let spec = model.spec().clone();
         let planar = Simulated::new(Simulator::planar());
         Self { models: vec![model], spec, outside: Outside::default(), planar }
     }
 
-    /// The same, and `other` for jobs that none of them takes.
+    /// Adds `other` for jobs that no model so far accepts.
     pub fn or(mut self, other: Arc<dyn EffectModel>) -> Self {
         self.spec = self.spec.or(other.spec().clone());
         self.models.push(other);
         self
     }
 
-    /// The same with this done where a model should not be trusted; [`Outside::Warn`] by
-    /// default.
+    /// Sets the policy for jobs outside a model's ranges; [`Outside::Warn`] by default.
     pub fn outside(self, outside: Outside) -> Self {
         Self { outside, ..self }
     }
@@ -92,7 +92,8 @@ impl Routed {
         Route { model: last, error: None, warnings: vec![declined] }
     }
 
-    /// The rollouts of those of `jobs` that `wanted` picks, by `model`, into their places.
+    /// Rolls out by `model` the `jobs` whose index is `wanted`, and stores the results in their
+    /// `places`.
     fn fill(
         model: &dyn EffectModel,
         (scene, jobs, record): (&Scene, &[Job], Record),
@@ -134,7 +135,7 @@ impl EffectModel for Routed {
             if let [only] = &self.models[..] {
                 return only.rollout(scene, jobs, record);
             }
-            // Only which model it is counts here; what speaks against it is not asked for.
+            // Only the choice of the model matters here, not its warnings.
             let taker = |job| self.models.iter().position(|model| model.takes(scene, job));
             let last = self.models.len() - 1;
             let takers: Vec<usize> = jobs.iter().map(|job| taker(job).unwrap_or(last)).collect();
@@ -151,7 +152,7 @@ impl EffectModel for Routed {
             let own = |k: usize| routes[k].model == index && inside(k);
             Self::fill(model, work, own, &mut places);
         }
-        // What a model itself got wrong on the way counts as well.
+        // Warnings of the rollout itself count as well.
         let doubt = |place: &Option<Trajectory>| {
             let warnings = place.iter().flat_map(|place| &place.warnings);
             warnings.clone().find(|warning| warning.questions_model()).cloned()
@@ -174,7 +175,7 @@ impl EffectModel for Routed {
 }
 
 impl Routed {
-    /// No prediction: the start alone, with all that speaks against one.
+    /// Returns a refusal: the start alone, with the warnings against a prediction.
     fn refused(&self, job: &Job, route: &Route, doubtful: Option<Trajectory>) -> Trajectory {
         let tool = job.motion.slide().strokes.first().map(|stroke| stroke.from).unwrap_or_default();
         let by = self.models[route.model].spec().clone();
@@ -186,8 +187,9 @@ impl Routed {
     }
 }
 
-/// How far the planar engine ends from what is predicted for `jobs` in turn, as a warning, for the object on
-/// which the two differ most: what it means for this motion that the model is outside its range.
+/// Returns a warning with the difference between `predicted` and the 2-D engine's result for `jobs`
+/// in turn, for the object with the largest difference. It shows the effect of leaving the model's
+/// ranges.
 pub fn consequence(scene: &Scene, jobs: &[Job], predicted: &State) -> Option<Warning> {
     let run = Simulator::planar().run_in_turn(scene, jobs, Record::Outcome, &Unwatched);
     let simulated = run.outcome();

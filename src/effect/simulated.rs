@@ -1,4 +1,4 @@
-//! An effect model that simulates.
+//! An effect model that simulates with a physics engine.
 
 use rayon::prelude::*;
 
@@ -12,8 +12,7 @@ use crate::{
 
 use super::{EffectModel, Trust, measured::measured};
 
-/// A simulator as an effect model: the most expensive level of the ladder, and the truth of the
-/// others.
+/// A simulator as an effect model: the most expensive model, and the ground truth of the others.
 #[derive(Clone, Debug)]
 pub struct Simulated {
     spec: ModelSpec,
@@ -21,7 +20,7 @@ pub struct Simulated {
 }
 
 impl Simulated {
-    /// The effects that `simulator` computes.
+    /// Creates the effect model of `simulator`.
     pub fn new(simulator: Simulator) -> Self {
         Self { spec: simulator.spec(), simulator }
     }

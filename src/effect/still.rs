@@ -1,4 +1,4 @@
-//! A model in which nothing moves.
+//! A model in which no object moves.
 
 use crate::{
     outcome::{Frame, Record, Trajectory},
@@ -8,7 +8,7 @@ use crate::{
 
 use super::{EffectModel, Trust};
 
-/// Objects stay where they are, whatever the tool does: any model must beat this.
+/// A baseline model in which objects never move.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Still;
 

@@ -1,4 +1,4 @@
-//! How far a model is to be trusted with a job.
+//! Trust in a model for a job.
 
 use crate::rollout::reachable;
 use crate::{
@@ -9,22 +9,22 @@ use crate::{
 
 use super::Quantiles;
 
-/// What a model says of a job before it rolls it out.
+/// A model's assessment of a job before its rollout.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Trust {
-    /// The job is for this model.
+    /// The model accepts the job.
     Mine {
-        /// Its errors on held-out pushes like this one, if they were measured.
+        /// Errors of the model on similar held-out pushes, if measured.
         error: Option<Quantiles>,
-        /// What makes it less trustworthy here; empty within its ranges.
+        /// Reasons for less trust; empty within the model's ranges.
         warnings: Vec<Warning>,
     },
-    /// The job is for another model.
+    /// The model declines the job.
     NotMine,
 }
 
 impl Trust {
-    /// The warnings; none where the job is not the model's.
+    /// Returns the warnings; none for a declined job.
     pub fn warnings(self) -> Vec<Warning> {
         match self {
             Trust::Mine { warnings, .. } => warnings,
@@ -32,7 +32,7 @@ impl Trust {
         }
     }
 
-    /// The errors, if the job is the model's and they were measured.
+    /// Returns the measured errors, if the model accepts the job and they exist.
     pub fn error(&self) -> Option<Quantiles> {
         match self {
             Trust::Mine { error, .. } => *error,
@@ -41,13 +41,12 @@ impl Trust {
     }
 }
 
-/// Everything of a job that lies outside `ranges`: of the tool, the motion, and the objects that it
-/// can reach.
+/// Returns warnings for tool, motion and reachable objects of a job outside `ranges`.
 pub(super) fn outside(ranges: &Ranges, scene: &Scene, job: &Job) -> Vec<Warning> {
     let found = ranges.warnings(scene, job);
     if found.is_empty() {
         return found;
     }
-    // What the motion cannot reach is never looked at.
+    // Objects that the motion cannot reach are never processed.
     ranges.warnings_among(scene, job, &reachable(scene, job))
 }

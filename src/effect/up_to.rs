@@ -1,4 +1,4 @@
-//! A model that takes no job in which many objects come into play.
+//! A model limited to jobs with few objects in reach.
 
 use crate::rollout::reachable;
 use crate::{
@@ -9,8 +9,8 @@ use crate::{
 
 use super::{EffectModel, Trust};
 
-/// A model for motions that reach few objects: the cost of its contacts grows faster with their
-/// number than that of an engine.
+/// A model for motions that reach few objects, because the cost of its contacts grows faster with
+/// their number than an engine's.
 #[derive(Clone, Debug)]
 pub struct UpTo<M> {
     model: M,
@@ -19,7 +19,7 @@ pub struct UpTo<M> {
 }
 
 impl<M: EffectModel> UpTo<M> {
-    /// `model` for motions that can set at most `most` objects in motion.
+    /// Limits `model` to motions that can set at most `most` objects in motion.
     pub fn new(model: M, most: u16) -> Self {
         let spec = model.spec().clone().up_to(most);
         Self { model, most, spec }

@@ -1,17 +1,18 @@
-//! How far a footprint can move straight before it touches another: translational time of
+//! Distance that a footprint can move straight before it touches another: translational time of
 //! impact, in closed form.
 //!
 //! Two shapes with corners: separating axes with moving intervals (the side normals suffice for
-//! convex polygons). A disc and one with corners: a ray against that, rounded by the radius. Two
-//! discs: a ray against a circle.
+//! convex polygons). A disc and a shape with corners: a ray against the shape rounded by the
+//! radius. Two discs: a ray against a circle.
 
 use super::flat::CORNERS;
 use super::{Footprint, Pose, Vector};
 
-/// Travel, metres, along the unit vector `direction` after which `moving` first touches `still`.
+/// Returns the travel, metres, along the unit vector `direction` until `moving` first touches
+/// `still`.
 ///
-/// 0 if they touch or overlap already; `None` if they never meet. Sliding past with faces that just
-/// touch does not count as meeting.
+/// Returns 0 if they already touch or overlap, and `None` if they never meet. Faces that only touch
+/// while sliding past do not meet.
 pub fn travel_to_contact(
     moving: (&Footprint, &Pose),
     direction: Vector,
@@ -25,7 +26,7 @@ pub fn travel_to_contact(
         (&Footprint::Disc { radius }, shape) => {
             in_rounded(still.1.local_point(from), still.1.local_vector(direction), shape, radius)
         }
-        // Seen from what moves, the disc comes the other way.
+        // In the frame of the moving shape, the disc approaches from the opposite direction.
         (shape, &Footprint::Disc { radius }) => {
             in_rounded(moving.1.local_point(at), -moving.1.local_vector(direction), shape, radius)
         }
@@ -34,14 +35,14 @@ pub fn travel_to_contact(
     (span.1 >= 0.0).then_some(span.0.max(0.0))
 }
 
-/// Stretch of the ray from `point` along `direction` inside the disc about the origin.
+/// Returns the stretch of the ray from `point` along `direction` inside the disc about the origin.
 fn in_disc(point: Vector, direction: Vector, radius: f64) -> Option<(f64, f64)> {
     let along = point.dot(&direction);
     let square = along * along - point.norm_squared() + radius * radius;
     (square > 0.0).then(|| (-along - square.sqrt(), -along + square.sqrt()))
 }
 
-/// Stretch of the ray inside the box about the origin.
+/// Returns the stretch of the ray inside the box about the origin.
 fn in_box(point: Vector, direction: Vector, half: Vector) -> Option<(f64, f64)> {
     let x = in_interval(point.x, direction.x, (-half.x, half.x))?;
     let y = in_interval(point.y, direction.y, (-half.y, half.y))?;
@@ -49,7 +50,7 @@ fn in_box(point: Vector, direction: Vector, half: Vector) -> Option<(f64, f64)> 
     (enter < leave).then_some((enter, leave))
 }
 
-/// Stretch of time in which `position + t speed` is between both ends.
+/// Returns the time interval in which `position + t speed` is between both ends.
 fn in_interval(position: f64, speed: f64, (low, high): (f64, f64)) -> Option<(f64, f64)> {
     if speed.abs() < 1e-12 {
         return (low < position && position < high).then_some((f64::NEG_INFINITY, f64::INFINITY));
@@ -58,8 +59,8 @@ fn in_interval(position: f64, speed: f64, (low, high): (f64, f64)) -> Option<(f6
     Some((a.min(b), a.max(b)))
 }
 
-/// Stretch of the ray inside a shape with corners rounded outwards by `radius`: the union of the
-/// shape, of a strip along each side and of a disc at each corner.
+/// Returns the stretch of the ray inside a shape rounded outwards by `radius`: the union of the
+/// shape, a strip along each side and a disc at each corner.
 fn in_rounded(
     point: Vector,
     direction: Vector,
@@ -87,7 +88,7 @@ fn in_rounded(
                     (enter < leave).then_some((enter, leave))
                 });
             let along_sides = polygon.sides().zip(polygon.faces()).map(|((a, b), (_, normal))| {
-                // The strip's own axes: along the side, outwards.
+                // Axes of the strip: along the side, and outwards.
                 let (middle, length) = ((a + b + radius * normal) / 2.0, (b - a).norm());
                 let axis = (b - a) / length;
                 let own = |v: Vector| Vector::new(v.dot(&axis), v.dot(&normal));
@@ -100,7 +101,7 @@ fn in_rounded(
     }
 }
 
-/// Separating axes of two shapes with corners: while both overlap along all of them they meet.
+/// Returns the travel interval in which two shapes with corners overlap along all separating axes.
 fn flats(
     (moving, from): (&Footprint, &Pose),
     direction: Vector,

@@ -1,4 +1,4 @@
-//! Clearances between posed footprints and along straight motions, by parry.
+//! Clearances between posed footprints and along straight motions, computed by parry.
 
 use parry2d_f64::{
     math::{Pose as Isometry, Vector as ParryVector},
@@ -9,11 +9,11 @@ use parry2d_f64::{
 use super::flat::CORNERS;
 use super::{Footprint, Pose, Vector};
 
-/// Distance between two posed footprints, metres; zero where they touch or overlap, and
-/// `reach` where they are at least that far apart.
+/// Returns the distance between two posed footprints, metres: zero if they touch or overlap, capped
+/// at `reach`.
 ///
-/// Uses parry's `closest_points`: in the pinned version `distance` of two cuboids is wrong in
-/// one argument order (parry issue 431).
+/// Uses parry's `closest_points`, because in the pinned version `distance` of two cuboids is wrong
+/// in one argument order (parry issue 431).
 pub fn clearance(first: (&Footprint, &Pose), second: (&Footprint, &Pose), reach: f64) -> f64 {
     let apart = (first.1.position - second.1.position).norm();
     if apart >= first.0.bounding_radius() + second.0.bounding_radius() + reach {
@@ -22,8 +22,8 @@ pub fn clearance(first: (&Footprint, &Pose), second: (&Footprint, &Pose), reach:
     between(&*shape(first.0), first.1, &*shape(second.0), second.1, reach)
 }
 
-/// Smallest distance, metres, between a footprint that moves straight from `from` to `to`
-/// without turning, and another that stands still; capped at `reach`.
+/// Returns the minimum distance, metres, between a footprint that moves straight from `from` to
+/// `to` without rotation and a static one; capped at `reach`.
 pub fn swept_clearance(
     moving: &Footprint,
     from: &Pose,
@@ -36,7 +36,7 @@ pub fn swept_clearance(
         return clearance((moving, from), still, reach);
     }
     match *moving {
-        // A disc sweeps a capsule: its axis is a segment, and the radius comes off at the end.
+        // A disc sweeps a capsule: the gap to its axis minus the radius.
         Footprint::Disc { radius } => {
             let axis = parry2d_f64::shape::Segment::new(vector(Vector::zeros()), vector(travel));
             let gap = between(&axis, from, &*shape(still.0), still.1, reach + radius);
@@ -62,7 +62,7 @@ fn swept_corners(
         corners.iter().flat_map(|corner| [vector(*corner), vector(corner + travel)]).collect();
     match Hull::from_convex_hull(&ends) {
         Some(hull) => between(&hull, from, &*shape(still.0), still.1, reach),
-        // A hull can only fail on a sliver; then its two ends tell the same.
+        // The hull only fails for a sliver, for which both ends suffice.
         None => clearance((moving, from), still, reach).min(clearance((moving, to), still, reach)),
     }
 }
@@ -78,8 +78,8 @@ fn between(
         Ok(ClosestPoints::Intersecting) => 0.0,
         Ok(ClosestPoints::WithinMargin(p, q)) => (p - q).length().min(reach),
         Ok(ClosestPoints::Disjoint) => reach,
-        // Every pair built here is supported by parry; were one not, saying "touching" refuses
-        // a placement rather than allowing a collision.
+        // Every pair built here is supported by parry. For any other, zero refuses a placement
+        // rather than allowing a collision.
         Err(_) => 0.0,
     }
 }
@@ -92,7 +92,7 @@ fn shape(footprint: &Footprint) -> Box<dyn ParryShape> {
             let corners = polygon.corners().iter().copied().map(vector).collect();
             match Hull::from_convex_polyline_unmodified(corners) {
                 Some(hull) => Box::new(hull),
-                // Of three corners and more there always is one.
+                // Three or more corners always have one.
                 None => Box::new(Ball::new(polygon.bounding_radius())),
             }
         }

@@ -1,9 +1,9 @@
-//! Contact points: where two footprints touch, or would touch first.
+//! Contact points of two footprints that touch or are close.
 //!
-//! Two flat faces meet in a line, whose ends carry the contact; so up to two points are
-//! returned, as a contact solver would keep them. Written here rather than taken from parry
-//! because the graph needs both points also at a distance, with the same numbers in either
-//! argument order, and a batch of them for every step of every rollout.
+//! Two flat faces meet in a line whose ends carry the contact. Up to two points are therefore
+//! returned, as in the contact manifold of a physics engine. Parry is not used because the graph
+//! also needs both points at a distance, and the same numbers in either argument order, for many
+//! pairs in every step of every rollout.
 
 use pushplan_kernel::Follows;
 
@@ -11,14 +11,14 @@ use super::flat::{Faced, Flat, Rectangle};
 use super::sunk::{Outline, Sunk, sunk};
 use super::{Footprint, MAX_CORNERS, Pose, Turn, Vector};
 
-/// Points of one pair that lie closer together than this are one contact, metres.
+/// Distance below which two points of one pair are one contact, metres.
 const SAME_POINT: f64 = 1e-3;
 
-/// Two ways to compute the same point end no farther apart than this, metres.
+/// Maximum distance between two computations of one point, metres.
 const ROUNDING: f64 = 1e-9;
 
-/// Shapes that are sunk by more than this beyond what their corners say have come through a face that
-/// no corner is nearest to, metres; also how near they are before that can be.
+/// Excess of penetration over the corner gaps beyond which shapes have passed through a face that
+/// is nearest to no corner, metres. Also the corner gap below which this is checked.
 const THROUGH: f64 = 1e-4;
 
 /// A point where two bodies are close.
@@ -32,12 +32,12 @@ pub struct ContactPoint {
     pub normal: Vector,
     /// Distance along the normal, metres; negative where the bodies overlap.
     pub gap: f64,
-    /// What the normal turns with.
+    /// The body or bodies with which the normal rotates.
     pub follows: Follows,
 }
 
 impl ContactPoint {
-    /// The same contact seen from the other body.
+    /// Returns this contact with both bodies exchanged.
     pub fn flipped(self) -> Self {
         Self {
             on_first: self.on_second,
@@ -54,7 +54,7 @@ impl ContactPoint {
     }
 }
 
-/// A footprint at a place, with the turn by its heading: sines are taken once for all that it meets.
+/// A footprint at a pose with the heading's rotation, so that sines are computed only once.
 #[derive(Clone, Copy, Debug)]
 pub struct Placed<'a> {
     footprint: &'a Footprint,
@@ -63,43 +63,43 @@ pub struct Placed<'a> {
 }
 
 impl<'a> Placed<'a> {
-    /// The footprint at that pose.
+    /// Places the footprint at a pose.
     pub fn new(footprint: &'a Footprint, pose: Pose) -> Self {
         Self::turned(footprint, pose, pose.turn())
     }
 
-    /// The same where the turn by the pose's heading is known.
+    /// Places the footprint at a pose whose rotation is already known.
     pub fn turned(footprint: &'a Footprint, pose: Pose, turn: Turn) -> Self {
         Self { footprint, pose, turn }
     }
 
-    /// Where its centre is, metres.
+    /// Returns the position of the centre, metres.
     pub fn position(&self) -> Vector {
         self.pose.position
     }
 
-    /// Maps a point of the world into its frame, metres.
+    /// Maps a point of the world into the footprint's frame, metres.
     pub fn local_point(&self, point: Vector) -> Vector {
         self.turn.back(point - self.pose.position)
     }
 
-    /// Turns a vector of the world into its frame.
+    /// Rotates a vector of the world into the footprint's frame.
     pub fn local_vector(&self, vector: Vector) -> Vector {
         self.turn.back(vector)
     }
 }
 
-/// Whether two footprints are farther apart than `reach` metres for sure.
+/// Returns `true` if two footprints are certainly farther apart than `reach` metres.
 pub fn far_apart(first: &Placed, second: &Placed, reach: f64) -> bool {
     let [p, q] = [first, second].map(|placed| placed.footprint.bounding_radius());
     (first.position() - second.position()).norm() > p + q + reach
 }
 
-/// The one or two contact points of two posed footprints whose gap is at most `reach` metres,
-/// closest first; none if the bodies are farther apart.
+/// Returns the one or two contact points of two posed footprints whose gap is at most `reach`
+/// metres, closest first; none if the bodies are farther apart.
 ///
-/// Two points are only ever returned for two shapes with corners: the closest pair of a corner of
-/// one and the boundary of the other, and the next such pair at another place.
+/// Only two shapes with corners give two points: the closest pair of a corner of one and the
+/// boundary of the other, and the next such pair at another place.
 pub fn contact_points(
     first: (&Footprint, &Pose),
     second: (&Footprint, &Pose),
@@ -112,7 +112,7 @@ pub fn contact_points(
     }
 }
 
-/// [`contact_points`] of two that are not [`far_apart`].
+/// Returns the [`contact_points`] of two footprints that are not [`far_apart`].
 pub fn contact_points_of(
     at: &Placed,
     bt: &Placed,
@@ -156,7 +156,7 @@ fn single(point: ContactPoint, reach: f64) -> ([Option<ContactPoint>; 2], usize)
 fn disc_disc(a: Vector, radius_a: f64, b: Vector, radius_b: f64) -> ContactPoint {
     let between = a - b;
     let distance = between.norm();
-    // Concentric discs have no normal; any will do.
+    // Concentric discs have no normal; an arbitrary one is used.
     let normal = if distance > 1e-12 { between / distance } else { Vector::x() };
     ContactPoint {
         on_first: a - normal * radius_a,
@@ -187,7 +187,7 @@ fn disc_flat(
     }
 }
 
-/// Most corners of two polygons.
+/// Maximum number of corners of two polygons.
 const MANY: usize = 2 * MAX_CORNERS;
 
 /// A corner of one shape and the boundary of the other, in the frame of the first.
@@ -195,7 +195,7 @@ const MANY: usize = 2 * MAX_CORNERS;
 struct Candidate {
     on_first: Vector,
     on_second: Vector,
-    /// From the second into the first.
+    /// Unit normal, from the second into the first.
     normal: Vector,
     gap: f64,
     follows: Follows,
@@ -214,7 +214,8 @@ impl Candidate {
     }
 }
 
-/// `room` for the candidates, one for each corner of both.
+/// Finds the contact points of two shapes with corners. `room` has one candidate for each corner of
+/// both.
 fn flats<A: Flat, B: Flat>(
     (Placed { pose: a, turn, .. }, first): (&Placed, &A),
     (Placed { pose: b, turn: other, .. }, second): (&Placed, &B),
@@ -272,8 +273,8 @@ fn flats<A: Flat, B: Flat>(
         })
         .min_by(nearer)
         .filter(|p| p.gap <= reach);
-    // Corners of both on one place: neither face alone leads. Two corners are there twice, once as
-    // either body sees it, and rounding must not decide which of both leads.
+    // If corners of both coincide, neither face alone leads. Two corners appear twice, once from
+    // either body, and rounding must not decide which of both leads.
     let led = |p: &Candidate| {
         let other = |q: &&Candidate| q.follows != p.follows && q.follows != Follows::Nothing;
         let near = if p.follows == Follows::Nothing { ROUNDING } else { SAME_POINT };
@@ -293,7 +294,8 @@ fn flats<A: Flat, B: Flat>(
     ([Some(world(best)), next.map(world)], 1 + usize::from(next.is_some()))
 }
 
-/// The contact of shapes that have come through a face of one of them; the first is at `pose`.
+/// Returns the contact of shapes of which one has passed through a face of the other; the first is
+/// at `pose`.
 fn through_a_face(
     sunk: &Sunk,
     (pose, turn): (&Pose, &Turn),

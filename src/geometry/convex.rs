@@ -4,27 +4,28 @@ use parry3d_f64::math::Vector as ParryVector;
 use parry3d_f64::transformation::try_convex_hull;
 use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
 
-/// Voxels along the longest side of what is taken apart.
+/// Number of voxels along the longest side of the decomposed mesh.
 const VOXELS: u32 = 48;
 
-/// Most parts.
+/// Maximum number of parts.
 const MOST: u32 = 24;
 
-/// A part whose hull is larger than it by less than this share of the whole is convex enough.
+/// Concavity below which a part is not divided further, relative to the whole.
 const CONCAVITY: f64 = 0.02;
 
-/// Corners, metres, and triangles that name them.
+/// Corners, metres, and triangles as indices of corners.
 type Mesh = (Vec<[f64; 3]>, Vec<[u32; 3]>);
 
-/// The convex hull of points, metres; none where they lie in a plane.
+/// Returns the convex hull of points, metres; `None` if they lie in a plane.
 pub fn convex_hull(points: &[[f64; 3]]) -> Option<Mesh> {
     let points: Vec<ParryVector> = points.iter().copied().map(ParryVector::from).collect();
     let (corners, faces) = try_convex_hull(&points).ok()?;
     Some((corners.into_iter().map(|corner| corner.to_array()).collect(), faces))
 }
 
-/// Points of parts of a closed mesh each of which is nearly convex (Mamou 2016, "Volumetric hierarchical
-/// approximate convex decomposition"), metres. Indices beyond the points are passed over.
+/// Decomposes a closed mesh into nearly convex parts, metres (Mamou 2016, "Volumetric hierarchical
+/// approximate convex decomposition"). Returns the points of each part. Faces with indices beyond
+/// the points are ignored.
 pub fn convex_parts(points: &[[f64; 3]], faces: &[[u32; 3]]) -> Vec<Vec<[f64; 3]>> {
     let known = |face: &&[u32; 3]| face.iter().all(|corner| (*corner as usize) < points.len());
     let faces: Vec<[u32; 3]> = faces.iter().filter(known).copied().collect();

@@ -1,4 +1,4 @@
-//! Where two cuboids in space touch, or soon would.
+//! Contact points of two cuboids in space that touch or are close.
 
 use parry3d_f64::math::{Pose as ParryPose, Rotation, Vector as ParryVector};
 use parry3d_f64::query::ContactManifold;
@@ -10,9 +10,9 @@ use super::{Pose3, Vector3};
 /// A cuboid about its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Box3 {
-    /// Where its centre is, and how it is turned.
+    /// Pose of the centre.
     pub pose: Pose3,
-    /// Half its extents, metres.
+    /// Half extents, metres.
     pub half: Vector3,
 }
 
@@ -23,13 +23,13 @@ pub struct BoxContact {
     pub point: Vector3,
     /// Unit normal, from the second to the first.
     pub normal: Vector3,
-    /// Distance along it, metres; negative where they are in each other.
+    /// Distance along the normal, metres; negative where the cuboids overlap.
     pub gap: f64,
 }
 
 impl Box3 {
-    /// Whether it may come within `reach` metres of another; never wrongly no: by the normals of the
-    /// faces of this one alone.
+    /// Returns `true` if the other cuboid may be within `reach` metres, judged by the face normals
+    /// of this one only. Never returns `false` wrongly.
     fn is_near(&self, other: &Self, reach: f64) -> bool {
         let away = self.pose.rotation.inverse() * (other.pose.position - self.pose.position);
         let turn = (self.pose.rotation.inverse() * other.pose.rotation).to_rotation_matrix();
@@ -37,9 +37,10 @@ impl Box3 {
         (0..3).all(|k| away[k].abs() <= self.half[k] + extents[k] + reach)
     }
 
-    /// Tells `found` of the contacts with `other` whose gap is at most `reach` metres: corners
-    /// against a face, or the nearest points of two edges, along the direction in which they are
-    /// farthest apart or least deep in each other (parry's separating axes).
+    /// Calls `found` for every contact with `other` whose gap is at most `reach` metres.
+    ///
+    /// Contacts are corners against a face, or the nearest points of two edges, along the direction
+    /// of the largest separation or the least penetration (parry's separating axes).
     pub fn contacts(&self, other: &Self, reach: f64, mut found: impl FnMut(BoxContact)) {
         if !other.is_near(self, reach) || !self.is_near(other, reach) {
             return;

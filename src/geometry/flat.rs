@@ -1,10 +1,9 @@
-//! Shapes with straight sides as contacts see them: corners, and the nearest point of a boundary.
+//! Shapes with straight sides for contact queries: corners, and the nearest point of a boundary.
 
 use super::{ConvexPolygon, MAX_CORNERS, Vector};
 
-/// Sine of the angle to a face beyond which a normal is that of a corner (3 degrees). One that is
-/// nearer to a face's counts as that, so that rounding cannot decide it where faces end at the
-/// same place.
+/// Sine of the angle to a face beyond which a normal counts as a corner's (3 degrees). Nearer
+/// normals count as the face's, so that rounding cannot decide it where faces end at one place.
 const FLUSH: f64 = 0.05;
 
 /// The corners of a rectangle of unit half extents.
@@ -17,16 +16,16 @@ pub(super) trait Flat {
     fn nearest(&self, point: Vector) -> Nearest;
 }
 
-/// A boundary point seen from another point, in the shape's frame.
+/// The boundary point nearest to a query point, in the shape's frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Nearest {
     /// The boundary point.
     pub point: Vector,
-    /// Unit, outwards, towards the other point.
+    /// Unit outward normal, towards the query point.
     pub normal: Vector,
     /// Signed distance, metres; negative inside.
     pub distance: f64,
-    /// Whether the normal is that of a face, and not of a corner.
+    /// Whether the normal belongs to a face, not to a corner.
     pub on_face: bool,
 }
 
@@ -61,7 +60,7 @@ impl Flat for Rectangle {
     }
 }
 
-/// A polygon with the normals of its sides, taken once for all points that look at it.
+/// A polygon with the normals of its sides, computed once for all query points.
 pub(super) struct Faced<'a> {
     polygon: &'a ConvexPolygon,
     normals: [Vector; MAX_CORNERS],

@@ -1,30 +1,30 @@
-//! Square grids of places in the plane, and the frontier of a search for shortest ways on them.
+//! Square grids of points in the plane, and the frontier of a shortest-path search on them.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use super::Vector;
 
-/// Places at equal distances along both axes, numbered row by row.
+/// Grid points at equal distances along both axes, numbered row by row.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
-    /// A place of the grid, metres in the world.
+    /// A point of the grid, metres in the world.
     pub origin: Vector,
-    /// Distance of neighbours, metres.
+    /// Distance between neighbours, metres.
     pub spacing: f64,
-    /// Column and row of the first place, counted from the origin.
+    /// Column and row of the first point, counted from the origin.
     low: [i32; 2],
     columns: usize,
     rows: usize,
 }
 
 impl Grid {
-    /// A grid whose first place is `origin`.
+    /// Creates a grid whose first point is `origin`.
     pub fn new(origin: Vector, spacing: f64, [columns, rows]: [usize; 2]) -> Self {
         Self { origin, spacing, low: [0, 0], columns, rows }
     }
 
-    /// A grid with a place at `origin` that covers the box between two corners, metres.
+    /// Creates a grid with a point at `origin` that covers the box between two corners, metres.
     pub fn covering(origin: Vector, [low, high]: [Vector; 2], spacing: f64) -> Self {
         let steps = |v: f64| v / spacing;
         let [low, high] = [low - origin, high - origin];
@@ -34,19 +34,19 @@ impl Grid {
         Self { origin, spacing, low, columns, rows }
     }
 
-    /// Number of places.
+    /// Returns the number of points.
     pub fn count(&self) -> usize {
         self.columns * self.rows
     }
 
-    /// Position of a place, metres in the world.
+    /// Returns the position of a point, metres in the world.
     pub fn position(&self, place: usize) -> Vector {
         let column = self.low[0] + (place % self.columns) as i32;
         let row = self.low[1] + (place / self.columns) as i32;
         self.origin + Vector::new(f64::from(column), f64::from(row)) * self.spacing
     }
 
-    /// The place nearest to a position.
+    /// Returns the point nearest to a position.
     pub fn nearest(&self, position: Vector) -> usize {
         let local = (position - self.origin) / self.spacing;
         let index = |v: f64, low: i32, count: usize| {
@@ -56,7 +56,7 @@ impl Grid {
             + index(local.x, self.low[0], self.columns)
     }
 
-    /// The place so many columns and rows further, if there is one.
+    /// Returns the point at this offset in columns and rows, if it is inside the grid.
     pub fn next(&self, place: usize, [x, y]: [i32; 2]) -> Option<usize> {
         let column = (place % self.columns) as i32 + x;
         let row = (place / self.columns) as i32 + y;
@@ -65,7 +65,7 @@ impl Grid {
         inside.then(|| row as usize * self.columns + column as usize)
     }
 
-    /// Places in the box between two corners, row by row.
+    /// Returns the points in the box between two corners, row by row.
     pub fn within(&self, [low, high]: [Vector; 2]) -> impl Iterator<Item = usize> + use<> {
         let range = |k: usize, count: usize| {
             let step = |v: f64| (v - self.origin[k]) / self.spacing - f64::from(self.low[k]);
@@ -79,18 +79,19 @@ impl Grid {
     }
 }
 
-/// Places that a search has reached, the one with the least cost first (Dijkstra 1959). Costs are compared
-/// as bits, which order like the numbers because none is negative.
+/// Priority queue of reached points, lowest cost first (Dijkstra 1959).
+///
+/// Costs are compared as bits, which order like the numbers because none is negative.
 #[derive(Debug, Default)]
 pub struct Frontier(BinaryHeap<Reverse<(u64, usize)>>);
 
 impl Frontier {
-    /// Adds a place that is reached at this cost.
+    /// Adds a point that is reached at this cost.
     pub fn push(&mut self, cost: f64, place: usize) {
         self.0.push(Reverse((cost.to_bits(), place)));
     }
 
-    /// Takes the place with the least cost; a place comes once for every time it was added.
+    /// Takes the point with the lowest cost; a point is returned once for every time it was added.
     pub fn pop(&mut self) -> Option<(f64, usize)> {
         self.0.pop().map(|Reverse((bits, place))| (f64::from_bits(bits), place))
     }

@@ -1,7 +1,8 @@
 //! Planar geometry: poses, footprints, closest points, clearances and swept areas.
 //!
-//! Everything but poses and solids in space is in the plane of the table, in metres and radians. It knows
-//! nothing of tools, tasks or physics; the vertical extent of a body is only a height.
+//! Everything except poses and solids in space lies in the plane of the table, in metres and
+//! radians. This module is independent of tools, tasks and physics; the vertical extent of a body
+//! is only a height.
 
 mod cast;
 mod clearance;

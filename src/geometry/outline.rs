@@ -1,29 +1,29 @@
-//! The body that several rectangles make up: few rectangles of which each straight stretch of the
-//! boundary belongs whole to one.
+//! Decomposition of the union of rectangles into a few rectangles, such that each straight stretch
+//! of the boundary belongs entirely to one of them.
 //!
-//! All rectangles have sides along the axes. Their edges divide the plane into a grid; of the
-//! largest rectangles that fit into the union, those are taken that are needed to hold every
-//! stretch of its boundary from end to end and every cell.
+//! The sides of all rectangles lie along the axes, and their edges divide the plane into a grid.
+//! The decomposition takes the largest rectangles in the union, as far as they are needed to hold
+//! every stretch of its boundary from end to end, and every cell.
 
 use super::Rim;
 use super::rim::corner;
 
-/// Edges closer together than this lie in line, metres: rounding, and gaps that do not count.
+/// Distance below which edges are aligned, metres: rounding, and gaps that do not count.
 const IN_LINE: f64 = 1e-4;
 
-/// A rectangle along the axes: its lower left and its upper right corner, metres.
+/// An axis-aligned rectangle: its lower left and upper right corner, metres.
 pub type Extent = [[f64; 2]; 2];
 
-/// One of the rectangles that make up the body.
+/// A rectangle of the decomposition.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutlinePiece {
-    /// Where it is.
+    /// Extent of the rectangle.
     pub extent: Extent,
-    /// Where it can be touched, in the frame of its centre.
+    /// Boundary exposed to contact, in the frame of its centre.
     pub rim: Rim,
 }
 
-/// The pieces of the union of `extents`.
+/// Decomposes the union of `extents`.
 pub fn outline(extents: &[Extent]) -> Vec<OutlinePiece> {
     let grid = Grid::new(extents);
     let stretches = grid.stretches();
@@ -49,7 +49,7 @@ pub fn outline(extents: &[Extent]) -> Vec<OutlinePiece> {
     pieces
 }
 
-/// A rectangle of grid cells: from the first up to, but not including, the last, of each axis.
+/// A rectangle of grid cells: per axis from the first up to, but not including, the last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Cells {
     from: [usize; 2],
@@ -70,21 +70,22 @@ impl Cells {
 /// A straight stretch of the boundary.
 #[derive(Clone, Copy, Debug)]
 struct Stretch {
-    /// 0 to 3: the body lies on its -x, -y, +x, +y side.
+    /// Index of the side: the body lies on its -x, -y, +x, +y side for 0 to 3.
     side: usize,
-    /// The grid line that it lies on, and the lines between which, of the other axis.
+    /// Index of its grid line, and the range of lines of the other axis.
     line: usize,
     from: usize,
     to: usize,
 }
 
 impl Stretch {
-    /// The axis across it.
+    /// Returns the axis across the stretch.
     fn across(&self) -> usize {
         self.side % 2
     }
 
-    /// Whether it is part of the boundary of `cells`, which lie on its inner side.
+    /// Returns `true` if the stretch is part of the boundary of `cells`, which lie on its inner
+    /// side.
     fn lies_on(&self, cells: &Cells) -> bool {
         let (across, along) = (self.across(), 1 - self.across());
         let line = if self.side < 2 { cells.to[across] } else { cells.from[across] };
@@ -92,9 +93,9 @@ impl Stretch {
     }
 }
 
-/// The plane cut along all edges.
+/// The plane divided along all edges.
 struct Grid {
-    /// Coordinates of the lines across each axis.
+    /// Coordinates of the grid lines across each axis.
     lines: [Vec<f64>; 2],
     filled: Vec<bool>,
 }
@@ -120,9 +121,9 @@ impl Grid {
         grid
     }
 
-    /// The line that an edge lies in.
+    /// Returns the grid line of an edge.
     fn nearest(&self, axis: usize, edge: f64) -> usize {
-        // Lines are sorted, and each edge lies at most IN_LINE above its own.
+        // Lines are sorted, and each edge lies at most IN_LINE above its line.
         self.lines[axis].partition_point(|line| *line <= edge).saturating_sub(1)
     }
 
@@ -130,7 +131,8 @@ impl Grid {
         row * self.lines[0].len() + column
     }
 
-    /// Whether the cell above and to the right of these lines is filled; those outside are not.
+    /// Returns `true` if the cell above and to the right of these lines is filled; outside cells
+    /// are not.
     fn is_filled(&self, column: isize, row: isize) -> bool {
         match (usize::try_from(column), usize::try_from(row)) {
             (Ok(column), Ok(row)) if column < self.lines[0].len() && row < self.lines[1].len() => {
@@ -140,13 +142,13 @@ impl Grid {
         }
     }
 
-    /// All rectangles of filled cells that cannot be made larger on any side, largest area first.
+    /// Returns all maximal rectangles of filled cells, largest area first.
     fn largest(&self) -> Vec<Cells> {
         let [columns, rows] = [0, 1].map(|axis| self.lines[axis].len() - 1);
         let full = |cells: Cells| cells.each().all(|cell| self.filled[self.index(cell)]);
         let mut found = Vec::new();
         for left in 0..columns {
-            // Rows that are filled from `left` on, column by column.
+            // Rows that are filled from `left` up to the current column.
             let mut open: Vec<bool> = vec![true; rows];
             for right in left + 1..=columns {
                 for (row, open) in open.iter_mut().enumerate() {
@@ -177,13 +179,13 @@ impl Grid {
         found
     }
 
-    /// The straight stretches of the boundary, longest first.
+    /// Returns the straight stretches of the boundary, longest first.
     fn stretches(&self) -> Vec<Stretch> {
         let mut found = Vec::new();
         for side in 0..4 {
             let across = side % 2;
             let along = 1 - across;
-            // The body is on the side of smaller coordinates of the first two.
+            // For the first two sides the body lies at smaller coordinates.
             let is_edge = |line: usize, place: usize| {
                 let filled = |offset: isize| {
                     let mut cell = [0; 2];
@@ -220,7 +222,7 @@ impl Grid {
         OutlinePiece { extent: [corner(cells.from), corner(cells.to)], rim: Rim::default() }
     }
 
-    /// Lets a stretch, with the corners of the body at its ends, be touched on a piece.
+    /// Exposes a stretch, with the body's corners at its ends, on a piece.
     fn give(&self, stretch: &Stretch, cells: &Cells, piece: &mut OutlinePiece) {
         let along = 1 - stretch.across();
         let middle = 0.5 * (piece.extent[0][along] + piece.extent[1][along]);
@@ -237,7 +239,8 @@ impl Grid {
         }
     }
 
-    /// Whether the boundary turns inwards, around the body, at an end of a stretch.
+    /// Returns `true` if the boundary turns around the body at an end of a stretch, as at a convex
+    /// corner.
     fn is_corner(&self, stretch: &Stretch, line: usize, high: bool) -> bool {
         let (across, along) = (stretch.across(), 1 - stretch.across());
         let beyond = if high { line as isize } else { line as isize - 1 };

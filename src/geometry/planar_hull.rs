@@ -2,9 +2,11 @@
 
 use super::{Vector, cross};
 
-/// Returns the corners of the convex hull that stand out of the line between their neighbours by more than
-/// `straight`, metres, counter-clockwise (Andrew 1979, "Another efficient algorithm for convex hulls in two
-/// dimensions"). Along a fine curve corners that hardly stand out add up: zero keeps all of them.
+/// Returns the convex hull of `points`, counter-clockwise (Andrew 1979, "Another efficient
+/// algorithm for convex hulls in two dimensions").
+///
+/// Drops corners that stand out of the line between their neighbours by at most `straight`, metres.
+/// Along a fine curve dropped corners add up; zero keeps all of them.
 pub fn planar_hull(points: &[Vector], straight: f64) -> Vec<Vector> {
     let mut sorted = points.to_vec();
     sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -14,7 +16,7 @@ pub fn planar_hull(points: &[Vector], straight: f64) -> Vec<Vector> {
         for point in points {
             while let [.., a, b] = corners[first..] {
                 let (side, next) = (b - a, point - a);
-                // How far the middle one stands out of the line between the others.
+                // Height of the middle point above the line between the others.
                 if cross(side, next) > straight * next.norm() {
                     break;
                 }
@@ -22,7 +24,7 @@ pub fn planar_hull(points: &[Vector], straight: f64) -> Vec<Vector> {
             }
             corners.push(*point);
         }
-        // The last one begins the other half.
+        // The last point begins the other half.
         corners.pop();
     };
     half(&mut sorted.iter(), &mut corners);
@@ -41,7 +43,7 @@ mod tests {
         let corners = hull(&grid.collect::<Vec<_>>());
         assert_eq!(corners, [[0.0, 0.0], [0.04, 0.0], [0.04, 0.04], [0.0, 0.04]].map(Vector::from));
         assert!(hull(&[Vector::zeros(); 3]).len() < 3);
-        // Of a fine curve every corner counts, though none stands out by much.
+        // On a fine curve every corner is kept, though none stands out by much.
         let fine = |k: u32| f64::from(k) * std::f64::consts::TAU / 40_000.0;
         let ring: Vec<Vector> =
             (0..40_000).map(|k| 0.1 * Vector::new(fine(k).cos(), fine(k).sin())).collect();

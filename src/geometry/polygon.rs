@@ -1,4 +1,4 @@
-//! Convex polygons: what an upright prism covers on the table.
+//! Convex polygons: the footprint of an upright prism on the table.
 
 use std::fmt;
 
@@ -7,26 +7,26 @@ use thiserror::Error;
 
 use super::{Vector, cross};
 
-/// Most corners of a polygon.
+/// Maximum number of corners of a polygon.
 pub const MAX_CORNERS: usize = 8;
 
-/// Corners nearer to each other than this are one, metres; so thin may a polygon be, too.
+/// Distance below which two corners coincide, and minimum width of a polygon, metres.
 const SMALLEST: f64 = 1e-3;
 
-/// Farthest that a corner may lie from the centre of mass, metres.
+/// Maximum distance of a corner from the centre of mass, metres.
 const LARGEST: f64 = 10.0;
 
-/// Smallest distance of the centre of mass from a side, metres.
+/// Minimum distance of the centre of mass from a side, metres.
 const INSIDE: f64 = 1e-4;
 
-/// Smallest angle by which the outline turns at a corner, radians: one degree.
+/// Minimum angle by which the outline turns at a corner, radians: one degree.
 const STRAIGHT: f64 = 0.0175;
 
-/// How much of its size a polygon may change by in a turn after which it looks the same: corners
-/// written in whole millimetres are rounded.
+/// Deviation below which a rotated polygon coincides with itself, relative to its size: corners
+/// given in whole millimetres are rounded.
 const ALIKE: f64 = 0.01;
 
-/// A convex polygon whose origin is the centre of mass of what stands on it.
+/// A convex polygon whose origin is the centre of mass of the body above it.
 ///
 /// ```
 /// use pushplan::{ConvexPolygon, Vector};
@@ -45,46 +45,46 @@ pub struct ConvexPolygon {
     count: usize,
 }
 
-/// Why corners do not make a convex polygon; corners are counted from zero.
+/// Reason why corners do not form a convex polygon; corners are counted from zero.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum PolygonError {
     /// Fewer than three or more than [`MAX_CORNERS`].
     #[error("a polygon has 3 to {MAX_CORNERS} corners, not {0}")]
     Count(usize),
-    /// Two corners at one place; the second one.
+    /// Two coincident corners; index of the second.
     #[error("corner {} lies on another one", .0 + 1)]
     Doubled(usize),
     /// A corner at which the outline does not turn.
     #[error("corner {} lies on the line between its neighbours", .0 + 1)]
     Straight(usize),
-    /// A corner at which the outline turns the other way than elsewhere.
+    /// A corner at which the outline turns inwards.
     #[error("the outline turns inwards at corner {}", .0 + 1)]
     Inwards(usize),
-    /// It goes around more than once.
+    /// An outline that winds more than once.
     #[error("the outline crosses itself")]
     Crossing,
-    /// Thinner than a millimetre, larger than ten metres, or not a number.
+    /// A polygon thinner than a millimetre, larger than ten metres, or not a number.
     #[error("the polygon is thinner than 1 mm or larger than 10 m")]
     Size,
-    /// The centre of mass is not inside.
+    /// A centre of mass outside the outline.
     #[error("the centre of mass does not lie within the outline")]
     Unbalanced,
 }
 
 impl ConvexPolygon {
-    /// The polygon of these corners (metres, in order, either way round) about its centroid: the
-    /// centre of mass where the weight is spread evenly.
+    /// Creates the polygon with these corners (metres, in order, either orientation) about its
+    /// centroid, the centre of mass of evenly spread weight.
     ///
     /// # Errors
-    /// [`PolygonError`] if they do not make a convex polygon.
+    /// [`PolygonError`] if they do not form a convex polygon.
     pub fn new(corners: &[Vector]) -> Result<Self, PolygonError> {
         Self::balanced(corners, centroid(corners))
     }
 
-    /// The polygon of these corners about a centre of mass given in their frame, metres.
+    /// Creates the polygon with these corners about a centre of mass given in their frame, metres.
     ///
     /// # Errors
-    /// [`PolygonError`] if they do not make a convex polygon around it.
+    /// [`PolygonError`] if they do not form a convex polygon around it.
     pub fn balanced(corners: &[Vector], centre_of_mass: Vector) -> Result<Self, PolygonError> {
         let count = corners.len();
         if !(3..=MAX_CORNERS).contains(&count) {
@@ -98,7 +98,7 @@ impl ConvexPolygon {
         if !polygon.corners().iter().all(near) {
             return Err(PolygonError::Size);
         }
-        // Kept counter-clockwise, the first corner staying the first.
+        // Kept counter-clockwise with the first corner first.
         let clockwise = twice_area(polygon.corners()) < 0.0;
         if clockwise {
             polygon.corners[1..count].reverse();
@@ -144,28 +144,28 @@ impl ConvexPolygon {
         Ok(())
     }
 
-    /// The corners, counter-clockwise, metres from the centre of mass.
+    /// Returns the corners, counter-clockwise, metres from the centre of mass.
     pub fn corners(&self) -> &[Vector] {
         &self.corners[..self.count]
     }
 
-    /// Both ends of every side, counter-clockwise.
+    /// Returns both ends of every side, counter-clockwise.
     pub fn sides(&self) -> impl Iterator<Item = (Vector, Vector)> + '_ {
         let corners = self.corners();
         (0..self.count).map(move |k| (corners[k], corners[(k + 1) % corners.len()]))
     }
 
-    /// The first end of every side and the unit normal that points out of it.
+    /// Returns the first end of every side and the side's outward unit normal.
     pub fn faces(&self) -> impl Iterator<Item = (Vector, Vector)> + '_ {
         self.sides().map(|(a, b)| (a, Vector::new(b.y - a.y, a.x - b.x).normalize()))
     }
 
-    /// Area, square metres.
+    /// Returns the area, square metres.
     pub fn area(&self) -> f64 {
         twice_area(self.corners()) / 2.0
     }
 
-    /// Means of x^2, x y and y^2 over the area, square metres.
+    /// Returns the means of x^2, x y and y^2 over the area, square metres.
     pub fn second_moments(&self) -> [f64; 3] {
         let mut sums = [0.0; 3];
         for (a, b) in self.sides() {
@@ -177,10 +177,10 @@ impl ConvexPolygon {
         sums.map(|sum| sum / (12.0 * self.area()))
     }
 
-    /// Mean distance of the area's points from the origin, metres.
+    /// Returns the mean distance of the area's points from the origin, metres.
     pub fn mean_radius(&self) -> f64 {
-        // Over the triangle of a side and the origin the integral of r is h / 3 times that of
-        // sqrt(h^2 + t^2) along the side, h being the side's distance.
+        // The integral of r over the triangle of a side and the origin is h / 3 times the integral
+        // of sqrt(h^2 + t^2) along the side. h is the side's distance from the origin.
         let whole: f64 = self
             .sides()
             .map(|(a, b)| {
@@ -193,24 +193,26 @@ impl ConvexPolygon {
         whole / self.area()
     }
 
-    /// Radius of the smallest circle about the origin that holds the polygon, metres.
+    /// Returns the radius of the smallest circle about the origin that contains the polygon,
+    /// metres.
     pub fn bounding_radius(&self) -> f64 {
         self.corners().iter().map(Vector::norm_squared).fold(0.0, f64::max).sqrt()
     }
 
-    /// Radius of the largest circle about the origin inside the polygon, metres; negative where
-    /// the origin is outside.
+    /// Returns the radius of the largest circle about the origin inside the polygon, metres;
+    /// negative if the origin is outside.
     pub fn inner_radius(&self) -> f64 {
         self.faces().map(|(corner, normal)| corner.dot(&normal)).fold(f64::INFINITY, f64::min)
     }
 
-    /// The support function: how far the polygon reaches along a unit vector, metres.
+    /// Returns the extent of the polygon along a unit vector, metres (the support function).
     pub fn extent(&self, direction: Vector) -> f64 {
         let reaches = self.corners().iter().map(|corner| corner.dot(&direction));
         reaches.fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Every side moved outwards by `margin` metres, or inwards, by less than the sides bear.
+    /// Returns the polygon with every side moved outwards by `margin` metres. A negative margin
+    /// must not make a side vanish.
     pub fn grown(&self, margin: f64) -> Self {
         let normals: Vec<Vector> = self.faces().map(|(_, normal)| normal).collect();
         let mut grown = *self;
@@ -221,8 +223,8 @@ impl ConvexPolygon {
         grown
     }
 
-    /// Into how many equal turns about the origin a full turn falls after each of which the
-    /// polygon looks the same: n for a regular polygon of n corners, 1 for most others.
+    /// Returns the order of rotational symmetry about the origin: n for a regular polygon of n
+    /// corners, 1 for most others.
     pub fn symmetry(&self) -> usize {
         let (corners, count) = (self.corners(), self.count);
         let within = ALIKE * self.bounding_radius();
@@ -256,10 +258,10 @@ impl From<ConvexPolygon> for Vec<Vector> {
     }
 }
 
-/// The centroid of a polygon with these corners in order, metres.
+/// Returns the centroid of a polygon with these corners in order, metres.
 pub fn centroid(corners: &[Vector]) -> Vector {
     let Some(&first) = corners.first() else { return Vector::zeros() };
-    // From the first corner, so that polygons far from the origin lose no digits.
+    // Relative to the first corner, so that polygons far from the origin lose no digits.
     let (mut whole, mut moment) = (0.0, Vector::zeros());
     for pair in corners.windows(2) {
         let (a, b) = (pair[0] - first, pair[1] - first);
@@ -269,7 +271,7 @@ pub fn centroid(corners: &[Vector]) -> Vector {
     if whole == 0.0 { first } else { first + moment / (3.0 * whole) }
 }
 
-/// Twice the area inside, positive where the corners go round counter-clockwise.
+/// Returns twice the enclosed area, positive for counter-clockwise corners.
 fn twice_area(corners: &[Vector]) -> f64 {
     (0..corners.len()).map(|k| cross(corners[k], corners[(k + 1) % corners.len()])).sum()
 }

@@ -6,26 +6,26 @@ use serde::{Deserialize, Serialize};
 
 use super::{Turn, Vector};
 
-/// A planar rigid pose: turn by `heading`, then shift by `position`.
+/// A planar rigid pose: rotation by `heading`, then translation by `position`.
 ///
-/// The heading is not wrapped, so that turns can be counted; compare headings with
+/// The heading is not wrapped, so that full rotations can be counted; compare headings with
 /// [`wrap_angle`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
     /// Position of the body's centre, metres.
     pub position: Vector,
-    /// Turn about the vertical, radians, counter-clockwise.
+    /// Rotation about the vertical, radians, counter-clockwise.
     pub heading: f64,
 }
 
 impl Pose {
-    /// The pose at (`x`, `y`) metres with `heading` radians.
+    /// Creates the pose at (`x`, `y`) metres with `heading` radians.
     #[inline]
     pub fn new(x: f64, y: f64, heading: f64) -> Self {
         Self { position: Vector::new(x, y), heading }
     }
 
-    /// The turn by its heading.
+    /// Returns the rotation by the heading.
     #[inline]
     pub fn turn(&self) -> Turn {
         Turn::by(self.heading)
@@ -37,7 +37,7 @@ impl Pose {
         self.position + self.vector(local)
     }
 
-    /// Turns a vector of this pose's frame into the parent frame, without shifting it.
+    /// Rotates a vector of this pose's frame into the parent frame, without translation.
     #[inline]
     pub fn vector(&self, local: Vector) -> Vector {
         self.turn().of(local)
@@ -49,19 +49,19 @@ impl Pose {
         self.local_vector(point - self.position)
     }
 
-    /// Turns a vector of the parent frame into this pose's frame, without shifting it.
+    /// Rotates a vector of the parent frame into this pose's frame, without translation.
     #[inline]
     pub fn local_vector(&self, vector: Vector) -> Vector {
         self.turn().back(vector)
     }
 
-    /// The pose that undoes this one.
+    /// Returns the inverse pose.
     #[inline]
     pub fn inverse(&self) -> Self {
         Self { position: -self.local_vector(self.position), heading: -self.heading }
     }
 
-    /// The pose a fraction `t` of the way to `other`, turning evenly.
+    /// Interpolates position and heading linearly: a fraction `t` of the way to `other`.
     pub fn towards(&self, other: &Self, t: f64) -> Self {
         Self {
             position: self.position + (other.position - self.position) * t,
@@ -69,7 +69,7 @@ impl Pose {
         }
     }
 
-    /// Whether position and heading are finite numbers.
+    /// Returns `true` if position and heading are finite.
     pub fn is_finite(&self) -> bool {
         self.position.iter().all(|v| v.is_finite()) && self.heading.is_finite()
     }
@@ -78,29 +78,30 @@ impl Pose {
 impl Mul for Pose {
     type Output = Pose;
 
-    #[allow(clippy::suspicious_arithmetic_impl)] // composing turns adds their angles
-    /// `a * b`: the pose `b`, given in the frame of `a`, in the parent frame of `a`.
+    #[allow(clippy::suspicious_arithmetic_impl)] // composing rotations adds their angles
+    /// Composes two poses: `b` is given in the frame of `a`, and `a * b` in the parent frame of
+    /// `a`.
     #[inline]
     fn mul(self, other: Pose) -> Pose {
         Pose { position: self.point(other.position), heading: self.heading + other.heading }
     }
 }
 
-/// The vertical component of the cross product of two planar vectors.
+/// Returns the vertical component of the cross product of two planar vectors.
 #[inline]
 pub fn cross(a: Vector, b: Vector) -> f64 {
     a.x * b.y - a.y * b.x
 }
 
-/// `v` turned left by a quarter turn.
+/// Returns `v` rotated by a quarter turn to the left.
 #[inline]
 pub fn perpendicular(v: Vector) -> Vector {
     Vector::new(-v.y, v.x)
 }
 
-/// The same angle in (-pi, pi], radians.
+/// Wraps an angle into (-pi, pi], radians.
 pub fn wrap_angle(angle: f64) -> f64 {
-    // Nearly all are, and a remainder takes as long as a sine.
+    // Nearly all angles are wrapped already, and a remainder costs as much as a sine.
     if angle > -std::f64::consts::PI && angle <= std::f64::consts::PI {
         return angle;
     }

@@ -1,4 +1,4 @@
-//! The solids that objects and tool parts are made of, and their planar footprints.
+//! Shapes of objects and tool parts, and their planar footprints.
 
 use serde::{Deserialize, Serialize};
 
@@ -22,7 +22,7 @@ pub enum Shape {
     },
     /// An upright prism on a convex polygon.
     Prism {
-        /// What it covers on the table, metres.
+        /// Footprint on the table, metres.
         base: ConvexPolygon,
         /// Height, metres.
         height: f64,
@@ -30,7 +30,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// What the solid covers on the table.
+    /// Returns the area that the solid covers on the table.
     pub fn footprint(&self) -> Footprint {
         match *self {
             Shape::Cylinder { radius, .. } => Footprint::Disc { radius },
@@ -41,7 +41,7 @@ impl Shape {
         }
     }
 
-    /// Vertical extent, metres.
+    /// Returns the vertical extent, metres.
     pub fn height(&self) -> f64 {
         match *self {
             Shape::Cylinder { height, .. } | Shape::Prism { height, .. } => height,
@@ -49,13 +49,13 @@ impl Shape {
         }
     }
 
-    /// Whether this is a cylinder, whose heading cannot be seen.
+    /// Returns `true` for a cylinder, whose heading is not observable.
     pub fn is_cylinder(&self) -> bool {
         matches!(self, Shape::Cylinder { .. })
     }
 }
 
-/// A convex planar shape about its own origin, the centre of mass of what stands on it.
+/// A convex planar shape about its own origin, the centre of mass of the body above it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Footprint {
     /// A disc.
@@ -73,7 +73,7 @@ pub enum Footprint {
 }
 
 impl Footprint {
-    /// Area, square metres.
+    /// Returns the area, square metres.
     pub fn area(&self) -> f64 {
         match *self {
             Footprint::Disc { radius } => std::f64::consts::PI * radius * radius,
@@ -82,7 +82,7 @@ impl Footprint {
         }
     }
 
-    /// Radius of the smallest circle about the origin that holds the shape, metres.
+    /// Returns the radius of the smallest circle about the origin that contains the shape, metres.
     pub fn bounding_radius(&self) -> f64 {
         match *self {
             Footprint::Disc { radius } => radius,
@@ -91,7 +91,7 @@ impl Footprint {
         }
     }
 
-    /// Radius of the largest circle about the origin inside the shape, metres.
+    /// Returns the radius of the largest circle about the origin inside the shape, metres.
     pub fn inner_radius(&self) -> f64 {
         match *self {
             Footprint::Disc { radius } => radius,
@@ -100,10 +100,10 @@ impl Footprint {
         }
     }
 
-    /// Radius of gyration about the vertical through the centre, metres: I = m rho^2.
+    /// Returns the radius of gyration about the vertical through the centre, metres: I = m rho^2.
     ///
-    /// That of an even plate; where a polygon's centre of mass is not its centroid, of an even
-    /// plate that turns about it.
+    /// Mass is spread evenly over the area. If a polygon's centre of mass is not its centroid, the
+    /// radius is taken about the centre of mass.
     pub fn gyration_radius(&self) -> f64 {
         match *self {
             Footprint::Disc { radius } => radius / std::f64::consts::SQRT_2,
@@ -115,11 +115,11 @@ impl Footprint {
         }
     }
 
-    /// Mean distance of the shape's points from its centre, metres.
+    /// Returns the mean distance of the shape's points from its centre, metres.
     ///
-    /// With pressure spread evenly this is the ratio of the largest friction torque to the
-    /// largest friction force of the support, the length `c` of the ellipsoidal limit surface
-    /// (Goyal, Ruina and Papadopoulos 1991; Lynch and Howe 1992).
+    /// This is the length `c` of the ellipsoidal limit surface under uniform pressure: the ratio of
+    /// the maximum friction torque to the maximum friction force of the support (Goyal, Ruina and
+    /// Papadopoulos 1991; Lynch and Howe 1992).
     pub fn mean_radius(&self) -> f64 {
         match *self {
             Footprint::Disc { radius } => 2.0 * radius / 3.0,
@@ -132,7 +132,7 @@ impl Footprint {
         }
     }
 
-    /// The same shape grown by `margin` metres on every side (corners stay corners).
+    /// Returns the shape grown by `margin` metres on every side; corners are not rounded.
     pub fn grown(&self, margin: f64) -> Footprint {
         match *self {
             Footprint::Disc { radius } => Footprint::Disc { radius: radius + margin },
@@ -143,14 +143,14 @@ impl Footprint {
         }
     }
 
-    /// The same shape smaller by `margin` metres on every side, but by no more than half its
-    /// smallest half extent.
+    /// Returns the shape shrunk by `margin` metres on every side, but at most by half its smallest
+    /// half extent.
     pub fn shrunk(&self, margin: f64) -> Footprint {
         self.grown(-margin.min(0.5 * self.inner_radius()))
     }
 
-    /// How far the shape reaches from its centre along the unit vector `direction`, given in the
-    /// shape's own frame: the support function, metres.
+    /// Returns the extent from the centre along the unit vector `direction` in the shape's own
+    /// frame, metres (the support function).
     pub fn extent(&self, direction: Vector) -> f64 {
         match *self {
             Footprint::Disc { radius } => radius,
@@ -161,15 +161,15 @@ impl Footprint {
         }
     }
 
-    /// Into how many equal turns a full turn falls after each of which the shape looks the same;
-    /// `None` for a disc, which always does.
+    /// Returns the order of rotational symmetry about the origin; `None` for a disc, which has
+    /// every order.
     pub fn symmetry(&self) -> Option<usize> {
         match *self {
             Footprint::Disc { .. } => None,
             Footprint::Rectangle { half } => {
                 let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
                 let corners = corners.map(|(x, y)| Vector::new(x * half.x, y * half.y));
-                // Too thin for a polygon, so not a square.
+                // A rectangle too thin for a polygon is not a square.
                 Some(ConvexPolygon::new(&corners).map_or(2, |polygon| polygon.symmetry()))
             }
             Footprint::Polygon(polygon) => Some(polygon.symmetry()),

@@ -1,23 +1,23 @@
-//! Convex solids in space, and how deep two of them are in each other.
+//! Convex solids in space, and the penetration depth of two of them.
 
 use super::{Pose3, Vector, Vector3};
 
-/// Directions whose cross product is shorter are parallel.
+/// Length of a cross product below which its directions count as parallel.
 const PARALLEL: f64 = 1e-9;
 
 /// A convex solid: a prism or a cuboid in any pose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solid {
     corners: Vec<Vector3>,
-    /// Normals of its faces, one of each opposite pair, of length one.
+    /// Unit normals of the faces, one of each opposite pair.
     normals: Vec<Vector3>,
-    /// Directions of its edges, of length one.
+    /// Unit directions of the edges.
     edges: Vec<Vector3>,
 }
 
 impl Solid {
-    /// The prism on a base of these corners (metres, in order) from `bottom` to `top` along z, in a
-    /// pose.
+    /// Creates the prism with these base corners (metres, in order) from `bottom` to `top` along z,
+    /// in the given pose.
     pub fn prism(base: &[Vector], [bottom, top]: [f64; 2], pose: &Pose3) -> Self {
         let at = |corner: &Vector, z: f64| pose.point(Vector3::new(corner.x, corner.y, z));
         let corners: Vec<Vector3> =
@@ -33,7 +33,7 @@ impl Solid {
         Self { corners, normals, edges }
     }
 
-    /// The cuboid of these full extents (metres) about its centre, in a pose.
+    /// Creates the cuboid with these full extents (metres) about its centre, in the given pose.
     pub fn cuboid([x, y, z]: [f64; 3], pose: &Pose3) -> Self {
         let (x, y, z) = (0.5 * x, 0.5 * y, 0.5 * z);
         let corner = |k: usize| {
@@ -45,9 +45,9 @@ impl Solid {
         Self { corners: (0..8).map(corner).collect(), normals: axes.clone(), edges: axes }
     }
 
-    /// How far the two would have to be shifted to come apart, metres; below zero where they are
-    /// apart. By the separating axes of convex solids: normals of faces, and what is normal to an
-    /// edge of each.
+    /// Returns the penetration depth of two solids, metres; negative if they are apart.
+    ///
+    /// Uses the separating axes of convex solids: face normals and the cross products of two edges.
     pub fn depth(&self, other: &Self) -> f64 {
         let faces = self.normals.iter().chain(&other.normals).copied();
         let crossed = self.edges.iter().flat_map(|a| other.edges.iter().map(|b| a.cross(b)));
@@ -59,7 +59,7 @@ impl Solid {
         faces.chain(crossed).map(overlap).fold(f64::INFINITY, f64::min)
     }
 
-    /// Height of its lowest point, metres.
+    /// Returns the height of the lowest point, metres.
     pub fn lowest(&self) -> f64 {
         self.span(Vector3::z())[0]
     }
@@ -70,12 +70,12 @@ impl Solid {
     }
 }
 
-/// What two convex polygons share, as corners in order; both counter-clockwise, metres.
+/// Returns the corners of the intersection of two convex polygons; both counter-clockwise, metres.
 pub fn common_area(first: &[Vector], second: &[Vector]) -> Vec<Vector> {
     sides(second).fold(first.to_vec(), |area, (from, along)| left_of(&area, from, along))
 }
 
-/// What of a convex polygon is not in another one, as convex polygons that share no area; both
+/// Returns the difference of two convex polygons as disjoint convex polygons; both
 /// counter-clockwise, metres.
 pub fn without(first: &[Vector], second: &[Vector]) -> Vec<Vec<Vector>> {
     let (mut left, mut found) = (first.to_vec(), Vec::new());
@@ -87,21 +87,21 @@ pub fn without(first: &[Vector], second: &[Vector]) -> Vec<Vec<Vector>> {
     found
 }
 
-/// The area of a polygon, counter-clockwise, square metres.
+/// Returns the area of a counter-clockwise polygon, square metres.
 pub fn area_of(corners: &[Vector]) -> f64 {
-    // From one of them: far from the origin no digits are lost.
+    // Relative to a corner, so that no digits are lost far from the origin.
     let Some(&first) = corners.first() else { return 0.0 };
     let doubled = sides(corners).map(|(from, along)| super::cross(from - first, along));
     0.5 * doubled.sum::<f64>()
 }
 
-/// The corners of a polygon, each with the way to the next.
+/// Returns the corners of a polygon, each with the vector to the next.
 fn sides(corners: &[Vector]) -> impl Iterator<Item = (Vector, Vector)> {
     let next = corners.iter().cycle().skip(1);
     corners.iter().zip(next).map(|(&from, &to)| (from, to - from))
 }
 
-/// What of a convex polygon lies on the left of a line.
+/// Clips a convex polygon to the left of a line.
 fn left_of(corners: &[Vector], from: Vector, along: Vector) -> Vec<Vector> {
     let inside = |p: &Vector| super::cross(along, p - from);
     let mut left = Vec::with_capacity(corners.len() + 1);

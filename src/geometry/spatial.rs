@@ -1,4 +1,4 @@
-//! Poses in space, for what is levered off the table.
+//! Poses in space, for objects levered off the table.
 
 use std::ops::Mul;
 
@@ -13,15 +13,15 @@ pub type Vector3 = nalgebra::Vector3<f64>;
 /// A linear map of vectors in space.
 pub type Matrix3 = nalgebra::Matrix3<f64>;
 
-/// A turn in space.
+/// A rotation in space.
 pub type Turn3 = UnitQuaternion<f64>;
 
-/// A rigid pose in space: turn by `rotation`, then shift by `position`.
+/// A rigid pose in space: rotation by `rotation`, then translation by `position`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pose3 {
     /// Position of the body's centre, metres.
     pub position: Vector3,
-    /// Turn against the world's axes.
+    /// Rotation relative to the world axes.
     pub rotation: UnitQuaternion<f64>,
 }
 
@@ -32,15 +32,15 @@ impl Default for Pose3 {
 }
 
 impl Pose3 {
-    /// A pose of its position, metres, and the quaternion `x, y, z, w` of its turn, of any length
-    /// but zero.
+    /// Creates a pose from its position, metres, and the quaternion `x, y, z, w` of its rotation,
+    /// which need not be normalised but must not be zero.
     pub fn from_quaternion(position: Vector3, [x, y, z, w]: [f64; 4]) -> Self {
         let rotation = UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(w, x, y, z));
         Self { position, rotation }
     }
 
-    /// A pose of its position, metres, and about where its x- and z-axes point; the z-axis is kept.
-    /// Axes of no length, or along each other, leave it unturned.
+    /// Creates a pose from its position, metres, and approximate directions of its x- and z-axes;
+    /// the z-axis is kept. Zero or parallel axes give the identity rotation.
     pub fn from_axes(position: Vector3, x: Vector3, z: Vector3) -> Self {
         let unit = |v: Vector3| v.try_normalize(1e-9);
         let axes = unit(z).and_then(|z| unit(x - z * z.dot(&x)).map(|x| [x, z.cross(&x), z]));
@@ -50,12 +50,12 @@ impl Pose3 {
         Self { position, rotation }
     }
 
-    /// The quaternion of its turn: `x, y, z, w`.
+    /// Returns the quaternion of the rotation: `x, y, z, w`.
     pub fn quaternion(&self) -> [f64; 4] {
         self.rotation.coords.into()
     }
 
-    /// An upright body: a planar pose at this height, metres.
+    /// Creates an upright pose from a planar pose and a height, metres.
     pub fn upright(pose: Pose, height: f64) -> Self {
         Self {
             position: Vector3::new(pose.position.x, pose.position.y, height),
@@ -63,7 +63,7 @@ impl Pose3 {
         }
     }
 
-    /// What is seen of it from above: its position, and where its x-axis points.
+    /// Projects the pose onto the table: its position, and the direction of its x-axis as heading.
     pub fn from_above(&self) -> Pose {
         let x = self.rotation * Vector3::x();
         Pose { position: self.position.xy(), heading: x.y.atan2(x.x) }
@@ -79,29 +79,31 @@ impl Pose3 {
         self.rotation.inverse() * (point - self.position)
     }
 
-    /// The pose that undoes this one.
+    /// Returns the inverse pose.
     pub fn inverse(&self) -> Self {
         let rotation = self.rotation.inverse();
         Self { position: -(rotation * self.position), rotation }
     }
 
-    /// The pose turned about an axis (a direction through `pivot`, metres) by `angle` radians.
+    /// Returns the pose rotated by `angle` radians about an axis, a direction through `pivot`
+    /// (metres).
     pub fn turned_about(&self, pivot: Vector3, axis: Unit<Vector3>, angle: f64) -> Self {
         let turn = UnitQuaternion::from_axis_angle(&axis, angle);
         Self { position: pivot + turn * (self.position - pivot), rotation: turn * self.rotation }
     }
 
-    /// Angle between the body's own vertical and the world's, radians: 0 upright, pi upside down.
+    /// Returns the angle between the body's vertical and the world's, radians: 0 upright, pi upside
+    /// down.
     pub fn tilt(&self) -> f64 {
         (self.rotation * Vector3::z()).z.clamp(-1.0, 1.0).acos()
     }
 
-    /// Angle of the turn that leads to `other`, radians.
+    /// Returns the angle of the rotation to `other`, radians.
     pub fn angle_to(&self, other: &Self) -> f64 {
         self.rotation.angle_to(&other.rotation)
     }
 
-    /// Whether all its numbers are finite.
+    /// Returns `true` if all components are finite.
     pub fn is_finite(&self) -> bool {
         self.position.iter().chain(self.rotation.coords.iter()).all(|v| v.is_finite())
     }
@@ -110,7 +112,8 @@ impl Pose3 {
 impl Mul for Pose3 {
     type Output = Pose3;
 
-    /// `a * b`: the pose `b`, given in the frame of `a`, in the parent frame of `a`.
+    /// Composes two poses: `b` is given in the frame of `a`, and `a * b` in the parent frame of
+    /// `a`.
     fn mul(self, other: Pose3) -> Pose3 {
         Pose3 { position: self.point(other.position), rotation: self.rotation * other.rotation }
     }

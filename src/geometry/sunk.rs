@@ -1,24 +1,26 @@
-//! Shapes that have sunk into each other: along which face they have to come apart again.
+//! Penetrating shapes: the face along which they must separate.
 //!
-//! A corner that has sunk in may be nearest to a side that it never came through: where two boxes of
-//! one width are pressed together, each corner lies beside a flank of the other. Taken alone it says
-//! that they hardly overlap, and would let them pass through each other. What counts is the face
-//! along whose normal they overlap least (Gottschalk, Lin, Manocha 1996, doi:10.1145/237170.237244).
+//! A corner that has sunk in may be nearest to a side that it never crossed: if two boxes of one
+//! width are pressed together, each corner lies beside a flank of the other. Such a corner alone
+//! shows hardly any overlap and would let the boxes pass through each other. The face with the
+//! least overlap along its normal decides (Gottschalk, Lin, Manocha 1996,
+//! doi:10.1145/237170.237244).
 
 use super::{MAX_CORNERS, Vector, cross};
 
-/// Faces are parallel up to this sine, as far as it matters which of both leads.
+/// Sine below which two faces count as parallel, so that both lead.
 const PARALLEL: f64 = 1e-3;
 
-/// How two shapes overlap, in the frame of the first.
+/// Overlap of two shapes, in the frame of the first.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sunk {
-    /// Unit, from the second into the first.
+    /// Unit normal, from the second into the first.
     pub normal: Vector,
-    /// Ends of what of both faces meets, deepest first: the place on the first, that on the second,
-    /// metres, and the gap, which is negative.
+    /// Ends of the stretch common to both faces, deepest first: the point on the first, the point
+    /// on the second, metres, and the gap, which is negative.
     pub ends: [(Vector, Vector, f64); 2],
-    /// Whether the leading face is the first's, and whether the other's is parallel to it.
+    /// Whether the leading face belongs to the first shape, and whether the facing one is parallel
+    /// to it.
     pub by_first: bool,
     pub parallel: bool,
 }
@@ -49,7 +51,7 @@ impl Outline {
         (0..self.count).map(|k| Side::new(corners[k], corners[(k + 1) % corners.len()]))
     }
 
-    /// How far the nearest corner is outside of a side, metres.
+    /// Returns the minimum signed distance of the corners from `side`, positive outside, metres.
     fn beyond(&self, side: &Side) -> f64 {
         let out = |corner: &Vector| side.out.dot(&(corner - side.from));
         self.corners().iter().map(out).fold(f64::INFINITY, f64::min)
@@ -60,10 +62,10 @@ impl Outline {
 #[derive(Clone, Copy)]
 struct Side {
     from: Vector,
-    /// Unit, towards its other end.
+    /// Unit vector towards the other end.
     along: Vector,
     length: f64,
-    /// Unit, outwards.
+    /// Unit outward normal.
     out: Vector,
 }
 
@@ -75,7 +77,7 @@ impl Side {
     }
 }
 
-/// How these shapes overlap; `None` if they do not.
+/// Returns the overlap of two shapes; `None` if they are apart.
 pub(super) fn sunk(first: &Outline, second: &Outline) -> Option<Sunk> {
     let mut best: Option<(f64, Side, bool)> = None;
     for (own, other, by_first) in [(first, second, true), (second, first, false)] {
@@ -91,7 +93,7 @@ pub(super) fn sunk(first: &Outline, second: &Outline) -> Option<Sunk> {
     }
     let (_, side, by_first) = best?;
     let other = if by_first { second } else { first };
-    // The side of the other that faces it.
+    // The opposing side of the other shape.
     let facing = |one: &Side| one.out.dot(&side.out);
     let faced = other.sides().min_by(|a, b| facing(a).total_cmp(&facing(b)))?;
     let place = |point: Vector| side.along.dot(&(point - side.from));

@@ -1,22 +1,23 @@
-//! The edge that a levered plate tips over.
+//! The edge over which a levered plate tips.
 
 use super::Vector;
 
-/// A side of a convex outline, as seen from a point of the outline.
+/// A side of a convex outline, relative to a point of the outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SupportEdge {
-    /// The side from this corner to the next.
+    /// Index of the side's first corner; the side runs to the next corner.
     pub edge: usize,
-    /// Distance of the line through it from the point, metres: the radius on which the point
-    /// turns while the body tips over this side.
+    /// Distance of the side's line from the point, metres: the radius of the point's rotation while
+    /// the body tips over this side.
     pub distance: f64,
-    /// Where the ray goes through the side, from 0 at its first corner to 1 at the next. Near
-    /// either end the neighbour is almost as likely.
+    /// Position of the ray's exit on the side, from 0 at its first corner to 1 at the next. Near
+    /// either end the neighbouring side is almost as likely.
     pub fraction: f64,
 }
 
-/// The side of a convex outline by which the ray from `point` through `centre` leaves it: a body
-/// whose edge is raised at `point` stands on the two corners between which its weight then lies.
+/// Returns the side of a convex outline at which the ray from `point` through `centre` leaves it. A
+/// body whose edge is raised at `point` stands on the two corners of that side, because its weight
+/// then lies between them.
 ///
 /// `corners` run counter-clockwise, metres; `point` lies on the outline. `None` if the outline has
 /// no area or `point` is `centre`.
@@ -27,12 +28,12 @@ pub fn support_edge(corners: &[Vector], point: Vector, centre: Vector) -> Option
         let b = corners[(edge + 1) % corners.len()];
         let along = b - a;
         let length = along.norm();
-        // Points out of a counter-clockwise outline.
+        // Outward normal of a counter-clockwise outline.
         let normal = Vector::new(along.y, -along.x) / length;
         let (approach, distance) = (normal.dot(&ray), normal.dot(&(a - point)));
         let leaves = approach > 0.0 && length > 0.0;
         let at = distance / approach;
-        // Of the sides that look along the ray the first one that it meets.
+        // The first side that the ray leaves through.
         if leaves && at.is_finite() && found.is_none_or(|(best, _)| at < best) {
             let fraction = along.dot(&(point + ray * at - a)) / (length * length);
             found = Some((at, SupportEdge { edge, distance, fraction }));

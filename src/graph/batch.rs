@@ -1,4 +1,4 @@
-//! Many graphs side by side, as flat feature tables: what the network reads.
+//! Feature tables of many graphs side by side: the network's input.
 
 use crate::contact::PairId;
 use crate::geometry::Vector;
@@ -10,48 +10,51 @@ use super::{
     relation::Relation,
 };
 
-/// From here on, sender indices are those of bodies whose motion is given.
+/// First sender index of bodies with prescribed motion.
 pub const GIVEN: u32 = 1 << 31;
 
-/// Sender index of a relation whose sender is no node of its graph.
+/// Sender index of a relation whose sender is not a node of its graph.
 pub const NOBODY: u32 = u32::MAX;
 
-/// Feature tables of a batch of graphs. N nodes that move, K bodies whose motion is given, R relations.
+/// Feature tables of a batch of graphs: N nodes that move, K bodies with prescribed motion, R
+/// relations.
 ///
-/// *Even* features keep their sign when the scene is mirrored about the tool's line of motion,
-/// *odd* ones change it; the network treats the two so that its output mirrors exactly.
+/// *Even* features keep their sign when the scene is mirrored about the tool's line of motion, and
+/// *odd* features change it. The network treats them separately, so that its output mirrors
+/// exactly.
 #[derive(Clone, Debug, Default)]
 pub struct Batch {
-    /// N nodes.
+    /// Nodes, N.
     pub nodes: Vec<Node>,
-    /// [N, NODE_EVEN].
+    /// Even node features, [N, NODE_EVEN].
     pub node_even: Vec<f32>,
-    /// [N, NODE_ODD].
+    /// Odd node features, [N, NODE_ODD].
     pub node_odd: Vec<f32>,
-    /// [K, GIVEN_EVEN]; all parts of a tool are one row, see [`Given`].
+    /// Even features of bodies with prescribed motion, [K, GIVEN_EVEN]; the parts of a tool share
+    /// one row, see [`Given`].
     pub given_even: Vec<f32>,
-    /// [K, GIVEN_ODD].
+    /// Odd features of bodies with prescribed motion, [K, GIVEN_ODD].
     pub given_odd: Vec<f32>,
-    /// [R, RELATION_EVEN].
+    /// Even relation features, [R, RELATION_EVEN].
     pub relation_even: Vec<f32>,
-    /// [R, RELATION_ODD].
+    /// Odd relation features, [R, RELATION_ODD].
     pub relation_odd: Vec<f32>,
-    /// `[R]`, node index of every relation's receiver.
+    /// Receiver of every relation as a node index, `[R]`.
     pub receivers: Vec<u32>,
-    /// `[R]`, node index of every relation's sender, or [`GIVEN`] and the row of a body whose motion is
-    /// given.
+    /// Sender of every relation, `[R]`: a node index, or [`GIVEN`] plus the row of a body with
+    /// prescribed motion.
     pub senders: Vec<u32>,
-    /// `[R]`, which two bodies every relation is about: the same id in every frame of a scene
-    /// with a tool, and for both directions.
+    /// Body pair of every relation, `[R]`. Its id is constant over the frames of a scene with a
+    /// tool, and equal for both directions.
     pub pairs: Vec<PairId>,
-    /// Memory for those of one graph.
+    /// Scratch memory for the relations of one graph.
     pub(super) relations: Vec<Relation>,
-    /// Rows of the tool and of the obstacles of one graph, where they have one.
+    /// Rows of the tool and of the obstacles of one graph, where already added.
     pub(super) rows: Vec<Option<u32>>,
 }
 
 impl Batch {
-    /// Empties the tables but keeps their memory.
+    /// Clears the tables but keeps their memory.
     pub fn clear(&mut self) {
         self.nodes.clear();
         self.node_even.clear();
@@ -65,17 +68,17 @@ impl Batch {
         self.pairs.clear();
     }
 
-    /// Number of nodes, N.
+    /// Returns the number of nodes, N.
     pub fn node_count(&self) -> usize {
         self.nodes.len()
     }
 
-    /// Number of bodies whose motion is given, K.
+    /// Returns the number of bodies with prescribed motion, K.
     pub fn given_count(&self) -> usize {
         self.given_even.len() / GIVEN_EVEN
     }
 
-    /// Number of relations, R.
+    /// Returns the number of relations, R.
     pub fn relation_count(&self) -> usize {
         self.receivers.len()
     }
@@ -86,7 +89,7 @@ impl Batch {
         self.node_odd.extend(odd.map(bounded));
     }
 
-    /// Adds a body whose motion is given; returns its index as a sender.
+    /// Adds a body with prescribed motion; returns its sender index.
     pub(super) fn push_given(&mut self, given: &Given, axis: Vector) -> u32 {
         let row = (self.given_even.len() / GIVEN_EVEN) as u32;
         let (even, odd) = given_features(given, axis);
@@ -111,8 +114,8 @@ impl Batch {
     }
 }
 
-/// Features stay within what the network can have seen, so that an extreme scene cannot drive
-/// it to infinity; an odd bound keeps the mirror symmetry.
+/// Clamps a feature to the range that the network can have seen, so that an extreme scene cannot
+/// drive its output to infinity. An odd bound keeps the mirror symmetry.
 fn bounded(value: f64) -> f32 {
     const BOUND: f64 = 20.0;
     value.clamp(-BOUND, BOUND) as f32

@@ -1,4 +1,4 @@
-//! From a solved frame to the nodes and relations of its graph.
+//! Conversion of a solved frame into the nodes and relations of its graph.
 
 use crate::contact::{AwakeIndex, FrameForces, FrameSolution, Partner};
 use crate::geometry::{Vector, cross};
@@ -13,7 +13,7 @@ use super::{
 
 impl Batch {
     /// Adds the graph of a solved frame under the number `graph`: a node for every object that is
-    /// awake, and what relates them. Returns the number of nodes.
+    /// awake, and their relations. Returns the number of nodes.
     pub fn add(&mut self, graph: u32, frame: &FrameSolution, forces: &FrameForces) -> usize {
         let before = self.node_count();
         let mut relations = std::mem::take(&mut self.relations);
@@ -64,7 +64,8 @@ impl Batch {
         self.node_count() - before
     }
 
-    /// The sender index of a body whose motion is given, which is added if it is not there yet.
+    /// Returns the sender index of a body with prescribed motion, and adds the body if it is
+    /// missing.
     fn given(
         &mut self,
         place: usize,

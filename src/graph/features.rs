@@ -1,7 +1,7 @@
-//! The feature layout: what each number of a node or relation means, and its unit.
+//! The feature layout: meaning and unit of each number of a node or relation.
 //!
-//! Axes: x along the tool's motion, y to its left, origin at the receiver's centre. All
-//! numbers are invariant to shifting and turning the scene; even ones also to mirroring it.
+//! Axes: x along the tool's motion, y to its left, origin at the receiver's centre. The features
+//! are invariant to translation and rotation of the scene; even ones also to mirroring.
 
 use crate::{
     contact::{Motion, Movable, Partner},
@@ -21,40 +21,40 @@ const BODY: f64 = 0.05;
 /// Unit of frame durations, seconds.
 const TIME: f64 = 0.1;
 
-/// Room to a joint's limit from which it counts, radians or metres.
+/// Distance to a joint limit below which the limit counts, radians or metres.
 const NEAR: f64 = 0.05;
 
 /// Even features of a node.
 pub const NODE_EVEN: usize = 20;
 /// Odd features of a node.
 pub const NODE_ODD: usize = 11;
-/// Even features of a body whose motion is given.
+/// Even features of a body with prescribed motion.
 pub const GIVEN_EVEN: usize = 5;
-/// Odd features of a body whose motion is given.
+/// Odd features of a body with prescribed motion.
 pub const GIVEN_ODD: usize = 2;
 /// Even features of a relation.
 pub const RELATION_EVEN: usize = 26;
 /// Odd features of a relation.
 pub const RELATION_ODD: usize = 12;
-/// Even outputs of a node: shift x, velocity x.
+/// Even outputs of a node: displacement x, velocity x.
 pub const OUTPUT_EVEN: usize = 2;
-/// Odd outputs of a node: shift y, turn, velocity y, spin.
+/// Odd outputs of a node: displacement y, rotation, velocity y, angular velocity.
 pub const OUTPUT_ODD: usize = 4;
 
 /// Unit of heights, metres.
 const HEIGHT: f64 = 0.1;
 
-/// What an object stands on, and how much is known about its load.
+/// Support of an object, and whether its load is known.
 pub(super) struct Underside<'a> {
     pub feet: &'a Feet,
-    /// Cosine and sine of the turn from the node's x axis to the object's own.
+    /// Cosine and sine of the rotation from the node's x axis to the object's own.
     pub turn: Vector,
     pub push_height_known: bool,
     pub supports_known: bool,
 }
 
-/// Features of an object that would coast by `coast` and in the prior moves by
-/// `node.prior`; `pressed` is the sum of its contacts' overlaps in [`UNIT`]s.
+/// Returns the features of an object that would slide freely by `coast` and moves by `node.prior`
+/// in the analytic model. `pressed` is the sum of its contacts' overlaps in [`UNIT`]s.
 pub(super) fn node_features(
     node: &Node,
     body: &Movable,
@@ -98,7 +98,7 @@ fn flag(value: bool) -> f64 {
     f64::from(u8::from(value))
 }
 
-/// Features of a body whose motion is given, as the scene's bodies see it along `axis`.
+/// Returns the features of a body with prescribed motion, in the axes given by `axis`.
 pub(super) fn given_features(given: &Given, axis: Vector) -> ([f64; GIVEN_EVEN], [f64; GIVEN_ODD]) {
     let Given { tool, half: [along, across], shift, turn, .. } = *given;
     (
@@ -113,8 +113,8 @@ pub(super) fn given_features(given: &Given, axis: Vector) -> ([f64; GIVEN_EVEN],
     )
 }
 
-/// Features of a relation as its receiver sees it. Contacts leave the columns of joints empty
-/// and the other way round.
+/// Returns the features of a relation from its receiver's view. Contacts leave the columns of
+/// joints empty, and vice versa.
 pub(super) fn relation_features(
     node: &Node,
     relation: &Relation,
@@ -179,7 +179,7 @@ pub(super) fn relation_features(
                 JointKind::Revolute { .. } => [0.0, 1.0, 0.0],
                 JointKind::Prismatic { .. } => [0.0, 0.0, 1.0],
             };
-            // Twice the angle, because a slide has no sign.
+            // Twice the angle, because the sign of a slide direction has no meaning.
             let (x, y) = (along(slide), across(slide));
             let near = |room: f64| 1.0 - (room / NEAR).clamp(0.0, 1.0);
             even[21..26].copy_from_slice(&[

@@ -1,10 +1,10 @@
-//! Nodes whose motion is given: the parts of the tool, which the end effector moves, and obstacles.
+//! Graph nodes with prescribed motion: the tool, which the end effector moves, and obstacles.
 //!
-//! The parts of a tool are one body: fixed joints pass the end effector's motion on to each of them,
-//! and what touches one of them feels all of it. A learned message over such a joint would make
-//! another tool of one that is built of other parts; so what these relations say is in closed form:
-//! every part has the extent and the motion of the whole tool. Nothing that a body with a given motion
-//! hears can change that motion, so it only speaks.
+//! The parts of a tool are one body: fixed joints pass the end effector's motion on to each of
+//! them, and a touched object feels the whole tool. A learned message over such a joint would
+//! depend on how the tool is divided into parts. These relations are therefore in closed form:
+//! every part has the extent and the motion of the whole tool. A body with prescribed motion only
+//! sends messages, because no received message can change its motion.
 
 use crate::{
     contact::FrameSolution,
@@ -15,20 +15,21 @@ use crate::{
 /// A tool or an obstacle in a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Given {
-    /// Whether it is the tool.
+    /// Whether the body is the tool, not an obstacle.
     pub tool: bool,
-    /// Middle of what it covers, between its ends along and across the tool's motion; world, metres.
+    /// Middle of the covered area, between its ends along and across the tool's motion; world,
+    /// metres.
     pub middle: Vector,
-    /// From there to its ends along and across the tool's motion, metres.
+    /// Distances from the middle to the ends along and across the tool's motion, metres.
     pub half: [f64; 2],
-    /// How far that middle moves during the frame, metres.
+    /// Displacement of the middle during the frame, metres.
     pub shift: Vector,
-    /// How far it turns during the frame, radians.
+    /// Rotation during the frame, radians.
     pub turn: f64,
 }
 
 impl Given {
-    /// The tool in a frame.
+    /// Returns the tool in a frame.
     pub fn tool(frame: &FrameSolution<'_>) -> Self {
         let FrameStep { from, to, .. } = *frame.step;
         let pieces = frame.bodies.outline.iter();
@@ -38,7 +39,7 @@ impl Given {
         Self { tool: true, middle, half, shift: moved, turn: to.heading - from.heading }
     }
 
-    /// Obstacle `index` of those at hand in a frame.
+    /// Returns obstacle `index` among the obstacles of a frame.
     pub fn obstacle(frame: &FrameSolution<'_>, index: usize) -> Self {
         let obstacle = &frame.bodies.obstacles[index];
         let covered = std::iter::once((&obstacle.footprint, obstacle.pose));
@@ -47,7 +48,8 @@ impl Given {
     }
 }
 
-/// Middle and halves of the smallest rectangle along `axis` that holds all of these.
+/// Returns the middle and half extents of the smallest rectangle along `axis` that contains all
+/// `bodies`.
 fn extent<'a>(
     axis: Vector,
     bodies: impl Iterator<Item = (&'a Footprint, Pose)>,

@@ -1,7 +1,7 @@
-//! From a solved frame to its graph: nodes, relations and their features, as the network reads
-//! them.
+//! Conversion of a solved frame into its graph: nodes, relations and their features, the input of
+//! the network.
 //!
-//! Only what is awake in a frame is in its graph. Nothing is solved here and nothing is learned.
+//! The graph of a frame contains only awake objects. This module neither solves nor learns.
 
 mod batch;
 mod build;

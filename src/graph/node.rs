@@ -1,4 +1,4 @@
-//! A node: an object whose motion the network decides, and the units of that motion.
+//! Nodes: objects whose motion the network corrects, and the units of that motion.
 
 use crate::{
     contact::{ListIndex, Motion},
@@ -10,12 +10,12 @@ use crate::{
 /// Unit of displacements and gaps, metres: one frame of tool travel.
 pub const UNIT: f64 = FRAME_TRAVEL;
 
-/// One object whose motion the network decides.
+/// An object whose motion the network corrects.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
-    /// Which graph of the batch, as the caller numbered it.
+    /// Number of the graph in the batch, assigned by the caller.
     pub graph: u32,
-    /// Which of the frame's objects.
+    /// Index of the object in the frame's list.
     pub object: ListIndex,
     /// Unit vector of the tool's motion: the x axis of every feature and output of this graph.
     pub axis: Vector,
@@ -23,29 +23,29 @@ pub struct Node {
     pub duration: f64,
     /// Length c of the object's limit surface, metres.
     pub support: f64,
-    /// The prior's motion, in output units: even shift x, velocity x; odd shift y,
-    /// turn, velocity y, spin.
+    /// Motion in the analytic model, output units: even displacement x, velocity x; odd
+    /// displacement y, rotation, velocity y, angular velocity.
     pub prior: [f64; 6],
 }
 
-/// What a network changes of a node's prior, and how far from the truth it expects to be.
+/// A network's correction of a node's analytic motion, with its expected error.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Correction {
-    /// Added to [`Node::prior`], output units.
+    /// Change added to [`Node::prior`], output units.
     pub output: [f64; 6],
-    /// How much this frame adds to the error that is expected at the end, output units: of the
-    /// position, and of the heading; if the network says so.
+    /// Contribution of this frame to the expected final error of position and heading, output
+    /// units. `None` for a network that does not estimate errors.
     pub doubt: Option<[f64; 2]>,
 }
 
 impl Node {
-    /// A doubt of position and heading, from output units to metres and radians.
+    /// Converts an expected error of position and heading from output units to metres and radians.
     pub fn decode_doubt(&self, [position, heading]: [f64; 2]) -> Spread {
         Spread { position: position * UNIT, heading: heading * UNIT / self.support }
     }
 
-    /// A motion in output units and this node's axes: lengths over `UNIT`, velocities times
-    /// the frame's duration over `UNIT`, turns times c over `UNIT`.
+    /// Converts a motion into output units and this node's axes: lengths over `UNIT`, velocities
+    /// times the frame's duration over `UNIT`, rotations times c over `UNIT`.
     pub fn encode(&self, motion: &Motion) -> [f64; 6] {
         let (ax, ay) = (self.axis.x, self.axis.y);
         let along = |v: Vector| (ax * v.x + ay * v.y) / UNIT;
@@ -60,7 +60,7 @@ impl Node {
         ]
     }
 
-    /// The motion that six output numbers mean.
+    /// Converts six output numbers into a motion.
     pub fn decode(&self, output: &[f64; 6]) -> Motion {
         let world = |x: f64, y: f64| {
             Vector::new(self.axis.x * x - self.axis.y * y, self.axis.y * x + self.axis.x * y) * UNIT

@@ -1,4 +1,4 @@
-//! Relations: a contact point or a joint, as one of its two bodies, the receiver, sees it.
+//! Relations: a contact point or a joint from the view of the receiver, one of its two bodies.
 
 use crate::{
     contact::{Bodies, Contact, FrameForces, FrameSolution, PairId, Partner, Sight},
@@ -6,62 +6,65 @@ use crate::{
     scene::JointKind,
 };
 
-/// What relates two bodies.
+/// Kind of a relation between two bodies.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum RelationKind {
-    /// They touch, or may come to.
+    /// A contact that is closed or may close.
     Contact {
-        /// Unit, into the receiver.
+        /// Unit normal, into the receiver.
         normal: Vector,
         gap: f64,
         /// Coefficient of friction.
         friction: f64,
-        /// How far the bodies would overlap if the receiver only coasted, metres.
+        /// Overlap of the bodies if the receiver only slid freely, metres.
         overlap: f64,
-        /// Share of the frame left after the gap has closed.
+        /// Share of the frame that remains after the gap has closed.
         remaining: f64,
-        /// The gap that the prior leaves, metres.
+        /// Remaining gap in the analytic model, metres.
         left: f64,
-        /// Displacement of the sender's point along the receiver's surface in the prior, metres.
+        /// Displacement of the sender's point along the receiver's surface in the analytic model,
+        /// metres.
         slip: f64,
-        /// Normal force over mu m g, the friction of the receiver with the table.
+        /// Normal force over mu m g, the table friction of the receiver.
         load: f64,
     },
-    /// A joint holds them together.
+    /// A joint between the bodies.
     Joint {
         kind: JointKind,
-        /// Direction of sliding of a prismatic joint now; its sign has no meaning.
+        /// Current sliding direction of a prismatic joint; its sign has no meaning.
         axis: Vector,
-        /// Turn (radians) or slide (metres) that the limits leave, down and up, from the first
+        /// Remaining rotation (radians) or slide (metres) down and up to the limits, from the first
         /// object's view; infinite without limits.
         room: (f64, f64),
     },
 }
 
-/// A relation as its receiver sees it. World axes, metres.
+/// A relation from the view of its receiver. World axes, metres.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Relation {
     pub pair: PairId,
-    /// By its number among those awake, as the sender's.
+    /// Index of the receiver among the awake objects; the sender is numbered likewise.
     pub receiver: usize,
     pub sender: Partner,
-    /// From the receiver's centre to the contact point, or to the joint.
+    /// Vector from the receiver's centre to the contact point or joint.
     pub arm: Vector,
-    /// From the sender's centre to the contact point on it, or to the joint; zero where its
-    /// motion is given.
+    /// Vector from the sender's centre to its contact point or to the joint; zero for a sender with
+    /// prescribed motion.
     pub sender_arm: Vector,
-    /// Natural logarithm of the sender's mass over the receiver's; zero where it is given.
+    /// Natural logarithm of the sender's mass over the receiver's; zero for a sender with
+    /// prescribed motion.
     pub mass_ratio: f64,
-    /// Length c of the sender; zero where its motion is given.
+    /// Length c of the sender; zero for a sender with prescribed motion.
     pub sender_support: f64,
-    /// Displacement of the sender's point in the prior against the coasting receiver's.
+    /// Displacement of the sender's point in the analytic model relative to the freely sliding
+    /// receiver.
     pub relative: Vector,
-    /// The motion that this relation's force alone gives to the receiver: shift and turn.
+    /// Motion of the receiver under this relation's force alone: displacement and rotation.
     pub answer: (Vector, f64),
     pub kind: RelationKind,
 }
 
-/// Adds the relations of a contact: into its object, and into the other one if that can move.
+/// Adds the relations of a contact: into its object, and into the other body if that can move.
 pub(super) fn add_contact(
     frame: &FrameSolution,
     forces: &FrameForces,

@@ -2,18 +2,18 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What fixes the shapes of all parameters.
+/// Network size, which fixes the shapes of all parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Config {
-    /// Hidden width: half of it even, half odd under mirroring.
+    /// Hidden width: one half even, one half odd under mirroring.
     pub width: usize,
-    /// Propagation steps L. Two carry a push through a chain of three objects in both
-    /// directions, since the relation encoder already sees each pair.
+    /// Number of propagation steps, L. Two carry a push through a chain of three objects in both
+    /// directions, because the relation encoder already sees each pair.
     pub steps: usize,
 }
 
 impl Config {
-    /// Width of each parity half.
+    /// Returns the width of each parity half.
     pub fn half(&self) -> usize {
         self.width / 2
     }

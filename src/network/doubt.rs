@@ -1,10 +1,10 @@
-//! How far off the network expects to be: what every frame adds to the error at the end.
+//! The network's estimate of its own error: contributions of single frames to the final error.
 //!
-//! Errors of single frames say little of the error of a whole push, as most of them undo each other.
-//! So the spread is learned of ends: that of an object is a floor plus a positive number for each of
-//! its frames, S = s + sum over t of exp(w x_t + b), with x_t the even half of the hidden row that
-//! corrections are read from. It is fitted by maximum likelihood with errors of whole pushes taken
-//! as exponentially distributed around S.
+//! Errors of single frames hardly predict the error of a whole push, because most of them cancel.
+//! The spread is therefore learned from final errors: the spread of an object is a floor plus a
+//! positive number for each of its frames, S = s + sum over t of exp(w x_t + b). Here x_t is the
+//! even half of the hidden row from which corrections are read. The fit maximises the likelihood of
+//! errors of whole pushes that are exponentially distributed around S.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,22 +12,22 @@ use crate::outcome::Spread;
 
 use super::weights::WeightsError;
 
-/// Largest exponent of a frame: e^4 output units are half a metre.
+/// Maximum exponent of a frame: e^4 output units are half a metre.
 const LARGEST: f32 = 4.0;
 
-/// What is read from hidden rows: for positions, and for headings.
+/// Error estimator on hidden rows: for positions, and for headings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Doubt {
-    /// w, `[h]` each, to logarithms of output units.
+    /// Weights w, `[h]` each, to logarithms of output units.
     pub weights: [Vec<f32>; 2],
-    /// b.
+    /// Biases b.
     pub bias: [f32; 2],
-    /// s, of an object that was moved: metres, radians.
+    /// Floors s of a moved object: metres, radians.
     pub floor: [f32; 2],
 }
 
 impl Doubt {
-    /// What a frame with this hidden row adds.
+    /// Returns the contribution of a frame with this hidden row.
     pub fn of_frame(&self, row: &[f32]) -> [f64; 2] {
         [0, 1].map(|k| {
             let exponent = dot(&self.weights[k], row) + self.bias[k];
@@ -35,13 +35,14 @@ impl Doubt {
         })
     }
 
-    /// What is added once for an object that was moved.
+    /// Returns the constant contribution for a moved object.
     pub fn floor(&self) -> Spread {
         let [position, heading] = self.floor.map(f64::from);
         Spread { position, heading }
     }
 
-    /// Whether it is of a network whose half is `half` wide, and of sound numbers.
+    /// Checks that the estimator fits a network of half width `half` and that its numbers are
+    /// sound.
     pub(super) fn check(&self, half: usize) -> Result<(), WeightsError> {
         let numbers = self.weights.iter().flatten().chain(&self.bias).chain(&self.floor);
         let sound = |value: &&f32| !(-1e3..=1e3).contains(*value);

@@ -1,8 +1,8 @@
-//! Fused inference: the predictor on preallocated buffers, its kernels of `gemm` called directly.
+//! Fused inference: the predictor on preallocated buffers, with direct calls of `gemm` kernels.
 //!
-//! Computes the same as the graph that training differentiates (a test holds the two together), without
-//! tensors or, but for single rows, allocation. The normaliser is folded into the first layers. Rows lie [2, M, h],
-//! parity first, so every half is one dense matrix.
+//! Computes the same as the graph that training differentiates, which a test checks, without
+//! tensors and, except for single rows, without allocation. The normaliser is folded into the first
+//! layers. Rows are stored [2, M, h], parity first, so every half is one dense matrix.
 
 use crate::graph::{Batch, Correction, GIVEN, OUTPUT_EVEN, OUTPUT_ODD};
 
@@ -12,7 +12,7 @@ use super::{
     product::{dense, multiply, product, product_into},
 };
 
-/// Immutable weights in the layout that it reads; shared between threads.
+/// Immutable weights in the layout of the fused pass; shared between threads.
 #[derive(Clone, Debug)]
 pub struct Forward {
     half: usize,
@@ -35,7 +35,7 @@ pub struct Forward {
     head: Option<Head>,
 }
 
-/// Features to a hidden row, with the normaliser folded in.
+/// A layer from features to a hidden row, with the normaliser folded in.
 #[derive(Clone, Debug)]
 struct Layer {
     even: Vec<f32>,
@@ -50,7 +50,7 @@ struct Encoder {
     second_bias: Vec<f32>,
 }
 
-/// One thread's buffers; they grow to the largest batch seen and are then reused.
+/// Buffers of one thread; they grow to the largest batch seen and are then reused.
 #[derive(Clone, Debug, Default)]
 pub struct Buffers {
     relations: Vec<f32>,
@@ -69,24 +69,24 @@ pub struct Buffers {
 }
 
 impl Buffers {
-    /// The rows [2, N, h] that the last layer read in the last [`Forward::read`].
+    /// Returns the rows [2, N, h] that the last layer read in the last [`Forward::read`].
     pub fn hidden(&self) -> &[f32] {
         &self.next
     }
 }
 
 impl Forward {
-    /// Takes the weights apart into the layout of the fused pass.
+    /// Converts the weights into the layout of the fused pass.
     pub fn new(weights: &PredictorWeights) -> Self {
         let card = &weights.card;
         let whole = Self::of(&card.config, &card.normaliser, &weights.parameters);
         Self { doubt: card.doubt.clone(), ..whole }
     }
 
-    /// The same of parameters in the layout that [`super::layout_of`] gives.
+    /// Converts parameters in the layout of [`super::layout_of`].
     ///
     /// # Panics
-    /// If one is missing.
+    /// If a parameter is missing.
     pub fn of(config: &Config, normaliser: &Normaliser, parameters: &Parameters) -> Self {
         let get = |name: &str| parameters.values[name].clone();
         let layer = |name: &str, even: &Statistics, odd: &Statistics| {
@@ -126,13 +126,13 @@ impl Forward {
         }
     }
 
-    /// Width of the half of a row that keeps its sign under mirroring.
+    /// Returns the width of the even half of a row.
     pub fn half(&self) -> usize {
         self.half
     }
 
-    /// Adds the even half `[h]` of the effect of relation `k` in the last propagation step of the
-    /// last [`Forward::run`], which was on this batch, to `into`.
+    /// Adds to `into` the even half `[h]` of the effect of relation `k` in the last propagation
+    /// step of the last [`Forward::run`], which must have used this batch.
     pub fn add_effect(&self, batch: &Batch, w: &Buffers, k: usize, into: &mut [f32]) {
         let (n, r, h) = (batch.node_count(), batch.relation_count(), self.half);
         let (receiver, sender) = (batch.receivers[k] as usize, w.senders[k] as usize);
@@ -154,23 +154,22 @@ impl Forward {
         }
     }
 
-    /// The same with another number of propagation steps than it was trained with: for
-    /// measuring what each is worth.
+    /// Replaces the number of propagation steps of the training, for ablations.
     pub fn with_steps(self, steps: usize) -> Self {
         Self { steps, ..self }
     }
 
-    /// The same with `head` added to its last layer; one that changes nothing leaves every bit.
+    /// Adds `head` to the last layer; a head that changes nothing leaves every bit.
     ///
     /// # Panics
-    /// If it is of another width.
+    /// If the head has another width.
     pub fn with_head(self, head: &Head) -> Self {
         assert_eq!(head.half(), self.half, "a head of another width");
         Self { head: (!head.is_none()).then(|| head.clone()), ..self }
     }
 
-    /// Floating-point operations of the matrix products in one [`Forward::run`], counting a
-    /// multiplication and an addition each.
+    /// Returns the floating-point operations of the matrix products in one [`Forward::run`],
+    /// counting multiplications and additions separately.
     pub fn operations(&self, batch: &Batch) -> u64 {
         let (nodes, relations, h) = (batch.node_count(), batch.relation_count(), self.half);
         let square = 2 * h * h;
@@ -183,7 +182,7 @@ impl Forward {
         2 * (per_relation * relations + per_given * given + per_node * nodes) as u64
     }
 
-    /// The correction of every node's prior, `[N]`, appended to an emptied `corrections`.
+    /// Clears `corrections` and fills it with the correction of every node, `[N]`.
     pub fn run(&self, batch: &Batch, w: &mut Buffers, corrections: &mut Vec<Correction>) {
         corrections.clear();
         let (even, odd) = self.read(batch, w);
@@ -197,7 +196,7 @@ impl Forward {
             head.add(&w.next, corrections);
         }
         if let Some(doubt) = &self.doubt {
-            // Its even half, [N, h].
+            // The even half of the rows, [N, h].
             let rows = w.hidden().chunks_exact(self.half);
             for (correction, row) in corrections.iter_mut().zip(rows) {
                 correction.doubt = Some(doubt.of_frame(row));
@@ -205,12 +204,12 @@ impl Forward {
         }
     }
 
-    /// Whether it says how far off it expects to be.
+    /// Returns the network's estimator of its own error, if it has one.
     pub fn doubts(&self) -> Option<&Doubt> {
         self.doubt.as_ref()
     }
 
-    /// What is read from every node, [N, even] and [N, odd].
+    /// Returns the outputs of every node, [N, even] and [N, odd].
     pub fn read<'a, 'w>(
         &self,
         batch: impl Into<Rows<'a>>,
@@ -235,9 +234,9 @@ impl Forward {
         self.object.run((batch.node_even, batch.node_odd), (n, h), &mut w.next, &mut w.objects);
         product(&w.objects, &self.update_object, n, h, &mut w.keep, false);
         w.state.clone_from(&w.objects);
-        // With a single object per graph only bodies whose motion is given send anything.
+        // With a single object per graph only bodies with prescribed motion send messages.
         let objects_send = objects_send(batch.senders);
-        // Those speak alike in every step, after the nodes.
+        // Their messages are constant over the steps and follow the nodes.
         let m = n + self.given(&batch, w);
         batch.senders_after(n, &mut w.senders);
         for _ in 0..self.steps {
@@ -275,8 +274,8 @@ impl Forward {
 }
 
 impl Forward {
-    /// Writes what bodies with a given motion send, behind the nodes' rows of `to_sender`, which are
-    /// emptied; returns their number.
+    /// Clears `to_sender`, writes the terms of bodies with prescribed motion behind the nodes'
+    /// rows, and returns the number of these bodies.
     fn given(&self, batch: &Rows<'_>, w: &mut Buffers) -> usize {
         let h = self.half;
         let n = batch.node_even.len() * h / self.object.first.even.len();
@@ -295,18 +294,18 @@ impl Forward {
     }
 }
 
-/// Whether any relation comes from an object rather than from a body whose motion is given.
+/// Returns `true` if the sender of any relation is an object, not a body with prescribed motion.
 fn objects_send(senders: &[u32]) -> bool {
     senders.iter().any(|&sender| sender < GIVEN)
 }
 
 impl Layer {
-    /// Numbers of its matrices.
+    /// Returns the number of matrix elements.
     fn len(&self) -> usize {
         self.even.len() + self.odd.len()
     }
 
-    /// Features [M, even] and [M, odd] to `out` [2, M, h].
+    /// Maps features [M, even] and [M, odd] to `out` [2, M, h].
     fn run(&self, (even, odd): (&[f32], &[f32]), (rows, h): (usize, usize), out: &mut Vec<f32>) {
         out.resize(2 * rows * h, 0.0);
         let (to_even, to_odd) = out.split_at_mut(rows * h);
@@ -317,7 +316,8 @@ impl Layer {
 }
 
 impl Encoder {
-    /// Two layers: features [M, even] and [M, odd] to `out` [2, M, h]; `scratch` is overwritten.
+    /// Maps features [M, even] and [M, odd] through two layers to `out` [2, M, h]; overwrites
+    /// `scratch`.
     fn run(
         &self,
         features: (&[f32], &[f32]),

@@ -1,23 +1,24 @@
-//! A change of the last layer: what recordings of one table can teach a trained network.
+//! An additive change of the last layer, which recordings of one table can fit.
 
 use crate::graph::Correction;
 
-/// Halves of a hidden row: what keeps its sign under mirroring, and what changes it.
+/// Number of halves of a hidden row: even and odd under mirroring.
 const PARITIES: usize = 2;
 
-/// The outputs that a head changes, in this order: shifts along and across the tool's motion, and
-/// the turn. Where an object is recorded says nothing of its velocities.
+/// Number of outputs that a head changes, in this order: displacements along and across the tool's
+/// motion, and the rotation. Recorded poses do not determine velocities.
 pub const HEAD_OUTPUTS: usize = 3;
 
-/// Places of these outputs among those of a node, see [`crate::graph::Node::encode`].
+/// Indices of these outputs among a node's outputs, see [`crate::graph::Node::encode`].
 const PLACES: [usize; HEAD_OUTPUTS] = [0, 2, 3];
 
-/// Numbers that are added to the last layer, which maps the hidden row of a node to the correction
-/// of its motion.
+/// Numbers added to the last layer, which maps the hidden row of a node to the correction of its
+/// motion.
 ///
-/// A trained network mirrors exactly: shifts along the motion are read from the even half of the
-/// row, the others from the odd one. A real table does not mirror (an object rests unevenly, a
-/// camera is off to one side), so a head reads both halves for every output: [3, 2, h] numbers.
+/// A trained network mirrors exactly: displacements along the motion are read from the even half of
+/// the row, the others from the odd half. A real table does not mirror, because an object may rest
+/// unevenly or a camera is off to one side. A head therefore reads both halves for every output:
+/// [3, 2, h] numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Head {
     values: Vec<f64>,
@@ -25,43 +26,43 @@ pub struct Head {
 }
 
 impl Head {
-    /// How many numbers a head on rows of twice `half` has.
+    /// Returns the number of values of a head on rows of twice `half`.
     pub const fn len_of(half: usize) -> usize {
         HEAD_OUTPUTS * PARITIES * half
     }
 
-    /// A head of these numbers, [3, 2, h]; `None` unless they are so many.
+    /// Creates a head from its values, [3, 2, h]; `None` for any other number of values.
     pub fn new(values: Vec<f64>, half: usize) -> Option<Self> {
         (values.len() == Self::len_of(half)).then_some(Self { values, half })
     }
 
-    /// The change that is none.
+    /// Returns the head that changes nothing.
     pub fn none(half: usize) -> Self {
         Self { values: vec![0.0; Self::len_of(half)], half }
     }
 
-    /// The numbers, [3, 2, h].
+    /// Returns the values, [3, 2, h].
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// Width of the half of a hidden row.
+    /// Returns the width of the half of a hidden row.
     pub fn half(&self) -> usize {
         self.half
     }
 
-    /// Whether it changes nothing.
+    /// Returns `true` if the head changes nothing.
     pub fn is_none(&self) -> bool {
         self.values.iter().all(|value| *value == 0.0)
     }
 
-    /// `share` of the same change.
+    /// Returns the head multiplied by `share`.
     pub fn scaled(&self, share: f64) -> Self {
         let values = self.values.iter().map(|value| share * value).collect();
         Self { values, half: self.half }
     }
 
-    /// Adds what it says of every node to `corrections`; `hidden` are their rows, [2, N, h].
+    /// Adds the head's outputs for every node to `corrections`; `hidden` are their rows, [2, N, h].
     pub(super) fn add(&self, hidden: &[f32], corrections: &mut [Correction]) {
         let (even, odd) = hidden.split_at(hidden.len() / PARITIES);
         let rows = even.chunks_exact(self.half).zip(odd.chunks_exact(self.half));

@@ -1,10 +1,11 @@
 //! The networks: configuration, parameters, physics predictor and weights file.
 //!
-//! The physics predictor of the Belief Regulated Dual Propagation Network (Tekden, Erdem,
-//! Erdem, Imre, Seker and Ugur, ICRA 2020) is a fused forward pass on preallocated buffers, on
-//! feature tables of any widths; a test holds it to the graph that training differentiates. The
-//! belief regulator (crate `pushplan-act`) reads its effects. Every network's weights are a file of one form, and a
-//! [`Card`] that says which. Loops over time are not here but in `rollout`.
+//! The physics predictor of the Belief Regulated Dual Propagation Network (Tekden, Erdem, Erdem,
+//! Imre, Seker and Ugur, ICRA 2020) is a fused forward pass on preallocated buffers. It takes
+//! feature tables of any width; a test holds it to the graph that training differentiates. The
+//! belief regulator (crate `pushplan-act`) reads its effects. The weights of every network are
+//! stored in one file format with a [`Card`] that identifies the network. Loops over time are in
+//! `rollout`.
 
 mod config;
 mod doubt;

@@ -7,22 +7,22 @@ use super::{Rows, Tables};
 /// Mean and standard deviation of one feature table's columns.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Statistics {
-    /// Zero for odd features, whose sign must survive.
+    /// Mean of each column; zero for odd features, whose sign must be kept.
     pub mean: Vec<f32>,
-    /// At least `MIN_DEVIATION`.
+    /// Standard deviation of each column, at least `MIN_DEVIATION`.
     pub deviation: Vec<f32>,
 }
 
-/// A column that hardly varies is left at this scale, in feature units.
+/// Minimum scale of a column, in feature units, for columns that hardly vary.
 pub(super) const MIN_DEVIATION: f32 = 0.02;
 
 impl Statistics {
-    /// Of a table without columns.
+    /// Returns the statistics of a table without columns.
     fn none() -> Self {
         Self { mean: Vec::new(), deviation: Vec::new() }
     }
 
-    /// Of a table [N, `columns`]; without `centred` means are zero, so that signs survive.
+    /// Measures a table [N, `columns`]. Without `centred` means are zero, so that signs are kept.
     pub fn measure(table: &[f32], columns: usize, centred: bool) -> Self {
         if columns == 0 {
             return Self::none();
@@ -47,7 +47,7 @@ impl Statistics {
         Self { mean: mean.iter().map(|&m| m as f32).collect(), deviation }
     }
 
-    /// `table` with every column shifted and scaled.
+    /// Returns `table` with every column shifted and scaled.
     pub fn apply(&self, table: &[f32]) -> Vec<f32> {
         let columns = self.mean.len();
         table
@@ -58,22 +58,22 @@ impl Statistics {
     }
 }
 
-/// The scales of all feature tables.
+/// Scales of all feature tables.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Normaliser {
-    /// Of even node features.
+    /// Statistics of even node features.
     pub node_even: Statistics,
-    /// Of odd node features.
+    /// Statistics of odd node features.
     pub node_odd: Statistics,
-    /// Of even features of bodies whose motion is given.
+    /// Statistics of even features of bodies with prescribed motion.
     #[serde(default = "Statistics::none")]
     pub given_even: Statistics,
-    /// Of odd features of bodies whose motion is given.
+    /// Statistics of odd features of bodies with prescribed motion.
     #[serde(default = "Statistics::none")]
     pub given_odd: Statistics,
-    /// Of even relation features.
+    /// Statistics of even relation features.
     pub relation_even: Statistics,
-    /// Of odd relation features.
+    /// Statistics of odd relation features.
     pub relation_odd: Statistics,
 }
 

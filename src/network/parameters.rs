@@ -1,6 +1,6 @@
-//! The parameters of the physics predictor by name and shape, and their first values.
+//! Names, shapes and initial values of the physics predictor's parameters.
 //!
-//! All matrices are stored [in, out]: a transposed view costs up to four times at small batch.
+//! Matrices are stored [in, out]: a transposed view costs up to four times at small batch.
 
 use std::collections::BTreeMap;
 
@@ -9,25 +9,25 @@ use rand_pcg::Pcg64;
 
 use super::{Config, Tables};
 
-/// Names and shapes of the parameters of a network, in the order of their names' use.
+/// Names and shapes of the parameters of a network, in the order of their use.
 pub type Layout = Vec<(&'static str, Vec<usize>)>;
 
-/// Parameter values by name, each row-major in the shape that [`layout`] gives.
+/// Parameter values by name, each row-major in the shape of [`layout`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Parameters {
-    /// Name to values.
+    /// Values by name.
     pub values: BTreeMap<String, Vec<f32>>,
 }
 
-/// [`layout_of`] pushes.
+/// Returns the parameters of the push network, see [`layout_of`].
 pub fn layout(config: &Config) -> Layout {
     layout_of(&Tables::PUSHES, config)
 }
 
-/// Names and shapes of all parameters, in the order of their names' use. h is half the width.
+/// Returns the names and shapes of all parameters, in the order of their use. h is half the width.
 ///
-/// A matrix `[2, h, h]` acts on the even half and on the odd half separately; biases `[h]` exist
-/// for the even half alone, since a constant cannot change sign under mirroring.
+/// A matrix `[2, h, h]` acts on the even half and on the odd half separately. Biases `[h]` exist
+/// for the even half only, because a constant cannot change sign under mirroring.
 pub fn layout_of(tables: &Tables, config: &Config) -> Layout {
     let Tables { node, given, relation, output } = *tables;
     let h = config.half();
@@ -67,14 +67,16 @@ pub fn layout_of(tables: &Tables, config: &Config) -> Layout {
 }
 
 impl Parameters {
-    /// [`Parameters::fresh_of`] pushes.
+    /// Returns initial values of the push network, see [`Parameters::fresh_of`].
     pub fn fresh(config: &Config, seed: u64) -> Self {
         Self::fresh_of(&Tables::PUSHES, config, seed)
     }
 
-    /// Random first values from `seed`: uniform with the variance 1 / fan-in, divided among
-    /// the matrices that add up in one layer; biases and the last layer are zero, so that an
-    /// untrained network predicts the prior exactly.
+    /// Returns random initial values from `seed`.
+    ///
+    /// Values are uniform with the variance 1 / fan-in, divided among the matrices that add up in
+    /// one layer. Biases and the last layer are zero, so that an untrained network reproduces the
+    /// analytic model exactly.
     pub fn fresh_of(tables: &Tables, config: &Config, seed: u64) -> Self {
         let mut random = Pcg64::seed_from_u64(seed);
         let values = layout_of(tables, config)
@@ -87,7 +89,7 @@ impl Parameters {
                     n if n.starts_with("update") => 3.0,
                     _ => 1.0,
                 };
-                // The parity rectifier keeps half of the variance, as relu does.
+                // The parity rectifier keeps half of the variance, like a ReLU.
                 let bound = (2.0 * 3.0 / (fan_in * summed)).sqrt();
                 let zero = shape.len() == 1 || name == "motion.even" || name == "motion.odd";
                 let value = (0..count)
@@ -99,7 +101,7 @@ impl Parameters {
         Self { values }
     }
 
-    /// Number of parameters.
+    /// Returns the number of parameters.
     pub fn count(&self) -> usize {
         self.values.values().map(Vec::len).sum()
     }

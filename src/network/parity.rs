@@ -1,14 +1,14 @@
 //! Mirror-exact layers: features in an even and an odd half.
 //!
-//! A hidden row is a function on the two-element group {as is, mirrored}, stored by its even
-//! and odd parts e and o (Cohen and Welling 2016, group-equivariant networks, for the group of
-//! one reflection). A linear map that commutes with mirroring acts on e and o separately, at
-//! half the cost of a dense one; the rectifier acts on the two values e + o and e - o.
-//! Tensors are [2, M, h]: parity, rows, half the width.
+//! A hidden row is a function on the two-element group {as is, mirrored}, stored by its even and
+//! odd parts e and o. This is a group-equivariant network for the group of one reflection (Cohen
+//! and Welling 2016). A linear map that commutes with mirroring acts on e and o separately, at half
+//! the cost of a dense one. The rectifier acts on the two values e + o and e - o. Tensors are
+//! [2, M, h]: parity, rows, half the width.
 
 use pulp::{Arch, Simd, WithSimd};
 
-/// Rectifies one even and one odd number that are the two parts of a pair.
+/// Rectifies a pair of numbers that is given by its even and odd part.
 #[inline(always)]
 pub(super) fn rectify(even: f32, odd: f32) -> (f32, f32) {
     let as_is = (even + odd).max(0.0);
@@ -16,8 +16,8 @@ pub(super) fn rectify(even: f32, odd: f32) -> (f32, f32) {
     (0.5 * (as_is + mirrored), 0.5 * (as_is - mirrored))
 }
 
-/// Rectifies the rows of x [2, M, h] after adding `bias`, `h` numbers, to the even half: the forward pass of
-/// the candle graph's layer and of the fused pass.
+/// Rectifies the rows of x [2, M, h] after adding `bias`, `h` numbers, to the even half. Both the
+/// candle graph and the fused pass use it as their forward pass.
 pub fn rectify_rows(x: &mut [f32], bias: &[f32]) {
     Arch::new().dispatch(Rows { x, bias });
 }
@@ -27,8 +27,9 @@ struct Rows<'a> {
     bias: &'a [f32],
 }
 
-// On the widest vectors of the processor, not only those that all processors have; the same bits. A
-// closure would do, but is not always inlined, and then silently runs on the narrowest.
+// Uses the widest vectors of the processor, not only those that all processors have, with the same
+// bits. A closure would do, but it is not always inlined, and then silently uses the narrowest
+// vectors.
 impl WithSimd for Rows<'_> {
     type Output = ();
 
@@ -45,20 +46,21 @@ impl WithSimd for Rows<'_> {
     }
 }
 
-/// Messages summed at their receivers: for every relation k from s to r, `rectify(a_k + b_r + c_s)`;
-/// a [2, R, h], b and sum [2, N, h], c [2, M, h]. A sender past the last row sends nothing of its own.
-/// The forward pass of both the candle graph and the fused pass; `h` is half the width.
-/// `sum` must be zero on entry.
+/// Messages summed at their receivers: `rectify(a_k + b_r + c_s)` for every relation k from s to r.
+///
+/// Shapes are a [2, R, h], b and sum [2, N, h], c [2, M, h]; `h` is half the width. A sender past
+/// the last row contributes no term of its own. `sum` must be zero on entry. Both the candle graph
+/// and the fused pass use it as their forward pass.
 pub struct Sum<'a> {
-    /// What each relation says, [2, R, h].
+    /// Term of each relation, [2, R, h].
     pub a: &'a [f32],
-    /// What each receiver adds, [2, N, h].
+    /// Term of each receiver, [2, N, h].
     pub b: &'a [f32],
-    /// What each sender adds, [2, M, h]: of nodes and of bodies whose motion is given.
+    /// Term of each sender, [2, M, h]: nodes, then bodies with prescribed motion.
     pub c: &'a [f32],
-    /// Receivers, `[R]`.
+    /// Receiver of each relation, `[R]`.
     pub receivers: &'a [u32],
-    /// Senders, `[R]`.
+    /// Sender of each relation, `[R]`.
     pub senders: &'a [u32],
     /// Half the width.
     pub h: usize,

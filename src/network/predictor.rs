@@ -1,4 +1,4 @@
-//! What the weights of the physics predictor are.
+//! The weights of the physics predictor and their card.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,39 +10,39 @@ use super::{
     weights::{Card, Weights, WeightsError, check_config, check_normaliser},
 };
 
-/// Largest held-out error that a card may state, metres: longer than any table.
+/// Maximum held-out error that a card may state, metres: longer than any table.
 const LARGEST_ERROR: f64 = 100.0;
 
 /// The weights of the physics predictor.
 pub type PredictorWeights = Weights<PredictorCard>;
 
-/// Held-out errors that planning needs.
+/// Errors on held-out pushes, for use in planning.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ErrorCard {
-    /// Held-out pushes counted (true motion over 1 cm).
+    /// Number of held-out pushes (true motion over 1 cm).
     pub pushes: usize,
-    /// Mean final position error, metres.
+    /// Mean error of the final position, metres.
     pub mean: f64,
-    /// Median, metres.
+    /// Median error, metres.
     pub median: f64,
-    /// 95th percentile, metres.
+    /// 95th percentile of the error, metres.
     pub p95: f64,
 }
 
-/// Data that weights have learned from.
+/// A data set from which weights were trained.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Source {
-    /// Who said what is true, with the version of an engine that is not ours.
+    /// Source of the ground truth, with the version of a third-party engine.
     pub truth: String,
-    /// Seed of the episodes.
+    /// Random seed of the episodes.
     pub seed: u64,
-    /// Their number.
+    /// Number of episodes.
     pub episodes: u64,
-    /// Checksum over all of them, hexadecimal.
+    /// Checksum over all episodes, hexadecimal.
     pub digest: String,
 }
 
-/// What the weights are and how they came about.
+/// Description and provenance of the weights.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PredictorCard {
     /// Network size.
@@ -51,16 +51,17 @@ pub struct PredictorCard {
     pub normaliser: Normaliser,
     /// Ranges of the training data.
     pub ranges: Ranges,
-    /// The training data.
+    /// Training data sets.
     pub sources: Vec<Source>,
-    /// Optimiser steps taken.
+    /// Number of optimiser steps.
     pub steps: u64,
-    /// Errors of final positions, one object, on the training's own held-out episodes, if there
+    /// Errors of final positions of one object on the training's own held-out episodes, if there
     /// were any.
     pub errors: Option<ErrorCard>,
-    /// How much of the correction as trained counts: 1 until it was measured what serves every truth.
+    /// Factor on the trained correction: 1 until the best factor over all ground truths was
+    /// measured.
     pub share: f32,
-    /// How far off it expects to be, if that was learned.
+    /// Estimate of the network's own error, if it was learned.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub doubt: Option<Doubt>,
 }

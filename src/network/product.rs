@@ -1,6 +1,6 @@
 //! Products of dense row-major matrices, by the kernels of `gemm`.
 
-/// [2, M, h] times [2, h, h], half by half; added to `out` if `add`.
+/// Multiplies [2, M, h] by [2, h, h] half by half; adds to `out` if `add`.
 pub(super) fn product(
     x: &[f32],
     matrix: &[f32],
@@ -14,7 +14,7 @@ pub(super) fn product(
     product_into(x, matrix, rows, h, [even, odd], add);
 }
 
-/// The same into halves that lie apart, each [M, h].
+/// Multiplies like [`product`], into separate halves, each [M, h].
 pub(super) fn product_into(
     x: &[f32],
     matrix: &[f32],
@@ -42,8 +42,8 @@ pub(super) fn dense(
     multiply(x, matrix, rows, inner, columns, out, add);
 }
 
-/// `out [m, n] = x [m, k] matrix [k, n]`, all row-major, on one thread: the product that the
-/// network is made of, for measuring what this machine reaches.
+/// Computes `out [m, n] = x [m, k] matrix [k, n]`, all row-major, on one thread: the network's
+/// basic operation, public for benchmarks of the machine.
 ///
 /// # Panics
 /// If a length does not fit the sizes.
@@ -51,8 +51,8 @@ pub fn matrix_product(x: &[f32], matrix: &[f32], m: usize, k: usize, n: usize, o
     multiply(x, matrix, m, k, n, out, false);
 }
 
-/// Row-major `out [m, n] (+)= x [m, k] matrix [k, n]` on one thread; a row has the same bits
-/// whatever other rows there are.
+/// Computes row-major `out [m, n] (+)= x [m, k] matrix [k, n]` on one thread. The bits of a row do
+/// not depend on the other rows.
 pub(super) fn multiply(
     x: &[f32],
     matrix: &[f32],
@@ -65,7 +65,7 @@ pub(super) fn multiply(
     if m != 1 {
         return multiply_rows(x, matrix, m, k, n, out, add);
     }
-    // gemm takes another path for a single row, which rounds differently: give it a second one.
+    // gemm takes another path for a single row, which rounds differently; a second row avoids it.
     let mut rows = x.to_vec();
     rows.resize(2 * k, 0.0);
     let mut both = out.to_vec();
@@ -85,12 +85,12 @@ fn multiply_rows(
     add: bool,
 ) {
     assert!(x.len() == m * k && matrix.len() == k * n && out.len() == m * n);
-    // SAFETY: the three lengths are checked above and the strides are those of dense row-major
-    // matrices, so every access lies inside its slice; `out` is borrowed mutably and so does
-    // not overlap the others.
+    // SAFETY: the three lengths are checked above and the strides belong to dense row-major
+    // matrices, so every access lies inside its slice. `out` is borrowed mutably and does not
+    // overlap the others.
     unsafe {
-        // The kernels want columns that lie together, so what is asked for is the transposed product,
-        // out' = matrix' x'. Strides are those between columns, then between rows.
+        // The kernels need contiguous columns, so the transposed product out' = matrix' x' is
+        // computed. Strides are given between columns, then between rows.
         gemm_f32::gemm::f32::get_gemm_fn()(
             n,
             m,

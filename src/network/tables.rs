@@ -1,25 +1,25 @@
-//! Graphs as flat feature tables, whatever they are graphs of.
+//! Flat feature tables of graphs of any kind.
 
 use crate::graph::{
     Batch, GIVEN, GIVEN_EVEN, GIVEN_ODD, NOBODY, NODE_EVEN, NODE_ODD, OUTPUT_EVEN, OUTPUT_ODD,
     RELATION_EVEN, RELATION_ODD,
 };
 
-/// Columns of the tables, each `[even, odd]`.
+/// Numbers of table columns, each `[even, odd]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tables {
     /// Features of a node.
     pub node: [usize; 2],
-    /// Features of a body whose motion is given; none where there are no such bodies.
+    /// Features of a body with prescribed motion; zero if there are none.
     pub given: [usize; 2],
     /// Features of a relation.
     pub relation: [usize; 2],
-    /// What is read from a node after propagation.
+    /// Outputs of a node after propagation.
     pub output: [usize; 2],
 }
 
 impl Tables {
-    /// Those of pushes.
+    /// Column numbers of the graphs of pushes.
     pub const PUSHES: Self = Self {
         node: [NODE_EVEN, NODE_ODD],
         given: [GIVEN_EVEN, GIVEN_ODD],
@@ -28,31 +28,31 @@ impl Tables {
     };
 }
 
-/// Graphs side by side: N nodes, K bodies whose motion is given, R relations.
+/// Tables of several graphs: N nodes, K bodies with prescribed motion, R relations.
 #[derive(Clone, Copy, Debug)]
 pub struct Rows<'a> {
-    /// [N, even].
+    /// Even node features, [N, even].
     pub node_even: &'a [f32],
-    /// [N, odd].
+    /// Odd node features, [N, odd].
     pub node_odd: &'a [f32],
-    /// [K, even].
+    /// Even features of bodies with prescribed motion, [K, even].
     pub given_even: &'a [f32],
-    /// [K, odd].
+    /// Odd features of bodies with prescribed motion, [K, odd].
     pub given_odd: &'a [f32],
-    /// [R, even].
+    /// Even relation features, [R, even].
     pub relation_even: &'a [f32],
-    /// [R, odd].
+    /// Odd relation features, [R, odd].
     pub relation_odd: &'a [f32],
-    /// `[R]`, node index of every relation's receiver.
+    /// Receiver of every relation as a node index, `[R]`.
     pub receivers: &'a [u32],
-    /// `[R]`, node index of every relation's sender; from [`crate::graph::GIVEN`] on, the row of a body
-    /// whose motion is given; [`crate::graph::NOBODY`] for neither.
+    /// Sender of every relation, `[R]`: a node index, [`crate::graph::GIVEN`] plus the row of a
+    /// body with prescribed motion, or [`crate::graph::NOBODY`].
     pub senders: &'a [u32],
 }
 
 impl Rows<'_> {
-    /// Fills `senders` with rows of a table in which bodies with a given motion follow `nodes` nodes;
-    /// [`crate::graph::NOBODY`] stays past its end.
+    /// Fills `senders` with row numbers of a table in which bodies with prescribed motion follow
+    /// `nodes` nodes. [`crate::graph::NOBODY`] stays past its end.
     pub fn senders_after(&self, nodes: usize, senders: &mut Vec<u32>) {
         senders.clear();
         senders.extend(self.senders.iter().map(|&sender| match sender {

@@ -1,4 +1,4 @@
-//! Parameters as named tensors of a safetensors file: shared by weights and checkpoints.
+//! Parameters as named tensors of a safetensors file, shared by weights and checkpoints.
 
 use std::collections::HashMap;
 
@@ -11,14 +11,16 @@ use super::Parameters;
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("the parameter `{name}` {fault}")]
 pub struct ParameterError {
-    /// Which.
+    /// Name of the parameter.
     pub name: String,
     /// Description of the fault.
     pub fault: &'static str,
 }
 
-/// A file's bytes: every group of parameters, with names and shapes as in `layout`, under its prefix, and one text of metadata under
-/// `key` (a single entry, since the order of several would differ from run to run).
+/// Encodes groups of parameters as the bytes of a file.
+///
+/// Every group has the names and shapes of `layout` under its prefix. The metadata have a single
+/// entry, `text` under `key`, because the order of several would differ from run to run.
 ///
 /// # Errors
 /// If a parameter's length does not fit its shape.
@@ -44,11 +46,11 @@ pub fn encode_parameters(
     safetensors::serialize(views, Some(HashMap::from([(key.to_owned(), text)])))
 }
 
-/// Reads the group of parameters under `prefix`, every one of them present, of the right shape
-/// and finite.
+/// Reads the group of parameters under `prefix`. Each must be present, of the right shape and
+/// finite.
 ///
 /// # Errors
-/// [`ParameterError`] for the first that is not.
+/// [`ParameterError`] for the first parameter that is not.
 pub fn decode_parameters(
     file: &SafeTensors<'_>,
     layout: &[(&str, Vec<usize>)],
@@ -75,7 +77,7 @@ pub fn decode_parameters(
     Ok(parameters)
 }
 
-/// The text under `key` of a file's metadata.
+/// Returns the text under `key` of a file's metadata.
 ///
 /// # Errors
 /// If the bytes are no safetensors file.

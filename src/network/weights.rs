@@ -1,9 +1,9 @@
-//! A weights file: the parameters of a network with everything needed to use and to judge them.
+//! Weights files: the parameters of a network with everything needed to use and to judge them.
 //!
-//! A safetensors file whose metadata hold one JSON text: the format number, a checksum over the
-//! card and all tensors, and the card. Which network it is the [`Card`] says, with the key under
-//! which that text stands. Reading checks every name, shape and number: loading into an empty map
-//! must never look like success.
+//! A weights file is a safetensors file with one JSON text in its metadata: the format number, a
+//! checksum over the card and all tensors, and the card. The [`Card`] type and the key of that text
+//! identify the network. Reading checks every name, shape and number, because loading into an empty
+//! map must never look like success.
 
 use std::fmt;
 use std::path::Path;
@@ -22,61 +22,61 @@ use super::{
     tensors::{ParameterError, decode_parameters, encode_parameters, file_metadata},
 };
 
-/// Largest magnitude of a parameter, a mean or a deviation. Those of trained networks stay below 4;
-/// far beyond, products of single precision overflow.
+/// Maximum magnitude of a parameter, a mean or a deviation. Trained networks stay below 4; far
+/// beyond the limit, products in single precision overflow.
 const LARGEST: f32 = 1e3;
 
-/// What the weights of a network are and how they came about.
+/// Description and provenance of a network's weights.
 pub trait Card: Clone + Serialize + DeserializeOwned {
-    /// Key of the card in the file's metadata: which network it is.
+    /// Key of the card in the file's metadata, which identifies the network.
     const KEY: &'static str;
 
-    /// Version of the feature layout and file format; a file of another version is refused.
+    /// Version of the feature layout and file format; files of other versions are refused.
     const FORMAT: u32;
 
-    /// Whether sizes and scales are those of a network that can be; asked before the layout is.
+    /// Checks that sizes and scales are possible for a network; called before [`Card::layout`].
     ///
     /// # Errors
     /// [`WeightsError`] for the first that is not.
     fn check(&self) -> Result<(), WeightsError>;
 
-    /// Names and shapes of all parameters.
+    /// Returns the names and shapes of all parameters.
     fn layout(&self) -> Layout;
 }
 
 /// A card and its parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Weights<C> {
-    /// What they are.
+    /// Description of the weights.
     pub card: C,
-    /// Their values.
+    /// Parameter values.
     pub parameters: Parameters,
 }
 
-/// Why a weights file cannot be used.
+/// Reason why a weights file cannot be used.
 #[derive(Error)]
 pub enum WeightsError {
-    /// The file cannot be read.
+    /// A file that cannot be read.
     #[error("cannot read the file: {0}")]
     Unreadable(#[from] std::io::Error),
-    /// Not a safetensors file.
+    /// A file that is not a safetensors file.
     #[error("not a weights file: {0}")]
     Format(#[from] safetensors::SafeTensorError),
-    /// A safetensors file of someone else, or of another network.
+    /// A safetensors file of another program or another network.
     #[error("a safetensors file, but not one of this network: its metadata have no `{key}` entry")]
     Foreign {
-        /// Of this network.
+        /// Key of this network.
         key: &'static str,
     },
-    /// The card cannot be read.
+    /// A card that cannot be read.
     #[error("the weights file's card is damaged: {0}")]
     Card(#[from] serde_json::Error),
-    /// Written by another version.
+    /// A file of another format version.
     #[error("the weights file has format {found}, this program reads {read}; train again")]
     Version {
         /// Format number found.
         found: u32,
-        /// The one that can be read.
+        /// Format number that this program reads.
         read: u32,
     },
     /// A size that no network has.
@@ -87,39 +87,39 @@ pub enum WeightsError {
         /// Propagation steps found.
         steps: usize,
     },
-    /// The bytes are not those that were written.
+    /// Bytes that differ from those written.
     #[error(
         "the weights file is damaged: its checksum is {found}, but was {written} when it was written"
     )]
     Checksum {
-        /// In the file.
+        /// Checksum in the file.
         written: String,
-        /// Of what was read.
+        /// Checksum of the bytes read.
         found: String,
     },
     /// A number of the card or a parameter that no sound network has.
     #[error("the weights file holds an impossible value: {name} is {value}, {expected} is sound")]
     Value {
-        /// Which number.
+        /// Name of the number.
         name: String,
-        /// The number.
+        /// Value of the number.
         value: f64,
-        /// What would be sound.
+        /// Sound range.
         expected: &'static str,
     },
-    /// A parameter is missing, of a wrong shape or not finite.
+    /// A parameter that is missing, of a wrong shape or not finite.
     #[error("the weights file is damaged: {0}")]
     Parameter(#[from] ParameterError),
 }
 
-/// The text of [`Display`](fmt::Display), so that it reads well when it leaves `main`.
+/// Prints the text of [`Display`](fmt::Display), which is readable when it leaves `main`.
 impl fmt::Debug for WeightsError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)
     }
 }
 
-/// The text of the metadata.
+/// Contents of the metadata text.
 #[derive(Serialize, Deserialize)]
 struct Header<C> {
     format: u32,
@@ -127,19 +127,19 @@ struct Header<C> {
     card: C,
 }
 
-/// What is read first of it: a header of another format may have other keys.
+/// The format number, read first because a header of another format may have other keys.
 #[derive(Deserialize)]
 struct FormatOnly {
     format: u32,
 }
 
 impl<C: Card> Weights<C> {
-    /// Whether a file's bytes are of this network, damaged or not.
+    /// Returns `true` if a file's bytes belong to this network, damaged or not.
     pub fn are_in(bytes: &[u8]) -> bool {
         file_metadata(bytes, C::KEY).is_ok_and(|text| text.is_some())
     }
 
-    /// The file's bytes; the same weights give the same bytes.
+    /// Returns the bytes of the file; equal weights give equal bytes.
     ///
     /// # Errors
     /// If a parameter's length does not fit its shape.
@@ -182,7 +182,8 @@ impl<C: Card> Weights<C> {
         Ok(weights)
     }
 
-    /// Checksum of the card and of every tensor with its name, hexadecimal: which weights they are.
+    /// Returns the checksum of the card and of every tensor with its name, hexadecimal. It
+    /// identifies the weights.
     ///
     /// # Errors
     /// If the card cannot be written.
@@ -198,7 +199,7 @@ impl<C: Card> Weights<C> {
     }
 }
 
-/// Whether a propagation network can have this size.
+/// Checks that a propagation network can have this size.
 ///
 /// # Errors
 /// [`WeightsError::Size`] if not.
@@ -210,7 +211,7 @@ pub fn check_config(config: Config) -> Result<(), WeightsError> {
     Ok(())
 }
 
-/// Whether a network without propagation can have this width and inputs of the sizes `told`.
+/// Checks that a network without propagation can have this width and inputs of the sizes `told`.
 ///
 /// # Errors
 /// [`WeightsError::Size`] if not.
@@ -221,10 +222,10 @@ pub fn check_widths(width: usize, told: &[usize]) -> Result<(), WeightsError> {
     Ok(())
 }
 
-/// Whether the scales of all `tables` of a graph are sound.
+/// Checks that the scales of all `tables` of a graph are sound.
 ///
 /// # Errors
-/// As those of [`check_scales`].
+/// The errors of [`check_scales`].
 pub fn check_normaliser(normaliser: &Normaliser, tables: &Tables) -> Result<(), WeightsError> {
     let Tables { node, given, relation, .. } = tables;
     check_scales("normaliser.node_even", &normaliser.node_even, node[0])?;
@@ -235,7 +236,7 @@ pub fn check_normaliser(normaliser: &Normaliser, tables: &Tables) -> Result<(), 
     check_scales("normaliser.relation_odd", &normaliser.relation_odd, relation[1])
 }
 
-/// Whether scales are sound and have this number of columns.
+/// Checks that scales are sound and have this number of columns.
 ///
 /// # Errors
 /// [`WeightsError::Parameter`] for another number of columns, [`WeightsError::Value`] for a scale

@@ -1,8 +1,8 @@
-//! Recordings: what was seen on a table, frame by frame, and what follows from that.
+//! Recordings: the observed motion on a table, frame by frame, and its use.
 //!
-//! The types of a recording, what no real table does between two of its frames (`rules`), and the
-//! pusher's poses as a motion that an effect model can play (`replay`). Reads no files: that is
-//! `asset`, which says where in a file a rule is broken.
+//! The types of a recording, motions that are impossible on a real table (`rules`), and the
+//! pusher's poses as a motion for effect models (`replay`). The module `asset` reads files and
+//! reports the places at which a rule is broken.
 
 mod observed;
 mod replay;

@@ -9,46 +9,46 @@ use crate::{
     task::{COAST_FRAME, ToolMotion},
 };
 
-/// What happened on a table.
+/// A recorded motion of a pusher and objects on a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording {
-    /// Its name.
+    /// Name of the recording.
     pub name: String,
-    /// One line for people.
+    /// Description in one line.
     pub description: String,
-    /// What stood on the table, in the poses of the first frame.
+    /// The scene, with the poses of the first frame.
     pub scene: Scene,
     /// The pusher.
     pub tool: Arc<Tool>,
-    /// Height of its underside above the table, metres.
+    /// Height of the pusher's underside above the table, metres.
     pub lift: f64,
     /// Whether the heading of each object was recorded.
     pub headings: Vec<bool>,
-    /// How each object moves in the first frame. The pusher's motion is that of its frames.
+    /// Velocity of each object in the first frame. The pusher's velocity follows from its frames.
     pub velocities: Vec<Velocity>,
-    /// At least two, in order of time, the first at 0 s.
+    /// Recorded frames: at least two, ordered by time, the first at 0 s.
     pub frames: Vec<RecordedFrame>,
 }
 
-/// One recorded instant.
+/// The state at one recorded instant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordedFrame {
-    /// Since the first frame, seconds.
+    /// Time since the first frame, seconds.
     pub time: f64,
     /// Pose of the tool frame.
     pub tool: Pose,
     /// Whether the pusher was lifted before this frame and set down here.
     pub lifted: bool,
-    /// Whether the objects were seen, not only the pusher; where not, their poses are those of the
-    /// frame before.
+    /// Whether the objects were observed, not only the pusher; otherwise their poses are copied
+    /// from the previous frame.
     pub seen: bool,
-    /// Poses of the objects; headings that were not recorded are those of the start.
+    /// Poses of the objects; headings that were not recorded are copied from the start.
     pub poses: Vec<Pose>,
 }
 
 impl Recording {
-    /// What `frames` show of `motion` on `scene`, headings included: a simulation as if it had
-    /// been recorded. The first frame must be the scene's start.
+    /// Creates a recording of a simulation: the `frames` of `motion` on `scene`, headings included.
+    /// The first frame must be the scene's start.
     pub fn of_frames(name: &str, scene: &Scene, motion: &ToolMotion, frames: &[Frame]) -> Self {
         let mut recorded: Vec<RecordedFrame> = Vec::new();
         let mut late = 0.0;
@@ -58,7 +58,7 @@ impl Recording {
                 && motion.strokes.get(before.stroke).is_some_and(|stroke| stroke.settle)
                 && let Some(stroke) = motion.strokes.get(frame.stroke)
             {
-                // Setting the tool down takes no time in a simulation; here it must take some.
+                // Setting down takes no time in a simulation, but must take some in a recording.
                 let time = before.time + late + COAST_FRAME;
                 let poses = before.state.poses.clone();
                 recorded.push(RecordedFrame {
@@ -91,15 +91,15 @@ impl Recording {
         }
     }
 
-    /// Where everything is in the first frame, and how it moves there.
+    /// Returns the poses and velocities of the first frame.
     pub fn start(&self) -> State {
         State { velocities: self.velocities.clone(), ..self.scene.start() }
     }
 }
 
 impl RecordedFrame {
-    /// Makes headings, which a tracker gives up to whole turns, count their turns from those of
-    /// the frame before.
+    /// Unwraps headings, which a tracker gives up to full rotations, relative to the previous
+    /// frame.
     pub fn unwrap_after(&mut self, before: &RecordedFrame) {
         let poses = before.poses.iter().zip(&mut self.poses);
         for (before, now) in poses.chain([(&before.tool, &mut self.tool)]) {

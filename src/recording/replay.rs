@@ -1,4 +1,4 @@
-//! From recorded pusher poses to strokes that an effect model can play.
+//! Conversion of recorded pusher poses into strokes for effect models.
 
 use std::sync::Arc;
 
@@ -10,24 +10,23 @@ use crate::{
 
 use super::observed::Recording;
 
-/// A pusher that moves less than this between frames stands still, metres and radians: trackers
-/// jitter by this much.
+/// Motion between frames below which a pusher stands still, metres and radians: the jitter of
+/// trackers.
 const STANDING: f64 = 2e-4;
 const STANDING_TURN: f64 = 4e-3;
 
-/// Frames are joined to one stroke as long as the pusher is no farther than this from an even
-/// motion along it, metres and radians: well below what pushing shows.
+/// Maximum deviation of the pusher from a uniform motion along one stroke, metres and radians: well
+/// below the effects of pushing.
 const STRAIGHT: f64 = 5e-4;
 const STRAIGHT_TURN: f64 = 0.02;
 
-/// A recording as a tool motion, with the instants at which prediction and record can be
-/// compared.
+/// A recording as a tool motion, with the instants at which prediction and recording are compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Replay {
-    /// What the pusher did: strokes of about a model's frame, waiting for rest only where the
-    /// pusher was lifted.
+    /// Motion of the pusher: strokes of about a model's frame, with a wait for rest only before the
+    /// pusher is lifted.
     pub motion: ToolMotion,
-    /// In order of time; the last one is the last recorded frame.
+    /// Instants ordered by time; the last one is the last recorded frame.
     pub instants: Vec<Instant>,
 }
 
@@ -38,14 +37,16 @@ pub struct Instant {
     pub frame: usize,
     /// Index of the stroke.
     pub stroke: usize,
-    /// Whether it is the rest after the stroke that is meant, not its end.
+    /// Whether the instant is the rest after the stroke, not the stroke's end.
     pub settled: bool,
 }
 
 impl Recording {
-    /// The pusher's motion. Frames are joined as far as the pusher moves straight and evenly,
-    /// up to the travel of a model's frame. Longer steps are cut by the stroke itself, and those in
-    /// which the pusher turns by the travel of what it touches with.
+    /// Returns the pusher's motion.
+    ///
+    /// Frames are joined while the pusher moves straight and uniformly, up to the travel of a
+    /// model's frame. Longer steps are divided by the stroke itself. Steps in which the pusher
+    /// rotates are divided by the travel of its contact surface.
     pub fn replay(&self) -> Replay {
         let frames = &self.frames;
         let motion =
@@ -60,7 +61,7 @@ impl Recording {
                 replay.settle();
                 at = frames[to].tool;
                 let stroke = replay.motion.strokes.len();
-                // Before any stroke there is nothing to wait for.
+                // There is nothing to wait for before the first stroke.
                 if let Some(stroke) = stroke.checked_sub(1).filter(|_| frames[to].seen) {
                     replay.instants.push(Instant { frame: to, stroke, settled: true });
                 }
@@ -77,7 +78,8 @@ impl Recording {
         replay
     }
 
-    /// The last frame that one stroke from frame `from`, with the pusher at `at`, can end with.
+    /// Returns the last frame at which one stroke can end that starts in frame `from` with the
+    /// pusher at `at`.
     fn reach(&self, from: usize, at: &Pose) -> usize {
         let frames = &self.frames;
         let mut to = from + 1;
@@ -90,7 +92,8 @@ impl Recording {
         to
     }
 
-    /// Whether the pusher moves evenly from `at` in frame `from` to its pose in frame `to`.
+    /// Returns `true` if the pusher moves uniformly from `at` in frame `from` to its pose in frame
+    /// `to`.
     fn one_stroke(&self, from: usize, to: usize, at: &Pose) -> bool {
         let frames = &self.frames;
         let (start, end) = (frames[from].time, frames[to].time);
@@ -106,7 +109,8 @@ impl Recording {
             })
     }
 
-    /// What was seen at the instants of [`Self::replay`]; where the pusher is lifted, at rest.
+    /// Returns the observations at the instants of [`Self::replay`], taken at rest if the pusher is
+    /// lifted.
     pub fn observations(&self) -> Vec<Observation> {
         let replay = self.replay();
         let mut observations = Vec::new();
@@ -122,13 +126,13 @@ impl Recording {
         observations
     }
 
-    /// Indices of the frames that [`Self::observations`] are of.
+    /// Returns the frame indices of [`Self::observations`].
     pub fn observed_frames(&self) -> Vec<usize> {
         observed(&self.replay()).map(|instant| instant.frame).collect()
     }
 }
 
-/// The instants of a replay; of the end of a stroke and the rest after it only the rest.
+/// Returns the instants of a replay, without ends of strokes that a rest follows.
 fn observed(replay: &Replay) -> impl Iterator<Item = Instant> {
     let rests = |k: usize| replay.instants.get(k + 1).is_some_and(|next| next.settled);
     let instants = replay.instants.iter().copied().enumerate();
@@ -142,21 +146,21 @@ impl Replay {
         }
     }
 
-    /// Adds the strokes that bring the pusher from `at` to `to`.
+    /// Adds the strokes that move the pusher from `at` to `to`.
     fn move_to(&mut self, at: &mut Pose, to: Pose, duration: f64) {
         let tool = Arc::clone(&self.motion.tool);
         let mut push = |from, to, duration| {
             self.motion.strokes.push(Stroke { from, to, duration, settle: false });
         };
         if stands(at, &to) {
-            // As long a frame as a model knows from waiting for rest.
+            // Frames of at most the duration that models use while waiting for rest.
             let pieces = (duration / COAST_FRAME - 1e-6).ceil().max(1.0);
             for _ in 0..pieces as usize {
                 push(*at, *at, duration / pieces);
             }
         } else {
-            // A stroke is cut by the way of the tool's frame; what a turning tool touches with can go
-            // much farther.
+            // A stroke is divided by the travel of the tool's frame, but points of a rotating tool
+            // can travel much farther.
             let travel = tool.travel(at, &to);
             let turns = at.heading != to.heading;
             let pieces = if turns { (travel / FRAME_TRAVEL - 1e-6).ceil().max(1.0) } else { 1.0 };

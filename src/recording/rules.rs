@@ -1,69 +1,70 @@
-//! Motions between two frames that are impossible on a real table: a tracker lost something, frames
-//! are missing, or a size is wrong.
+//! Motions between two frames that are impossible on a real table. They indicate a tracking loss,
+//! missing frames or a wrong size.
 
 use crate::geometry::{Footprint, Pose, clearance};
 use crate::scene::{DisjointSets, Velocity, near_pairs};
 
 use super::observed::{RecordedFrame, Recording};
 
-/// A body that moves farther than this between two frames was lost by the tracker, metres.
+/// Travel between two frames beyond which the tracker lost the body, metres.
 const JUMP: f64 = 0.10;
 
-/// The same for turns: a right angle, as when a tracker mixes up the sides of a square.
+/// Rotation between two frames beyond which the tracker lost the body, radians: nearly a right
+/// angle, as when a tracker confuses the sides of a square.
 const TURN: f64 = 0.45 * std::f64::consts::PI;
 
-/// Frames are missing where a time step is this many times the usual one and something moved
-/// farther than [`MOVED`] metres meanwhile.
+/// Time step, relative to the usual one, beyond which frames are missing if a body moved farther
+/// than [`MOVED`] metres meanwhile.
 const GAP: f64 = 2.5;
 const MOVED: f64 = 0.002;
 
-/// An object that slides at the start of a recording shows it within this time, seconds; later
-/// motions of untouched objects are a tracker's errors.
+/// Time within which an object that slides at the start must show it, seconds; later motions of
+/// untouched objects are tracking errors.
 const SOON: f64 = 0.3;
 
-/// Turns of less than this at the start are a tracker's errors, radians.
+/// Rotation at the start below which it is a tracking error, radians.
 const TURNED: f64 = 0.05;
 
 /// A body of a recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Body {
-    /// What pushes.
+    /// The pusher.
     Pusher,
     /// The object with this index.
     Object(usize),
 }
 
-/// Impossible motions of bodies.
+/// An impossible motion of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Strange {
-    /// Moves so far, metres.
+    /// Travel in one step, metres.
     Moves(f64),
-    /// Turns so far, radians.
+    /// Rotation in one step, radians.
     Turns(f64),
 }
 
-/// A body that was lost between two frames.
+/// A body that the tracker lost between two frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jump {
-    /// Which body.
+    /// The body.
     pub body: Body,
-    /// What it does.
+    /// Its motion.
     pub what: Strange,
 }
 
-/// A step of time in which frames are missing.
+/// A time step in which frames are missing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap {
-    /// Index of the frame behind it.
+    /// Index of the frame after the step.
     pub frame: usize,
-    /// Its length, seconds.
+    /// Length of the step, seconds.
     pub step: f64,
-    /// The usual length, seconds.
+    /// Usual length of a step, seconds.
     pub usual: f64,
 }
 
-/// Bodies that were lost between one frame and the next, the pusher first. Headings count their
-/// turns, see [`RecordedFrame::unwrap_after`].
+/// Returns the bodies that the tracker lost between two frames, the pusher first. Headings must be
+/// unwrapped, see [`RecordedFrame::unwrap_after`].
 pub fn jumps(before: &RecordedFrame, now: &RecordedFrame) -> Vec<Jump> {
     let pusher = (!now.lifted).then_some((Body::Pusher, &before.tool, &now.tool));
     let poses = before.poses.iter().zip(&now.poses).enumerate();
@@ -86,7 +87,7 @@ fn strange(before: &Pose, now: &Pose) -> Option<Strange> {
     }
 }
 
-/// Time steps that are much longer than the others although something moves.
+/// Returns the time steps that are much longer than usual although a body moves.
 pub fn gaps(frames: &[RecordedFrame]) -> Vec<Gap> {
     let step = |pair: &[RecordedFrame]| pair[1].time - pair[0].time;
     let mut steps: Vec<f64> = frames.windows(2).map(step).collect();
@@ -105,26 +106,25 @@ pub fn gaps(frames: &[RecordedFrame]) -> Vec<Gap> {
         .collect()
 }
 
-/// An object that moves at the start although nothing touches it, and farther than its stated velocity
-/// takes it.
+/// An untouched object that moves at the start farther than its stated velocity explains.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moving {
     /// Index of the object.
     pub object: usize,
-    /// Index of the frame that shows it.
+    /// Index of the frame in which the motion is visible.
     pub frame: usize,
-    /// How far it has come by then, metres.
+    /// Travel up to that frame, metres.
     pub travel: f64,
-    /// How far it has turned by then, radians.
+    /// Rotation up to that frame, radians.
     pub turn: f64,
 }
 
 impl Recording {
-    /// Objects that are in motion in the first frame without its being stated: they move farther than
-    /// their velocity takes them although neither the pusher nor anything that it may push comes near them.
+    /// Returns the objects with an unstated motion in the first frame: they move farther than their
+    /// velocity explains, although the pusher and all bodies that it may push stay away from them.
     pub fn moving_at_the_start(&self) -> Vec<Moving> {
         let Some(first) = self.frames.first() else { return Vec::new() };
-        // A frame with faults of its own may lack objects.
+        // A frame that is itself faulty may lack objects.
         let count = self.scene.objects.len();
         if self.frames.iter().any(|frame| frame.poses.len() != count) {
             return Vec::new();
@@ -151,8 +151,10 @@ impl Recording {
         found
     }
 
-    /// For every object whether, up to frame `index`, the pusher is seen near it or near anything
-    /// that moves it along, or something that does so moves from the start on.
+    /// Returns for every object whether it may be pushed up to frame `index`.
+    ///
+    /// An object may be pushed if the pusher, or a body that moves from the start, is observed near
+    /// its group. A group contains objects that are near each other or joined.
     fn pushed_until(&self, index: usize) -> Vec<bool> {
         let seen = &self.frames[..=index];
         let footprint = |object: usize| self.scene.objects[object].shape.footprint();
@@ -160,8 +162,8 @@ impl Recording {
             clearance(a, b, 2.0 * Self::NOISE) < Self::NOISE
         };
         let objects = 0..self.scene.objects.len();
-        // Whatever is near each other, or joined, moves together; what may be joined without the
-        // recording saying so is near enough at the start.
+        // Objects that are near each other, or joined, move together. Possible joints that the
+        // recording does not state connect objects that are near enough at the start.
         let joined = self.scene.joints.iter().map(|joint| joint.between);
         let joinable = near_pairs(&self.scene).into_iter().map(|(pair, _)| pair);
         let mut pairs: Vec<[usize; 2]> = joined.chain(joinable).collect();
@@ -191,11 +193,11 @@ impl Recording {
         objects.map(|object| pushed.contains(&groups[object])).collect()
     }
 
-    /// Measured bodies may be this deep in each other in a frame, metres: what trackers and the
-    /// rounding of radii leave.
+    /// Maximum penetration of measured bodies in a frame, metres: tracking errors and the rounding
+    /// of radii.
     pub const NOISE: f64 = 0.005;
 
-    /// Where the pusher is set down inside an object: index of the frame and of the object.
+    /// Returns the frame and object indices at which the pusher is set down inside an object.
     pub fn set_down_inside(&self) -> Vec<(usize, usize)> {
         let set_down = self.frames.iter().enumerate().filter(|(k, frame)| *k == 0 || frame.lifted);
         let mut found = Vec::new();

@@ -1,4 +1,4 @@
-//! What a rollout shows about itself that cannot happen on a real table.
+//! Violations of a rollout that cannot occur on a real table.
 
 use crate::{
     contact::{Bodies, Jointed},
@@ -6,28 +6,28 @@ use crate::{
     scene::{Body, JOINT_ARM, JointKind, Misfit, State},
 };
 
-/// Bodies deeper inside each other than this are reported, metres. What the network
-/// leaves of an overlap in sound predictions is mostly below half a millimetre.
+/// Penetration beyond which bodies are reported, metres. Overlaps that remain in sound predictions
+/// of the network are mostly below half a millimetre.
 pub(super) const DEEP: f64 = 0.002;
 
-/// Joints that end farther from what they allow are reported, metres: a thousand times what
-/// the projection leaves where it converges.
+/// Violation of a joint beyond which it is reported, metres: a thousand times the residual of a
+/// converged projection.
 const LOOSE: f64 = 1e-3;
 
-/// An object, the body it is inside of, and how deep, metres.
+/// An object, the body that it penetrates, and the depth, metres.
 pub(super) type Overlap = (usize, Body, f64);
 
 /// The deepest overlaps of a rollout.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Depths {
-    /// Of any two bodies, deeper than [`DEEP`].
+    /// Deepest overlap of any two bodies, if deeper than [`DEEP`].
     any: Option<Overlap>,
-    /// Of bodies that jam so deep in each other, see [`Body::most_overlap`].
+    /// Deepest overlap at which bodies jam, see [`Body::most_overlap`].
     pub jam: Option<Overlap>,
 }
 
 impl Depths {
-    /// Notes an overlap; whether it is the first that jams.
+    /// Records an overlap; returns `true` if it is the first that jams.
     pub fn note(&mut self, object: usize, with: Body, depth: f64) -> bool {
         let deeper = |known: Option<Overlap>| known.is_none_or(|(_, _, most)| depth > most);
         if depth > DEEP && deeper(self.any) {
@@ -41,7 +41,7 @@ impl Depths {
         jams && first
     }
 
-    /// Notes the overlaps of objects that `moved`. The tool's frame is at `tool`.
+    /// Records the overlaps of objects that `moved`. The tool's frame is at `tool`.
     pub fn note_all(
         &mut self,
         bodies: &Bodies,
@@ -75,14 +75,14 @@ impl Depths {
         }
     }
 
-    /// The deepest overlap, where it is not that of bodies that jam.
+    /// Returns the deepest overlap, unless it is the jam.
     pub fn sunk(&self) -> Option<Overlap> {
         self.any.filter(|any| self.jam != Some(*any))
     }
 }
 
-/// The joint farthest from what it allows, farther than [`LOOSE`], with an object that `moved`:
-/// its objects and how far, metres (turns at 5 cm).
+/// Returns the objects of the joint with the largest violation beyond [`LOOSE`] among those with an
+/// object that `moved`, and the violation, metres (rotations at 5 cm).
 pub(super) fn loosest_joint(
     bodies: &Bodies,
     state: &State,
@@ -99,7 +99,7 @@ pub(super) fn loosest_joint(
     loosest
 }
 
-/// How far a joint is from what it allows, metres (turns at 5 cm).
+/// Returns the violation of a joint, metres (rotations at 5 cm).
 fn off(joint: &Jointed, state: &State) -> f64 {
     let Misfit { offset, turn } = joint.separation(&state.poses).misfit(&joint.kind, joint.limits);
     let apart = match joint.kind {

@@ -1,4 +1,4 @@
-//! Applying one frame's motions to a state.
+//! Integration of one frame's motions.
 
 use crate::{
     contact::{Bodies, Motion, hold},
@@ -6,23 +6,23 @@ use crate::{
     task::FrameStep,
 };
 
-/// A body whose remaining free slide is shorter than this is at rest, metres: far below what
-/// anyone can measure, and above the noise of a network around zero.
+/// Remaining free slide below which a body is at rest, metres: far below measurement accuracy, and
+/// above the noise of a network around zero.
 const REMAINING_SLIDE: f64 = 1e-5;
 
-/// How much faster than the tool an object may come out of a frame (or as fast as the fastest
-/// object was before it), and how far it may be moved out of an overlap, metres. Physics without
-/// restoring impacts needs a factor of about one; the rest is room for error. It keeps a wrong
-/// network from being wildly wrong, and does nothing to a right one.
+/// Maximum speed of an object after a frame, relative to the tool's, if no object was faster
+/// before. Physics without restoring impacts needs a factor of about one, and the rest is a margin
+/// for error. The limit bounds a wrong network and does not affect a right one. Displacements are
+/// limited accordingly, plus [`OUT_OF_OVERLAP`], metres.
 const FASTER: f64 = 1.5;
-/// The same where joints make levers of objects, whose far ends run ahead of what pushes them.
+/// Corresponding factor for objects with joints, whose far ends can be faster than the tool.
 const LEVER: f64 = 5.0;
 const OUT_OF_OVERLAP: f64 = 0.005;
 
 /// Moves every object of `state` by its entry in `motions`, which belong to the tool's `step`.
 ///
-/// Whatever a network says, nothing outruns everything around it, and while the tool stands
-/// still the total kinetic energy cannot grow.
+/// No output of a network makes an object faster than everything around it, and the total
+/// kinetic energy cannot grow while the tool stands still.
 pub fn integrate(bodies: &Bodies, state: &mut State, motions: &[Motion], step: &FrameStep) {
     let coasting = step.from == step.to;
     let before = if coasting { kinetic_energy(bodies, state) } else { f64::INFINITY };
@@ -51,8 +51,9 @@ pub fn integrate(bodies: &Bodies, state: &mut State, motions: &[Motion], step: &
     }
 }
 
-/// The larger of [`FASTER`] (or [`LEVER`], if anything in a joint moves) times the speed of the
-/// tool's fastest part and the speed of the fastest object, m/s.
+/// Returns the speed limit, m/s: the speed of the fastest object, or, if larger, [`FASTER`] times
+/// the speed of the tool's fastest part. A moving object with a joint changes the factor to
+/// [`LEVER`].
 fn fastest(bodies: &Bodies, state: &State, motions: &[Motion], step: &FrameStep) -> f64 {
     let turn = (step.to.heading - step.from.heading).abs();
     let reach = bodies.parts.iter().map(|p| p.pose.position.norm() + p.footprint.bounding_radius());
@@ -70,8 +71,8 @@ fn fastest(bodies: &Bodies, state: &State, motions: &[Motion], step: &FrameStep)
         .fold(factor * travel / step.duration, f64::max)
 }
 
-/// `motion` shortened to the given speed (m/s) and travel (m), at the centre and, by the
-/// support's length, in turning.
+/// Limits `motion` to the given speed (m/s) and travel (m), at the centre and, through the
+/// support's length, in rotation.
 fn held(motion: &Motion, support: f64, speed: f64, travel: f64) -> Motion {
     let share = |value: f64, most: f64| if value > most { most / value } else { 1.0 };
     let mut held = *motion;
@@ -82,7 +83,7 @@ fn held(motion: &Motion, support: f64, speed: f64, travel: f64) -> Motion {
     held
 }
 
-/// Of all objects, joules.
+/// Returns the kinetic energy of all objects, joules.
 fn kinetic_energy(bodies: &Bodies, state: &State) -> f64 {
     bodies
         .objects

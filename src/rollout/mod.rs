@@ -1,9 +1,9 @@
-//! The one loop over time: graph, network, integration, new contacts.
+//! The single loop over time: graph, network, integration, new contacts.
 //!
-//! Shared by training (single frames of episodes) and planning (whole motions): [`Stepper`] takes
-//! both on, many side by side. Only what a motion can reach is looked at, and only from the first
-//! contact until rest. The caller decides which network corrects the prior, and which motions to
-//! try.
+//! Training (single frames of episodes) and planning (whole motions) share this loop: [`Stepper`]
+//! advances both, many side by side. It only processes bodies that a motion can reach, from the
+//! first contact until rest. The caller chooses the motions, and the network that corrects the
+//! analytic model.
 
 mod doubt;
 mod integrate;

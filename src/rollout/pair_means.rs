@@ -1,4 +1,4 @@
-//! What a network computes of relations, averaged over a rollout, by pair of objects.
+//! Network values of relations, averaged over a rollout for each pair of objects.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use crate::{
     task::Job,
 };
 
-/// Rows of numbers of relations between objects, averaged over the frames of one rollout.
+/// Sums of row vectors of the relations between objects, over the frames of a rollout.
 #[derive(Clone, Debug)]
 pub struct PairMeans {
     pairs: Pairs,
@@ -19,15 +19,15 @@ pub struct PairMeans {
 }
 
 impl PairMeans {
-    /// Of a rollout of `job` with no frames yet, for rows of `width` numbers.
+    /// Creates an empty average for a rollout of `job`, with rows of `width` numbers.
     pub fn new(scene: &Scene, job: &Job, width: usize) -> Self {
         let parts = job.motion.slide().tool.outline().len();
         let pairs = Pairs::new(scene.objects.len(), scene.obstacles.len(), parts);
         Self { pairs, width, sums: BTreeMap::new(), frames: 0 }
     }
 
-    /// Adds a frame, whose relation `k` has the row that `row(k, into)` adds to `into`. Both
-    /// directions of a pair, and all of its points, add up.
+    /// Adds a frame. `row(k, into)` must add the row of relation `k` to `into`. Both directions of
+    /// a pair, and all its contact points, are summed.
     pub fn add(&mut self, batch: &Batch, row: impl Fn(usize, &mut [f32])) {
         self.frames += 1;
         for (k, pair) in batch.pairs.iter().enumerate() {
@@ -37,7 +37,8 @@ impl PairMeans {
         }
     }
 
-    /// The mean row of a pair of objects, the lower index first; zeros where no frame related them.
+    /// Returns the mean row of a pair of objects, the lower index first; zeros for a pair without
+    /// relations.
     pub fn mean(&self, pair: [usize; 2]) -> Vec<f32> {
         let mut mean = self.sums.get(&pair).cloned().unwrap_or_else(|| vec![0.0; self.width]);
         mean.iter_mut().for_each(|value| *value /= self.frames.max(1) as f32);

@@ -1,33 +1,33 @@
-//! Objects pressed between the tool and something that does not give way.
+//! Detection of objects pressed between the tool and an obstacle.
 //!
-//! What happens then depends on what no model of rigid bodies knows; two engines, or one at two
-//! time steps, put the object in different places.
+//! The outcome then depends on quantities that no model of rigid bodies contains: two engines, or
+//! one engine at two time steps, place the object differently.
 
 use crate::{
     geometry::Vector,
     scene::{Body, TOUCHING},
 };
 
-/// Cosine below which two normals oppose each other: between flatter ones an object slips out.
+/// Cosine below which two normals oppose each other; at larger values an object slips out.
 const OPPOSED: f64 = -0.5;
 
-/// What touches an object in the present frame, and what was found.
+/// Contacts of objects in the current frame, and the result.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pressing {
     /// Object, part or obstacle, and the unit normal into the object.
     held: Vec<(usize, Body, Vector)>,
-    /// The first object found pressed, and between what.
+    /// The first pressed object, and the two bodies between which it is pressed.
     pub found: Option<(usize, [Body; 2])>,
 }
 
 impl Pressing {
-    /// A new frame.
+    /// Begins a new frame.
     pub fn begin(&mut self) {
         self.held.clear();
     }
 
-    /// Notes that `object` is `depth` metres inside of a part or an obstacle, `normal` pointing
-    /// into the object, while the tool moves by `travel`.
+    /// Records that `object` penetrates a part or an obstacle by `depth` metres, with `normal`
+    /// pointing into the object, while the tool moves by `travel`.
     pub fn touch(&mut self, object: usize, with: Body, depth: f64, normal: Vector, travel: Vector) {
         let comes = match with {
             Body::Part(_) => normal.dot(&travel) > 0.0,

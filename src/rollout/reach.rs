@@ -1,10 +1,10 @@
-//! What a stroke can set in motion: the only bodies that its frames need to look at.
+//! Bodies that a stroke can set in motion; only these are processed in its frames.
 //!
-//! Objects that the tool's swept area comes near, those that move, and whatever is near those or
-//! joined to them, and so on. *Near* allows for some motion; when an object has used that up, or
-//! the stroke ends, the list is made again. So it never leaves out anything that a frame of the
-//! whole scene would relate, however far the network moves things: the neighbour list of molecular
-//! dynamics (Verlet 1967, doi:10.1103/PhysRev.159.98).
+//! The list contains objects near the tool's swept area, moving objects, and, recursively, objects
+//! near them or joined to them. *Near* includes a margin for motion. When an object has used it up,
+//! or the stroke ends, the list is made again. It therefore never omits a body that a frame of the
+//! whole scene would relate, however far the network moves objects. This is the neighbour list of
+//! molecular dynamics (Verlet 1967, doi:10.1103/PhysRev.159.98).
 
 use crate::{
     contact::{Bodies, ListIndex, MARGIN, SceneIndex, Subset},
@@ -13,41 +13,41 @@ use crate::{
     task::{Job, Stroke},
 };
 
-/// How far an object may move before the list is made again, metres. A push of 20 cm then makes
-/// four lists, and a list holds little more than what stands within a hand's breadth.
+/// Travel of an object after which the list is made again, metres. A push of 20 cm then makes four
+/// lists, and a list contains little more than the objects within a hand's breadth.
 const SKIN: f64 = 0.05;
 
 /// Allowance for rounding, metres.
 const ROUNDING: f64 = 1e-7;
 
-/// The bodies of a scene that matter now.
+/// The currently relevant bodies of a scene.
 pub type Listed = Subset<SceneIndex, ListIndex>;
 
-/// Which bodies matter, and for how long.
+/// Construction and validity of the neighbour list.
 #[derive(Clone, Debug, Default)]
 pub struct Reach {
-    /// Where the listed objects were when the list was made.
+    /// Positions of the listed objects when the list was made.
     positions: Vec<Vector>,
-    /// How far each of them may move, metres.
+    /// Maximum travel of each object, metres.
     skin: f64,
     sweeps: Vec<Sweep>,
-    /// Gap below which a pair that does not move is related, metres.
+    /// Gap below which a static pair is related, metres.
     near: f64,
     listed: Vec<bool>,
 }
 
-/// What the tool has before it.
+/// The remaining part of a stroke.
 #[derive(Clone, Copy, Debug)]
 pub struct Course<'a> {
     pub stroke: &'a Stroke,
-    /// Frames of it that are done.
+    /// Number of completed frames.
     pub frame: usize,
-    /// Frames that are predicted as one.
+    /// Number of frames predicted as one.
     pub stride: usize,
 }
 
-/// The objects of `scene` that `job` can set in motion from its start, stroke by stroke and as far
-/// as one stroke can tell, in order; all of them where the tool makes no stroke.
+/// Returns the objects of `scene` that `job` can set in motion from its start, in order. Each
+/// stroke is considered alone, from the start. Without strokes all objects are returned.
 pub fn reachable(scene: &Scene, job: &Job) -> Vec<usize> {
     let Job { start, motion, physics } = job;
     let count = scene.objects.len();
@@ -65,22 +65,22 @@ pub fn reachable(scene: &Scene, job: &Job) -> Vec<usize> {
     (0..count).filter(|&object| reached[object]).collect()
 }
 
-/// The area that a part sweeps, as a rectangle along the stroke.
+/// The swept area of a part: a rectangle along the stroke.
 #[derive(Clone, Copy, Debug)]
 struct Sweep {
     axis: Vector,
     /// Extent at the stroke's start along the axis and across it, metres.
     along: (f64, f64),
     across: (f64, f64),
-    /// Travels of the tool between which it is swept, metres from the stroke's start.
+    /// Interval of the tool's travel in which the area is swept, metres from the stroke's start.
     travel: (f64, f64),
     /// Height of the part's underside, metres.
     underside: f64,
 }
 
 impl Reach {
-    /// Lists in `subset` what the rest of a stroke can set in motion, and gathers it. The coming
-    /// frame lasts `duration` seconds.
+    /// Lists in `subset` the bodies that the rest of a stroke can set in motion, and gathers their
+    /// data. The coming frame lasts `duration` seconds.
     pub fn list(
         &mut self,
         whole: &Bodies,
@@ -104,7 +104,7 @@ impl Reach {
             let (pose, velocity) = (&state.poses[k], &state.velocities[k]);
             let moves = *velocity != Velocity::default();
             let room = body.radius + *near;
-            // A position that is not a number is near everything.
+            // A position that is not a number counts as near everything.
             let apart = hull.is_some_and(|hull| hull.square_gap(pose.position) > room * room);
             if !moves && apart {
                 continue;
@@ -119,7 +119,7 @@ impl Reach {
                 self.skin = self.skin.max(SKIN + way(velocity, body.radius, duration));
             }
         }
-        // Neighbours of neighbours: the list grows while it is read.
+        // Neighbours of neighbours: the list grows during the iteration.
         let near = *near + self.skin;
         let mut next = 0;
         while let Some(&SceneIndex(object)) = objects.get(next) {
@@ -160,8 +160,8 @@ impl Reach {
         self.positions.extend(subset.objects.iter().map(|k| state.poses[k.0].position));
     }
 
-    /// Whether the list still holds everything that a frame of `duration` seconds can relate;
-    /// `state` is that of the listed objects.
+    /// Returns `true` if the list still contains everything that a frame of `duration` seconds can
+    /// relate; `state` has the listed objects.
     pub fn holds(&self, bodies: &Bodies, state: &State, duration: f64) -> bool {
         self.positions.iter().enumerate().all(|(k, position)| {
             let moved = (state.poses[k].position - position).norm();
@@ -169,8 +169,9 @@ impl Reach {
         })
     }
 
-    /// The first frame of the stroke from `frame` on in which the tool comes near a listed
-    /// object, if none of them moves; beyond the last one if it never does.
+    /// Returns the first frame of the stroke, from `frame` on, in which the tool comes near a
+    /// listed object, provided that none moves. The result is beyond the last frame if it never
+    /// does.
     pub fn first_contact(
         &self,
         subset: &Listed,
@@ -199,7 +200,7 @@ impl Reach {
         first
     }
 
-    /// The sweeps of all parts from the `done`-th metre of the stroke on.
+    /// Computes the sweeps of all parts from the `done`-th metre of the stroke on.
     fn sweep(&mut self, whole: &Bodies, stroke: &Stroke, done: f64) {
         let travel = stroke.to.position - stroke.from.position;
         let length = travel.norm();
@@ -208,7 +209,7 @@ impl Reach {
         let turns = stroke.from.heading != stroke.to.heading;
         self.sweeps.clear();
         self.sweeps.extend(whole.parts.iter().map(|part| {
-            // A tool that turns stays in a circle about its frame.
+            // A rotating tool stays within a circle about its frame.
             let (centre, along, across) = if turns {
                 let reach = part.pose.position.norm() + part.footprint.bounding_radius();
                 (stroke.from.position, [reach; 2], [reach; 2])
@@ -230,7 +231,7 @@ impl Reach {
 }
 
 impl Sweep {
-    /// An area that holds all those of `sweeps`, which lie along the same axis.
+    /// Returns an area that contains all `sweeps`, which lie along the same axis.
     fn hull(sweeps: &[Sweep]) -> Option<Sweep> {
         let join = |a: (f64, f64), b: (f64, f64)| (a.0.min(b.0), a.1.max(b.1));
         sweeps.iter().copied().reduce(|a, b| Sweep {
@@ -241,7 +242,7 @@ impl Sweep {
         })
     }
 
-    /// Square of the distance of a point from the swept area, square metres.
+    /// Returns the square of the distance of a point from the swept area, square metres.
     fn square_gap(&self, point: Vector) -> f64 {
         let (x, y) = (point.dot(&self.axis), point.dot(&perpendicular(self.axis)));
         let beyond = |value: f64, low: f64, high: f64| (low - value).max(value - high).max(0.0);
@@ -250,7 +251,8 @@ impl Sweep {
         along * along + across * across
     }
 
-    /// Between which travels of the tool the part is at most `room` metres from a point.
+    /// Returns the interval of the tool's travel in which the part is at most `room` metres from a
+    /// point.
     fn window(&self, point: Vector, room: f64) -> Option<(f64, f64)> {
         let (x, y) = (point.dot(&self.axis), point.dot(&perpendicular(self.axis)));
         let aside = (self.across.0 - y).max(y - self.across.1).max(0.0);
@@ -263,12 +265,12 @@ impl Sweep {
     }
 }
 
-/// Most that any point of a body can travel in `duration` seconds by itself, metres.
+/// Returns an upper bound on the travel of any point of a body in `duration` seconds, metres.
 fn way(velocity: &Velocity, radius: f64, duration: f64) -> f64 {
     (velocity.linear.norm() + velocity.angular.abs() * radius) * duration
 }
 
-/// Distance of a point from a body, metres; zero inside.
+/// Returns the distance of a point from a body, metres; zero inside.
 fn gap(footprint: &Footprint, pose: &Pose, point: Vector) -> f64 {
     match *footprint {
         Footprint::Disc { radius } => ((point - pose.position).norm() - radius).max(0.0),
@@ -276,7 +278,7 @@ fn gap(footprint: &Footprint, pose: &Pose, point: Vector) -> f64 {
             let local = pose.local_point(point);
             (local.abs() - half).sup(&Vector::zeros()).norm()
         }
-        // Never more than the distance; obstacles are cuboids.
+        // A lower bound is enough, because obstacles are cuboids.
         Footprint::Polygon(polygon) => {
             ((point - pose.position).norm() - polygon.bounding_radius()).max(0.0)
         }

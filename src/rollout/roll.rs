@@ -1,4 +1,4 @@
-//! Rolling many jobs of one scene out side by side, frame by frame.
+//! Parallel rollout of many jobs of one scene, frame by frame.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use super::{
     work::Work,
 };
 
-/// Rolls jobs out, on memory that it keeps from one call to the next.
+/// A rollout engine that keeps its memory from one call to the next.
 #[derive(Clone, Debug)]
 pub struct Roller {
     by: ModelSpec,
@@ -27,7 +27,7 @@ pub struct Roller {
 }
 
 impl Roller {
-    /// A roller with these settings, for the model `by`.
+    /// Creates a roller with these settings, for the model `by`.
     pub fn new(by: ModelSpec, settings: RollSettings) -> Self {
         Self {
             by,
@@ -38,20 +38,20 @@ impl Roller {
         }
     }
 
-    /// What all rollouts so far took.
+    /// Returns the cost of all rollouts so far.
     pub fn work(&self) -> &Work {
         &self.work
     }
 
-    /// What the equations of all of their frames took.
+    /// Returns the solver statistics of all frames so far.
     pub fn tally(&self) -> Tally {
         self.stepper.tally()
     }
 
-    /// Rolls out every job until everything rests.
+    /// Rolls out every job until all objects rest.
     ///
-    /// Jobs do not influence each other; they only share the network's batches. Without anything
-    /// to `correct` the prior it rolls out needs no graphs.
+    /// Jobs do not influence each other; they only share the network's batches. Without `correct`
+    /// the analytic model is rolled out and no graphs are built.
     pub fn roll(
         &mut self,
         scene: &Scene,
@@ -78,7 +78,7 @@ impl Roller {
     }
 }
 
-/// Rolls out every job until everything rests, see [`Roller::roll`].
+/// Rolls out every job until all objects rest, see [`Roller::roll`].
 pub fn roll(
     by: ModelSpec,
     scene: &Scene,
@@ -90,8 +90,8 @@ pub fn roll(
     Roller::new(by, settings).roll(scene, jobs, record, correct)
 }
 
-/// The bodies of the scene with every tool and physics that occurs, and which of them each
-/// job has: a search has hundreds of jobs with a handful of tools.
+/// Returns the bodies of the scene for every distinct tool and physics, and the index of each job's
+/// bodies. A search has hundreds of jobs but only a handful of tools.
 fn casts(scene: &Scene, jobs: &[Job]) -> (Vec<Bodies>, Vec<usize>) {
     let mut casts = Vec::new();
     let mut firsts: Vec<&Job> = Vec::new();

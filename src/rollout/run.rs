@@ -1,4 +1,4 @@
-//! One job on its way through a rollout.
+//! The rollout of a single job.
 
 use crate::{
     contact::{Bodies, FrameProblem, Motion, Movable, Touch},
@@ -23,41 +23,41 @@ use super::{
 pub(super) struct Memory {
     subset: Listed,
     reach: Reach,
-    /// State of the listed objects, under their numbers in `subset`.
+    /// State of the listed objects, in the numbering of `subset`.
     state: State,
     before: State,
 }
 
-/// One job on its way.
+/// A job in progress.
 pub(super) struct Run<'a> {
     scene: &'a Scene,
     job: &'a Job,
-    /// All bodies, and which of them matter now.
+    /// Bodies of the whole scene.
     whole: &'a Bodies,
     memory: &'a mut Memory,
     settings: RollSettings,
     record: Record,
-    /// State of all objects. Those on the list are up to date whenever a frame is done.
+    /// State of all objects. Listed objects are up to date whenever a frame is complete.
     state: State,
-    /// Whether the list must be made before the next frame.
+    /// Whether the next frame needs a new list.
     stale: bool,
-    /// Whether the last frame had no graph, so that it pays to look ahead.
+    /// Whether the last frame had no graph, so that looking ahead pays off.
     idle: bool,
-    /// The first frame of the stroke in which the tool comes near anything, if nothing moves
-    /// before; not known yet if nothing.
+    /// First frame of the stroke in which the tool comes near a body, provided that nothing moves
+    /// before; `None` if not yet computed.
     apart_until: Option<usize>,
     stroke: usize,
-    /// Frames done of the stroke, coasting ones included.
+    /// Number of completed frames of the stroke, including frames at rest.
     frame: usize,
     time: f64,
     axis: Vector,
-    /// The frame to compute now; `None` when the job is done.
+    /// The frame to compute next; `None` at the end of the job.
     step: Option<FrameStep>,
-    /// How many of the stroke's frames it stands for.
+    /// Number of the stroke's frames that the step covers.
     span: usize,
-    /// How deep bodies came into each other on the way.
+    /// Deepest overlaps during the rollout.
     depths: Depths,
-    /// Whether something could not pass: no frames are kept any more but the last.
+    /// Whether an object is blocked: only the last frame is kept from then on.
     blocked: bool,
     pressing: Pressing,
     work: Work,
@@ -105,12 +105,12 @@ impl<'a> Run<'a> {
         run
     }
 
-    /// What it took so far.
+    /// Returns the cost so far.
     pub fn work(&self) -> &Work {
         &self.work
     }
 
-    /// Decides what the tool does in the next frame that can change anything.
+    /// Advances to the tool's next frame that can change anything.
     fn next_step(&mut self) {
         self.step = None;
         while let Some(stroke) = self.job.motion.slide().strokes.get(self.stroke) {
@@ -150,7 +150,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Makes sure that the list holds everything that the coming frame of `stroke` can relate.
+    /// Ensures that the list contains everything that the coming frame of `stroke` can relate.
     fn look(&mut self, stroke: &Stroke, duration: f64) {
         let Memory { subset, reach, state, .. } = &mut *self.memory;
         if self.settings.pruned {
@@ -173,7 +173,7 @@ impl<'a> Run<'a> {
         subset.gather_state(&self.state, state);
     }
 
-    /// Notes on what the tool is set down at the start of the stroke, if it is.
+    /// Adds a warning for every object on which the tool is set down at the start of the stroke.
     fn set_down(&mut self) {
         let motion = self.job.motion.slide();
         let before = self.stroke.checked_sub(1).map(|before| &motion.strokes[before]);
@@ -187,7 +187,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Notes what the way and its end show that cannot happen on a real table.
+    /// Adds warnings for violations that cannot occur on a real table.
     fn doubt(&mut self) {
         let Some(stroke) = self.job.motion.slide().strokes.last() else { return };
         let Scene { objects, obstacles, .. } = self.scene;
@@ -225,13 +225,13 @@ impl<'a> Run<'a> {
         self.trajectory.warnings.extend(loose);
     }
 
-    /// Whether nothing moves at all.
+    /// Returns `true` if nothing moves.
     fn is_still(&self) -> bool {
         self.memory.state.velocities.iter().all(|v| *v == Velocity::default())
     }
 
-    /// Whether everything is slow enough to count as resting, see
-    /// [`crate::scene::Scene::is_resting`]; what is not listed does not move.
+    /// Returns `true` if everything is slow enough to count as resting, see
+    /// [`crate::scene::Scene::is_resting`]; unlisted objects do not move.
     fn is_resting(&self) -> bool {
         let slow = |(body, v): (&Movable, &Velocity)| {
             v.linear.norm() < REST_SPEED && v.angular.abs() * body.radius < REST_SPEED
@@ -240,22 +240,23 @@ impl<'a> Run<'a> {
         subset.bodies.objects.iter().zip(&state.velocities).all(slow)
     }
 
-    /// Whether the tool is still out of reach in the coming frame, nothing moving.
+    /// Returns `true` if the tool is still out of reach in the coming frame, provided that nothing
+    /// moves.
     fn is_apart(&mut self, stroke: &Stroke) -> bool {
         let Memory { subset, reach, state, .. } = &*self.memory;
         let first = || reach.first_contact(subset, state, stroke, self.frame);
-        // Known once: nothing moves before the first contact.
+        // Computed once, because nothing moves before the first contact.
         let until = *self.apart_until.get_or_insert_with(first);
         self.frame < until
     }
 
-    /// Lets the frame of `step` pass, in which nothing moves.
+    /// Skips the frame of `step`, in which nothing moves.
     fn pass(&mut self, step: &FrameStep) {
         self.memory.before.clone_from(&self.memory.state);
         self.end_frame(step);
     }
 
-    /// Counts the frame of `step` as done and records it.
+    /// Completes the frame of `step` and records it.
     fn end_frame(&mut self, step: &FrameStep) {
         self.frame += self.span;
         if self.record == Record::Frames && self.span > 1 && !self.blocked {
@@ -272,7 +273,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Records the frames that a longer step leaves out, with objects on straight ways.
+    /// Records the frames covered by a longer step, with objects on straight paths.
     fn keep_between(&mut self, step: &FrameStep) {
         let began = self.time;
         for k in 1..=self.span {
@@ -280,7 +281,7 @@ impl<'a> Run<'a> {
             let Memory { subset, state, before, .. } = &*self.memory;
             for (own, object) in subset.objects.iter().enumerate() {
                 let (from, to) = (before.poses[own], state.poses[own]);
-                // The last one puts objects where they really are.
+                // The last frame has the exact poses.
                 self.state.poses[object.0] =
                     if k < self.span { from.towards(&to, share) } else { to };
             }
@@ -302,7 +303,7 @@ impl<'a> Run<'a> {
         });
     }
 
-    /// Notes a contact.
+    /// Records a contact.
     fn touch(&mut self, touch: &Touch) {
         let (first, with) = self.whole.pairs.bodies(touch.pair);
         if let Some(step) = &self.step {
@@ -322,12 +323,12 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Notes that `object` meets another body.
+    /// Records that `object` meets another body.
     fn meet(&mut self, object: usize, with: Body, depth: f64) {
         // Objects that the tool is set down on, or that overlap at the start, are no fault of the
         // model.
         if self.frame > 0 && self.depths.note(object, with, depth) {
-            // They were so deep already where the last frame ended.
+            // The overlap was already this deep at the end of the last frame.
             if self.trajectory.frames.len() > 1 {
                 self.trajectory.frames.pop();
             }
@@ -343,7 +344,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// What became of the job.
+    /// Completes the job and returns its trajectory.
     pub fn finish(mut self) -> Trajectory {
         self.doubt();
         let motion = self.job.motion.slide();
@@ -379,8 +380,8 @@ impl Walk for Run<'_> {
         found.touches.iter().for_each(|touch| self.touch(touch));
     }
 
-    /// Applies the frame's motions; a state that is not finite ends the job at the last good
-    /// one, with a warning.
+    /// Applies the frame's motions. A state that is not finite ends the job at the last finite one,
+    /// with a warning.
     fn advance(&mut self, motions: &[Motion]) {
         let Some(step) = self.step else { return };
         self.pressing.begin();

@@ -1,16 +1,16 @@
 //! Settings of a rollout.
 
-/// How finely a rollout goes, and whether it looks at everything.
+/// Resolution and pruning of a rollout.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RollSettings {
-    /// Frames of a moving tool (see [`crate::scene::FRAME_TRAVEL`]) that are predicted as one,
-    /// at least 1. The states between are interpolated, so that a trajectory has the same
-    /// frames whatever the stride.
+    /// Number of frames of a moving tool (see [`crate::scene::FRAME_TRAVEL`]) predicted as one, at
+    /// least 1. The states between are interpolated, so that a trajectory has the same frames for
+    /// every stride.
     pub stride: usize,
-    /// Whether bodies that the motion cannot reach, not even through others, and frames in
-    /// which nothing can touch are left out. The results are the same bits.
+    /// Whether to skip frames without possible contact, and bodies that the motion cannot reach,
+    /// not even through others. The results are bitwise equal.
     pub pruned: bool,
-    /// Most objects that may be awake in a frame whose prior is corrected.
+    /// Maximum number of awake objects in a frame that the network corrects.
     pub corrected: usize,
 }
 

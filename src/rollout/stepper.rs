@@ -1,4 +1,4 @@
-//! One frame of many rollouts side by side: solved, corrected by the network, applied.
+//! A frame of many rollouts side by side: solution, correction by the network, integration.
 
 use crate::{
     contact::{Frame, FrameProblem, FrameSolver, ListIndex, Motion, Tally, Touch},
@@ -6,50 +6,50 @@ use crate::{
     outcome::Spread,
 };
 
-/// Corrects the prior of every node of a batch: fills the vector with one entry per node.
+/// A correction of every node of a batch: fills the vector with one entry per node.
 pub type Corrector<'a> = dyn FnMut(&Batch, &mut Vec<Correction>) + 'a;
 
-/// What goes on frame by frame.
+/// A simulation that advances frame by frame.
 pub trait Walk {
-    /// The frame to compute now; `None` when there is none any more.
+    /// Returns the next frame to compute; `None` at the end.
     fn next(&mut self) -> Option<FrameProblem<'_>>;
 
-    /// Takes note of what the equations of the frame found, before anything moves.
+    /// Receives the solution of the frame's equations before anything moves.
     fn note(&mut self, _found: Found<'_>) {}
 
-    /// Goes on by the frame, every object by its one of `motions`.
+    /// Advances by the frame; `motions` has one entry for every object.
     fn advance(&mut self, motions: &[Motion]);
 }
 
-/// What the equations of a frame found.
+/// Solution of the equations of a frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Found<'a> {
-    /// How many objects are awake.
+    /// Number of awake objects.
     pub awake: usize,
-    /// Relations of the frame's graph; none where nothing corrects the prior.
+    /// Number of relations of the frame's graph; zero without correction.
     pub relations: usize,
-    /// What touches, or comes to.
+    /// Contacts that are closed or close in the frame.
     pub touches: &'a [Touch],
-    /// What the frame adds to the error that is expected at the end, of corrected objects.
+    /// Contributions of the frame to the expected final error, for corrected objects.
     pub doubts: &'a [(ListIndex, Spread)],
 }
 
-/// Steps many walks by a frame at a time, on memory that it keeps from one step to the next.
+/// Advances many walks by one frame at a time, on memory that it keeps from one step to the next.
 #[derive(Clone, Debug)]
 pub struct Stepper {
     most: usize,
     solver: FrameSolver,
     batch: Batch,
     corrections: Vec<Correction>,
-    /// Of every walk.
+    /// Frame of every walk.
     frames: Vec<Frame>,
     steps: Vec<Step>,
 }
 
-/// What a walk does in a frame.
+/// The step of a walk in a frame.
 #[derive(Clone, Debug, Default)]
 struct Step {
-    /// Whether it has one.
+    /// Whether the walk has a frame.
     walking: bool,
     motions: Vec<Motion>,
     touches: Vec<Touch>,
@@ -59,7 +59,7 @@ struct Step {
 }
 
 impl Stepper {
-    /// A stepper that corrects frames in which at most `most` objects are awake.
+    /// Creates a stepper that corrects frames with at most `most` awake objects.
     pub fn correcting(most: usize) -> Self {
         Self {
             most,
@@ -71,16 +71,16 @@ impl Stepper {
         }
     }
 
-    /// What the equations of all frames so far took.
+    /// Returns the solver statistics of all frames so far.
     pub fn tally(&self) -> Tally {
         self.solver.tally()
     }
 
-    /// Takes every walk that has a frame left on by that frame, all graphs in one batch; returns
-    /// whether any had.
+    /// Advances every walk that has a frame left, with all graphs in one batch. Returns `true` if
+    /// any walk had a frame.
     ///
-    /// Walks do not influence each other; they only share the network's batch. Without anything
-    /// to `correct` the prior no graphs are built.
+    /// Walks do not influence each other; they only share the network's batch. Without `correct` no
+    /// graphs are built.
     pub fn step<W: Walk>(
         &mut self,
         walks: &mut [W],
@@ -101,7 +101,7 @@ impl Stepper {
             let Some(problem) = *problem else { continue };
             let relations = batch.relation_count();
             let (frame, forces) = solver.finish(problem, frame, most);
-            // It has not learnt of joints to the world.
+            // The network was not trained with joints to the world.
             let learnt = correct.is_some() && frame.bodies.mounts.is_empty();
             if let Some(forces) = forces.filter(|_| learnt) {
                 batch.add(graph as u32, &frame, &forces);
@@ -129,7 +129,7 @@ impl Stepper {
     }
 }
 
-/// Puts the corrected motion of every node in its graph's list.
+/// Writes the corrected motion of every node into the list of its graph.
 fn apply(batch: &Batch, corrections: &[Correction], steps: &mut [Step]) {
     for (node, correction) in batch.nodes.iter().zip(corrections) {
         let mut output = node.prior;

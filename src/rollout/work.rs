@@ -1,32 +1,32 @@
-//! What rollouts took: how many frames, and how many of them needed a graph.
+//! Cost of rollouts: the number of frames, and of frames that needed a graph.
 
 use serde::{Deserialize, Serialize};
 
-/// Frames, graphs and nodes of many rollouts.
+/// Numbers of frames, graphs and nodes of many rollouts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Work {
-    /// Rollouts.
+    /// Number of rollouts.
     pub rollouts: u64,
-    /// Frames in which the tool moves.
+    /// Number of frames in which the tool moves.
     pub moving: u64,
-    /// Those of them that geometry alone showed to change nothing.
+    /// Number of moving frames skipped because geometry alone excludes any change.
     pub skipped: u64,
-    /// Frames in which the tool stands still and objects come to rest.
+    /// Number of frames in which the tool stands still while objects decelerate.
     pub coasting: u64,
-    /// Frames with a graph, or only its prior: something is pushed, or moves near something else.
+    /// Number of frames with an awake object: one that is pushed, or moves near another body.
     pub graphs: u64,
-    /// Objects in all of them.
+    /// Number of nodes of all graphs.
     pub nodes: u64,
-    /// Relations of all graphs.
+    /// Number of relations of all graphs.
     pub relations: u64,
-    /// Lists made of what a stroke can set in motion.
+    /// Number of lists of bodies that a stroke can set in motion.
     pub lists: u64,
-    /// Objects on those lists.
+    /// Number of objects on these lists.
     pub listed: u64,
 }
 
 impl Work {
-    /// Adds another's numbers.
+    /// Adds the numbers of `other`.
     pub fn add(&mut self, other: &Work) {
         self.rollouts += other.rollouts;
         self.moving += other.moving;

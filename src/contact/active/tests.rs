@@ -1,4 +1,4 @@
-//! Sets of contacts against the iteration that approaches them, and against the laws of contacts.
+//! The active-set method against the iterative method, and against the contact laws.
 
 use super::*;
 use pushplan_kernel::{Tally, settings::ROUNDS};
@@ -8,14 +8,14 @@ use nalgebra::Matrix3;
 use crate::contact::{approach::Approach, constraint::Law, twist::along};
 use crate::geometry::{Vector, perpendicular};
 
-/// Numbers from -1 to 1 that look random.
+/// Pseudo-random numbers from -1 to 1.
 fn noise(seed: &mut u64) -> f64 {
     *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
     (*seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
 }
 
-/// Four bodies of a few centimetres, of which each touches the next in two points and the first is
-/// pushed; two of them are joined where `jointed`.
+/// Four bodies of a few centimetres, each touching the next in two points, of which the first is
+/// pushed. Two of them are joined if `jointed`.
 fn frame(seed: u64, jointed: bool) -> (Vec<Unknown>, Vec<Constraint>, Vec<Tie>) {
     let seed = &mut seed.wrapping_mul(0x9E37_79B9_7F4A_7C15);
     let mut unknowns = vec![Unknown::default(); 4];
@@ -84,11 +84,11 @@ fn a_search_that_goes_in_circles_ends() {
     let lost = all.filter_map(|(found, .., tally)| (!found).then_some(tally.rounds));
     let rounds: Vec<u64> = lost.collect();
     let early = rounds.iter().filter(|&&rounds| rounds < ROUNDS as u64).count();
-    // 8 of the 18 that are not found; the others go from one set to the next to the end.
+    // 8 of the 18 failures; the others change their set until the last round.
     assert!(early >= 6, "{rounds:?}");
 }
 
-/// Ten steps at a time the iteration goes where the set is at once.
+/// The iteration converges to the solution of the active set, ten steps at a time.
 #[test]
 fn the_set_is_what_the_iteration_approaches() {
     let (mut found, mut far) = (0, 0);
@@ -107,7 +107,7 @@ fn the_set_is_what_the_iteration_approaches() {
             far += usize::from(off > 1e-4);
         }
     }
-    // Where little decides what slips, the iteration needs thousands of steps.
+    // Nearly undetermined slipping takes the iteration thousands of steps.
     assert!(found >= 80 && far <= 8, "{found} of 100 found, {far} of their bodies far off");
 }
 
@@ -116,7 +116,7 @@ fn what_was_found_keeps_every_law() {
     for (seed, jointed) in (0..100).map(|k| (k, k % 2 == 1)) {
         let Some((_, constraints)) = solved(seed, jointed) else { continue };
         for Constraint { force, value, target, give, .. } in constraints {
-            // By how much a force gives way is no error.
+            // The additional compliance of a force is no error.
             let left = Vector2::from(target) - value - force * give;
             assert!(force.x >= 0.0 && force.y.abs() <= 0.3 * force.x * (1.0 + 1e-9));
             assert!(left.x < 1e-9, "{seed}: {left}");

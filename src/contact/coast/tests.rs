@@ -41,7 +41,7 @@ fn with_spin_it_agrees_with_a_fine_integration() {
     for duration in [0.02, 0.05] {
         agrees_with_a_fine_integration(duration, 1e-3);
     }
-    // Long enough to come to rest.
+    // A duration long enough to come to rest.
     agrees_with_a_fine_integration(0.4, 1e-4);
 }
 

@@ -1,4 +1,4 @@
-//! Joints eliminated against all equations solved at once.
+//! Eliminated joints against all equations solved at once.
 
 use super::*;
 
@@ -8,14 +8,14 @@ use crate::geometry::{Vector, perpendicular};
 
 use super::super::twist::along;
 
-/// Numbers from -1 to 1 that look random.
+/// Pseudo-random numbers from -1 to 1.
 fn noise(seed: &mut u64) -> f64 {
     *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
     (*seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
 }
 
-/// Seven groups: a tree of five, in no order, one by itself, and one more; if they are `held`, a leaf of
-/// the tree and the one by itself are tied to the world.
+/// Seven groups: a tree of five in no order, and two single ones. If `held`, a leaf of the tree and
+/// one single group are tied to the world.
 fn forest(seed: &mut u64, held: bool) -> (Vec<Unknown>, Vec<Tie>) {
     let unknowns = (0..7).map(|_| {
         let root = Matrix3::from_fn(|_, _| noise(seed));
@@ -48,7 +48,7 @@ fn forest(seed: &mut u64, held: bool) -> (Vec<Unknown>, Vec<Tie>) {
     (unknowns, ties)
 }
 
-/// Against all equations at once: [A J^T; J 0].
+/// Compares with all equations at once: [A J^T; J 0].
 #[test]
 fn the_tree_answers_as_all_equations_at_once_do() {
     for (seed, held) in (1..40).map(|k| (k / 2, k % 2 == 1)) {

@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// Numbers that look random.
+/// Pseudo-random numbers.
 fn noise(seed: &mut u64) -> f64 {
     *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
     (*seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
@@ -35,7 +35,7 @@ fn agree<const N: usize>() {
     let mut solved = 0;
     for round in 0..100 {
         let mut matrix: Vec<f64> = (0..N * (N + 1)).map(|_| noise(&mut seed)).collect();
-        // Every other time some are zero, as where groups do not touch.
+        // Every other time some entries are zero, like for groups that do not touch.
         let zeros = if round % 2 == 0 { 0 } else { matrix.len() };
         matrix.iter_mut().skip(1).step_by(5).take(zeros).for_each(|entry| *entry = 0.0);
         let lines = || matrix.chunks_exact(N + 1);

@@ -1,4 +1,5 @@
-//! Frames in lanes against the same frames one by one and by the general equations, to the bit.
+//! Frames in lanes against the same frames one by one and against the general equations, to the
+//! bit.
 
 use pushplan_kernel::{LoneSolution, MANY, Motion, Tally};
 
@@ -16,7 +17,7 @@ use crate::{
     task::FrameStep,
 };
 
-/// Numbers from -1 to 1 that look random.
+/// Pseudo-random numbers from -1 to 1.
 struct Noise(u64);
 
 impl Noise {
@@ -32,7 +33,7 @@ impl Noise {
     }
 }
 
-/// A frame in which an object is near a tool, and every fourth time between that and a wall.
+/// A frame with an object near a tool, and every fourth time between the tool and a wall.
 struct Drawn {
     bodies: Bodies,
     state: State,
@@ -93,7 +94,7 @@ impl Drawn {
     }
 }
 
-/// Everything in a frame's solution, bit by bit.
+/// Returns all bits of a frame's solution.
 fn bits(solution: &LoneSolution) -> Vec<u64> {
     let LoneSolution { motion, normal, pressed, effort, .. } = solution;
     let motion = motion.iter().flat_map(|motion| {
@@ -107,7 +108,7 @@ fn bits(solution: &LoneSolution) -> Vec<u64> {
     all.map(f64::to_bits).collect()
 }
 
-/// The frames of these seeds that have a lone object in contact.
+/// Returns the frames of these seeds that have a lone object in contact.
 fn woken(drawn: &[Drawn]) -> (Vec<Option<FrameProblem<'_>>>, Vec<Frame>) {
     drawn
         .iter()
@@ -141,7 +142,7 @@ fn a_frame_is_the_same_bits_beside_any_others() {
     let order: Vec<usize> = (0..frames.len()).collect();
     let (alone, took) = solved(1, &problems, &mut frames, &order);
     assert!(alone.len() > 300, "{} frames", alone.len());
-    // Every frame comes with others that have another number of contacts, and some lanes stay
+    // Every frame is combined with others that have another number of contacts, and some lanes stay
     // empty.
     let steps = [1, 7, 11].map(|step| {
         let place = |k: usize| k * step % order.len();

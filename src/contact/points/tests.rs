@@ -1,4 +1,4 @@
-//! Contacts that are found again in the pieces of a frame.
+//! Contacts found again in the substeps of a frame.
 
 use super::*;
 use crate::{
@@ -8,7 +8,7 @@ use crate::{
 };
 use pushplan_kernel::Motion;
 
-/// Eleven boxes and cans, a wall and a bar, everything a little moved since contacts were found.
+/// Eleven boxes and cans, a wall and a bar, all slightly moved since contacts were found.
 #[test]
 fn pairs_that_cannot_have_come_near_are_left_out_for_the_same_contacts() {
     let objects = (0..11).map(|k| {

@@ -1,4 +1,4 @@
-//! Frames whose answer is known in closed form, or by symmetry.
+//! Frames with a solution known in closed form or by symmetry.
 
 use super::*;
 use crate::{
@@ -17,12 +17,12 @@ fn can(x: f64, y: f64) -> Object {
     Object { shape: Shape::Cylinder { radius: 0.03, height: 0.1 }, ..cuboid(x, y) }
 }
 
-/// Pushed at the table's height, so that the load stays where it is.
+/// Pushed at the table's height, so that the load does not move.
 fn table(objects: Vec<Object>) -> Scene {
     Scene { push_height: Some(0.0), ..Scene::new(objects) }
 }
 
-/// The motions of one slow frame in which a round finger of 2 cm, its far side touching the
+/// Returns the motions of one slow frame in which a round finger of 2 cm, its far side touching the
 /// line x = 0, moves by `travel`.
 fn prior(scene: &Scene, travel: Vector) -> Vec<Motion> {
     let to = Pose { position: travel, heading: 0.0 };
@@ -34,7 +34,7 @@ fn prior(scene: &Scene, travel: Vector) -> Vec<Motion> {
     prior.motions
 }
 
-/// Does what is to be done `with` a frame of that finger.
+/// Calls `with` with a frame of that finger.
 fn in_frame(
     scene: &Scene,
     state: &State,
@@ -75,7 +75,7 @@ fn a_push_through_the_centre_only_shifts() {
 }
 
 /// A slow push at one point that sticks: friction over the whole underside and the force at that
-/// point balance, as forces and as torques (Goyal, Ruina and Papadopoulos 1991).
+/// point balance, in forces and in torques (Goyal, Ruina and Papadopoulos 1991).
 #[test]
 fn an_off_centre_push_that_sticks_balances_friction_under_even_pressure() {
     let scene = table(vec![cuboid(0.03, -0.01)]);
@@ -90,7 +90,7 @@ fn an_off_centre_push_that_sticks_balances_friction_under_even_pressure() {
         force += drag;
         torque += cross(at, drag);
     }
-    // Off by the arm of a millimetre.
+    // The tolerance is the torque of an arm of a millimetre.
     assert!((torque - cross(arm, force)).abs() < 1e-3 * force.norm(), "{torque} {force}");
     assert!(motion.turn < -0.01, "{motion:?}");
 }
@@ -99,11 +99,11 @@ fn an_off_centre_push_that_sticks_balances_friction_under_even_pressure() {
 fn a_sliding_contact_moves_the_object_along_the_edge_of_the_friction_cone() {
     let slippery = |object: Object| Object { friction: 0.0, ..object };
     let scene = Scene { table_friction: 1.0, ..table(vec![slippery(can(0.03, 0.0))]) };
-    // Short, as the contact moves round the disc.
+    // Short, because the contact moves around the disc.
     let travel = Vector::new(0.0002, 0.0003);
     let [motion] = prior(&scene, travel)[..] else { panic!("one object") };
-    // Coefficient 0.25 with the finger's 0.5; a disc's rim also turns, which takes no
-    // displacement from its centre.
+    // Coefficient 0.25 with the finger's 0.5; a disc's rim also rotates, which needs no
+    // displacement of its centre.
     assert!((motion.shift.y / motion.shift.x - 0.25).abs() < 0.01, "{motion:?}");
     assert!((motion.shift.x - travel.x).abs() < 2.5e-6, "{motion:?}");
 }
@@ -112,7 +112,7 @@ fn a_sliding_contact_moves_the_object_along_the_edge_of_the_friction_cone() {
 fn a_row_is_pushed_through_to_its_end() {
     let row = (0..4).map(|k| can(0.03 + 0.06 * f64::from(k), 0.0)).collect();
     for motion in prior(&table(row), Vector::new(0.01, 0.0)) {
-        // Contacts give way by a share of the load, here that of four cans.
+        // Contacts yield by a share of the load, here the load of four cans.
         assert!((motion.shift - Vector::new(0.01, 0.0)).norm() < 8e-4, "{motion:?}");
     }
 }
@@ -161,8 +161,8 @@ fn a_revolute_pair_keeps_its_anchor_and_a_prismatic_one_its_line() {
     }
 }
 
-/// Two boxes that turn while they are pushed: frames begun from the ones before end like frames begun
-/// from nothing.
+/// Two boxes that rotate while they are pushed: frames with and without warm start have the same
+/// result.
 #[test]
 fn where_a_frame_begins_from_makes_it_shorter_and_no_other() {
     let scene = table(vec![cuboid(0.03, -0.02), cuboid(0.091, 0.03)]);
@@ -203,8 +203,8 @@ fn where_a_frame_begins_from_makes_it_shorter_and_no_other() {
     assert!(5 * followed < 4 * alone, "{followed} {alone}");
 }
 
-/// What is pushed steadily has no need of its momentum: its motion is that of friction alone,
-/// though it would come to rest within a frame if the tool left it.
+/// A steadily pushed object does not depend on its momentum: its motion is determined by friction
+/// alone, though it would come to rest within a frame if the tool left it.
 #[test]
 fn what_a_steady_push_does_is_what_friction_makes_of_it() {
     let long =
@@ -231,8 +231,8 @@ fn what_a_steady_push_does_is_what_friction_makes_of_it() {
     }
 }
 
-/// Two feet that both move drag alike, with no torque that would balance a push beside the middle.
-/// So one of them stands: the far one.
+/// Two feet that both move drag equally, without a torque that would balance an eccentric push. One
+/// of them, the far one, therefore stands still.
 #[test]
 fn a_rod_on_two_feet_turns_about_the_far_one() {
     let feet = [0.09, -0.09].map(|y| Vector::new(0.0, y));
@@ -246,7 +246,7 @@ fn a_rod_on_two_feet_turns_about_the_far_one() {
     }
 }
 
-/// The feet of a long box, as they lie half-way, balance a push at its end.
+/// The feet of a long box at half the motion balance a push at its end.
 #[test]
 fn four_feet_half_way_balance_a_push_that_turns_the_box() {
     let long =
@@ -266,6 +266,6 @@ fn four_feet_half_way_balance_a_push_that_turns_the_box() {
     // The finger's own point, along the face's normal from its middle.
     let finger = Vector::new(-0.01, 0.0) + travel / 2.0 + half.of(Vector::new(0.01, 0.0));
     let arm = finger - (Vector::new(0.02, -0.08) + motion.shift / 2.0);
-    // Off by the arm of a millimetre.
+    // The tolerance is the torque of an arm of a millimetre.
     assert!((torque - cross(arm, force)).abs() < 1e-3 * force.norm(), "{torque} {force}");
 }

@@ -9,7 +9,7 @@ use crate::{
 };
 use pushplan_kernel::Motion;
 
-/// A can far off, one that a bar touches and one behind that.
+/// A distant can, a can that a bar touches, and one behind it.
 fn scene() -> Scene {
     let can = |x: f64| {
         Object::cylinder(format!("{x}"), 0.03, 0.1).mass(0.5).friction(0.5).at(x, 0.0, 0.0)
@@ -23,7 +23,7 @@ fn bodies(scene: &Scene) -> Bodies {
     Bodies::new(scene, &tool, 0.002, &Physics::stated(scene))
 }
 
-/// Slow, so that friction with the table is nearly all that resists.
+/// Slow, so that table friction is nearly the only resistance.
 fn step(travel: f64) -> FrameStep {
     FrameStep { from: Pose::default(), to: Pose::new(travel, 0.0, 0.0), duration: 0.5 }
 }

@@ -26,7 +26,7 @@ fn what_is_taken_keeps_its_joints_and_groups_under_new_numbers() {
     subset.gather(&whole);
     assert_eq!(subset.bodies.groups.members, whole.groups.members);
     assert_eq!(subset.bodies.mechanisms, whole.mechanisms);
-    // Fewer than before, so that leftovers of the last time would show.
+    // Fewer than before, so that remains of the previous list would be visible.
     subset.objects = [2, 3, 4, 5].map(SceneIndex).to_vec();
     subset.parts.clear();
     subset.gather(&whole);

@@ -10,13 +10,13 @@ use crate::outcome::{
 use crate::scene::{Joint, LeverScene, ModelSpec, PairFriction, Plate, Scene, Support, Surface};
 use crate::task::{Job, LeverJob, LeverMotion, LeverUp, Motion, lever_frame};
 
-/// Distance from its frame to which an object comes that turns over its far corner, in distances of its
-/// farthest corner.
+/// Radius in which neighbours of a levered object matter, relative to the distance of its farthest
+/// corner: the distance that an object reaches if it turns over its far corner.
 const TURNED: f64 = 3.0;
 
-/// Returns the lever-up of a job, of its object as the first of those that it may come near to; `None` for
-/// a motion in the plane, for an object that lies elsewhere than in the scene, and for a tool without a
-/// blade.
+/// Returns the lever-up of a job, with its object first, followed by the objects that it may come
+/// near. Returns `None` for a motion in the plane, for an object that is not where the scene states
+/// it, and for a tool without a blade.
 fn lever_job(scene: &Scene, job: &Job) -> Option<LeverJob> {
     let Motion::Lever(LeverMotion { lever, expected: None, .. }) = &job.motion else { return None };
     if job.start.space.is_some() || !job.motion.fits(scene) || !is_plain(scene, lever.plate, job) {
@@ -35,8 +35,8 @@ fn lever_job(scene: &Scene, job: &Job) -> Option<LeverJob> {
     Some(LeverJob { scene: Arc::new(around), lever: LeverUp { plate: 0, ..*lever } })
 }
 
-/// Returns `true` if an object is of one density and friction, held by nothing, on its corners or its underside, and
-/// rubs as its friction value has it.
+/// Returns `true` if an object is free, has one density and friction, rests on its corners or its
+/// underside, and has no pair-specific friction.
 fn is_plain(scene: &Scene, object: usize, job: &Job) -> bool {
     let solids: Vec<usize> = scene.parts_of(object).chain([object]).collect();
     let even = |k: &usize| {
@@ -59,7 +59,7 @@ fn is_plain(scene: &Scene, object: usize, job: &Job) -> bool {
         && plate.weight_of(&masses) == plate.weight()
 }
 
-/// Returns the trust of a model that takes the lever-ups that it `knows` and no other motion.
+/// Returns the trust in a model that accepts the lever-ups that it `knows` and no other motion.
 pub(super) fn trust(scene: &Scene, job: &Job, knows: impl Fn(&LeverJob) -> bool) -> Trust {
     match lever_job(scene, job).filter(knows) {
         Some(_) => Trust::Mine { error: None, warnings: Vec::new() },
@@ -89,7 +89,8 @@ pub(super) fn rollout(
     jobs.iter().zip(&levers).map(each).collect()
 }
 
-/// Returns a predicted lever-up as a trajectory of the whole scene, in which no other object moves.
+/// Converts a predicted lever-up into a trajectory of the whole scene, in which no other object
+/// moves.
 fn trajectory(
     by: ModelSpec,
     (scene, lever, job): (&Scene, &LeverUp, &LeverJob),

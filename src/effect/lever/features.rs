@@ -1,21 +1,21 @@
-//! What is told of a plate's shape, in numbers of a fixed count.
+//! Features of a plate's shape, with a fixed count.
 
 use crate::geometry::Vector;
 use crate::{scene::LeverFeatures, task::LeverJob};
 
 use super::LeverView;
 
-/// Points of the outline that a shape context counts.
+/// Number of outline points in a shape context.
 const POINTS: usize = 500;
 
-/// The outermost ring ends at this distance, log(1 + r) in mean distances of the corners.
+/// Outer end of the outermost ring, log(1 + r) in mean distances of the corners.
 const FARTHEST: f64 = 2.2;
 
 /// Unit of lengths, metres: the size of a plate.
 const LENGTH: f64 = 0.1;
 
-/// The features of a job's plate as seen in `view`: lengths in tenths of a metre,
-/// shares from 0 to 1.
+/// Returns the features of a job's plate in `view`: lengths in tenths of a metre, shares from 0 to
+/// 1.
 pub fn lever_features(features: LeverFeatures, job: &LeverJob, view: &LeverView) -> Vec<f32> {
     match features {
         LeverFeatures::Nothing => Vec::new(),
@@ -26,8 +26,8 @@ pub fn lever_features(features: LeverFeatures, job: &LeverJob, view: &LeverView)
     }
 }
 
-/// What is told of the lever-up itself: depth, pivot, angle, thickness, friction with table and
-/// blade.
+/// Returns the features of the lever-up itself: depth, pivot, angle, thickness, friction with table
+/// and blade.
 pub fn lever_action(job: &LeverJob) -> [f32; LeverFeatures::ACTION] {
     let LeverJob { scene, lever } = job;
     let plate = &scene.plates[lever.plate];
@@ -43,7 +43,7 @@ pub fn lever_action(job: &LeverJob) -> [f32; LeverFeatures::ACTION] {
     .map(|value| value as f32)
 }
 
-/// The corners as seen, counter-clockwise from the end of the levered edge, metres.
+/// Returns the corners in the view, counter-clockwise from the end of the levered edge, metres.
 fn outline(job: &LeverJob, view: &LeverView) -> Vec<Vector> {
     let corners = job.scene.plates[job.lever.plate].corners();
     let (count, edge) = (corners.len(), job.lever.place.edge);
@@ -54,7 +54,7 @@ fn outline(job: &LeverJob, view: &LeverView) -> Vec<Vector> {
 fn corners(job: &LeverJob, view: &LeverView) -> Vec<f32> {
     let outline = outline(job, view);
     let (count, most) = (outline.len(), LeverFeatures::CORNERS);
-    // The last corner, where the levered edge begins, stands for those that are missing.
+    // Missing corners are replaced by the last one, at which the levered edge begins.
     let nth = |k: usize| if count > most { k * count / most } else { k.min(count - 1) };
     let mut told: Vec<f32> = (0..most).flat_map(|k| pair(outline[nth(k)])).collect();
     told.extend(pair(view.point(job, Vector::zeros())));
@@ -83,8 +83,9 @@ fn pair(at: Vector) -> [f32; 2] {
     [(at.x / LENGTH) as f32, (at.y / LENGTH) as f32]
 }
 
-/// Shares of [`POINTS`] points at even distances along an outline in rings and wedges about the
-/// origin (Belongie, Malik and Puzicha 2002; here the inward half-plane), times their number of bins.
+/// Returns the shares of [`POINTS`] points at even distances along an outline in rings and wedges
+/// about the origin, times the number of bins. The shape context of Belongie, Malik and Puzicha
+/// 2002, here over the inward half-plane.
 fn shape_context(outline: &[Vector]) -> Vec<f32> {
     let [rings, wedges] = LeverFeatures::BINS;
     let mut counts = vec![0.0; rings * wedges];

@@ -1,4 +1,4 @@
-//! What a network is told of a lever-up, and to what it adds.
+//! Inputs of the lever-up network, and the baseline that it corrects.
 
 use crate::network::{LEVER_POSE, LeverSizes, LeverTold};
 use crate::{
@@ -9,31 +9,31 @@ use crate::{
 
 use super::{LeverView, lever_action, lever_features};
 
-/// Unit of ways that the network predicts, metres.
+/// Unit of predicted displacements, metres.
 const WAY: f64 = 0.05;
 
-/// Unit of where the blade's tip is, metres: how far it goes under an edge.
+/// Unit of the blade tip's position, metres: its depth under an edge.
 const TIP: f64 = 0.02;
 
-/// Frames of the prior whose ways are told from the first step on, so that it knows what comes: when
-/// the prior slips a little too late, the correction must begin before.
+/// Frames of the analytic model whose displacements are inputs from the first step on. If the
+/// analytic model slips slightly too late, the correction must begin earlier.
 const AHEAD: [usize; 5] = [2, 5, 8, 11, 14];
 
-/// A lever-up in numbers.
+/// A lever-up as network inputs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeverInputs {
-    /// Features of the whole, `[S]`.
+    /// Features of the lever-up, `[S]`.
     pub still: Vec<f32>,
-    /// Features of every frame: [T, M].
+    /// Features of every frame, [T, M].
     pub moving: Vec<f32>,
-    /// What predictions are added to: poses `[T, 9]` and that at rest, `[9]`.
+    /// Baseline of the predictions: poses `[T, 9]` and the pose at rest, `[9]`.
     pub base: Vec<f32>,
 }
 
 impl LeverInputs {
-    /// Widths of the inputs, with a hidden state of `width`.
+    /// Returns the widths of the inputs, with a hidden state of `width`.
     pub fn sizes(features: LeverFeatures, prior: bool, width: usize) -> LeverSizes {
-        // Slip, endings, rest, what comes, and how long it is held.
+        // Slip, endings, rest, displacements ahead, and duration of contact.
         let whole = if prior { 4 + LEVER_POSE + 3 * AHEAD.len() + 1 } else { 0 };
         LeverSizes {
             still: LeverFeatures::ACTION + features.count() + whole,
@@ -44,17 +44,17 @@ impl LeverInputs {
         }
     }
 
-    /// The numbers of a pose in the unit of predictions.
+    /// Converts a pose into the units of predictions.
     pub fn told(seen: [f64; LEVER_POSE]) -> [f32; LEVER_POSE] {
         std::array::from_fn(|k| (seen[k] / unit(k)) as f32)
     }
 
-    /// The pose behind such numbers.
+    /// Converts predictions into a pose.
     pub fn seen(told: &[f32]) -> [f64; LEVER_POSE] {
         std::array::from_fn(|k| f64::from(told[k]) * unit(k))
     }
 
-    /// What a network that said so says of the job, with what it corrects.
+    /// Combines a network prediction with the baseline that it corrects.
     pub fn answer(
         &self,
         told: &LeverTold,
@@ -85,7 +85,8 @@ impl LeverInputs {
     }
 }
 
-/// The inputs of a job, with what the prior says of it if that is corrected.
+/// Returns the inputs of a job, with the prediction of the analytic model if the network corrects
+/// it.
 pub fn lever_inputs(
     features: LeverFeatures,
     job: &LeverJob,
@@ -125,7 +126,7 @@ pub fn lever_inputs(
     LeverInputs { still, moving, base }
 }
 
-/// Unit of a pose's number `k`: its way comes first.
+/// Returns the unit of number `k` of a pose, whose displacement comes first.
 fn unit(k: usize) -> f64 {
     if k < 3 { WAY } else { 1.0 }
 }

@@ -1,6 +1,6 @@
-//! Lever-ups as effect models predict them.
+//! Effect models of lever-ups.
 //!
-//! Prior and network follow one object through one lever-up; both are an
+//! The analytic model and the network predict one object during one lever-up; both are an
 //! [`EffectModel`](super::EffectModel) that declines every other motion.
 
 mod courses;

@@ -14,23 +14,23 @@ use crate::task::{Job, LeverJob};
 
 use super::{LeverInputs, LeverPrior, PriorSettings, courses, lever_inputs};
 
-/// Why weights of lever-ups cannot be used.
+/// Reason why weights of lever-ups cannot be used.
 #[derive(Debug, Error)]
 pub enum LeverNetworkError {
-    /// They cannot be read, or are no such weights.
+    /// Weights that cannot be read, or do not belong to a lever-up network.
     #[error("{path}: {error}")]
     Weights {
-        /// Of the file.
+        /// Path of the file.
         path: String,
-        /// Why.
+        /// Error of the file.
         error: WeightsError,
     },
-    /// They are told other features than these.
+    /// Weights whose input widths contradict their card.
     #[error("the weights have other inputs than their card says")]
     Inputs,
 }
 
-/// A network, alone or as a correction of the prior.
+/// A network, alone or as a correction of the analytic model.
 #[derive(Clone, Debug)]
 pub struct LeverNetwork {
     cell: LeverCell,
@@ -39,13 +39,13 @@ pub struct LeverNetwork {
 }
 
 impl LeverNetwork {
-    /// What is corrected.
+    /// Analytic model that the network corrects.
     pub const PRIOR: LeverPrior = LeverPrior { settings: PriorSettings::CORRECTED };
 
-    /// Of these weights.
+    /// Creates a network with these weights.
     ///
     /// # Errors
-    /// [`LeverNetworkError::Inputs`] if their widths do not fit what the card says they are told.
+    /// [`LeverNetworkError::Inputs`] if their input widths contradict the card.
     pub fn new(weights: &LeverWeights) -> Result<Self, LeverNetworkError> {
         let card = &weights.card;
         let sizes = LeverInputs::sizes(card.features, card.prior, card.sizes.width);
@@ -59,10 +59,10 @@ impl LeverNetwork {
         })
     }
 
-    /// The shipped network.
+    /// Returns the shipped network.
     ///
     /// # Errors
-    /// [`LeverNetworkError`] if the library was built around a damaged file.
+    /// [`LeverNetworkError`] if the library contains a damaged file.
     pub fn shipped() -> Result<Self, LeverNetworkError> {
         let weights = LeverWeights::from_bytes(pushplan_models::LEVER).map_err(|error| {
             LeverNetworkError::Weights { path: "lever.safetensors".to_owned(), error }
@@ -85,14 +85,14 @@ impl LeverNetwork {
         inputs.answer(&told, job, prior)
     }
 
-    /// Returns a name that tells networks of a comparison apart.
+    /// Returns a name that distinguishes the networks of a comparison.
     pub fn describe(&self) -> String {
         let prior = if self.prior.is_some() { "prior + " } else { "" };
         let feedback = if self.cell.feeds_back() { ", fed back" } else { "" };
         format!("{prior}LSTM, {}{feedback}", self.features)
     }
 
-    /// Returns `true` for the lever-ups that it has learned: of plates on a plain table.
+    /// Returns `true` for a learned kind of lever-up: a single plate on a plain table.
     pub fn knows(&self, job: &LeverJob) -> bool {
         job.scene.plates.len() == 1 && job.scene.blocks.is_empty()
     }

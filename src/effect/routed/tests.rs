@@ -9,7 +9,7 @@ use crate::{
 
 use super::*;
 
-/// A row of three cans, and one far from them; a push into the row, and one of the can alone.
+/// A row of three cans, and one far from them; a push into the row, and a push of the single can.
 fn row() -> (Scene, [Job; 2]) {
     let can = |x: f64, y: f64| Object {
         mass: 0.5,
@@ -45,7 +45,7 @@ fn pushes_into_a_crowd_are_simulated_and_those_beside_it_are_not() {
     let mixed = roll(&model);
     assert_eq!([&mixed[0], &mixed[1]], [&engine[0], &own[1]]);
     assert_eq!(mixed.iter().map(|one| one.by.to_string()).collect::<Vec<_>>(), ["planar", "prior"]);
-    // The planar engine, where it stands in, is exact; the prior is not.
+    // The 2-D engine as a substitute is exact; the analytic model is not.
     let errors = [0, 1].map(|k| model.trust(&scene, &jobs[k]).error().map(|error| error.p95));
     assert!(errors[0] == Some(0.0) && errors[1].is_some_and(|p95| p95 > 0.0), "{errors:?}");
     assert_eq!(roll(&to(3)), own);
@@ -57,7 +57,7 @@ fn routing_asks_for_the_start_of_the_job_and_not_of_the_scene() {
     let (scene, jobs) = row();
     let model = Routed::new(Arc::new(UpTo::new(Prior::default(), 2)))
         .or(Arc::new(Simulated::new(Simulator::planar())));
-    // The row has been cleared away: what the push reaches is one can.
+    // Without the row the push reaches only one can.
     let mut job = jobs[0].clone();
     for k in [1, 2] {
         job.start.poses[k].position.x += 5.0;

@@ -23,7 +23,7 @@ fn closed_forms() {
     // The square's corner at (0.02, 0.02) meets the disc 0.01 below its centre.
     near(meet(&square, &disc), 0.28 - (0.05f64.powi(2) - 0.01f64.powi(2)).sqrt());
     near(meet(&disc, &square), 0.28 - (0.05f64.powi(2) - 0.01f64.powi(2)).sqrt());
-    // A square turned by 45 degrees comes with its corner first.
+    // A square rotated by 45 degrees approaches with its corner first.
     let turned = Pose::new(0.0, 0.03, std::f64::consts::FRAC_PI_4);
     near(
         travel_to_contact((&square, &turned), Vector::x(), (&square, &at)),

@@ -100,7 +100,7 @@ fn a_triangle_meets_a_wall_with_its_side_and_a_disc_with_its_tip() {
 
 #[test]
 fn what_comes_through_a_face_comes_out_of_it_again_beside_whatever_flank() {
-    // Every corner is nearer to a flank than to the face that it came through.
+    // Every corner is nearer to a flank than to the face that it crossed.
     let square = Footprint::Rectangle { half: Vector::new(0.032, 0.032) };
     let corners = [[0.0, 0.0], [0.064, 0.0], [0.064, 0.064], [0.0, 0.064]];
     for (first, second) in [(&square, &square), (&prism(&corners), &square)] {
@@ -116,7 +116,7 @@ fn what_comes_through_a_face_comes_out_of_it_again_beside_whatever_flank() {
             }
             let (back, _) = contact_points((second, &q), (first, &p), 0.001);
             assert!(back[0].is_some_and(|point| (point.gap + 0.005).abs() < 1e-12));
-            // Asked for deep ones alone, they are found, too.
+            // Deep contacts are also found by a query for deep ones only.
             assert_eq!(contact_points((first, &p), (second, &q), -0.004).1, 2);
         }
     }

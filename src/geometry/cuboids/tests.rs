@@ -28,7 +28,7 @@ fn a_cuboid_stands_on_another_with_four_corners() {
 
 #[test]
 fn crossed_edges_touch_in_one_point() {
-    // Both turned about their edges so that these face each other, one along x, one along y.
+    // Both rotated about their edges so that the edges face each other, one along x, one along y.
     let eighth = std::f64::consts::FRAC_PI_4;
     let turned = |at: Vector3, axis| {
         Box3 {

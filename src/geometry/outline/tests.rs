@@ -3,7 +3,7 @@
 use super::*;
 use crate::geometry::Vector;
 
-/// Centre and size.
+/// Creates an extent from centre and size.
 fn extent(x: f64, y: f64, width: f64, height: f64) -> Extent {
     [[x - width / 2.0, y - height / 2.0], [x + width / 2.0, y + height / 2.0]]
 }
@@ -42,7 +42,7 @@ fn each_face_of_an_l_belongs_to_one_of_two_rectangles() {
         })
     });
     let (handle, bar) = (handle.expect("the handle"), bar.expect("the bar"));
-    // The end face is the bar's, the long back face the handle's, and none is that of both.
+    // The end face belongs to the bar, the long back face to the handle, and none to both.
     let shows = |piece: &OutlinePiece, x: f64, y: f64, normal: Vector| {
         let [from, to] = piece.extent;
         let centre = Vector::new(from[0] + to[0], from[1] + to[1]) / 2.0;
@@ -55,10 +55,10 @@ fn each_face_of_an_l_belongs_to_one_of_two_rectangles() {
         let down = -Vector::y();
         assert!(shows(handle, x, -0.04, down) && !shows(bar, x, -0.04, down), "{x}");
     }
-    // What catches a box that slides along the back.
+    // The corner that would catch a box sliding along the back.
     assert!(!shows(bar, 0.39, -0.04, -Vector::x()));
     assert!(!shows(bar, 0.39, -0.04, Vector::new(-0.8, -0.6)));
-    // The inner corner has both faces, the outer corners are corners.
+    // The inner corner has both faces, and the outer corners are corners.
     assert!(shows(bar, 0.39, 0.05, -Vector::x()) && shows(handle, 0.38, 0.04, Vector::y()));
     let outer = Vector::new(0.6, -0.8);
     assert!(shows(bar, 0.47, -0.04, outer) || shows(handle, 0.47, -0.04, outer));

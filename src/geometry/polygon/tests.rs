@@ -23,7 +23,7 @@ fn regular_polygons_have_the_moments_of_textbooks() {
     for count in 3..=MAX_CORNERS {
         let (shape, step) = (regular(count, 0.05), PI / count as f64);
         let [xx, xy, yy] = shape.second_moments();
-        // I = m R^2 (2 + cos(2 pi / n)) / 6, alike about every axis.
+        // I = m R^2 (2 + cos(2 pi / n)) / 6, equal about every axis.
         let gyration = 0.05 * 0.05 * (2.0 + (2.0 * step).cos()) / 6.0;
         assert!((xx + yy - gyration).abs() < 1e-15, "{count}");
         assert!((xx - yy).abs() < 1e-15 && xy.abs() < 1e-15, "{count}");
@@ -41,7 +41,7 @@ fn a_right_triangle_has_the_moments_of_textbooks() {
     let (b, h) = (0.09, 0.06);
     let [xx, xy, yy] = shape.second_moments();
     assert!((xx - b * b / 18.0).abs() < 1e-15 && (yy - h * h / 18.0).abs() < 1e-15);
-    // The right angle looks to the left here.
+    // The right angle is on the left here.
     assert!((xy - b * h / 36.0).abs() < 1e-15, "{xy}");
     assert_eq!(shape.symmetry(), 1);
 }

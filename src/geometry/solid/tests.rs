@@ -10,7 +10,7 @@ fn depth_is_that_of_boxes_and_of_crossed_edges() {
     let beside = Solid::cuboid([1.0; 3], &at(0.9, 0.3, 0.2));
     assert!((cube.depth(&beside) - 0.1).abs() < 1e-12);
     assert!((cube.depth(&Solid::cuboid([1.0; 3], &at(1.5, 0.0, 0.0))) + 0.5).abs() < 1e-12);
-    // Standing on an edge each, at right angles: only the axis across both edges tells.
+    // Each stands on an edge, at right angles: only the axis across both edges separates them.
     let quarter = std::f64::consts::FRAC_PI_4;
     let about = |axis| Pose3::default().turned_about(Vector3::zeros(), axis, quarter);
     let lower = Solid::cuboid([1.0; 3], &about(Vector3::x_axis()));
@@ -30,7 +30,7 @@ fn common_areas_are_clipped() {
     let square =
         |a: f64, b: f64| [[a, a], [b, a], [b, b], [a, b]].map(|[x, y]| Vector::new(x, y)).to_vec();
     let mut common = common_area(&square(0.0, 2.0), &square(1.0, 3.0));
-    // Which corner comes first is up to the clipper.
+    // The clipper chooses the first corner.
     let first = common.iter().position(|corner| *corner == Vector::new(1.0, 1.0));
     common.rotate_left(first.expect("the lower left corner"));
     assert_eq!(common, square(1.0, 2.0));

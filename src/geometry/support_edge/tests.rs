@@ -14,7 +14,7 @@ fn a_rectangle_stands_on_the_opposite_side() {
     assert!((found.distance - 0.12).abs() < 1e-15);
     // The ray meets it 1 cm below the middle of its 8 cm.
     assert!((found.fraction - 0.375).abs() < 1e-12);
-    // From far enough along a side it is the neighbour.
+    // From a point far enough along a side the ray leaves through the neighbouring side.
     let found = support_edge(&corners, Vector::new(-0.055, 0.04), Vector::zeros()).unwrap();
     assert_eq!(found.edge, 0);
     assert!((found.distance - 0.08).abs() < 1e-15);

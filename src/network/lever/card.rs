@@ -1,4 +1,4 @@
-//! What the weights of a network of lever-ups are.
+//! The weights of a lever-up network and their card.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,25 +10,25 @@ use crate::scene::LeverFeatures;
 
 use super::layout::{LeverSizes, lever_layout};
 
-/// The weights of a network of lever-ups.
+/// The weights of a lever-up network.
 pub type LeverWeights = Weights<LeverCard>;
 
-/// What the weights are and how they came about.
+/// Description and provenance of the weights.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeverCard {
-    /// What it is told of the shape.
+    /// Shape features that the network receives.
     pub features: LeverFeatures,
-    /// Whether it corrects the prior.
+    /// Whether the network corrects the analytic model.
     pub prior: bool,
-    /// Widths.
+    /// Widths of the network.
     pub sizes: LeverSizes,
     /// Scales of features of a lever-up.
     pub still: Statistics,
     /// Scales of features of a frame.
     pub moving: Statistics,
-    /// Lever-ups that it was trained on.
+    /// Number of lever-ups in the training data.
     pub episodes: u64,
-    /// Optimiser steps taken.
+    /// Number of optimiser steps.
     pub steps: u64,
 }
 

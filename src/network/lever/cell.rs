@@ -1,4 +1,4 @@
-//! The network on plain numbers: what planning uses, without candle.
+//! Inference of the lever-up network for planning, without candle.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -9,14 +9,14 @@ use super::{
     layout::{LEVER_ENDS, LEVER_POSE, LeverSizes},
 };
 
-/// Normalised features beyond this are cut off, in standard deviations, so that a lever-up unlike
-/// any in training cannot drive it anywhere.
+/// Maximum magnitude of a normalised feature, in standard deviations. It keeps the output bounded
+/// for a lever-up unlike any in training.
 pub(super) const BOUND: f32 = 10.0;
 
-/// So many sums are kept in registers.
+/// Number of sums kept in registers.
 const BLOCK: usize = 32;
 
-/// The network with its weights; shared between threads.
+/// A lever-up network with its weights; shared between threads.
 #[derive(Clone, Debug)]
 pub struct LeverCell {
     sizes: LeverSizes,
@@ -25,17 +25,17 @@ pub struct LeverCell {
     parameters: Parameters,
 }
 
-/// What it says of a lever-up, to be added to what the prior says.
+/// Output of the network for a lever-up, added to the analytic model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeverTold {
-    /// Of every frame the pose: [T, 9].
+    /// Pose in every frame: [T, 9].
     pub poses: Vec<f32>,
-    /// Slip, endings, pose at rest.
+    /// Slip, endings, and pose at rest.
     pub end: [f32; LEVER_ENDS],
 }
 
 impl LeverCell {
-    /// Of these weights.
+    /// Creates a network with these weights.
     pub fn new(weights: &LeverWeights) -> Self {
         let LeverWeights { card, parameters } = weights;
         Self {
@@ -46,31 +46,32 @@ impl LeverCell {
         }
     }
 
-    /// Whether it is told what it predicted last.
+    /// Returns `true` if the network receives its last predicted pose.
     pub fn feeds_back(&self) -> bool {
         self.sizes.feedback
     }
 
-    /// Predicts from features `still`, `[S]`, of the lever-up, and `moving`, `[T, M]`, of its frames.
+    /// Predicts from features `still`, `[S]`, of the lever-up, and `moving`, `[T, M]`, of its
+    /// frames.
     pub fn predict(&self, still: &[f32], moving: &[f32]) -> LeverTold {
         let (still, moving) = (scaled(&self.still, still), scaled(&self.moving, moving));
         Arch::new().dispatch(Run { cell: self, still: &still, moving: &moving })
     }
 
-    /// A parameter that reading the weights checked.
+    /// Returns a parameter, whose presence was checked when the weights were read.
     fn get(&self, name: &str) -> &[f32] {
         &self.parameters.values[name]
     }
 }
 
-/// One prediction, from normalised features.
+/// A prediction from normalised features.
 struct Run<'a> {
     cell: &'a LeverCell,
     still: &'a [f32],
     moving: &'a [f32],
 }
 
-// On the widest vectors that the processor has, see `network/parity.rs`; the same bits on any.
+// Uses the widest vectors of the processor, see `network/parity.rs`; the bits are the same on any.
 impl WithSimd for Run<'_> {
     type Output = LeverTold;
 
@@ -115,7 +116,7 @@ impl WithSimd for Run<'_> {
     }
 }
 
-/// Rows of features, shifted and scaled.
+/// Shifts, scales and clamps rows of features.
 fn scaled(scales: &Statistics, rows: &[f32]) -> Vec<f32> {
     scales.apply(rows).into_iter().map(|x| x.clamp(-BOUND, BOUND)).collect()
 }
@@ -148,11 +149,11 @@ fn sigmoid(x: f32) -> f32 {
     0.5 + 0.5 * tanh(0.5 * x)
 }
 
-/// The hyperbolic tangent within 1e-6, in operations that vectors have: the rational function of
+/// Returns the hyperbolic tangent within 1e-6, in vectorisable operations: the rational function of
 /// Eigen 3.4, `MathFunctionsImpl.h`.
 #[inline(always)]
 pub fn tanh(x: f32) -> f32 {
-    // Beyond, single precision knows only 1.
+    // Beyond this range the result is 1 in single precision.
     let x = x.clamp(-7.905_311, 7.905_311);
     let x2 = x * x;
     let over = [

@@ -1,4 +1,4 @@
-//! Parameters of the network of lever-ups by name and shape, and their first values.
+//! Names, shapes and initial values of the lever-up network's parameters.
 
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
@@ -6,28 +6,28 @@ use serde::{Deserialize, Serialize};
 
 use crate::network::{Layout, Parameters};
 
-/// Numbers of a pose.
+/// Count of numbers of a pose.
 pub const LEVER_POSE: usize = 9;
 
-/// Numbers of the end: the logit of a slip, those of three endings, the pose at rest.
+/// Count of numbers of the end: the logit of a slip, the logits of three endings, the pose at rest.
 pub const LEVER_ENDS: usize = 4 + LEVER_POSE;
 
-/// Widths of a network.
+/// Widths of a lever-up network.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LeverSizes {
-    /// Features of a lever-up, S.
+    /// Number of features of a lever-up, S.
     pub still: usize,
-    /// Features of a frame, M.
+    /// Number of features of a frame, M.
     pub moving: usize,
-    /// Hidden state, H.
+    /// Width of the hidden state, H.
     pub width: usize,
-    /// Whether the pose that was predicted last is told in the next frame.
+    /// Whether the pose predicted last is an input of the next frame.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub feedback: bool,
 }
 
-/// Names and shapes of all parameters. Of every row of four gates the order is input, forget, new,
-/// output.
+/// Returns the names and shapes of all parameters. The order of the four gates in every row is
+/// input, forget, new, output.
 pub fn lever_layout(sizes: &LeverSizes) -> Layout {
     let LeverSizes { still, moving, width, feedback } = *sizes;
     let mut layout = vec![
@@ -48,8 +48,10 @@ pub fn lever_layout(sizes: &LeverSizes) -> Layout {
     layout
 }
 
-/// Random first values from `seed`: uniform with the variance 1 / fan-in; what gives poses and the
-/// end is zero, so that an untrained network leaves the prior as it is. Forget gates begin open.
+/// Returns random initial values from `seed`: uniform with the variance 1 / fan-in.
+///
+/// The output layers of poses and end are zero, so that an untrained network leaves the analytic
+/// model unchanged. Forget gates begin open.
 pub fn fresh_lever(sizes: &LeverSizes, seed: u64) -> Parameters {
     let mut random = Pcg64::seed_from_u64(seed);
     let values = lever_layout(sizes).into_iter().map(|(name, shape)| {
@@ -58,7 +60,7 @@ pub fn fresh_lever(sizes: &LeverSizes, seed: u64) -> Parameters {
     Parameters { values: values.collect() }
 }
 
-/// Those of one parameter of a network of hidden `width`.
+/// Returns the initial values of one parameter of a network of hidden `width`.
 pub fn fresh_lever_values(
     name: &str,
     shape: &[usize],

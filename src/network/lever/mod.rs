@@ -1,8 +1,9 @@
-//! The network of lever-ups: what it is made of, how it computes and how it is kept.
+//! The lever-up network: parameters, inference and weights file.
 //!
-//! A long short-term memory (Hochreiter and Schmidhuber 1997; Tekden 2020, chapter 6) that is told
-//! the same features in every frame and predicts every pose at once, not fed with its own
-//! predictions. With features s [S] of a lever-up, x_t [M] of a frame, and hidden states h_t [H]:
+//! A long short-term memory (Hochreiter and Schmidhuber 1997; Tekden 2020, chapter 6). It receives
+//! the same features of the lever-up in every frame and predicts every pose at once, without
+//! feedback of its predictions. With features s [S] of a lever-up, x_t [M] of a frame, and hidden
+//! states h_t [H]:
 //!
 //! ```text
 //! i, f, g, o = s W_s + x_t W_x + h_{t-1} W_h + b
@@ -10,10 +11,10 @@
 //! pose_t = base_t + h_t V + a                        end = base + relu(h_T U + b_u) V_e + a_e
 //! ```
 //!
-//! For comparison with the thesis a network can be fed with the pose that it predicted last.
+//! A network can also receive its last predicted pose as feedback, for comparison with the thesis.
 //!
-//! `base` is what the prior says, or the start. The end is slip and ending as logits, and the pose at
-//! rest.
+//! `base` is the output of the analytic model, or the start. The end consists of slip and ending as
+//! logits, and the pose at rest.
 
 mod card;
 mod cell;

@@ -1,4 +1,4 @@
-//! Where the plate touches table and blade, or soon will.
+//! Contacts of the plate with table, blade and blocks that are closed or may close in a step.
 
 use crate::geometry::{Box3, Pose3, Vector, Vector3};
 use crate::scene::GRAVITY;
@@ -6,31 +6,32 @@ use crate::scene::GRAVITY;
 use super::body::Body;
 use super::setup::{BladePose, Setup};
 
-/// The blade stays below the underside's plane; it is lost once it is farther above, metres.
+/// Penetration beyond which a contact with the blade is dropped, metres; otherwise the blade stays
+/// below the underside's plane.
 const INSIDE: f64 = 6e-3;
 
-/// Something that the plate touches.
+/// A contact of the plate.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Contact {
-    /// Which of the possible ones, the same from step to step.
+    /// Id among the possible contacts, constant from step to step.
     pub id: usize,
-    /// From the centre of mass, metres.
+    /// Vector from the centre of mass, metres.
     pub arm: Vector3,
     /// Unit normal, towards the plate.
     pub normal: Vector3,
-    /// Distance along it, metres.
+    /// Distance along the normal, metres.
     pub gap: f64,
     /// Friction coefficient.
     pub friction: f64,
-    /// How what is touched moves there, m/s.
+    /// Velocity of the touched surface, m/s.
     pub surface: Vector3,
 }
 
-/// Numbers of contacts with the blade: at each of its two long edges the tip, and where the outline
-/// crosses.
+/// Number of possible contacts with the blade: the tip and the outline's crossings at each of its
+/// long edges, and the feet.
 pub(super) const ON_BLADE: usize = 136;
 
-/// Finds the contacts that a step of `step` seconds may close. Those with the blade come first.
+/// Finds the contacts that a step of `step` seconds may close. Contacts with the blade come first.
 pub(super) fn find(
     setup: &Setup,
     body: &Body,
@@ -44,10 +45,11 @@ pub(super) fn find(
     on_blocks(setup, body, step, found);
 }
 
-/// Most points of one pair of cuboids: two rectangles have at most eight corners in common.
+/// Maximum number of points of one pair of cuboids: two rectangles have at most eight corners in
+/// common.
 const OF_A_PAIR: usize = 8;
 
-/// How many contacts there may be.
+/// Returns the maximum number of contacts.
 pub(super) fn count(setup: &Setup) -> usize {
     ON_BLADE + setup.tips.len() + OF_A_PAIR * setup.parts.len() * setup.blocks.len()
 }
@@ -83,7 +85,7 @@ fn on_blocks(setup: &Setup, body: &Body, step: f64, found: &mut Vec<Contact>) {
 }
 
 fn on_table(setup: &Setup, body: &Body, step: f64, found: &mut Vec<Contact>) {
-    // How far a point can fall: by its speed and by its weight.
+    // Maximum fall of a point, by its speed and by its weight.
     let reach = GRAVITY * step * step + 1e-3;
     let up = body.axes.row(2);
     let reach_of_any = reach + body.fastest(setup.reach) * step;
@@ -118,7 +120,7 @@ fn on_blade(
     found: &mut Vec<Contact>,
 ) {
     let vertical: Vector3 = body.axes.column(2).into();
-    // Of the two large faces the one on whose side the tip is.
+    // The large face on whose side the tip is.
     let depth = vertical.dot(&(now.tip - now.up * (0.5 * setup.blade_height) - body.centre));
     let under = depth < setup.frame.z + 0.5 * setup.thickness;
     let level = setup.frame.z + if under { 0.0 } else { setup.thickness };
@@ -145,7 +147,7 @@ fn on_blade(
     };
     let low = -setup.blade_height;
     let edges = [(half, 0.0), (-half, 0.0), (half, low), (-half, low)];
-    // How far each of the long edges reaches into the plate; the two that reach farthest may touch.
+    // Depth of each long edge in the plate; the two deepest may touch.
     let into = edges.map(|(y, z)| y * normal.y + z * now.up.dot(&normal));
     for (k, (y, z)) in edges.into_iter().enumerate() {
         let before = (0..4).filter(|other| into[*other] > into[k]).count();
@@ -162,7 +164,7 @@ fn on_blade(
             let rim = body.axes * Vector3::new(b.x - a.x, b.y - a.y, 0.0);
             let across = rim.cross(&now.along);
             let length = across.norm();
-            // Along each other they are face to face.
+            // Parallel edges meet face to face.
             let (mut across, parallel) = (across / length, length < 1e-6 * rim.norm());
             if parallel {
                 across = normal;
@@ -184,8 +186,8 @@ fn on_blade(
     feet_on_blade(setup, body, now, &mut push);
 }
 
-/// The balls of the feet beside the blade or on it: a plate that slides along the blade is caught
-/// by them.
+/// Adds contacts of the feet, as balls, with the blade. They stop a plate that slides along the
+/// blade.
 fn feet_on_blade(
     setup: &Setup,
     body: &Body,
@@ -217,15 +219,15 @@ fn feet_on_blade(
     }
 }
 
-/// The part of a ray that lies over an outline.
+/// The part of a ray over an outline.
 struct Over {
-    /// Where it comes in, and over which side; nowhere if it begins inside.
+    /// Position of entry, and the side; `None` if the ray begins inside.
     enter: Option<(f64, usize)>,
-    /// Where it goes out.
+    /// Position of exit, and the side.
     leave: Option<(f64, usize)>,
 }
 
-/// The part of the ray `from + s way`, 0 <= s <= `length`, that lies over the outline as seen along
+/// Returns the part of the ray `from + s way`, 0 <= s <= `length`, that lies over the outline along
 /// the body's vertical.
 fn clip(outline: &[Vector], from: Vector3, way: Vector3, length: f64) -> Option<Over> {
     let (mut first, mut last) = (0.0, length);

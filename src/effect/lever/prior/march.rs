@@ -1,4 +1,5 @@
-//! The turn in frames, the wait, the way back, and until everything rests.
+//! Time steps of a lever-up: the rotation in frames, the hold, the retreat, and the motion until
+//! rest.
 
 use crate::geometry::{Pose3, Vector3};
 use crate::{
@@ -12,16 +13,16 @@ use super::settings::PriorSettings;
 use super::setup::{BladePose, Setup};
 use super::solver::Solver;
 
-/// A plate this near to the blade lies on it, metres.
+/// Distance from the blade below which a plate lies on it, metres.
 const NEAR: f64 = 5e-4;
 
-/// Waits no longer for rest, seconds.
+/// Maximum wait for rest after the end, seconds.
 const PATIENCE: f64 = 4.0;
 
-/// It rests when it was slow for so long, seconds.
+/// Duration of slow motion after which the plate rests, seconds.
 const STILL: f64 = 0.1;
 
-/// Buffers that are used again.
+/// A time stepper with reusable buffers.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Marcher {
     solver: Solver,
@@ -50,7 +51,7 @@ impl Marcher {
         LeverTrajectory { lift, held, rest, ending: Ending::of(&rest), warnings }
     }
 
-    /// The poses at these times, until the plate rests with the blade gone.
+    /// Returns the poses at these times, until the plate rests without the blade.
     pub fn follow(
         &mut self,
         setup: &Setup,
@@ -87,7 +88,7 @@ impl Marcher {
     }
 }
 
-/// A lever-up on its way.
+/// A lever-up in progress.
 struct Way<'a> {
     marcher: &'a mut Marcher,
     setup: &'a Setup,
@@ -103,20 +104,20 @@ impl Way<'_> {
     fn go_on_until(&mut self, end: f64) {
         while end - self.time > 1e-9 {
             let left = end - self.time;
-            // In equal steps, as far as the speed allows.
+            // Equal steps, as far as the speed allows.
             let steps = (left / self.longest() - 1e-6).ceil().max(1.0);
             self.step(if steps > 1.0 { left / steps } else { left });
         }
     }
 
-    /// Goes on until everything rests with the blade gone, which takes until `end` at the latest;
-    /// says whether it came to rest in time.
+    /// Continues until everything rests and the blade is gone, which is at `end` at the latest.
+    /// Returns `true` if the plate came to rest in time.
     fn settle(&mut self, end: f64) -> bool {
         let mut moved = self.time;
         let mut free = false;
         while self.time - moved < STILL || !(free || self.time >= end) {
             self.step(self.longest());
-            // What lies still off the blade stays there while the blade is drawn back.
+            // A plate at rest off the blade stays there while the blade retreats.
             free = self.time >= self.setup.lever.turn_time() && !self.is_near_blade();
             if self.body.fastest(self.setup.reach) > REST_SPEED {
                 moved = self.time;
@@ -128,12 +129,12 @@ impl Way<'_> {
         true
     }
 
-    /// Whether the blade may touch the plate in the next step.
+    /// Returns `true` if the blade may touch the plate in the next step.
     fn is_near_blade(&self) -> bool {
         self.marcher.contacts.first().is_some_and(|contact| contact.id < ON_BLADE)
     }
 
-    /// How long the next step may be, seconds.
+    /// Returns the maximum length of the next step, seconds.
     fn longest(&self) -> f64 {
         let PriorSettings { step, travel, shortest, inertia, .. } = *self.settings;
         if !inertia {
@@ -162,7 +163,7 @@ impl Way<'_> {
         self.blade = next;
     }
 
-    /// Whether the plate lies on the blade.
+    /// Returns `true` if the plate lies on the blade.
     fn is_held(&self) -> bool {
         let contacts = self.marcher.contacts.iter().zip(self.marcher.solver.impulses());
         contacts

@@ -1,4 +1,4 @@
-//! The prior as a model of lever-ups.
+//! The analytic model as a model of lever-ups.
 
 use std::sync::LazyLock;
 
@@ -15,16 +15,16 @@ use super::march::Marcher;
 use super::settings::PriorSettings;
 use super::setup::Setup;
 
-/// The prior alone: the cheapest level with physics in it.
+/// The analytic model of lever-ups alone: the cheapest model with physics.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LeverPrior {
-    /// How finely it computes.
+    /// Resolution of the computation.
     pub settings: PriorSettings,
 }
 
 impl LeverPrior {
-    /// Where the plate is at these times, seconds from the start of the turn and in order, until it rests;
-    /// the last pose then holds for the others.
+    /// Returns the poses of the plate at these times, seconds from the start of the rotation and in
+    /// order, until it rests. The last pose then holds for the remaining times.
     pub fn follow(&self, job: &LeverJob, times: impl Iterator<Item = f64>) -> Vec<Pose3> {
         let setup = Setup::new(job);
         Marcher::default().follow(&setup, &self.settings_for(&setup), times)
@@ -34,11 +34,11 @@ impl LeverPrior {
         if setup.blocks.is_empty() { self.settings } else { self.settings.among_blocks() }
     }
 
-    /// Returns `true` for the lever-ups that it computes: of one object, and among blocks only of one
+    /// Returns `true` for supported lever-ups: of one object, and among blocks only of an object
     /// whose solids are cuboids.
     pub fn knows(&self, job: &LeverJob) -> bool {
         let [plate] = &job.scene.plates[..] else { return false };
-        // Contacts with blocks are found between cuboids.
+        // Contacts with blocks are only found between cuboids.
         let cuboids = || plate.slabs.iter().all(|slab| slab.rectangle().is_some());
         job.scene.blocks.is_empty() || cuboids()
     }

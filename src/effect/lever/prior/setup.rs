@@ -9,48 +9,48 @@ use crate::{
 
 use super::body::{Body, Spread};
 
-/// Largest radius of a foot, metres, as the engine has it.
+/// Maximum radius of a foot, metres, as in the engine.
 const FOOT: f64 = 1e-3;
 
 /// A point of the plate that may touch the table.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tip {
-    /// From the centre of mass, body axes, metres.
+    /// Position relative to the centre of mass, body axes, metres.
     pub at: Vector3,
-    /// Of the ball about it, metres.
+    /// Radius of the ball about the point, metres.
     pub radius: f64,
 }
 
-/// A lever-up with everything that does not change in it.
+/// The constant data of a lever-up.
 #[derive(Clone, Debug)]
 pub(super) struct Setup {
-    /// Mass and inertia.
+    /// Inverse mass and inertia.
     pub spread: Spread,
-    /// Centre of mass at the start, metres.
+    /// Initial centre of mass, metres.
     pub centre: Vector3,
-    /// The plate's frame from the centre of mass, body axes, metres.
+    /// Origin of the plate's frame relative to the centre of mass, body axes, metres.
     pub frame: Vector3,
-    /// Corners of the underside from the centre of mass, counter-clockwise from the end of the
-    /// levered edge, body axes, metres.
+    /// Corners of the underside relative to the centre of mass, counter-clockwise from the end of
+    /// the levered edge, body axes, metres.
     pub outline: Vec<Vector>,
-    /// What may touch the table.
+    /// Points that may touch the table.
     pub tips: Vec<Tip>,
-    /// Largest distance of a tip from the centre of mass, metres.
+    /// Maximum distance of a tip from the centre of mass, metres.
     pub reach: f64,
-    /// Height of the underside at the start, metres.
+    /// Initial height of the underside, metres.
     pub height: f64,
     /// Thickness of the plate itself, metres.
     pub thickness: f64,
     /// Friction coefficients with table and blade.
     pub friction: [f64; 2],
-    /// Half the width of the blade, and its length, metres.
+    /// Half width and length of the blade, metres.
     pub blade: [f64; 2],
     pub blade_height: f64,
-    /// The plate's solids where they are cuboids, about the centre of mass, body axes.
+    /// Cuboid solids of the plate, about the centre of mass, body axes.
     pub parts: Vec<Box3>,
-    /// What is fixed, with the friction coefficient against the plate.
+    /// Fixed blocks, with their friction coefficient against the plate.
     pub blocks: Vec<(Box3, f64)>,
-    /// What it does.
+    /// The lever-up itself.
     pub lever: LeverUp,
     mirrored: bool,
     world: Pose3,
@@ -70,7 +70,7 @@ impl Setup {
             let at = own.point(at) - seen;
             Vector::new(at.x, side * at.y)
         };
-        // Read backwards, a mirrored outline is counter-clockwise again.
+        // In reverse order, a mirrored outline is counter-clockwise again.
         let ring = |corners: &[Vector], first: usize| -> Vec<Vector> {
             let count = corners.len();
             let nth = |k: usize| if mirrored { first + count - k } else { first + k };
@@ -86,7 +86,7 @@ impl Setup {
             outline.iter().map(|at| Tip { at: point(at, radius - feet), radius }).collect();
         for (k, slab) in plate.slabs.iter().enumerate() {
             let ring = ring(&slab.corners, if k == 0 { first } else { 0 });
-            // The corners of the plate's own underside are above its feet.
+            // The corners of the plate's own underside are replaced by its feet.
             let levels = [slab.bottom, slab.bottom + slab.height];
             for level in &levels[usize::from(k == 0)..] {
                 tips.extend(ring.iter().map(|at| Tip { at: point(at, *level), radius: 0.0 }));
@@ -126,7 +126,7 @@ impl Setup {
         .among(&scene.blocks, plate.friction)
     }
 
-    /// The plate's frame in the world.
+    /// Returns the plate's frame in the world.
     pub fn pose(&self, body: &Body) -> Pose3 {
         let mut at = body.centre + body.axes * self.frame;
         let [mut x, y, mut z, w] = body.turn.coords.into();
@@ -138,12 +138,12 @@ impl Setup {
         Pose3 { position: self.world.point(at), rotation: turned * self.start.rotation }
     }
 
-    /// The plate's frame at the start, in the world.
+    /// Returns the plate's initial frame in the world.
     pub fn start(&self) -> Pose3 {
         self.start
     }
 
-    /// With these blocks about the plate.
+    /// Adds blocks around the plate.
     fn among(mut self, blocks: &[Obstacle], friction: f64) -> Self {
         let own = self.world.inverse();
         let seen = |block: &Obstacle| {
@@ -161,27 +161,27 @@ impl Setup {
         self
     }
 
-    /// With the frame's origin on the table below the lever point.
+    /// Moves the frame's origin to the table below the lever point.
     fn above(mut self, point: Vector3) -> Self {
         self.world.position = Vector3::new(point.x, point.y, 0.0);
         self
     }
 }
 
-/// The blade at some time: the middle of its tip's upper edge, and its directions. It moves in the
-/// plane y = 0.
+/// Pose of the blade: the middle of its tip's upper edge, and its directions. It moves in the plane
+/// y = 0.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BladePose {
-    /// Metres.
+    /// Position of the tip, metres.
     pub tip: Vector3,
-    /// Towards the tip.
+    /// Unit vector towards the tip.
     pub along: Vector3,
-    /// Out of its upper face.
+    /// Unit normal of the upper face, outwards.
     pub up: Vector3,
 }
 
 impl Setup {
-    /// The blade `time` seconds from the start of the turn, as [`LeverUp::blade`] has it.
+    /// Returns the blade `time` seconds from the start of the rotation, like [`LeverUp::blade`].
     pub fn blade_at(&self, time: f64) -> BladePose {
         let lever = &self.lever;
         let turn = lever.turn_time();

@@ -1,4 +1,4 @@
-//! Speeds after a step: contacts that neither sink in nor slide without friction.
+//! Velocities after a step: contacts that neither penetrate nor slide without friction.
 
 use crate::geometry::{Matrix3, Vector3};
 use crate::scene::GRAVITY;
@@ -6,25 +6,26 @@ use crate::scene::GRAVITY;
 use super::body::{Body, Spread};
 use super::contacts::Contact;
 
-/// Contacts give way like overdamped springs, those of the engine: angular frequency, rad/s, and
-/// damping ratio. Rigid ones let plates rock on the narrow blade that the engine's keep still.
+/// Compliance of contacts, equal to the engine's: angular frequency, rad/s, and damping ratio of
+/// overdamped springs. With rigid contacts, plates rock on the narrow blade although the engine
+/// keeps them still.
 const SPRING: (f64, f64) = (100.0 * std::f64::consts::TAU, 5.0);
 
-/// Sweeps end when no impulse changes by more than this share of the weight's.
+/// Change of an impulse below which sweeps end, relative to the impulse of the weight.
 const ENOUGH: f64 = 1e-3;
 
-/// One direction of a contact.
+/// A direction of a contact.
 #[derive(Clone, Copy, Debug, Default)]
 struct Row {
-    /// Direction, and its moment about the centre of mass.
+    /// Direction of the force, and its moment about the centre of mass.
     force: Vector3,
     moment: Vector3,
-    /// What a unit of impulse changes.
+    /// Change of velocity and angular velocity by a unit impulse.
     speed: Vector3,
     spin: Vector3,
-    /// Impulse for a unit of speed.
+    /// Impulse for a unit change of speed.
     give: f64,
-    /// Speed asked for, m/s.
+    /// Target speed, m/s.
     asked: f64,
 }
 
@@ -36,7 +37,7 @@ impl Row {
         Self { force, moment, speed: force * mass, spin, give, asked }
     }
 
-    /// Impulse that would reach the speed asked for.
+    /// Returns the impulse that would reach the target speed.
     fn lacking(&self, body: &Body) -> f64 {
         (self.asked - self.force.dot(&body.speed) - self.moment.dot(&body.spin)) * self.give
     }
@@ -47,25 +48,24 @@ impl Row {
     }
 }
 
-/// Contacts with their impulses; buffers that are used again.
+/// Contacts with their impulses, on reused buffers.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Solver {
     rows: Vec<([Row; 3], f64, [f64; 3])>,
-    /// Of every contact the impulses of the last step, by id, newton seconds, and that step's
-    /// number.
+    /// Impulses of every contact in its last step, by id, newton seconds, and that step's number.
     last: Vec<([f64; 3], u32)>,
     step: u32,
 }
 
 impl Solver {
-    /// Forgets the last plate; a new one has so many possible contacts.
+    /// Clears the state for a new plate with this number of possible contacts.
     pub fn reset(&mut self, contacts: usize) {
         self.last.clear();
         self.last.resize(contacts, ([0.0; 3], 0));
         self.step = 1;
     }
 
-    /// Changes the speeds of `body` so that the contacts hold over the next `step` seconds.
+    /// Changes the velocities of `body` so that the contacts hold over the next `step` seconds.
     pub fn solve(
         &mut self,
         (spread, body): (&Spread, &mut Body),
@@ -73,8 +73,8 @@ impl Solver {
         (step, ratio, sweeps): (f64, f64, usize),
     ) {
         let (frequency, damping) = SPRING;
-        // What an implicit step makes of the spring: the share of a penetration that is taken back
-        // in a second, and how much softer than rigid a contact answers.
+        // An implicit step turns the spring into two numbers: the share of a penetration that is
+        // removed in a second, and the softness of a contact relative to a rigid one.
         let back = frequency / (step * frequency + 2.0 * damping);
         let left = 1.0 / (step * back) - 1.0;
         let firm = 1.0 / (1.0 + left * left / ((1.0 + left) * 4.0 * damping * damping));
@@ -90,20 +90,20 @@ impl Solver {
             let row = |d: Vector3, plus: f64| Row::new(d, arm, own, d.dot(&surface) + plus);
             let rows = [row(normal, back), row(aside, 0.0), row(other, 0.0)];
             let (before, when) = self.last[contact.id];
-            // What carried in the last step likely carries on.
+            // Warm start: contacts that carried in the last step likely still carry.
             let start = if when + 1 == self.step { before.map(|p| p * ratio) } else { [0.0; 3] };
             for (row, impulse) in rows.iter().zip(start) {
                 row.push(body, impulse);
             }
             self.rows.push((rows, contact.friction, start));
         }
-        // What is left to gain once impulses change by less than this matters no more.
+        // Convergence: smaller changes of impulses have no relevant effect.
         let small = ENOUGH * GRAVITY * step / spread.mass;
         for _ in 0..sweeps {
             let mut change = 0.0f64;
             for ([normal, aside, other], friction, impulses) in &mut self.rows {
                 let pressed = (firm * (impulses[0] + normal.lacking(body))).max(0.0);
-                // Nothing presses, nothing rubs.
+                // No friction without normal force.
                 if pressed == 0.0 && impulses[0] == 0.0 {
                     continue;
                 }
@@ -128,13 +128,15 @@ impl Solver {
         }
     }
 
-    /// Impulses of the last step by contact, newton seconds: normal, then along two tangents.
+    /// Returns the impulses of the last step by contact, newton seconds: normal, then along two
+    /// tangents.
     pub fn impulses(&self) -> impl Iterator<Item = [f64; 3]> + '_ {
         self.rows.iter().map(|(_, _, impulses)| *impulses)
     }
 }
 
-/// A unit vector across `normal`, the same from step to step as it turns.
+/// Returns a unit vector perpendicular to `normal`, continuous from step to step as the normal
+/// rotates.
 fn side_of(normal: Vector3) -> Vector3 {
     let across = Vector3::y() - normal * normal.y;
     let length = across.norm();
