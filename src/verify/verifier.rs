@@ -20,9 +20,12 @@ use super::disturbance::{disturbed, lifted, wary};
 use super::rules::{broken_rules, unplayable};
 use super::space;
 
-/// Processor time of a 2-D time step for each object, seconds. Measured were 1 and 6 us (2-D and
-/// 3-D) with one object, and 0.5 and 5 us with nine.
+/// Processor time of a 2-D time step for each object, seconds: 1 us measured with one object and
+/// 0.5 with nine.
 const PLANAR_STEP: f64 = 1e-6;
+
+/// Processor time of a 3-D time step for each object, seconds: 6 us measured with one object and 5
+/// with nine.
 const SPATIAL_STEP: f64 = 6e-6;
 
 /// Sustained force of an ordinary arm, newtons. Arms that work beside people have 50 to 150 N.
