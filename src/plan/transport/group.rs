@@ -10,7 +10,8 @@ use super::lattice::{Extent, Solid};
 use crate::plan::workspace::{HAND_CLEARANCE, OBSTACLE_CLEARANCE};
 use crate::plan::{CandidatePush, SET_DOWN_CLEARANCE, Start, Workspace};
 
-/// What a thing keeps clear of whatever stands still, metres: as far as one is off that was pushed twice.
+/// Clearance between a carried object and fixed bodies, metres: the error of an object after two
+/// pushes.
 const APART: f64 = 0.003;
 
 /// Clearance that counts as ample, metres.
