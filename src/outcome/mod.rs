@@ -1,6 +1,6 @@
 //! Results of motions: trajectories, outcomes judged by goals, warnings and verdicts.
 //!
-//! All quantities are in SI units and radians. This module neither simulates nor plans.
+//! Quantities are in SI units and radians. This module neither simulates nor plans.
 
 mod in_turn;
 mod keep;

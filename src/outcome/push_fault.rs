@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PushFault {
-    /// The push begins in another way than the task's pushes: from above, or where the last one
-    /// ended.
+    /// The push has another form than the task's: it starts from above or at the end of the last
+    /// push.
     Form,
     /// The height of the tool's underside is not the task's but this one, metres.
     Lift(f64),

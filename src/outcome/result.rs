@@ -54,8 +54,8 @@ impl Miss {
 }
 
 impl Outcome {
-    /// Judges the end of a trajectory in `scene` by the goals of `task`. A trajectory that did not
-    /// come to rest, became NaN or infinite, or in which an object fell does not reach them.
+    /// Judges the end of a trajectory in `scene` by the goals of `task`. The goals count as missed
+    /// if the trajectory did not end at rest, became NaN or infinite, or an object fell.
     pub fn judge(scene: &Scene, task: &Task, trajectory: &Trajectory) -> Self {
         let sound = trajectory.warnings.iter().all(|warning| !warning.forbids_success());
         Self::of_state((scene, task), trajectory.outcome().clone(), &trajectory.lifts, sound)

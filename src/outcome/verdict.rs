@@ -97,8 +97,9 @@ pub enum Reason {
 /// Verdict on a plan, with the evidence.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
-    /// Whether the plan passes: it violates no rule, its nominal replays reach the goal at rest in
-    /// both engines, and so does the required share of perturbed replays in each engine.
+    /// Whether the plan passes. A passing plan violates no rule, and its nominal replays reach the
+    /// goal at rest in both engines. In each engine, so does the required share of perturbed
+    /// replays.
     pub passed: bool,
     /// Reason for the rejection.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -106,7 +107,7 @@ pub struct Verdict {
     /// Violations of the task's rules, regardless of their effect.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub forbidden: Vec<Warning>,
-    /// All replays, the nominal ones first.
+    /// Replays, the nominal ones first.
     pub evidence: Vec<Evidence>,
     /// Share of the perturbed replays that reach the goal, 0 to 1, in the engine with fewer
     /// successes. `None` if no perturbed replay was made.

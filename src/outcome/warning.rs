@@ -82,7 +82,7 @@ pub enum Warning {
         /// Name of the region.
         region: String,
     },
-    /// An object toppled or left the table, as the task allows.
+    /// An object toppled or left the table, which the task allows.
     Fell {
         /// Name of the object.
         object: String,

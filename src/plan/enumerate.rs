@@ -208,10 +208,10 @@ fn extend(
 /// tool's lowest height. The planar search models cannot predict this. Jointed objects are left to
 /// the 3-D engine.
 ///
-/// Let F be a force at height z, W the weight, m the friction with the table, t the friction with
-/// the tool, and d the distance of the farthest edge. The object stays down while the moments about
-/// that edge satisfy F z <= W d + 2 d t F, with F = m (W + t F). This is equivalent to m z <= d (1
-/// + m t).
+/// Let F be a force at height z and W the weight. The friction coefficients are m with the table
+/// and t with the tool, and the farthest edge is at distance d. The object stays down while the
+/// moments about that edge satisfy F z <= W d + 2 d t F, with F = m (W + t F). This is equivalent
+/// to m z <= d (1 + m t).
 fn topples(workspace: &Workspace, push: &CandidatePush) -> bool {
     let object = push.object;
     let Task { scene, pushes, .. } = workspace.task;

@@ -7,9 +7,9 @@
 //!
 //! The programme minimises the squared goal error of y in units of the tolerances. Its constraints
 //! are the trust radius, the parameters' bounds and the linearised margins of reach and clearance.
-//! It is solved for several radii, and every solution is rolled out. The best rollout that
-//! satisfies all rules becomes the new centre if it is better, so that a candidate never gets
-//! worse. All candidates share their batches.
+//! The solutions for several radii are rolled out. The best rollout that satisfies all rules
+//! becomes the new centre if it is better, so that a candidate never gets worse. All candidates
+//! share their batches.
 //!
 //! The refined quantity is the centre of the object's final poses over plausible support models
 //! (see `supports`). Its offset from the predicted final pose is taken as constant and recomputed
@@ -52,9 +52,9 @@ const SHRINK: f64 = 0.25;
 /// of effect models and robots.
 const GOOD_ENOUGH: f64 = 0.01;
 
-/// Factor of the last gain for the optimistic gain of each remaining round. A candidate is dropped
-/// if even these gains would not bring it within the tolerance. Gains grow at first, as the trust
-/// radius does.
+/// Factor of the last gain that estimates the gain of each remaining round optimistically. A
+/// candidate is dropped if even these gains would not bring it within the tolerance. Gains grow at
+/// first because the trust radius grows.
 const HOPE: f64 = 4.0;
 
 /// Weight of the step's length relative to the goal error, in units of the mean curvature. It only
@@ -154,7 +154,7 @@ pub fn refine(
     work.into_iter().map(|w| w.refined).collect()
 }
 
-/// Keeps only the best `most` candidates open, ranked by the worst final error. Ties keep their
+/// Keeps only the best `most` candidates open, in the order of [`preferred`]. Ties keep their
 /// order.
 fn shorten(work: &mut [Work], most: usize, workspace: &Workspace, situation: &Situation) {
     let mut order: Vec<usize> = (0..work.len()).collect();

@@ -29,7 +29,7 @@ pub struct ScoredPush {
     pub refused: Option<Infeasible>,
 }
 
-/// All kinds of pushes considered by a search.
+/// Kinds of pushes considered by a search.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Scores {
     list: Vec<ScoredPush>,

@@ -1,8 +1,8 @@
 //! Region that a plan needs free: the places that its tool and the goal's object pass.
 //!
-//! A plan made without the other objects shows which of them must be cleared, as the relaxed plans
-//! of task planning do (Bonet and Geffner 2001, "Planning as heuristic search"). Clearing the
-//! objects in its swept region suffices.
+//! A plan made without the other objects shows which of them must be cleared. Clearing the objects
+//! in its swept region suffices. Task planning uses relaxed plans in the same role (Bonet and
+//! Geffner 2001, "Planning as heuristic search").
 
 use std::sync::Arc;
 
@@ -58,8 +58,8 @@ struct Passed {
     span: [f64; 2],
 }
 
-/// Returns the task without the objects that have no joint to a goal's object, and with one push
-/// less. Returns `None` if there are no such objects or no push is left.
+/// Returns the task without the objects that have no joint to a goal's object, and with one fewer
+/// push. Returns `None` if there are no such objects or no push is left.
 pub fn alone(task: &Task, situation: &Situation) -> Option<(Task, Situation)> {
     let groups = situation.physics.groups(|_| true);
     let (mut task, mut situation) = (task.clone(), situation.clone());

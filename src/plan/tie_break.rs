@@ -1,9 +1,9 @@
 //! Preference among plans of equal quality.
 //!
-//! Plans with equal verdict and robustness are compared by these criteria, in order: number of
-//! pushes, cost of the tools, motion of objects without goals, simplicity of the tools, and error.
-//! Fewer pushes come first because longer plans are only searched if no shorter plan is safe.
-//! Errors well inside the tolerance do not count, because models differ by as much.
+//! Plans with equal verdict and robustness are compared by, in order: number of pushes, cost of the
+//! tools, motion of objects without goals, simplicity of the tools, and error. Fewer pushes come
+//! first because longer plans are only searched if no shorter plan is safe. Errors well inside the
+//! tolerance do not count, because models differ by as much.
 
 use std::cmp::Ordering;
 use std::sync::Arc;

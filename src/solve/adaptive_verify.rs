@@ -23,8 +23,8 @@ pub(super) struct Verification<'a> {
     pub verified: usize,
     /// Number of plans replayed with perturbations.
     pub perturbed: usize,
-    /// Whether any plan would be worth verifying, if nothing is verified. The search then ends with
-    /// the first.
+    /// Whether any plan is worth verifying, in a solution without verification, which ends with the
+    /// first such plan. `None` if plans are verified.
     pub promising: Option<bool>,
 }
 

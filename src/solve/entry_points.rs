@@ -40,8 +40,8 @@ impl Planner {
     }
 
     /// Solves tasks in parallel on the current rayon pool, with results in the order of the tasks.
-    /// Except for wall-clock times, results equal those of [`Planner::solve`] for any number of
-    /// threads.
+    /// Results equal the ones of [`Planner::solve`] for any number of threads, except for
+    /// wall-clock times.
     pub fn solve_all(
         &self,
         tasks: &[Task],

@@ -23,7 +23,7 @@ pub enum SolveError {
         /// Fault.
         what: String,
     },
-    /// The effect model is not reliable for this task, and its setting is to refuse such tasks.
+    /// The effect model is not reliable for this task, and its policy refuses such tasks.
     #[error("task `{task}`: {}", list(warnings))]
     Refused {
         /// Name of the task.

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// Budgets of lever-ups, as counts and not in seconds, so that results do not depend on the
 /// machine. A lever-up costs about 0.2 ms of one core in the analytic model, 1.8 ms in coarse and 7
-/// ms in fine simulation; among the parts of a drive 1, 2.5 and 9 ms.
+/// ms in fine simulation. Among the parts of a drive, it costs 1, 2.5 and 9 ms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LeverSettings {
     /// Number of candidates simulated coarsely.

@@ -221,7 +221,7 @@ impl Planner {
         Ok(self.predict_all(task, &situation, &[(plan, tools)]).remove(0))
     }
 
-    /// Returns an error for motions for which the model is not reliable, if the policy is to refuse
+    /// Returns an error for motions for which the model is not reliable, if the policy refuses
     /// them.
     pub(super) fn refuse(
         &self,

@@ -34,9 +34,10 @@ const MOST_ROOM: f64 = 0.04;
 /// Reorders the queue of plans of one length after the plans `failed` did not pass or were not
 /// safe. `first` is the first plan of this length.
 ///
-/// The new order is: failed plans that reached the goal before their last push, without that push;
-/// plans whose tool came down on an object, set down farther away; plans that came near, aimed
-/// again. Other patterns follow, with newly refined ones if too few are left, and then the rest.
+/// Failed plans that reached the goal before their last push come first, without that push. They
+/// are followed by plans whose tool came down on an object, set down farther away, and by near
+/// plans aimed again. Other patterns are next, with newly refined ones if too few are left, and the
+/// rest comes last.
 pub(super) fn retry(
     board: &mut Blackboard,
     queue: &mut Vec<usize>,
@@ -151,8 +152,8 @@ fn set_down_farther(board: &mut Blackboard, failed: &[usize], pushes: usize) -> 
     }
 }
 
-/// Refines the nearest failed plans towards mirrored goals: the error of each replay is subtracted
-/// from its goal.
+/// Refines the nearest failed plans towards aims that are shifted against the mean error of their
+/// replays.
 fn aim_again(board: &mut Blackboard, failed: &[usize], count: usize, pushes: usize) -> Vec<usize> {
     let task = board.query.task;
     let mut near: Vec<(f64, usize)> = failed
@@ -195,8 +196,8 @@ fn replayed_error(task: &Task, attempt: &Attempt) -> f64 {
     Engine::ALL.into_iter().map(missed).fold(0.0, f64::max)
 }
 
-/// Returns the next target of each demand after a plan aimed at `aim` missed the goal: the mirrored
-/// error. This is one step of iterative learning control (Arimoto et al. 1984,
+/// Returns the next aim after a plan aimed at `aim` missed the goal, shifted against the mean error
+/// of each demand. This is one step of iterative learning control (Arimoto et al. 1984,
 /// doi:10.1002/rob.4620010203) with the effect model's slopes, for the mean end of all replays in
 /// both engines. Returns `None` if the plan already ends on the goal.
 fn aim(goal: &Goal, aim: &Goal, verdict: &Verdict) -> Option<Goal> {

@@ -24,7 +24,7 @@ pub enum Effort {
 }
 
 impl Effort {
-    /// All efforts, cheapest first.
+    /// Efforts, cheapest first.
     pub const ALL: [Effort; 3] = [Effort::Draft, Effort::Standard, Effort::Thorough];
 }
 
@@ -40,7 +40,7 @@ impl fmt::Display for Effort {
 
 /// Budgets of a planner, as counts and not in seconds, so that results do not depend on the
 /// machine. A push of one object costs about 0.04 ms of one core in the analytic model, 0.16 in the
-/// network, 1.1 in the 2-D engine and 9 in the 3-D engine (`crates/lab/results/tradeoff.md`).
+/// network, 1.1 in 2-D and 9 in 3-D simulation (`crates/lab/results/tradeoff.md`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Settings {
     /// Number of lateral offsets per contacting face. Three distinguish left, right and middle;

@@ -13,7 +13,8 @@ use super::retry::retry;
 /// plans work and none is safe, the task is fragile and these replays are most of its cost.
 const PERTURBED_SHARE: f64 = 0.375;
 
-/// Refines and verifies candidates until one is safe, then replays the best until its verdict is clear.
+/// Refines and verifies candidates until one is safe, then replays the best until its verdict is
+/// clear.
 pub(super) fn try_out(board: &mut Blackboard, candidates: Candidates) {
     refine_and_verify(board, &candidates);
     let began = Instant::now();

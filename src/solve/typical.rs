@@ -9,8 +9,8 @@ use crate::{
     task::{Job, Push, Task, ToolMotion},
 };
 
-/// Returns a push of the goal's object towards the goal by the tool's first part, as an estimate of
-/// how a model will be used.
+/// Returns a push of the goal's object towards the goal by the tool's first part. It represents the
+/// pushes for which the model will be used.
 pub(super) fn typical(task: &Task, start: &State, tool: &Arc<Tool>) -> ToolMotion {
     let (rules, goal) = (&task.pushes, &task.goals[0]);
     let object = start.poses[goal.object].position;

@@ -1,8 +1,8 @@
 //! Sequential test of the share of perturbed replays that succeed.
 //!
 //! Let p be the share of all possible perturbed replays of a plan that reach the goal. Its prior is
-//! `P(1 - p < x) = x^0.2`: most plans that work as written work nearly always, and a quarter of
-//! them less often than three times in four.
+//! `P(1 - p < x) = x^0.2`. Most plans that work as written thus work nearly always, and a quarter
+//! of them less often than three times in four.
 //!
 //! After every few replays the posterior gives the probability that the share is below the required
 //! one. The test ends once this probability is below 1 % or above 99 %. A posterior does not depend
@@ -11,9 +11,9 @@
 //!
 //! The error of 1 % is an average over that prior and over the decided cases alone. If undecided
 //! cases are judged by their observed share after the last replay, 3 % of all answers are wrong.
-//! Nearly all wrong answers have a share within 0.1 of the required one. Simulated for 0.75 in one
-//! engine, a plan passes in 0.3 % at a share of 0.5, 8 % at 0.65, 26 % at 0.7, 88 % at 0.8 and 99 %
-//! at 0.85.
+//! Nearly all wrong answers have a share within 0.1 of the required one. In simulations with a
+//! required share of 0.75 in one engine, the probability of passing depends on p: 0.3 % at 0.5, 8 %
+//! at 0.65, 26 % at 0.7, 88 % at 0.8 and 99 % at 0.85.
 
 use crate::{outcome::Evidence, scene::Physics};
 

@@ -1,8 +1,8 @@
 //! Replays of plans in the simulator, nominal and perturbed, and verdicts with evidence.
 //!
-//! A plan passes if it violates no rule of its task, its nominal replays reach the goal at rest in
-//! both engines, and so does the required share of perturbed replays. Steps that leave the plane
-//! are replayed in 3-D only. This module is independent of how plans are found.
+//! A plan passes if it violates no rule of its task and its nominal replays reach the goal at rest
+//! in both engines. The required share of perturbed replays must also reach it. Steps that leave
+//! the plane are replayed in 3-D only. This module is independent of how plans are found.
 
 mod arm;
 mod clear;

@@ -10,10 +10,10 @@ use crate::{
     task::{Demand, Ending, Goal, PushRules, Task},
 };
 
-/// Maximum height of a plate's lowest point above the table at which it lies on the table, metres.
+/// Largest height of a plate's lowest point that counts as lying on the table, metres.
 const ON_TABLE: f64 = 1e-3;
 
-/// Maximum tilt of a plate that lies on its underside, radians. A hand-sized plate on 6 mm feet
+/// Largest tilt that counts as lying on the underside, radians. A hand-sized plate on 6 mm feet
 /// tilts by 0.002 if one foot is in the air.
 const LEVEL: f64 = 0.01;
 
@@ -29,7 +29,8 @@ const CARRYING: f64 = 3e-4;
 impl Task {
     /// Returns the task of pushing the goals' objects to their places once all objects rest at
     /// `rests`, which holds their frames. Returns `None` if the task allows no pushes or no further
-    /// tool change, has no planar goal, or a goal's object does not lie on the table.
+    /// tool change, or has no planar goal. Also returns `None` if a goal's object does not lie on
+    /// the table.
     ///
     /// Objects that still stand on their undersides keep their shapes and joints. Other objects
     /// that lie on the table become prisms of their outlines, carried by their lowest points.

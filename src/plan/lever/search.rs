@@ -24,8 +24,8 @@ const APART: [f64; 3] = [0.010, 0.005, 0.0025];
 /// Number of feasible lever-ups that suffices for a search.
 const ENOUGH: usize = 300;
 
-/// Tilts at the end of the rotation between which plates fall either way, degrees. Measured on
-/// thousands of plates: below 75 two in a hundred turn over, above 85 all but two.
+/// Tilts at the end of the rotation between which plates fall to either side, degrees. In thousands
+/// of measurements, two in a hundred turn over below 75, and all but two above 85.
 const UNDECIDED_DEG: [f64; 2] = [70.0, 90.0];
 
 /// Penalty for a final tilt in the middle of [`UNDECIDED_DEG`], in units of the score.

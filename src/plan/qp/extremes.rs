@@ -1,8 +1,8 @@
 //! Tests of quadratic programmes with extreme numbers, which refinement should not produce.
 //!
-//! All problems have the form used in refinement: 1/2 x'Px + q'x within low <= x <= high. The
-//! reference is coordinate descent, which for a convex quadratic over a box converges to the
-//! minimum (Tseng 2001, J. Optim. Theory Appl. 109, 475).
+//! Problems have the form used in refinement: 1/2 x'Px + q'x within low <= x <= high. The reference
+//! is coordinate descent, which for a convex quadratic over a box converges to the minimum (Tseng
+//! 2001, J. Optim. Theory Appl. 109, 475).
 
 use super::{QpProblem, QpSolver, QpStatus};
 

@@ -35,8 +35,8 @@ const SAME_HOLD: f64 = 0.015;
 /// Additional clearance between the tool and the object where the tool is set down, metres.
 const ROOM: f64 = 0.005;
 
-/// Largest distance of an object's centre beyond the edge of the face, as a share of its mean
-/// radius. A push farther out rotates the object.
+/// Largest distance of an object's centre beyond the edge of the face, relative to its mean radius.
+/// A push farther out rotates the object.
 const BESIDE: f64 = 0.25;
 
 /// Group of solids that one push carries along.

@@ -2,9 +2,9 @@
 //! skeletons for plans of many pushes.
 //!
 //! [`Transport`] finds legs of one push each on a grid of places. Every goal's object moves around
-//! fixed bodies. Obstructing objects are first cleared, or wait until another object has passed (as
-//! in navigation among movable obstacles, Stilman and Kuffner 2005, "Navigation among movable
-//! obstacles: real-time reasoning in complex environments"). This needs no rollouts; [`follow`]
+//! fixed bodies. Obstructing objects are first cleared, or wait until another object has passed.
+//! This is navigation among movable obstacles (Stilman and Kuffner 2005, "Navigation among movable
+//! obstacles: real-time reasoning in complex environments"). No rollouts are needed; [`follow`]
 //! then finds real pushes for the legs, one after another.
 
 mod follow;

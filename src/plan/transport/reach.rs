@@ -15,7 +15,7 @@ use super::path::{PathSegment, Paths, Taken};
 /// Clearance between groups, and to a tool that carries another, metres.
 const BESIDE: f64 = 0.004;
 
-/// Distance between samples of paths for obstructions beside them, in places.
+/// Distance between samples of paths in the search for obstructions, in places.
 const SAMPLE: usize = 3;
 
 /// Push that carries a group straight along.

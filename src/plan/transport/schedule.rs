@@ -101,7 +101,8 @@ impl Transport<'_> {
         children
     }
 
-    /// Adds moves that clear the obstructions of the last of `ways` out of all of them.
+    /// Adds moves that clear the obstructions of the last path in `ways`, to places outside all
+    /// these paths.
     fn make_room(
         &self,
         node: &Node,

@@ -159,7 +159,7 @@ fn solved(
 }
 
 /// Returns the orders of the stages to try: lever-ups first, or pushes first to make room for them.
-/// With several lever-ups, the reversed order is also tried.
+/// The reversed order of several lever-ups is also tried.
 fn orders(task: &Task) -> VecDeque<Vec<Stage>> {
     let (lifted, flat): (Vec<Goal>, Vec<Goal>) =
         task.goals.iter().cloned().partition(|goal| !goal.is_pose());
