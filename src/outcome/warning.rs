@@ -142,7 +142,7 @@ pub enum Warning {
     },
     /// The task does not allow the tool.
     ForbiddenTool {
-        /// Name of the object.
+        /// Name of the tool.
         tool: String,
     },
     /// The task does not allow the grip yaw.
@@ -223,7 +223,7 @@ pub enum Warning {
     },
     /// The 2-D engine replaced the model.
     Simulated {
-        /// The fault.
+        /// Warning that led to the replacement.
         reason: Box<Warning>,
     },
     /// No prediction was made, because of the other warnings.

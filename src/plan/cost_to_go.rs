@@ -135,9 +135,8 @@ impl<'a> CostToGo<'a> {
         self.goals.iter().zip(self.grids.iter()).map(|one| way(one).unwrap_or(0.0)).sum()
     }
 
-    /// Returns the cost of a state, in units of the tolerances. It is the sum over all goals of the
-    /// larger of the remaining distance and rotation, plus the distance by which obstructions must
-    /// move.
+    /// Returns the cost of a state, in units of the tolerances: the larger of remaining distance
+    /// and rotation, summed over all goals, plus the weighted depth of the obstructions.
     pub fn cost(&self, state: &State) -> f64 {
         let cost = |(goal, grids): (&Goal, &Vec<Option<Ways>>)| {
             let end = End::resting(goal.object, state);

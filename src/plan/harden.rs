@@ -1,9 +1,9 @@
 //! Hardening of plans against the unknown support of their objects.
 //!
-//! A search ranks plans by their end on the believed support, and refinement brings the mean of
-//! their ends to the goal. Neither reduces the spread of the ends over support models. If no plan
-//! works nearly always, a random search starts from the candidates with the smallest spread. It
-//! varies offsets, directions and lengths, and keeps changes that reduce the error with the worst
+//! A search ranks plans by their final pose on the believed support, and refinement brings the
+//! centre of their final poses to the goal. Neither reduces the spread over support models. If no
+//! plan works nearly always, a random search starts from the candidates with the smallest spread.
+//! It varies offsets, directions and lengths, and keeps changes that reduce the error for the worst
 //! support model. Half of the candidates are dropped after every few rounds (successive halving,
 //! Jamieson and Talwalkar 2016, arXiv:1502.07943).
 
@@ -84,8 +84,8 @@ pub fn harden(
     work.into_iter().map(|one| SearchResult { candidate: one.best, score: one.worst }).collect()
 }
 
-/// Returns the search results near the goal, ordered by the radius of their ends over all support
-/// models, which becomes their score.
+/// Returns the search results near the goal, ordered by their spread over all support models, which
+/// becomes their score.
 fn steadiest(
     workspace: &Workspace,
     rollouts: &mut Rollouts,

@@ -50,8 +50,8 @@ impl Scores {
         self.grips.clear();
     }
 
-    /// Returns the index of the first of `ways`, which have the same number and order for every
-    /// state. Returns `None` if they are too many to store.
+    /// Returns the index of the first of the pushes `ways`, which have the same number and order
+    /// for every state. Returns `None` if they are too many to store.
     pub fn place(
         &mut self,
         pair: (usize, f64),

@@ -140,7 +140,7 @@ impl SweptRegion {
     }
 
     /// Returns the distance that an object at `pose` would have to move to leave the region with
-    /// room, metres: 0 outside.
+    /// room, metres; 0 outside the region.
     fn depth(&self, object: &Object, pose: &Pose) -> f64 {
         let own = object.shape.footprint();
         let into = |passed: &Passed| {

@@ -34,7 +34,7 @@ impl Planner {
     /// depend on the number of threads.
     ///
     /// # Errors
-    /// [`SolveError`] for bad input only.
+    /// Returns [`SolveError`] for invalid input only.
     pub fn solve(&self, task: &Task, library: &ToolLibrary) -> Result<Solution, SolveError> {
         self.solve_with(task, library, &Unwatched)
     }
@@ -55,7 +55,7 @@ impl Planner {
     /// another thread.
     ///
     /// # Errors
-    /// [`SolveError`] for bad input only.
+    /// Returns [`SolveError`] for invalid input only.
     pub fn solve_with(
         &self,
         task: &Task,
@@ -81,7 +81,7 @@ impl Planner {
     /// from the task.
     ///
     /// # Errors
-    /// [`SolveError`] for bad input only.
+    /// Returns [`SolveError`] for invalid input only.
     pub fn solve_from(
         &self,
         situation: &Situation,
@@ -116,7 +116,7 @@ impl Planner {
     /// `None` if a plan is worth verifying, which is not done here, or if `watch` stopped it.
     ///
     /// # Errors
-    /// [`SolveError`] for bad input only.
+    /// Returns [`SolveError`] for invalid input only.
     pub fn why(
         &self,
         task: &Task,
@@ -151,7 +151,7 @@ impl Planner {
     /// verified.
     ///
     /// # Errors
-    /// [`SolveError`] for bad input only.
+    /// Returns [`SolveError`] for invalid input only.
     pub fn approach(
         &self,
         situation: &Situation,

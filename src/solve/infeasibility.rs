@@ -49,7 +49,7 @@ pub enum Cause {
     },
     /// A tool that the task does not name would work.
     Tool {
-        /// Name of the body.
+        /// Name of the tool.
         needed: String,
     },
     /// An object joined to the goal's object can be pushed to the goal, and the goal's object
@@ -71,7 +71,7 @@ pub enum Cause {
     },
     /// An obstacle obstructs every plan.
     Obstacle {
-        /// Name of the body.
+        /// Name of the obstacle.
         name: String,
     },
     /// No single limit: each was relaxed separately without success.

@@ -205,7 +205,7 @@ impl Planner {
     /// Predicts a plan of pushes with the tools of `tools` that it names.
     ///
     /// # Errors
-    /// [`SolveError`] for bad input only.
+    /// Returns [`SolveError`] for invalid input only.
     pub fn predict(
         &self,
         task: &Task,

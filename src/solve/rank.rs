@@ -24,13 +24,13 @@ pub fn distinct(found: &[SearchResult], count: usize, most_behind: usize) -> Vec
         .collect()
 }
 
-/// Minimum share of the tolerance by which a prediction may exceed it and still be tried. It
-/// applies for any accuracy of the model, which is only accurate on average.
+/// Smallest model error assumed in the decision to verify, relative to the tolerance: a measured
+/// accuracy only holds on average.
 const HAIR: f64 = 0.1;
 
 /// Returns `true` if the predicted error is at most the tolerance plus the effect model's error
-/// `error_p95` (metres) or a minimum share. For headings, the error applies at the object's mean
-/// radius. If the model's error is unknown, every feasible plan is worth verifying.
+/// `error_p95` (metres), which is at least [`HAIR`]. For headings, the model's error applies at the
+/// object's mean radius. If it is unknown, every feasible plan is worth verifying.
 pub(super) fn is_worth_verifying(
     task: &Task,
     evaluation: &Evaluation,

@@ -7,12 +7,11 @@ use crate::task::Goal;
 
 use super::query::Query;
 
-/// Seed offset that separates the samples of the final model from the samples of the screening
-/// model.
+/// Seed bit that separates the samples of the final model from the samples of the screening model.
 const DECIDING: u64 = 1 << 15;
 
-/// Trust radius for candidates refined by another model, in steps: the difference between the
-/// optima of both models.
+/// Trust radius for candidates refined by another model, in steps: the usual distance between the
+/// optima of two models.
 pub(super) const SCREENED_RADIUS: f64 = 1.0;
 
 /// Counted access to the effect models of a planner.

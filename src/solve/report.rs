@@ -26,8 +26,8 @@ const NEARER: f64 = 0.01;
 /// Minimum improvement of the heading by a reported plan without success, radians.
 const TURNED: f64 = 0.1;
 
-/// Returns the solution with the ranked attempts of a blackboard. `began` is the start of the
-/// solution.
+/// Returns the solution with the ranked attempts of a blackboard. `began` is the time at which
+/// solving began.
 pub(super) fn solution(mut board: Blackboard, began: Instant) -> Solution {
     let (query, status) = (board.query, board.status());
     let attempts = match board.levers {

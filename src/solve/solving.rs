@@ -15,7 +15,7 @@ pub(super) trait Strategy<'a> {
     /// of the board.
     ///
     /// # Errors
-    /// [`SolveError`] for bad input only.
+    /// Returns [`SolveError`] for invalid input only.
     fn next(&mut self, board: &mut Blackboard<'a>) -> Result<Option<Batch>, SolveError>;
 }
 
@@ -30,7 +30,7 @@ pub(super) enum Batch {
 /// Tries the batches of `strategies`, which are in order of precedence.
 ///
 /// # Errors
-/// [`SolveError`] for bad input only.
+/// Returns [`SolveError`] for invalid input only.
 pub(super) fn run<'a>(
     board: &mut Blackboard<'a>,
     strategies: &mut [Box<dyn Strategy<'a> + 'a>],

@@ -80,7 +80,7 @@ mod tests {
         };
         assert!(clear(8, 8) && clear(0, 4) && clear(15, 30) && clear(62, 64));
         assert!(!clear(4, 4) && !clear(6, 8) && !clear(48, 64));
-        // A required share of 1 or 0 is missed or met with any replays.
+        // A required share of 0 is always met, and a share of 1 is always missed.
         assert_eq!(below(0.0, 0, 4), 0.0);
         assert!(below(1.0, 64, 64) > 0.9);
     }

@@ -12,7 +12,7 @@ pub enum LeverWarning {
     Slipped,
     /// Forces grew as in a jam.
     Jammed,
-    /// The plate did not come to rest in time.
+    /// The plate still moved at the time limit.
     Moving,
 }
 

@@ -12,6 +12,8 @@ const AUTO: [f64; 3] = [1.0, 0.85, 1.2];
 
 /// Number of depths tried within the task's range.
 const DEPTHS: usize = 3;
+
+/// Number of angles tried within the task's range.
 const ANGLES: usize = 6;
 
 /// Lever-up with its cell of the grid.

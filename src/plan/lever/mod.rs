@@ -1,8 +1,8 @@
 //! Candidates of lever-ups, and their parallel search.
 //!
-//! Every lever point, depth, axis and angle that a task's rules allow is enumerated. Lever-ups that
-//! no robot can make are rejected with a reason; the rest are predicted by a model and ranked. This
-//! module neither simulates nor verifies.
+//! Lever-ups are enumerated over every lever point, depth, axis and angle that a task's rules
+//! allow. Infeasible ones are rejected with a reason; the rest are predicted by a model and ranked.
+//! This module neither simulates nor verifies.
 
 mod candidate;
 mod room;

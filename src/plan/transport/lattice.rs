@@ -15,7 +15,7 @@ pub(super) struct Solid {
     pub footprint: Footprint,
     /// Pose relative to the position of the object, with the heading in the world frame.
     pub pose: Pose,
-    /// Heights above the table between which it is, metres.
+    /// Lowest and highest height above the table, metres.
     pub span: [f64; 2],
     /// Clearance to everything, metres.
     pub apart: f64,

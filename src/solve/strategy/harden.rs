@@ -7,7 +7,7 @@ use crate::solve::grade::{Class, Grade};
 use crate::solve::solving::{Batch, Strategy};
 use crate::watch::Instant;
 
-/// Seed offset that separates the samples of hardening from the samples of refinement.
+/// Seed bit that separates the samples of hardening from the samples of refinement.
 const HARDENING: u64 = 1 << 14;
 
 /// Strategy that varies the results of the last search once.
