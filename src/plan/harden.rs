@@ -3,9 +3,9 @@
 //! A search ranks plans by their final pose on the believed support, and refinement brings the
 //! centre of their final poses to the goal. Neither reduces the spread over support models. If no
 //! plan works nearly always, a random search starts from the candidates with the smallest spread.
-//! It varies offsets, directions and lengths, and keeps changes that reduce the error for the worst
-//! support model. Half of the candidates are dropped after every few rounds (successive halving,
-//! Jamieson and Talwalkar 2016, arXiv:1502.07943).
+//! The random search varies offsets, directions and lengths, and keeps changes that reduce the
+//! error for the worst support model. Half of the candidates are dropped after every few rounds
+//! (successive halving, Jamieson and Talwalkar 2016, arXiv:1502.07943).
 
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
