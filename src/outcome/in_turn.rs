@@ -1,11 +1,11 @@
-//! Rollouts of several jobs one after another.
+//! Rollouts of job sequences.
 
 use crate::task::Job;
 
 use super::{Record, Trajectory};
 
-/// Rolls out sequences of jobs, none of them empty, with `run`, as one trajectory each: of every sequence a job begins as the one
-/// before has left everything.
+/// Rolls out non-empty sequences of jobs with `run` and returns one trajectory for each sequence.
+/// Each job starts from the final state of the previous one.
 pub fn in_turn(
     sequences: &[Vec<Job>],
     record: Record,

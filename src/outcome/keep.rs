@@ -1,10 +1,10 @@
-//! What a plan may not move.
+//! Check that objects stay within the distance that they may be moved.
 
 use super::Warning;
 use crate::scene::{Scene, State};
 
 impl Scene {
-    /// That an object was moved farther than it may be; the first that was.
+    /// Returns a warning about the first object that was moved farther than its `keep` distance.
     pub fn not_kept(&self, state: &State) -> Option<Warning> {
         self.objects.iter().zip(&state.poses).find_map(|(object, pose)| {
             let within = object.keep?;

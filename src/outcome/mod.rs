@@ -1,6 +1,6 @@
 //! Results of motions: trajectories, outcomes judged by goals, warnings and verdicts.
 //!
-//! SI units and radians throughout. Nothing here simulates or plans.
+//! Quantities are in SI units and radians. This module neither simulates nor plans.
 
 mod in_turn;
 mod keep;

@@ -1,28 +1,30 @@
-//! What of a push a task does not allow.
+//! Violations of a task's rules by a push.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// What of a push a task does not allow.
+/// Violation of a task's rules by a push.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PushFault {
-    /// The task's pushes begin in another way: from above, or where the last one ended.
+    /// The push has another form than the task's: it starts from above or at the end of the last
+    /// push.
     Form,
-    /// The tool's underside is not as high as the task says, but at this height, metres.
+    /// The height of the tool's underside is not the task's but this one, metres.
     Lift(f64),
-    /// It is the first of chained pushes and begins so far from the robot's home, metres.
+    /// The first of chained pushes begins this far from the robot's home, metres.
     Home(f64),
-    /// It is chained and begins so far from where the last push ended, metres.
+    /// A chained push begins this far from the end of the previous push, metres.
     Apart(f64),
-    /// It goes where no direction of the task goes, nor a refined one: radians.
+    /// The direction is neither one of the task's nor a refinement of one, radians.
     Direction(f64),
-    /// It is longer than refinement may make it, metres.
+    /// The push has this length, longer than refinement allows, metres.
     Length(f64),
-    /// It is faster than the task says, m/s.
+    /// The push has this speed, faster than the task allows, m/s.
     Speed(f64),
-    /// It takes longer than [`Push::LONGEST`](crate::task::Push::LONGEST), seconds.
+    /// The push has this duration, longer than [`Push::LONGEST`](crate::task::Push::LONGEST),
+    /// seconds.
     TooLong(f64),
 }
 

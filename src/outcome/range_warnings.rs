@@ -1,4 +1,4 @@
-//! Warnings about rollouts outside the ranges of a model.
+//! Warnings about rollouts outside the validity ranges of a model.
 
 use crate::geometry::{Shape, Vector, centroid};
 use crate::scene::{
@@ -9,15 +9,18 @@ use crate::task::{Job, Stroke};
 use super::Warning;
 
 impl Ranges {
-    /// A warning for every quantity of the job that lies outside; travel and the number of pushes
-    /// are left out, because a rollout is made of frames that look the same however many there
-    /// are. Masses and frictions are those that the job's physics says.
+    /// Returns a warning for every quantity of the job that lies outside the ranges. Masses and
+    /// frictions are taken from the job's physics.
+    ///
+    /// Travel and the number of pushes are not checked, because the model predicts frame by frame
+    /// and their number does not change its inputs.
     pub fn warnings(&self, scene: &Scene, job: &Job) -> Vec<Warning> {
         let all: Vec<usize> = (0..scene.objects.len()).collect();
         self.warnings_among(scene, job, &all)
     }
 
-    /// [`Ranges::warnings`] with a look at these objects alone, indices in order.
+    /// Returns the [`Ranges::warnings`] that concern these objects only, given by ascending
+    /// indices.
     pub fn warnings_among(&self, scene: &Scene, job: &Job, objects: &[usize]) -> Vec<Warning> {
         let Job { motion, physics, .. } = job;
         let mut found = Vec::new();
@@ -26,7 +29,7 @@ impl Ranges {
                 found.push(Warning::OutsideRange {
                     of: of(),
                     quantity,
-                    // Files hold no infinite numbers.
+                    // Files cannot hold infinite numbers.
                     value: value.min(f64::MAX),
                     low: span.low,
                     high: span.high,
@@ -34,7 +37,7 @@ impl Ranges {
             }
         };
         let (whole, push) = (|| "scene".to_owned(), || "push".to_owned());
-        // A thing of several solids weighs and counts once.
+        // A compound object has one mass and counts once.
         let things: Vec<usize> =
             objects.iter().copied().filter(|&k| !scene.objects[k].is_part()).collect();
         if !things.is_empty() {
@@ -124,7 +127,8 @@ impl Ranges {
     }
 }
 
-/// Radians per metre; infinite for a turn on the spot.
+/// Returns the rotation per distance travelled, radians per metre: infinite for a rotation on the
+/// spot.
 fn turn_per_travel(stroke: &Stroke) -> f64 {
     let turn = (stroke.to.heading - stroke.from.heading).abs();
     if turn > 0.0 { turn / stroke.travel() } else { 0.0 }

@@ -1,4 +1,4 @@
-//! The end of a trajectory, judged by all demands of all goals.
+//! Final state of a trajectory, judged by all demands of all goals.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,38 +8,40 @@ use crate::{
     task::{End, Ending, Goal, Lift, Task},
 };
 
-/// The end of a plan according to one source.
+/// Final state of a plan according to one source.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Outcome {
     /// Final poses of all objects.
     pub state: State,
-    /// The errors of the goals, in the order of the task.
+    /// Errors of the goals, in the order of the task.
     pub goals: Vec<Miss>,
     /// Whether all goals are reached at rest.
     pub reached: bool,
 }
 
-/// The error of one goal.
+/// Error of one goal.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Miss {
     /// Index into [`Scene::objects`].
     pub object: usize,
     /// Distance from the goal, metres.
     pub error: f64,
-    /// Heading error, radians, where a heading is asked for.
+    /// Heading error, radians, if the goal has a heading.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub heading_error: Option<f64>,
-    /// The largest error of its demands in units of their tolerances: at most 1 if all are satisfied.
+    /// Largest error among the goal's demands in units of their tolerances: at most 1 if all are
+    /// met.
     pub score: f64,
-    /// Height by which a blade had lifted an edge of the object at the end of its last turn, metres.
+    /// Height to which a blade had lifted an edge of the object at the end of its last rotation,
+    /// metres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub raised: Option<f64>,
 }
 
 impl Miss {
-    /// The error of a goal at the end of a trajectory.
+    /// Returns the error of a goal in the final state.
     fn of(goal: &Goal, state: &State, lift: Option<Lift>) -> Self {
-        // A score that is no number counts as far off; comparisons with it would count as met.
+        // A NaN score becomes the largest number, because comparisons with NaN would count as met.
         let score = Some(goal.score_after(state, lift)).filter(|score| score.is_finite());
         Self {
             object: goal.object,
@@ -52,14 +54,14 @@ impl Miss {
 }
 
 impl Outcome {
-    /// Judges the end of a trajectory in `scene` by the goals of `task`. One that did not come to rest,
-    /// became NaN or infinite, or in which an object fell does not count as reaching them.
+    /// Judges the end of a trajectory in `scene` by the goals of `task`. The goals count as missed
+    /// if the trajectory did not end at rest, became NaN or infinite, or an object fell.
     pub fn judge(scene: &Scene, task: &Task, trajectory: &Trajectory) -> Self {
         let sound = trajectory.warnings.iter().all(|warning| !warning.forbids_success());
         Self::of_state((scene, task), trajectory.outcome().clone(), &trajectory.lifts, sound)
     }
 
-    /// Judges a state after these lifts, `sound` if nothing went wrong on the way.
+    /// Judges a state after these lifts. `sound` states that no fault occurred on the way.
     pub fn of_state(
         (scene, task): (&Scene, &Task),
         state: State,
@@ -77,22 +79,22 @@ impl Outcome {
         Self { goals, reached: sound && state.is_finite() && near, state }
     }
 
-    /// The score by which plans are compared, the worst of all goals: at most 1 is success.
+    /// Returns the worst score of all goals, by which plans are compared: at most 1 is success.
     pub fn score(&self) -> f64 {
         self.goals.iter().map(|goal| goal.score).fold(0.0, f64::max)
     }
 
-    /// The largest distance from a goal, metres.
+    /// Returns the largest distance from a goal, metres.
     pub fn error(&self) -> f64 {
         self.goals.iter().map(|goal| goal.error).reduce(f64::max).unwrap_or(0.0)
     }
 
-    /// The largest heading error, radians, where a heading is asked for.
+    /// Returns the largest heading error, radians, if any goal has a heading.
     pub fn heading_error(&self) -> Option<f64> {
         self.goals.iter().filter_map(|goal| goal.heading_error).reduce(f64::max)
     }
 
-    /// The side on which an object lies.
+    /// Returns the side on which an object lies.
     pub fn side(&self, object: usize) -> Ending {
         End::resting(object, &self.state).side().1
     }

@@ -1,14 +1,15 @@
-//! Objects that leave the table or enter regions that they must keep out of.
+//! Detection of objects that leave the table or enter keep-out regions.
 
 use crate::scene::{Region, Scene, State};
 
 use super::Warning;
 
 impl Scene {
-    /// The first object that is where objects keep out, or nearer to it than `margin` metres.
+    /// Returns a warning about the first object inside a keep-out region or nearer to one than
+    /// `margin`, metres.
     pub fn kept_out(&self, state: &State, margin: f64) -> Option<Warning> {
         let regions = || self.keep_out.iter().filter(|region| region.objects);
-        // Most scenes have none.
+        // Most scenes have no keep-out regions.
         regions().next()?;
         if let Some(space) = &state.space {
             let mut all = self.plates().zip(space);
@@ -20,7 +21,7 @@ impl Scene {
         }
         self.objects.iter().zip(&state.poses).find_map(|(object, pose)| {
             let footprint = object.shape.footprint();
-            // What stands nearer at first may go on standing there.
+            // An object that starts within the margin may stay there.
             let margin = |region: &Region| {
                 if region.holds(&footprint, &object.pose, margin) { 0.0 } else { margin }
             };
@@ -30,14 +31,15 @@ impl Scene {
         })
     }
 
-    /// The first object that left the table and may not, or is where objects keep out.
+    /// Returns a warning about the first object that left the table without permission or entered a
+    /// keep-out region.
     pub fn strays(&self, state: &State, margin: f64) -> Option<Warning> {
         let name = |object: usize| self.objects[object].name.clone();
         let off = self.off_table(state).map(|object| Warning::OffTable { object: name(object) });
         off.or_else(|| self.kept_out(state, margin))
     }
 
-    /// What toppled or left the table by the end, though it may.
+    /// Returns warnings about objects that toppled or left the table by the end and are allowed to.
     pub fn fallen(&self, state: &State, toppled: &[usize]) -> Vec<Warning> {
         let may = self.things().filter(|(_, object)| object.may_fall).map(|(k, _)| k);
         let fell = may.filter(|k| toppled.contains(k) || self.has_left(*k, state));

@@ -1,4 +1,4 @@
-//! What happened, or was predicted to happen: states frame by frame, contacts and warnings.
+//! Observed or predicted trajectories: states frame by frame, contacts and warnings.
 
 use crate::scene::Body;
 use serde::{Deserialize, Serialize};
@@ -10,58 +10,58 @@ use crate::scene::planar_only;
 use crate::scene::{ModelSpec, Part, Scene, State, Tool};
 use crate::task::{Job, Lift};
 
-/// One recorded instant.
+/// Recorded instant of a trajectory.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Frame {
-    /// Since the start of the motion, seconds.
+    /// Time since the start of the motion, seconds.
     pub time: f64,
     /// Index of the stroke that this instant ends or belongs to.
     pub stroke: usize,
     /// Pose of the tool frame.
     pub tool: Pose,
-    /// Every object.
+    /// State of all objects.
     pub state: State,
-    /// The middle of the blade while something is levered; `tool` is then what is seen of it from
-    /// above.
+    /// Pose of the middle of the blade during a lever-up; `tool` is then its projection from above.
     #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
     pub blade: Option<Pose3>,
 }
 
-/// The first frame in which two bodies touched.
+/// First contact of two bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Contact {
-    /// Index of the frame that ends with the contact made.
+    /// Index of the frame at whose end the bodies are in contact.
     pub frame: usize,
-    /// The object that is touched.
+    /// Index of the touched object.
     pub object: usize,
-    /// What it touches; of a tool the part, by its number among [`Tool::parts`].
+    /// Body in contact with the object. A part of a tool is given by its index among
+    /// [`Tool::parts`].
     pub with: Body,
 }
 
-/// How hard the tool presses against objects, newtons.
+/// Force of the tool on objects, newtons.
 ///
-/// Read from the impulses of an engine's contacts, and right to within a factor of two.
+/// Computed from the contact impulses of an engine, and accurate to within a factor of two.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Force {
-    /// The largest force in a single time step: mostly that of a first touch.
+    /// Largest force in a single time step: mostly the force of the first impact.
     pub peak: f64,
-    /// The largest force that lasted for three time steps in a row.
+    /// Largest force sustained for three consecutive time steps.
     pub lasting: f64,
 }
 
-/// How far from the truth a prediction of an object's end is expected to be, on average.
+/// Expected error of the predicted final pose of an object, on average.
 ///
-/// Errors have long tails, about those of an exponential distribution: see [`Self::within_90`].
+/// Errors have long tails, approximately exponential: see [`Self::within_90`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Spread {
-    /// Of its position, metres.
+    /// Mean position error, metres.
     pub position: f64,
-    /// Of its heading, radians.
+    /// Mean heading error, radians.
     pub heading: f64,
 }
 
 impl Spread {
-    /// What 90 % of errors stay within, where they are exponential: ln 10 times the mean.
+    /// Returns the 90 % quantile of an exponential distribution of errors: ln 10 times the mean.
     pub fn within_90(&self) -> Self {
         let factor = std::f64::consts::LN_10;
         Self { position: factor * self.position, heading: factor * self.heading }
@@ -75,34 +75,34 @@ impl std::ops::AddAssign for Spread {
     }
 }
 
-/// The effect of a tool motion.
+/// Effect of a tool motion.
 ///
-/// `frames` begins with the start and ends at rest (or when waiting was given up, with a
-/// warning). When only the outcome was asked for it holds the last frame alone.
+/// `frames` begins with the start state and ends at rest, or with a warning when the time limit for
+/// settling is reached. With [`Record::Outcome`] it holds only the last frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trajectory {
-    /// The model that computed it; where several share the work, the one that had this job.
+    /// Model that computed the trajectory; among several models, the one that received this job.
     pub by: ModelSpec,
-    /// In order of time.
+    /// Recorded frames, in order of time.
     pub frames: Vec<Frame>,
-    /// First contacts, in order of time; empty when only the outcome was asked for.
+    /// First contacts, in order of time; empty with [`Record::Outcome`].
     pub contacts: Vec<Contact>,
-    /// What the reader should know about how far to trust this.
+    /// Warnings about the reliability of this trajectory.
     pub warnings: Vec<Warning>,
-    /// How hard the tool pressed; `None` where the model does not say.
+    /// Force of the tool on objects; `None` if the model does not compute it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub force: Option<Force>,
-    /// How far off the end of every object is expected to be, in the order of the scene; empty where
-    /// the model does not say.
+    /// Expected error of the final pose of every object, in the order of the scene; empty if the
+    /// model does not estimate it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub spreads: Vec<Spread>,
-    /// What each lever-up has come to, in order.
+    /// Result of each lever-up, in order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub lifts: Vec<Lift>,
 }
 
 impl Trajectory {
-    /// Nothing yet, computed `by` this model.
+    /// Creates an empty trajectory computed `by` this model.
     pub fn new(by: ModelSpec) -> Self {
         Self {
             by,
@@ -115,24 +115,26 @@ impl Trajectory {
         }
     }
 
-    /// `state` alone, the tool at `tool`, where nothing is done.
+    /// Creates a trajectory without motion: `state` alone, with the tool at `tool`.
     pub fn standing(by: ModelSpec, tool: Pose, state: State) -> Self {
         let frame = Frame { time: 0.0, stroke: 0, tool, state, blade: None };
         Self { frames: vec![frame], ..Self::new(by) }
     }
 
-    /// Returns the answer of a model that does not know the motion of `job`: everything stays where it is.
+    /// Returns the trajectory of a model that does not support the motion of `job`: everything
+    /// stays in place.
     pub fn declined(by: &ModelSpec, job: &Job) -> Self {
         let mut declined = Self::standing(by.clone(), Pose::default(), job.start.clone());
         declined.warnings.push(Warning::Declined { model: by.clone() });
         declined
     }
 
-    /// This and what came after it, which began as this ended; `strokes` were made before.
+    /// Appends the trajectory `next`, which starts where this one ends, after the given number of
+    /// strokes.
     #[must_use]
     pub(super) fn then(mut self, next: Self, record: Record, strokes: usize) -> Self {
         let began = self.frames.last().map_or(0.0, |frame| frame.time);
-        // How it began is how this ended.
+        // The first frame of `next` repeats the last one of `self`.
         let known = match record {
             Record::Frames => 1,
             Record::Outcome => 0,
@@ -163,15 +165,15 @@ impl Trajectory {
         };
         match self.spreads.is_empty() {
             true => self.spreads = next.spreads,
-            // Errors of one motion go on into the next.
+            // Errors of consecutive motions add up.
             false => self.spreads.iter_mut().zip(next.spreads).for_each(|(a, b)| *a += b),
         }
         self.lifts.extend(next.lifts);
         self
     }
 
-    /// Says which parts of `tool` its contacts are with, where they were noted with pieces of its outline,
-    /// in which flush parts are one: the part that is nearest then.
+    /// Replaces outline pieces in the contacts by the nearest parts of `tool`, because flush parts
+    /// are merged in the outline.
     pub fn tell_parts(&mut self, scene: &Scene, tool: &Tool) {
         let mut told: Vec<Contact> = Vec::with_capacity(self.contacts.len());
         for mut contact in std::mem::take(&mut self.contacts) {
@@ -196,16 +198,16 @@ impl Trajectory {
         self.contacts = told;
     }
 
-    /// The last recorded state.
+    /// Returns the last recorded state.
     ///
     /// # Panics
-    /// Never for a trajectory that an effect model returned: those have at least one frame.
+    /// Never for a trajectory returned by an effect model, which has at least one frame.
     pub fn outcome(&self) -> &State {
         &self.frames[self.frames.len() - 1].state
     }
 }
 
-/// How much of a rollout is wanted.
+/// Extent of a rollout's recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Record {
     /// Only the last frame.

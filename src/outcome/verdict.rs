@@ -1,121 +1,122 @@
-//! Whether a plan works, with the evidence, and why not.
+//! Verdicts on plans: evidence and reasons for rejection.
 
 use serde::{Deserialize, Serialize};
 
 use super::{Force, Outcome, Trajectory, Warning};
 use crate::scene::{Engine, Physics, Support};
 
-/// This many failed replays on one support, with none that reaches the goal, are no accident: if three
-/// in four reached it, one plan in 250 would show that.
+/// Number of failed replays on one support model, without a success, that rules out chance: with a
+/// success rate of three in four, it happens to one plan in 250.
 const NEVER: usize = 4;
 
-/// What a replay changes against the task as written.
+/// Difference of a replay from the task as written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Disturbance {
-    /// Nothing.
+    /// No perturbation.
     Nominal,
-    /// Where objects start and every friction value, slightly and at random.
+    /// Small random perturbation of the start poses and of every friction coefficient.
     Disturbed {
-        /// Number of the draw, from 1; the same for the same seed in both engines.
+        /// Number of the draw, from 1. A draw of a given seed is identical in both engines.
         draw: usize,
     },
 }
 
-/// One replay of a plan in an engine.
+/// Replay of a plan in an engine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Evidence {
-    /// Which engine.
+    /// Engine of the replay.
     pub engine: Engine,
-    /// What was changed against the task as written.
+    /// Perturbation of the replay.
     pub disturbance: Disturbance,
-    /// Where it ended.
+    /// Final state and goal errors.
     pub outcome: Outcome,
-    /// What happened on the way that a reader should know.
+    /// Warnings raised during the replay.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Warning>,
-    /// How hard the tool pressed.
+    /// Force of the tool on objects.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub force: Option<Force>,
-    /// What happened frame by frame, of a nominal replay. Not written to files, as replaying the
-    /// plan gives it again.
+    /// Trajectory of a nominal replay. It is not written to files, because a replay of the plan
+    /// reproduces it.
     #[serde(skip)]
     pub trajectory: Option<Trajectory>,
 }
 
 impl Evidence {
-    /// What went wrong on the way, so that the end does not count.
+    /// Returns the first warning that invalidates the outcome.
     pub fn fault(&self) -> Option<&Warning> {
         self.warnings.iter().find(|warning| warning.forbids_success())
     }
 }
 
-/// Why a plan does not pass.
+/// Reason for the rejection of a plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Reason {
-    /// The plan does what its task does not allow.
+    /// The plan violates a rule of its task.
     Forbidden(Warning),
-    /// Something goes wrong on the way when it is replayed as written.
+    /// A fault occurs in the replay of the plan as written.
     GoesWrong {
-        /// In which engine.
+        /// Engine of the replay.
         engine: Engine,
-        /// What.
+        /// The fault.
         fault: Warning,
     },
-    /// The object misses the goal when the plan is replayed as written.
+    /// The object misses the goal in the replay of the plan as written.
     Misses {
-        /// In which engine.
+        /// Engine of the replay.
         engine: Engine,
-        /// By how much, metres.
+        /// Position error, metres.
         error: f64,
-        /// By how much it is turned, radians, where a heading is asked for.
+        /// Heading error, radians, if the goal has a heading.
         heading_error: Option<f64>,
     },
-    /// It works as written, but too seldom when starts and frictions are a little different.
+    /// The plan works as written, but fails too often when start poses and frictions are perturbed.
     Fragile {
-        /// In which engine more of the replays fail.
+        /// Engine with the larger share of failures.
         engine: Engine,
-        /// Disturbed replays that reach the goal there, of how many.
+        /// Number of perturbed replays in this engine that reach the goal.
         reached: usize,
-        /// How many were made there.
+        /// Number of perturbed replays in this engine.
         replays: usize,
-        /// Share that was asked for.
+        /// Required share of successful replays.
         wanted: f64,
     },
-    /// It works as written, but never where objects rest on the table in a way that is as plausible.
+    /// The plan works as written, but never with another plausible support model.
     NeverOn {
-        /// In which engine.
+        /// Engine of the replay.
         engine: Engine,
-        /// What they rest on then.
+        /// Support model with which the plan fails.
         support: Support,
-        /// How many replays were made so.
+        /// Number of replays with this support model.
         replays: usize,
     },
 }
 
-/// Whether a plan works, with the evidence.
+/// Verdict on a plan, with the evidence.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
-    /// Passed: the plan breaks no rule of its task, its replays as written reach the goal at rest
-    /// in both engines, and in each engine so does the wanted share of the disturbed ones.
+    /// Whether the plan passes. A passing plan violates no rule, and its nominal replays reach the
+    /// goal at rest in both engines. In each engine, so does the required share of perturbed
+    /// replays.
     pub passed: bool,
-    /// Why not.
+    /// Reason for the rejection.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reason: Option<Reason>,
-    /// What the plan does that its task does not allow, whatever it leads to.
+    /// Violations of the task's rules, regardless of their effect.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub forbidden: Vec<Warning>,
-    /// All replays, nominal ones first.
+    /// Replays, the nominal ones first.
     pub evidence: Vec<Evidence>,
-    /// Share of the disturbed replays that reach the goal, 0 to 1, in the engine in which fewer
-    /// do; `None` if none was made.
+    /// Share of the perturbed replays that reach the goal, 0 to 1, in the engine with fewer
+    /// successes. `None` if no perturbed replay was made.
     pub robustness: Option<f64>,
 }
 
 impl Verdict {
-    /// The verdict on a plan that does what is `forbidden`, by its replays, `wanted` being the
-    /// share of the disturbed ones that must reach the goal.
+    /// Judges a plan by its rule violations and its replays. `wanted` is the share of the perturbed
+    /// replays that must reach the goal.
     pub fn judge(forbidden: Vec<Warning>, evidence: Vec<Evidence>, wanted: f64) -> Self {
         let mut verdict =
             Self { passed: false, reason: None, forbidden, evidence, robustness: None };
@@ -126,22 +127,22 @@ impl Verdict {
         verdict
     }
 
-    /// Whether the plan works as written, though perhaps too seldom under disturbances.
+    /// Returns `true` if the plan works as written, even if too seldom when perturbed.
     pub fn works(&self) -> bool {
         matches!(self.reason, None | Some(Reason::Fragile { .. } | Reason::NeverOn { .. }))
     }
 
-    /// Whether a replay was stopped before it was over, so that the verdict says nothing.
+    /// Returns `true` if a replay was stopped early, so that the verdict is inconclusive.
     pub fn was_stopped(&self) -> bool {
         self.evidence.iter().any(|evidence| evidence.warnings.contains(&Warning::Stopped))
     }
 
-    /// The replay as written in an engine.
+    /// Returns the nominal replay in an engine.
     pub fn nominal(&self, engine: Engine) -> Option<&Evidence> {
         self.of(engine).find(|evidence| evidence.disturbance == Disturbance::Nominal)
     }
 
-    /// The disturbed replays in an engine, in the order of their draws.
+    /// Returns the perturbed replays in an engine, in the order of their draws.
     pub fn disturbed(&self, engine: Engine) -> impl Iterator<Item = &Evidence> + Clone {
         self.of(engine).filter(|evidence| evidence.disturbance != Disturbance::Nominal)
     }
@@ -150,7 +151,8 @@ impl Verdict {
         self.evidence.iter().filter(move |evidence| evidence.engine == engine)
     }
 
-    /// Disturbed replays in an engine that reach the goal, all of them, and the share.
+    /// Returns the number of perturbed replays in an engine that reach the goal, their total number
+    /// and the share.
     fn share(&self, engine: Engine) -> Option<(usize, usize, f64)> {
         let replays = self.disturbed(engine).count();
         let reached = self.disturbed(engine).filter(|evidence| evidence.outcome.reached).count();
@@ -161,7 +163,7 @@ impl Verdict {
         if let Some(forbidden) = self.forbidden.first() {
             return Some(Reason::Forbidden(forbidden.clone()));
         }
-        // The 3-D engine first: it sees what the planar one cannot.
+        // The 3-D engine comes first, because it covers effects that the 2-D engine cannot.
         for engine in [Engine::Spatial, Engine::Planar] {
             let Some(nominal) = self.nominal(engine) else { continue };
             if nominal.outcome.reached {
@@ -187,8 +189,8 @@ impl Verdict {
         self.never_on().filter(|_| wanted > 0.0).or(fragile)
     }
 
-    /// A support on which no replay reaches the goal. Lever-ups have none: the planar engine does not replay
-    /// them, and their supports are not disturbed.
+    /// Returns the support model with which no replay reaches the goal. Lever-ups have none,
+    /// because the 2-D engine does not replay them and their supports are not perturbed.
     fn never_on(&self) -> Option<Reason> {
         self.nominal(Engine::Planar)?;
         [Engine::Spatial, Engine::Planar].into_iter().find_map(|engine| {
@@ -198,8 +200,8 @@ impl Verdict {
     }
 }
 
-/// A support on which none of these disturbed replays in one engine reaches the goal, and how many they
-/// are, where there are enough of them to rule out chance.
+/// Returns the support model with which none of these perturbed replays in one engine reaches the
+/// goal, and their number. The number must be large enough to rule out chance.
 pub fn never_on<'a>(
     replays: impl Iterator<Item = &'a Evidence> + Clone,
 ) -> Option<(&'static Support, usize)> {

@@ -1,4 +1,4 @@
-//! Typed warnings: what happened, what it means, which option helps.
+//! Typed warnings: the fact, its consequence and the option that helps.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,103 +8,103 @@ use crate::scene::{ArmFault, ModelSpec, Quantity, Unknowns};
 
 mod words;
 
-/// Something that lowers the trust in a result without making it an error.
+/// Fact that lowers the trust in a result without being an error.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Warning {
-    /// A quantity lies outside the range for which the model was trained or measured.
+    /// A quantity lies outside the range in which the model was trained or measured.
     OutsideRange {
-        /// Which body, or `scene` or `push`.
+        /// Name of the body, or `scene` or `push`.
         of: String,
-        /// Which quantity.
+        /// The quantity.
         quantity: Quantity,
-        /// Its value.
+        /// Value of the quantity.
         value: f64,
         /// Smallest value of the range.
         low: f64,
         /// Largest value of the range.
         high: f64,
     },
-    /// No model that was asked takes this job; the last of them predicted it all the same.
+    /// No available model supports this job; the last one predicted it regardless.
     Declined {
-        /// The last.
+        /// The last model.
         model: ModelSpec,
     },
-    /// Something still moved when waiting was given up.
+    /// Something still moved at the end of the time limit for settling.
     NotAtRest {
-        /// How long was waited, seconds.
+        /// Time limit for settling, seconds.
         waited: f64,
     },
-    /// The model expects to be far off.
+    /// The model expects a large error.
     Doubtful {
         /// Name of the object.
         object: String,
-        /// What nine of ten ends of such pushes are within, metres.
+        /// Error not exceeded by 90 % of such pushes, metres.
         within: f64,
     },
     /// A number became infinite or undefined and the rollout stopped at the last good frame.
     NotFinite,
-    /// The replay was stopped before it was over.
+    /// The replay was stopped early.
     Stopped,
-    /// An object fell over or leans, so that its planar pose no longer tells where it is.
+    /// An object fell over or leans, so that its planar pose no longer locates it.
     Toppled {
-        /// Its name.
+        /// Name of the object.
         object: String,
     },
-    /// An object was pressed into something that does not give way: rigid bodies get stuck there,
-    /// and an arm stops or something breaks. The replay ended.
+    /// An object was pressed into a rigid body. Simulated bodies get stuck there; a real arm stops
+    /// or something breaks. The replay ended.
     Jammed {
-        /// Its name.
+        /// Name of the object.
         object: String,
-        /// The name of the obstacle, the tool's part or the other object.
+        /// Name of the obstacle, of the tool's part or of the other object.
         against: String,
-        /// How deep it was inside, metres.
+        /// Penetration depth, metres.
         depth: f64,
     },
-    /// An object's centre left the table, so that it falls. The replay ended.
+    /// An object's centre left the table, so that the object falls. The replay ended.
     OffTable {
-        /// Its name.
+        /// Name of the object.
         object: String,
     },
-    /// An object was moved farther than the task lets it.
+    /// An object was moved farther than the task allows.
     NotKept {
-        /// Its name.
+        /// Name of the object.
         object: String,
-        /// How far, metres.
+        /// Distance moved, metres.
         moved: f64,
-        /// How far it may be, metres.
+        /// Allowed distance, metres.
         within: f64,
     },
-    /// An object came where objects keep out. The replay ended.
+    /// An object entered a keep-out region. The replay ended.
     KeptOut {
-        /// Its name.
+        /// Name of the object.
         object: String,
-        /// The region's name.
+        /// Name of the region.
         region: String,
     },
-    /// An object toppled or left the table, which it may.
+    /// An object toppled or left the table, which the task allows.
     Fell {
-        /// Its name.
+        /// Name of the object.
         object: String,
     },
-    /// An object's centre left the table, and yet something holds it up.
+    /// An object's centre left the table, but another body holds the object up.
     Hangs {
-        /// Its name.
+        /// Name of the object.
         object: String,
     },
-    /// The tool pressed harder than the robot's arm can, or an object may be pressed.
+    /// The tool pressed harder than the robot's arm can, or than an object allows.
     TooMuchForce {
-        /// The object, where it is the one that may not be.
+        /// Name of the object whose limit is exceeded, or `None` for the arm.
         #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
         object: Option<String>,
-        /// How hard, newtons; to within a factor of two.
+        /// Force, newtons, to within a factor of two.
         needed: f64,
-        /// What the arm can, or the object may, newtons.
+        /// Limit of the arm or of the object, newtons.
         limit: f64,
     },
-    /// The tool pressed harder than an ordinary arm can, and the task does not say what its can.
+    /// The tool pressed harder than an ordinary arm can, and the task states no limit.
     HardPush {
-        /// How hard, newtons; to within a factor of two.
+        /// Force, newtons, to within a factor of two.
         needed: f64,
     },
     /// The end effector leaves the robot's reach.
@@ -119,30 +119,30 @@ pub enum Warning {
         /// Name of the obstacle.
         obstacle: String,
     },
-    /// The hand, or the handle that it holds the tool by, passes through an obstacle.
+    /// The hand, or the handle by which it holds the tool, passes through an obstacle.
     HandThrough {
         /// Index of the push.
         push: usize,
         /// Name of the obstacle.
         obstacle: String,
     },
-    /// The lifted tool does not get to a push from the one before.
+    /// The lifted tool has no free path to a push from the previous one.
     NoWay {
         /// Index of the push.
         push: usize,
-        /// What is in the way and taller than it is lifted.
+        /// Name of the obstruction, which is taller than the travel height.
         obstacle: String,
     },
-    /// The arm cannot make a push, or does not get there.
+    /// The arm cannot make a push or reach its start.
     Arm {
         /// Index of the push.
         push: usize,
-        /// Why.
+        /// The fault.
         fault: ArmFault,
     },
     /// The task does not allow the tool.
     ForbiddenTool {
-        /// Its name.
+        /// Name of the tool.
         tool: String,
     },
     /// The task does not allow the grip yaw.
@@ -150,94 +150,94 @@ pub enum Warning {
         /// The yaw, radians.
         yaw: f64,
     },
-    /// The task does not allow so many pushes in a row.
+    /// The plan has more pushes than the task allows.
     TooManyPushes {
-        /// How many there are.
+        /// Number of pushes.
         pushes: usize,
-        /// How many are allowed.
+        /// Allowed number of pushes.
         allowed: usize,
     },
-    /// The task does not allow to take another tool so often.
+    /// The plan changes the tool more often than the task allows.
     TooManyToolChanges {
-        /// How often.
+        /// Number of tool changes.
         changes: usize,
-        /// How often it is allowed.
+        /// Allowed number of tool changes.
         allowed: usize,
     },
-    /// A push that is not of the form that the task allows.
+    /// A push violates a rule of the task.
     ForbiddenPush {
         /// Index of the push.
         push: usize,
-        /// What of it is not.
+        /// The violated rule.
         fault: PushFault,
     },
-    /// A lever-up that no robot can make, or that the task does not allow.
+    /// The robot cannot make a lever-up, or the task does not allow it.
     CannotLever {
         /// Index of the step.
         step: usize,
-        /// Why.
+        /// The fault.
         fault: LeverFault,
     },
-    /// An object slid off the blade during the turn.
+    /// An object slid off the blade during the rotation.
     Slipped {
-        /// Its name.
+        /// Name of the object.
         object: String,
     },
-    /// Forces grew as they do when something is jammed. The replay ended.
+    /// Forces grew as in a jam. The replay ended.
     Strained,
     /// The tool came down on an object instead of next to it.
     SetDownOn {
         /// Name of the object.
         object: String,
-        /// Index of the stroke that the tool came down for.
+        /// Index of the stroke for which the tool came down.
         stroke: usize,
     },
     /// An object was pressed between the tool and an obstacle.
     Pressed {
-        /// Its name.
+        /// Name of the object.
         object: String,
-        /// The names of the part and the obstacle.
+        /// Names of the part and the obstacle.
         between: [String; 2],
     },
-    /// Two bodies overlap: pressed together by something that does not give way, or left so by the
-    /// model.
+    /// Two bodies overlap: pressed together by a rigid body, or left so by the model.
     Overlap {
-        /// Their names.
+        /// Names of the bodies.
         between: [String; 2],
-        /// How deep, metres.
+        /// Penetration depth, metres.
         depth: f64,
     },
-    /// A joint ended away from what it allows.
+    /// A joint ended outside its constraint.
     LooseJoint {
-        /// The names of its two objects.
+        /// Names of the two jointed objects.
         between: [String; 2],
-        /// How far, metres (a turn at 5 cm).
+        /// Distance from the constraint, metres; a rotation counts at a radius of 5 cm.
         distance: f64,
     },
-    /// The prediction and the planar engine differ on the same motion: the measured consequence of
+    /// The prediction and the 2-D engine differ on the same motion: the measured consequence of
     /// another warning.
     Differs {
-        /// The object on which they differ most.
+        /// Name of the object with the largest difference.
         object: String,
-        /// How far its final positions are apart, metres.
+        /// Distance between its two final positions, metres.
         distance: f64,
     },
-    /// The planar engine took the model's place.
+    /// The 2-D engine replaced the model.
     Simulated {
-        /// Why.
+        /// Warning that led to the replacement.
         reason: Box<Warning>,
     },
     /// No prediction was made, because of the other warnings.
     Refused,
-    /// The task does not know its scene, so that this rests on guesses.
+    /// The task leaves values of its scene unknown, so that the result rests on guesses.
     Guessed {
-        /// What is unknown.
+        /// The unknown quantities.
         unknown: Unknowns,
     },
 }
 
 impl Warning {
-    /// Returns `true` if an outcome with this warning cannot count as success: the default of a new kind.
+    /// Returns `true` if an outcome with this warning cannot count as success, which is the default
+    /// of a new kind.
     pub fn forbids_success(&self) -> bool {
         !matches!(
             self,
@@ -256,7 +256,7 @@ impl Warning {
         )
     }
 
-    /// Whether `other` says the same of another object, or with another number.
+    /// Returns `true` if `other` is of the same kind, for any object and value.
     pub fn is_like(&self, other: &Warning) -> bool {
         match (self, other) {
             (
@@ -267,8 +267,8 @@ impl Warning {
         }
     }
 
-    /// Whether something on the way cannot pass. An engine ends a replay there; an effect model
-    /// records no frames from there on but the last.
+    /// Returns `true` if the motion is blocked. An engine ends a replay there, and an effect model
+    /// records only the last frame after it.
     pub fn blocks(&self) -> bool {
         matches!(
             self,
@@ -279,7 +279,7 @@ impl Warning {
         )
     }
 
-    /// Whether this is about the model, so that simulating instead would help.
+    /// Returns `true` if the warning concerns the model, so that simulation would help.
     pub fn questions_model(&self) -> bool {
         matches!(
             self,
@@ -293,7 +293,7 @@ impl Warning {
         )
     }
 
-    /// The trouble in a word or two, for a table.
+    /// Returns a short name of the warning, for tables.
     pub fn word(&self) -> &'static str {
         match self {
             Warning::OutsideRange { .. } => "outside its range",

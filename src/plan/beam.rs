@@ -1,5 +1,5 @@
-//! Which states a search continues from: cheap ones first, but some of every grip, direction and
-//! place, because the way to a goal may begin with a detour.
+//! Choice of the states from which a search continues: the cheapest, but some for every grip,
+//! direction and place, because the path to a goal may begin with a detour.
 
 use std::collections::HashSet;
 
@@ -7,19 +7,19 @@ use crate::scene::State;
 
 use super::enumerate::Extension;
 
-/// Stops whose pushed object lies in one square of this side count as alike, metres.
+/// Side of the square cells; stops whose pushed objects share a cell count as alike, metres.
 const CELL: f64 = 0.03;
 
-/// A place where a push may end and the next begin.
+/// Point where a push may end and the next may begin.
 #[derive(Clone, Debug)]
 pub(super) struct Stop {
-    /// Index of the push in the list that was rolled out.
+    /// Index of the push in the list of rollouts.
     pub extension: usize,
     /// Travel up to the stop, metres.
     pub length: f64,
-    /// Cost left from there.
+    /// Remaining cost from the stop.
     pub cost: f64,
-    /// The state to continue from, where it is known exactly.
+    /// State from which to continue, if it is known exactly.
     pub known: Option<State>,
     grip: (usize, u64),
     /// Pushed object and direction.
@@ -55,13 +55,13 @@ impl Stop {
     }
 }
 
-/// At most `width` of the offered stops, never two of the same grip in the same cell. Half of
-/// the beam goes to the cheapest stop of each grip and direction, the rest to the cheapest.
-/// Without a width all of them.
+/// Chooses at most `width` stops, never two with one grip in one cell. Half of the beam goes to the
+/// cheapest stop of each grip and direction, and the rest to the cheapest stops. Without a width,
+/// all stops are kept.
 pub(super) fn choose(mut offers: Vec<Stop>, width: Option<usize>) -> Vec<Stop> {
     offers.retain(|stop| stop.cost.is_finite());
     let Some(width) = width else { return offers };
-    // Stable: equal costs keep the order of enumeration.
+    // The sort is stable, so that equal costs keep the order of enumeration.
     offers.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     let mut taken = vec![false; offers.len()];
     let (mut ways, mut cells) = (HashSet::new(), HashSet::new());

@@ -1,8 +1,9 @@
-//! Candidates: pushes described against the object they push, each with its tool and how that is held.
+//! Candidates: pushes described relative to the pushed object, each with its tool and grip.
 //!
-//! A placed push is described by what decides its effect: the part of the tool whose leading
-//! face makes contact, the direction, the lateral offset and the length. Where the end effector
-//! starts follows from the object's pose at that moment (see [`super::Workspace::place`]).
+//! A placed push is described by the quantities that determine its effect: the part of the tool
+//! whose leading face makes contact, the direction, the lateral offset and the length. The start of
+//! the end effector follows from the object's pose at that moment (see
+//! [`super::Workspace::place`]).
 
 use serde::{Deserialize, Serialize};
 
@@ -10,7 +11,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Start {
-    /// Just before the object, so that the leading face of one part meets it.
+    /// Just before the object, so that the leading face of a part meets it.
     Placed {
         /// Index of the part in the tool.
         part: usize,
@@ -25,31 +26,31 @@ pub enum Start {
 /// Push of a candidate.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CandidatePush {
-    /// Index of its tool among those that were offered.
+    /// Index of the tool among the offered ones.
     pub tool: usize,
-    /// Turn of the end effector against world +x, radians.
+    /// Rotation of the end effector relative to world +x, radians.
     pub grip_yaw: f64,
-    /// Index of the object that a placed push is meant for.
+    /// Index of the object pushed by a placed push.
     pub object: usize,
-    /// Start.
+    /// Start of the push.
     pub start: Start,
     /// Heading of the motion, radians from world +x.
     pub direction: f64,
     /// Travel, metres.
     pub length: f64,
-    /// How far from where it is predicted the object may stand when the push begins, metres: the
-    /// tool is set down by so much farther away. None for the first push.
+    /// Position uncertainty of the object at the start of the push, metres. The tool is set down
+    /// this much farther away; zero for the first push.
     pub room: f64,
 }
 
 impl CandidatePush {
-    /// Its tool and grip yaw.
+    /// Returns the tool and grip yaw.
     pub fn grip(&self) -> (usize, f64) {
         (self.tool, self.grip_yaw)
     }
 }
 
-/// Pushes to make.
+/// Sequence of pushes.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Candidate {
     /// Pushes in order.
@@ -64,12 +65,12 @@ impl Candidate {
         next
     }
 
-    /// Tool and grip yaw of its first push, if there is one.
+    /// Returns the tool and grip yaw of the first push, if any.
     pub fn grip(&self) -> Option<(usize, f64)> {
         self.pushes.first().map(CandidatePush::grip)
     }
 
-    /// Whether all pushes are made with one tool, held in one way.
+    /// Returns `true` if all pushes use one tool and one grip yaw.
     pub fn has_one_grip(&self) -> bool {
         self.pushes.windows(2).all(|pair| pair[0].grip() == pair[1].grip())
     }
@@ -79,8 +80,8 @@ impl Candidate {
         self.pushes.windows(2).filter(|pair| pair[0].tool != pair[1].tool).count()
     }
 
-    /// Whether both push the same objects with the same tools, grip yaws, faces and directions, and so
-    /// differ only in offsets and lengths, which refinement changes anyway.
+    /// Returns `true` if both push the same objects with the same tools, grip yaws, faces and
+    /// directions. They then differ only in offsets and lengths, which refinement changes anyway.
     pub fn is_variant_of(&self, other: &Self) -> bool {
         let face = |push: &CandidatePush| match push.start {
             Start::Placed { part, .. } => Some(part),

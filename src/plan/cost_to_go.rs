@@ -1,8 +1,9 @@
-//! How far objects still have to go around obstacles, and what has to be moved aside first. It ranks
-//! the beam over push sequences, because the straight distance leads into every dead end.
+//! Remaining distance of objects to their goals around obstacles, and the obstructions to clear
+//! first. It ranks the beam over push sequences, because the straight distance leads into every
+//! dead end.
 //!
-//! Where the straight way to the goal is free the distance is Euclidean and exact; elsewhere it
-//! comes from Dijkstra's algorithm on a grid with sixteen neighbours.
+//! If the straight path to the goal is free, the distance is Euclidean and exact. Otherwise it is
+//! computed by Dijkstra's algorithm on a grid with sixteen neighbours.
 
 use std::sync::Arc;
 
@@ -14,7 +15,7 @@ use crate::{
 
 use super::SweptRegion;
 
-/// Grid spacing where the scene is small enough, metres: finer than any object that is pushed.
+/// Grid spacing for scenes of normal size, metres: finer than any pushed object.
 const SPACING: f64 = 0.02;
 
 /// Steps from a cell to its neighbours, in columns and rows.
@@ -40,42 +41,41 @@ const STEPS: [[i32; 2]; 16] = [
 /// Maximum number of cells along a side; a larger scene gets coarser cells.
 const MOST_CELLS: usize = 128;
 
-/// Room for ways around everything that matters, metres.
+/// Margin of the grid around all obstacles and goals, metres.
 const BORDER: f64 = 0.3;
 
-/// Added where no way leads to the goal, metres: worse than any way, yet still ordered.
+/// Cost added if no path leads to the goal, metres: higher than any path, yet still ordered.
 const CUT_OFF: f64 = 10.0;
 
-/// Weight of a heading error in units of its tolerance: it counts, but turning is left to the
-/// last push where it can be.
+/// Weight of a heading error in units of its tolerance. It counts, but rotation is left to the last
+/// push if possible.
 const HEADING_WEIGHT: f64 = 0.5;
 
-/// Weight of what stands in the way: it counts more than how far the goal's object is moved by
-/// clearing it away.
+/// Weight of obstructions: higher than the weight of moving the goal's object while clearing them.
 const ASIDE_WEIGHT: f64 = 4.0;
 
-/// Scale of obstructions where no place is asked for, metres.
+/// Scale of obstructions if the goal states no place, metres.
 const FREE: f64 = 0.02;
 
-/// Distances to the goals for the centres of their objects.
+/// Cost to go: distances of the objects' centres to their goals.
 #[derive(Clone)]
 pub struct CostToGo<'a> {
     task: &'a Task,
-    /// The goals in the world, as things stand at the start.
+    /// Goals in the world frame for the start state.
     goals: Arc<[Goal]>,
-    /// Grids of the demands of every goal, if there are obstacles.
+    /// Distance grids of the demands of every goal, if there are obstacles.
     grids: Arc<[Vec<Option<Ways>>]>,
-    /// Region that must be free before the goal's object is pushed.
+    /// Region that must be cleared before the goal's object is pushed.
     corridor: Option<SweptRegion>,
 }
 
 impl<'a> CostToGo<'a> {
-    /// Lays the field for a task; costs nothing where there are no obstacles.
+    /// Computes the cost to go of a task; cheap if there are no obstacles.
     pub fn new(task: &'a Task) -> Self {
         let start = task.scene.start();
         let goals: Vec<Goal> = task.goals.iter().map(|goal| goal.in_world(&start)).collect();
         let grid = |goal: &Goal, demand: &Demand| {
-            // Of a relation no single place is the right one.
+            // A relation has no unique goal position.
             let place = demand.kind().position()?;
             let met = in_the_way(task, goal);
             (!met.is_empty()).then(|| Ways::new(task, (goal.object, place), &met))
@@ -84,13 +84,13 @@ impl<'a> CostToGo<'a> {
         Self { task, grids: goals.iter().map(of).collect(), goals: goals.into(), corridor: None }
     }
 
-    /// Returns the field of a task in which this region must be free first.
+    /// Adds a region that must be cleared first.
     pub fn clearing(self, corridor: SweptRegion) -> Self {
         Self { corridor: Some(corridor), ..self }
     }
 
-    /// What is to be pushed from a state: what stands in the way, or else the objects that are not at
-    /// their goals; if all are, any of them.
+    /// Returns the objects to push from a state: the obstructions, otherwise the objects not yet at
+    /// their goals. If all objects are at their goals, returns all of them.
     pub fn movers(&self, state: &State) -> Vec<usize> {
         let blocking = self.blocking(state);
         if !blocking.is_empty() {
@@ -109,8 +109,8 @@ impl<'a> CostToGo<'a> {
         self.corridor.as_ref().map_or(Vec::new(), |corridor| corridor.blocking(state))
     }
 
-    /// What would be left, metres, if an object were carried along by `shift`: the goals' objects have
-    /// their ways to go, another one is to get out of them.
+    /// Returns the remaining distance, metres, after moving an object by `shift`. For the goals'
+    /// objects this is the path length; for other objects, the depth inside the region to clear.
     pub fn carried(&self, (state, object): (&State, usize), shift: Vector) -> f64 {
         let object = self.task.scene.thing(object);
         let Pose { position, heading } = state.poses[object];
@@ -125,7 +125,7 @@ impl<'a> CostToGo<'a> {
         }
     }
 
-    /// The ways of all goals' objects, metres, each from where it is in `state`.
+    /// Returns the sum of the path lengths of all goals' objects from `state`, metres.
     fn ways(&self, state: &State) -> f64 {
         let way = |(goal, grids): (&Goal, &Vec<Option<Ways>>)| {
             let end = End::resting(goal.object, state);
@@ -135,8 +135,8 @@ impl<'a> CostToGo<'a> {
         self.goals.iter().zip(self.grids.iter()).map(|one| way(one).unwrap_or(0.0)).sum()
     }
 
-    /// The way left and the turn left, in units of the tolerances, the larger of both, of all goals
-    /// together; and how far what stands in the way has to go.
+    /// Returns the cost of a state, in units of the tolerances: the larger of remaining distance
+    /// and rotation, summed over all goals, plus the weighted depth of the obstructions.
     pub fn cost(&self, state: &State) -> f64 {
         let cost = |(goal, grids): (&Goal, &Vec<Option<Ways>>)| {
             let end = End::resting(goal.object, state);
@@ -160,13 +160,13 @@ impl<'a> CostToGo<'a> {
     }
 }
 
-/// Length of the way of a goal's object to the wanted place, metres, if one is asked for.
+/// Returns the path length of a goal's object to its place, metres, if the demand states one.
 fn distance(demand: &Demand, grid: &Option<Ways>, end: &End) -> Option<f64> {
     let straight = demand.kind().off(end)?.norm();
     Some(grid.as_ref().map_or(straight, |grid| grid.distance(end.pose().position, straight)))
 }
 
-/// The obstacles that a goal's object does not pass below.
+/// Returns the obstacles that a goal's object cannot pass below.
 fn in_the_way<'a>(task: &'a Task, goal: &Goal) -> Vec<&'a Obstacle> {
     let scene = &task.scene;
     let raised = scene.parts_of(goal.object).filter(|&k| scene.objects[k].is_raised());
@@ -176,10 +176,10 @@ fn in_the_way<'a>(task: &'a Task, goal: &Goal) -> Vec<&'a Obstacle> {
     scene.obstacles.iter().filter(met).collect()
 }
 
-/// Ways to a goal from the cells of a grid.
+/// Paths to a goal from the cells of a grid.
 struct Ways {
     grid: Grid,
-    /// Length of the way, metres, and whether the straight way is free, for every cell.
+    /// Path length, metres, and whether the straight path is free, for every cell.
     cells: Vec<(f64, bool)>,
 }
 
@@ -222,7 +222,7 @@ impl Ways {
                 swept_clearance(&disc, &from, &goal, still, spacing) > 0.0
             })
         };
-        // Every cell that sees the goal is a source with its exact distance.
+        // Every cell with a free straight path to the goal is a source with its exact distance.
         let cells = free
             .iter()
             .enumerate()
@@ -238,7 +238,7 @@ impl Ways {
         ways
     }
 
-    /// Dijkstra from all cells that see the goal.
+    /// Runs Dijkstra's algorithm from all cells with a free straight path to the goal.
     fn spread(&mut self, free: &[bool]) {
         let mut frontier = Frontier::default();
         let seen = self.cells.iter().enumerate().filter(|(_, (way, _))| way.is_finite());
@@ -272,7 +272,7 @@ impl Ways {
 mod tests {
     use super::*;
 
-    /// A can behind a wall across the straight way.
+    /// Task with a can behind a wall across the straight path.
     const TASK: &str = "
 description: Around a wall.
 scene:
@@ -290,7 +290,7 @@ goal: {object: can, position: [0.6, 0.0], tolerance: 0.02}
     fn the_way_leads_around_the_wall() {
         let mut task = Task::parse(TASK, "around.yaml").unwrap();
         let field = CostToGo::new(&task);
-        // Around the wall's end, grown by the can's radius on all sides.
+        // Path around the wall's end, dilated by the can's radius.
         let half_wall = Vector::new(0.01 + 0.03, 0.20 + 0.03);
         let around = 2.0 * (0.1 - half_wall.x).hypot(half_wall.y) + 2.0 * half_wall.x;
         let distance = |field: &CostToGo, at: Vector| {
@@ -298,10 +298,10 @@ goal: {object: can, position: [0.6, 0.0], tolerance: 0.02}
         };
         let found = distance(&field, Vector::new(0.4, 0.0));
         assert!((found - around).abs() < 0.05, "{found} against {around}");
-        // In sight of the goal the distance is exact.
+        // With a free straight path, the distance is exact.
         let seen = Vector::new(0.613, 0.1);
         assert!((distance(&field, seen) - 0.013f64.hypot(0.1)).abs() < 1e-12);
-        // Outside the grid it still grows.
+        // Outside the grid the distance still grows.
         assert!(distance(&field, Vector::new(-9.0, 0.0)) > 9.0);
 
         task.scene.obstacles.clear();

@@ -1,4 +1,4 @@
-//! Which pushes are worth a rollout from a given state: every grip, direction, contacting face
+//! Enumeration of the pushes worth a rollout from a state: every grip, direction, contacting face
 //! and coarse offset that can be placed.
 
 use std::collections::HashSet;
@@ -16,24 +16,26 @@ use super::scored::Scores;
 use super::statistics::SearchStatistics;
 use super::{CandidatePush, Infeasible, Start, Workspace};
 
-/// Two placements closer than this are one, metres.
+/// Distance below which two placements count as one, metres.
 const SAME_PLACE: f64 = 1e-4;
 
-/// The most pushes of one node and grip that are considered: far more than tools have faces,
-/// it only bounds what a file with thousands of directions or offsets can ask for.
+/// Maximum number of pushes considered for one node and grip. It far exceeds the number of faces of
+/// tools and only bounds files with thousands of directions or offsets.
 const MOST_PER_GRIP: usize = 20_000;
 
 /// Grips of a search.
 #[derive(Clone, Debug)]
 pub(super) struct Grips {
-    /// Each a tool and a grip yaw.
+    /// Pairs of a tool index and a grip yaw.
     pub all: Vec<(usize, f64)>,
-    /// Whether another one may be taken before every push, and how often another tool.
+    /// Maximum number of tool changes if the grip may change before every push; `None` for a fixed
+    /// grip.
     pub changes: Option<usize>,
 }
 
 impl Grips {
-    /// The same with changes before every push; `None` where the task has no room for any.
+    /// Returns the grips with changes allowed before every push; `None` if the task does not permit
+    /// any change.
     pub fn changing(&self, workspace: &Workspace) -> Option<Self> {
         let (task, changes) = (workspace.task, workspace.task.tool_changes());
         let others = if changes > 0 { self.all.len() } else { task.pushes.grip_yaws.len() };
@@ -56,24 +58,24 @@ impl Grips {
     }
 }
 
-/// A push that may continue a node of the search.
+/// Push that may continue a node of the search.
 #[derive(Clone, Debug)]
 pub(super) struct Extension {
     /// Index of the node.
     pub node: usize,
-    /// The push, its length cut to what reach and obstacles allow.
+    /// The push, with its length limited by reach and obstacles.
     pub planned: CandidatePush,
-    /// Push with its start.
+    /// The push with its start position.
     pub push: Push,
     /// Index of its score.
     pub scored: Option<usize>,
-    /// Least cost left if the object were carried straight along: the order in which pushes are
-    /// tried.
+    /// Minimum remaining distance if the object moved straight along with the push: the order in
+    /// which pushes are tried.
     pub promise: f64,
 }
 
-/// All pushes that can continue the given nodes. In the order of nodes, grips, directions, parts and
-/// offsets.
+/// Returns all pushes that can continue the given nodes, in the order of nodes, grips, directions,
+/// parts and offsets.
 pub(super) fn extensions(
     workspace: &Workspace,
     field: &CostToGo,
@@ -92,7 +94,7 @@ pub(super) fn extensions(
         .par_iter()
         .map(|&(node, grip)| {
             let movers = field.movers(&nodes[node].state);
-            // A thing can be pushed at any of its solids.
+            // A compound object can be pushed at any of its solids.
             let scene = &workspace.task.scene;
             let movers = movers.into_iter().flat_map(|k| [k].into_iter().chain(scene.parts_of(k)));
             let tried = |object| pushes(workspace, &nodes[node], (grip, object), offsets);
@@ -130,7 +132,7 @@ pub(super) fn extensions(
     kept
 }
 
-/// The pushes of an object to try from a node, before anything is checked.
+/// Returns the pushes of an object to try from a node, before any check.
 fn pushes(
     workspace: &Workspace,
     node: &Node,
@@ -160,7 +162,7 @@ fn pushes(
                     let span = workspace.offset_span(grip, (&node.state, object), part, direction);
                     for k in 0..count {
                         let share = (2 * k + 1) as f64 / count as f64 - 1.0;
-                        // Ends included from two offsets on.
+                        // Both ends are included if there are at least two offsets.
                         let share = share * count as f64 / (count.max(2) - 1) as f64;
                         add(Start::Placed { part, offset: share * span });
                     }
@@ -202,11 +204,14 @@ fn extend(
     Ok(Extension { node: index, planned, push, scored: None, promise })
 }
 
-/// Whether an object turns over rather than slide, in whatever direction the tool pushes it at its lowest:
-/// the models that search are of the plane and cannot see it. With a force F at height z, friction m with
-/// the table and t with the tool, and the farthest edge at d, moments about that edge hold the object down
-/// while F z <= W d + 2 d t F, where F = m (W + t F): while m z <= d (1 + m t). What hangs together is left to
+/// Returns `true` if an object topples instead of sliding, for any direction of a push at the
+/// tool's lowest height. The planar search models cannot predict this. Jointed objects are left to
 /// the 3-D engine.
+///
+/// Let F be a force at height z and W the weight. The friction coefficients are m with the table
+/// and t with the tool, and the farthest edge is at distance d. The object stays down while the
+/// moments about that edge satisfy F z <= W d + 2 d t F, with F = m (W + t F). This is equivalent
+/// to m z <= d (1 + m t).
 fn topples(workspace: &Workspace, push: &CandidatePush) -> bool {
     let object = push.object;
     let Task { scene, pushes, .. } = workspace.task;
@@ -221,14 +226,14 @@ fn topples(workspace: &Workspace, push: &CandidatePush) -> bool {
     !joined && !one.may_fall && table * pushes.lift > edge * held
 }
 
-/// Cuts a list to the budget, keeping the most promising and the order; returns how many fell
-/// away. Equal promise is broken by a fixed scatter, so that no tool is favoured for its place
-/// in the list.
+/// Truncates a list to the budget, keeps the most promising pushes in their order, and returns the
+/// number dropped. Ties are broken by a fixed scatter, so that no tool is favoured by its place in
+/// the list.
 pub(super) fn keep_promising(list: &mut Vec<Extension>, budget: usize) -> usize {
     if list.len() <= budget {
         return 0;
     }
-    /// The golden section: its multiples scatter evenly over [0, 1).
+    /// Golden section, whose multiples modulo 1 are spread evenly over [0, 1).
     const SCATTER: f64 = 0.618_033_988_749_894_9;
     let mut order: Vec<usize> = (0..list.len()).collect();
     let scatter = |k: usize| (k as f64 * SCATTER).fract();

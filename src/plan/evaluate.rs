@@ -1,5 +1,5 @@
-//! What a candidate really does: its pushes placed one after another, each rolled out from where
-//! the last one left the objects.
+//! Evaluation of candidates: pushes are placed one after another, and each is rolled out from the
+//! state left by the previous one.
 
 use std::sync::Arc;
 
@@ -14,37 +14,37 @@ use super::rollouts::single_push;
 use super::score::{behind, final_score, is_behind};
 use super::{Candidate, CandidatePush, Infeasible, Margins, Rollouts, Workspace};
 
-/// A candidate with its pushes placed and its outcome predicted.
+/// Candidate with placed pushes and a predicted outcome.
 #[derive(Clone, Debug)]
 pub struct Evaluation {
     /// The candidate.
     pub candidate: Candidate,
-    /// Its pushes, as the end effector makes them.
+    /// Pushes as motions of the end effector.
     pub pushes: Vec<Push>,
-    /// Margins by which each push keeps the rules.
+    /// Margins by which each push satisfies the rules.
     pub margins: Vec<Margins>,
     /// Predicted state at rest.
     pub outcome: State,
-    /// How far off the end of the goal's object is expected to be after the last push, if the model
-    /// says so.
+    /// Expected error of the final pose of the goal's object after the last push, if the model
+    /// estimates it.
     pub spread: Option<Spread>,
-    /// Predicted error in units of the tolerance; infinite if the outcome cannot count, and behind
-    /// all others (see [`super::is_behind`]) if something could not pass on the way.
+    /// Predicted error in units of the tolerance. It is infinite if the outcome is invalid, and
+    /// behind all others (see [`super::is_behind`]) if the motion was blocked.
     pub score: f64,
 }
 
 impl Evaluation {
-    /// Whether every push keeps every rule.
+    /// Returns `true` if every push satisfies every rule.
     pub fn is_feasible(&self) -> bool {
         self.margins.iter().all(|margins| margins.broken().is_none())
     }
 
-    /// Whether the outcome counts, and nothing is in the way.
+    /// Returns `true` if the outcome is valid and the motion was not blocked.
     pub fn is_sound(&self) -> bool {
         self.score.is_finite() && !is_behind(self.score)
     }
 
-    /// Its tools, each once, in the order in which they are used.
+    /// Returns the tools in the order of their first use.
     pub fn tools(&self, workspace: &Workspace) -> Vec<Arc<Tool>> {
         let mut used: Vec<usize> = Vec::new();
         for push in &self.candidate.pushes {
@@ -52,13 +52,13 @@ impl Evaluation {
                 used.push(push.tool);
             }
         }
-        // Where nothing is pushed some tool has to stand still.
+        // Without pushes, one tool has to stand still.
         let none = if used.is_empty() { workspace.tools.first() } else { None };
         let used = used.into_iter().map(|tool| &workspace.tools[tool]);
         used.chain(none).map(Arc::clone).collect()
     }
 
-    /// The plan to make its pushes.
+    /// Returns the plan with these pushes.
     pub fn plan(&self, workspace: &Workspace) -> Plan {
         let PushRules { form, lift, .. } = workspace.task.pushes;
         let step = |(planned, push): (&CandidatePush, &Push)| {
@@ -68,7 +68,7 @@ impl Evaluation {
         Plan { steps: self.candidate.pushes.iter().zip(&self.pushes).map(step).collect() }
     }
 
-    /// Returns the motions of its tools in order.
+    /// Returns the tool motions in order.
     pub fn motions(&self, workspace: &Workspace) -> Vec<ToolMotion> {
         self.plan(workspace).slides(&self.tools(workspace)).unwrap_or_default()
     }
@@ -76,12 +76,13 @@ impl Evaluation {
 
 /// Places and rolls out every candidate, in batches over all of them.
 ///
-/// A placed candidate of n pushes costs n rollouts of one push each; a chained one costs one of
-/// the whole motion. The answer's order is that of the candidates.
+/// A placed candidate of n pushes costs n rollouts of one push each; a chained candidate costs one
+/// rollout of the whole motion. Results are in the order of the candidates.
 ///
 /// # Errors
-/// Per candidate: why a push could not be placed. Broken reach or clearance is not an error here
-/// but a negative margin, so that refinement can still learn from the outcome.
+/// Returns, for each candidate, the reason why a push could not be placed. A violation of reach or
+/// clearance is a negative margin and no error, so that refinement can still learn from the
+/// outcome.
 pub fn evaluate(
     workspace: &Workspace,
     rollouts: &mut Rollouts,
@@ -119,7 +120,7 @@ pub fn evaluate(
     results
 }
 
-/// Places push number `stage` of every candidate and rolls it out.
+/// Places and rolls out the push with index `stage` of every candidate.
 fn advance(
     workspace: &Workspace,
     rollouts: &mut Rollouts,
@@ -163,8 +164,8 @@ fn add_push(workspace: &Workspace, result: &mut Result<Evaluation, Infeasible>, 
     }
 }
 
-/// Rolls out the motion of every candidate that has one, from its outcome so far, and keeps the
-/// new one.
+/// Rolls out the motion of every candidate that has one from its current outcome, and stores the
+/// new outcome.
 fn run(
     workspace: &Workspace,
     rollouts: &mut Rollouts,
@@ -183,7 +184,7 @@ fn run(
     let trajectories = rollouts.run(&jobs, Record::Outcome);
     for (k, trajectory) in indices.into_iter().zip(trajectories) {
         if let (Ok(evaluation), Some(frame)) = (&mut results[k], trajectory.frames.last()) {
-            // A push that could not count spoils those after it.
+            // An invalid push invalidates all later ones.
             if evaluation.score.is_finite() {
                 let score = final_score(workspace.task, &trajectory);
                 let blocked = is_behind(evaluation.score);
@@ -194,7 +195,7 @@ fn run(
             let own = own.filter_map(|goal| trajectory.spreads.get(goal.object).copied());
             let own = own.max_by(|a, b| a.within_90().position.total_cmp(&b.within_90().position));
             evaluation.spread = match (evaluation.spread, own) {
-                // Errors of one push go on into the next.
+                // Errors of consecutive pushes add up.
                 (Some(mut before), Some(own)) => {
                     before += own;
                     Some(before)

@@ -8,8 +8,8 @@ use crate::{
     task::{Aspect, Demand, End, Task},
 };
 
-/// The offset from every pair of a position and a heading that goals ask for: x, y and the heading; zero
-/// where none is asked for.
+/// Returns the error of every pair of a demanded position and heading: x, y and heading. Components
+/// without a demand are zero.
 pub(super) fn goal_errors(task: &Task, outcome: &State) -> Vec<Vector3<f64>> {
     let of = |(object, aspect): (usize, Aspect)| {
         let end = End::resting(object, outcome);
@@ -21,7 +21,7 @@ pub(super) fn goal_errors(task: &Task, outcome: &State) -> Vec<Vector3<f64>> {
     aspects(task).map(of).collect()
 }
 
-/// The positions and headings of all goals in pairs, each with the object.
+/// Returns the demanded positions and headings of all goals in pairs, each with its object.
 fn aspects(task: &Task) -> impl Iterator<Item = (usize, Aspect<'_>)> {
     task.goals.iter().flat_map(|goal| goal.aspects().map(|aspect| (goal.object, aspect)))
 }
@@ -30,7 +30,8 @@ fn turn_tolerance(demand: &Demand) -> Option<f64> {
     demand.kind().turn_tolerance()
 }
 
-/// From the misses `from` to `to`, the shorter way round unless a joint with limits leaves one only.
+/// Returns the differences of goal errors from `from` to `to`. Headings differ by the shorter
+/// rotation, unless the limits of a joint allow only one.
 pub(super) fn apart(task: &Task, to: &[Vector3<f64>], from: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     let of = |aspect: Aspect, to: &Vector3<f64>, from: &Vector3<f64>| {
         let mut apart = to - from;
@@ -46,17 +47,17 @@ pub(super) fn apart(task: &Task, to: &[Vector3<f64>], from: &[Vector3<f64>]) -> 
     all.map(|(((_, aspect), to), from)| of(aspect, to, from)).collect()
 }
 
-/// Returns errors relative to `middles`, one for every goal.
+/// Returns the sums of errors and `middles`, one for every goal.
 pub(super) fn beside(misses: &[Vector3<f64>], middles: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     misses.iter().zip(middles).map(|(miss, middle)| miss + middle).collect()
 }
 
-/// The largest miss.
+/// Returns the largest error.
 pub(super) fn largest(misses: &[Vector3<f64>]) -> f64 {
     misses.iter().map(|miss| miss.xy().norm().max(miss.z.abs())).fold(0.0, f64::max)
 }
 
-/// The largest distance from a goal, metres.
+/// Returns the largest distance from a goal, metres.
 pub(super) fn farthest(task: &Task, misses: &[Vector3<f64>]) -> f64 {
     let off = aspects(task).zip(misses).filter_map(|((_, aspect), miss)| {
         Some(aspect.place?.kind().tolerance()? * miss.xy().norm())
@@ -64,7 +65,8 @@ pub(super) fn farthest(task: &Task, misses: &[Vector3<f64>]) -> f64 {
     off.fold(0.0, f64::max)
 }
 
-/// The numbers of misses that goals ask for, goal by goal: x, y and, where one is asked for, the heading.
+/// Returns the demanded components of the errors, goal by goal: x, y and, if a heading is demanded,
+/// the heading.
 pub(super) fn asked(task: &Task, misses: &[Vector3<f64>]) -> Vec<f64> {
     let of = |((_, aspect), miss): ((usize, Aspect), &Vector3<f64>)| {
         let count = if aspect.turn.is_some() { 3 } else { 2 };

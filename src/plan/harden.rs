@@ -1,11 +1,11 @@
-//! Plans that depend little on what objects rest on.
+//! Hardening of plans against the unknown support of their objects.
 //!
-//! A search ranks plans by where they end on the believed support, and refinement brings the middle of
-//! their ends to the goal; how far these lie apart neither of them changes on purpose. Where no plan works nearly
-//! always, what was found is looked at again: from what ends least far apart a random search
-//! moves offsets, directions and lengths, keeping what ends nearer to the goal on the support where
-//! it ends farthest from it. Half of the candidates are given up after every few rounds (successive
-//! halving, Jamieson and Talwalkar 2016, arXiv:1502.07943).
+//! A search ranks plans by their final pose on the believed support, and refinement brings the
+//! centre of their final poses to the goal. Neither reduces the spread over support models. If no
+//! plan works nearly always, a random search starts from the candidates with the smallest spread.
+//! The random search varies offsets, directions and lengths, and keeps changes that reduce the
+//! error for the worst support model. Half of the candidates are dropped after every few rounds
+//! (successive halving, Jamieson and Talwalkar 2016, arXiv:1502.07943).
 
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
@@ -16,33 +16,33 @@ use super::parameters::Parameters;
 use super::supports::{Ends, Supports};
 use super::{Candidate, Evaluation, REFINABLE, Rollouts, SearchResult, Workspace, evaluate, kinds};
 
-/// The share of the rollouts that goes to looking at what was found.
+/// Share of the rollouts used to evaluate the search results.
 const LOOKING: f64 = 0.25;
 
-/// Changes of each in a round.
+/// Number of changes of each candidate in a round.
 const CHILDREN: usize = 12;
 
-/// Rounds before half of them are given up.
+/// Number of rounds before half of the candidates are dropped.
 const ROUNDS: usize = 4;
 
 /// Number of candidates left when the search ends.
 const LEFT: usize = 6;
 
-/// Sizes of changes, in steps of the parameters; their logarithm is drawn evenly.
+/// Smallest and largest size of changes in steps of the parameters, drawn log-uniformly.
 const CHANGES: (f64, f64) = (0.2, 8.0);
 
 /// Budgets of hardening.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HardenSettings {
-    /// Candidates that are moved, each of another kind.
+    /// Number of candidates to vary, each of a different kind.
     pub kinds: usize,
-    /// Stop after the round in which this many rollouts are reached.
+    /// Number of rollouts after which no further round begins.
     pub rollouts: usize,
     /// Seed of the changes.
     pub seed: u64,
 }
 
-/// A candidate that is moved, with its score on the worst support.
+/// Candidate under variation, with its score for the worst support model.
 struct Work {
     best: Candidate,
     parameters: Parameters,
@@ -50,8 +50,8 @@ struct Work {
     random: Pcg64,
 }
 
-/// Of what a search found, what was made to end nearest to the goal on whatever its objects rest on, best
-/// first; scores are those on the worst support.
+/// Returns the search results re-optimised for the worst support model, best first. Scores are for
+/// the worst support model.
 pub fn harden(
     workspace: &Workspace,
     rollouts: &mut Rollouts,
@@ -67,7 +67,7 @@ pub fn harden(
         .map(|k| {
             let random = Pcg64::seed_from_u64(settings.seed.wrapping_add(k as u64));
             let parameters = Parameters::new(workspace, &start, &steady[k].candidate);
-            // What was found itself has been looked at: any change of it is better.
+            // The initial score is infinite, so that any valid change replaces the search result.
             Work { best: steady[k].candidate.clone(), parameters, worst: f64::INFINITY, random }
         })
         .collect();
@@ -84,7 +84,8 @@ pub fn harden(
     work.into_iter().map(|one| SearchResult { candidate: one.best, score: one.worst }).collect()
 }
 
-/// What was found near the goal, in the order of how far apart it ends on all supports, which is its score.
+/// Returns the search results near the goal, ordered by their spread over all support models, which
+/// becomes their score.
 fn steadiest(
     workspace: &Workspace,
     rollouts: &mut Rollouts,
@@ -109,7 +110,7 @@ fn steadiest(
     steady
 }
 
-/// Changes every candidate in several ways, and keeps what ends nearer on its worst support.
+/// Varies every candidate in several ways and keeps changes that improve its worst support model.
 fn round(workspace: &Workspace, rollouts: &mut Rollouts, supports: &Supports, work: &mut [Work]) {
     let mut owners = Vec::new();
     let mut candidates = Vec::new();

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// Reasons why a push cannot be made.
+/// Reason why a push cannot be made.
 #[derive(
     Clone, Copy, Debug, Error, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
 )]
@@ -21,16 +21,16 @@ pub enum Infeasible {
     /// The tool would come down on an obstacle or pass through one.
     #[error("an obstacle, or a region that is kept out of, is in the tool's way")]
     Obstacle,
-    /// The hand or the handle of the tool would meet an obstacle, or something taller than the tool.
+    /// The hand or the handle of the tool would meet an obstacle or an object taller than the tool.
     #[error("the hand would meet something")]
     Hand,
-    /// The object would topple rather than slide.
+    /// The object would topple instead of sliding.
     #[error("the object would topple, pushed so high: see `pushes.lift`")]
     Topples,
     /// The end effector would leave the robot's reach.
     #[error("the end effector would leave the robot's reach")]
     Reach,
-    /// Hardly any travel is left before the reach ends or an obstacle comes.
+    /// Hardly any travel is left before the end of the reach or an obstacle.
     #[error("there is no room to push")]
     NoRoom,
 }

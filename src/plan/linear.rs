@@ -1,15 +1,15 @@
-//! A linear model fitted to a handful of points by least squares.
+//! Linear model fitted to a few points by least squares.
 //!
-//! Around a known point y0 = f(0) it fits y - y0 = J u from samples (u, y), by the normal equations
-//! with a small ridge, so that directions without samples get zero slope instead of nonsense.
+//! Around a known point y0 = f(0), the slopes J of y - y0 = J u are fitted to samples (u, y) by the
+//! normal equations. A small ridge gives zero slope to directions without samples.
 
 use nalgebra::{DMatrix, DVector};
 
-/// Ridge in units of the mean square of the samples: far below any meaningful slope.
+/// Ridge in units of the mean square of the samples, far below any meaningful slope.
 const RIDGE: f64 = 1e-6;
 
-/// Slopes by output: `slopes[k][i]` is the change of output k per unit of u_i. All zeros if
-/// there are no samples or the numbers do not allow a fit.
+/// Returns the slopes by output: `slopes[k][i]` is the change of output k per unit of u_i. All
+/// slopes are zero if there are no samples or the numbers do not allow a fit.
 pub(super) fn slopes(
     samples: &[(Vec<f64>, Vec<f64>)],
     inputs: usize,

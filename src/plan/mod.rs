@@ -1,9 +1,9 @@
-//! Candidates, parallel search and QP refinement. Verifies nothing.
+//! Candidates, parallel search and QP refinement. This module verifies nothing.
 //!
 //! [`Search`] enumerates pushes, rolls them out with an effect model and keeps a beam over
-//! sequences; [`refine()`] then moves offsets, directions and lengths of the best candidates with a
-//! quadratic programme on a fitted linear model. [`Workspace`] says what a task allows. [`lever`]
-//! does the same for lever-ups, without a refinement.
+//! sequences. [`refine()`] then varies offsets, directions and lengths of the best candidates by a
+//! quadratic programme on a fitted linear model. [`Workspace`] states the limits of a task.
+//! [`lever`] enumerates and ranks lever-ups, without a refinement.
 
 mod beam;
 mod candidate;

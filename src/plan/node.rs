@@ -1,21 +1,21 @@
-//! A state that a search continues from.
+//! Nodes from which a search continues.
 
 use crate::geometry::Vector;
 use crate::scene::State;
 
 use super::Candidate;
 
-/// A state that a sequence of pushes leads to.
+/// State after a sequence of pushes.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
-    /// The pushes so far; none at the start.
+    /// Pushes so far; `None` at the start.
     pub candidate: Option<Candidate>,
-    /// State then; still moving in the chained form.
+    /// State after the pushes; in the chained form, objects may still move.
     pub state: State,
-    /// End effector's position then.
+    /// Position of the end effector after the last push.
     pub end: Option<Vector>,
-    /// States that small errors at the start lead to instead, see `uncertainty`.
+    /// Alternative states due to small errors at the start, see `uncertainty`.
     pub others: Vec<State>,
-    /// Room for where the object may be, metres.
+    /// Position uncertainty of the object for the next push, metres.
     pub room: f64,
 }

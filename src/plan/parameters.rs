@@ -1,5 +1,5 @@
-//! The continuous parameters of a candidate: offset, direction and length of every push, counted
-//! in steps of about equal effect.
+//! Continuous parameters of a candidate: offset, direction and length of every push, in steps of
+//! about equal effect.
 
 use crate::geometry::wrap_angle;
 use crate::scene::State;
@@ -10,17 +10,17 @@ use super::{Candidate, Start, Workspace};
 /// Step of the lateral offset, metres.
 pub(super) const OFFSET_STEP: f64 = 0.005;
 
-/// Step of the direction, radians: moves the end of a 0.1 m push by as much as an offset.
+/// Step of the direction, radians. It moves the end of a 0.1 m push by as much as an offset step.
 pub(super) const DIRECTION_STEP: f64 = 0.05;
 
 /// Step of the length, metres.
 pub(super) const LENGTH_STEP: f64 = 0.005;
 
-/// A direction is turned by at most this against the one that was searched, radians (25
-/// degrees): past half the spacing of principal directions another candidate is the better start.
+/// Largest rotation of a direction from the searched one, radians (25 degrees). Beyond half the
+/// spacing of principal directions, another candidate is the better start.
 const LARGEST_TURN: f64 = 0.436;
 
-/// A placed push may be lengthened to this share of the task's length.
+/// Maximum length of a placed push as a multiple of the task's length.
 const LONGEST: f64 = 1.5;
 
 #[derive(Clone, Copy)]
@@ -39,11 +39,11 @@ struct Parameter {
     high: f64,
 }
 
-/// The parameters of one candidate with their steps and bounds, fixed when refinement begins.
+/// Parameters of one candidate with their steps and bounds, fixed at the start of refinement.
 pub(super) struct Parameters(Vec<Parameter>);
 
 impl Parameters {
-    /// Parameters and bounds around a candidate as searched.
+    /// Creates the parameters and bounds around a candidate found by the search.
     pub fn new(workspace: &Workspace, start: &State, candidate: &Candidate) -> Self {
         let longest = workspace.task.pushes.length;
         let mut list = Vec::new();
@@ -53,14 +53,14 @@ impl Parameters {
             };
             let mut longest = longest;
             if let Start::Placed { part, offset } = push.start {
-                // The span depends on the object's heading only, and little on that.
+                // The span depends only on the object's heading, and only weakly.
                 let object = (start, push.object);
                 let span = workspace.largest_offset(push.grip(), object, part, push.direction);
                 let span = span.max(offset.abs());
                 add(Quantity::Offset, OFFSET_STEP, -span, span);
                 longest *= LONGEST;
             }
-            // However often it was turned before, as plans are that are aimed again.
+            // Earlier rotations count, so that repeated refinement stays within the bounds.
             let from = push.direction - turned(workspace, push.direction);
             let low = (from - LARGEST_TURN).min(push.direction);
             let high = (from + LARGEST_TURN).max(push.direction);
@@ -70,12 +70,13 @@ impl Parameters {
         Self(list)
     }
 
-    /// Returns their number.
+    /// Returns the number of parameters.
     pub fn count(&self) -> usize {
         self.0.len()
     }
 
-    /// Returns the bounds of each below and above `candidate`, in steps.
+    /// Returns the distances of `candidate` from the lower and upper bounds of each parameter, in
+    /// steps.
     pub fn room(&self, candidate: &Candidate) -> Vec<(f64, f64)> {
         let range = |p: &Parameter| {
             let value = read(candidate, p);
@@ -84,7 +85,7 @@ impl Parameters {
         self.0.iter().map(range).collect()
     }
 
-    /// `candidate` moved by `steps`, cut to the bounds, and the steps really made.
+    /// Returns `candidate` moved by `steps` and clamped to the bounds, with the steps made.
     pub fn moved(&self, candidate: &Candidate, steps: &[f64]) -> (Candidate, Vec<f64>) {
         let mut next = candidate.clone();
         let mut made = Vec::with_capacity(steps.len());

@@ -1,13 +1,13 @@
-//! Small dense quadratic programmes, solved by clarabel:
-//! minimise 1/2 x'Px + q'x subject to Ax <= b.
+//! Small dense quadratic programmes, solved with Clarabel: minimise 1/2 x'Px + q'x subject to Ax <=
+//! b.
 //!
-//! One solver is kept as long as the shape stays the same, and its numbers are replaced in place;
-//! every entry is stored, zeros too, so that the sparsity pattern never changes. Nothing here
-//! panics on bad numbers: a failure is a [`QpStatus`].
+//! The solver is reused while the shape stays equal, and its numbers are replaced in place. All
+//! entries are stored, including zeros, so that the sparsity pattern never changes. Invalid numbers
+//! never cause a panic: each failure has a [`QpStatus`].
 //!
-//! The solver's tolerances are absolute, so the objective and every constraint are first divided
-//! by their largest entry, which changes no minimiser: a goal far away, tiny columns or rows of
-//! another unit are then as good as any.
+//! The solver's tolerances are absolute. The objective and every constraint are therefore divided
+//! by their largest entry, which does not change the minimiser. This handles distant goals, tiny
+//! columns and rows of different units equally well.
 
 #[cfg(test)]
 mod extremes;
@@ -16,23 +16,23 @@ use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 use serde::{Deserialize, Serialize};
 
-/// Entries larger than this make a problem ill-posed rather than informative.
+/// Largest entry of a well-posed problem.
 const LARGEST: f64 = 1e12;
 
-/// Interior-point steps allowed; tiny problems take about ten.
+/// Maximum number of interior-point iterations; tiny problems take about ten.
 const MOST_STEPS: u32 = 60;
 
-/// A quadratic programme, dense, matrices by rows. Serialises to JSON, so that a hard one can
-/// be kept and looked at.
+/// Dense quadratic programme, with matrices by rows. It serialises to JSON, so that difficult
+/// problems can be stored and analysed.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct QpProblem {
-    /// Symmetric positive semidefinite, n by n.
+    /// Symmetric positive semidefinite matrix, n by n.
     pub p: Vec<Vec<f64>>,
-    /// n numbers.
+    /// Linear objective, length n.
     pub q: Vec<f64>,
-    /// m by n.
+    /// Constraint matrix, m by n.
     pub a: Vec<Vec<f64>>,
-    /// m numbers.
+    /// Upper bounds of the constraints, length m.
     pub b: Vec<f64>,
 }
 
@@ -42,24 +42,24 @@ pub struct QpProblem {
 pub enum QpStatus {
     /// Solved to full accuracy.
     Solved,
-    /// Solved to reduced accuracy; good enough for a step that is checked by rolling out.
+    /// Solved to reduced accuracy, sufficient for a step that a rollout checks.
     AlmostSolved,
     /// No x satisfies the constraints.
     Infeasible,
     /// The objective has no lower bound.
     Unbounded,
-    /// Too many steps, or steps that no longer made progress.
+    /// Too many iterations, or iterations without progress.
     NoProgress,
     /// Dimensions do not match, or a number is not finite or too large.
     BadProblem,
 }
 
-/// The answer to a quadratic programme.
+/// Solution of a quadratic programme.
 #[derive(Clone, Debug, PartialEq)]
 pub struct QpSolution {
     /// Status of the solution.
     pub status: QpStatus,
-    /// The minimiser; empty unless solved or almost solved.
+    /// Minimiser; empty unless solved or almost solved.
     pub x: Vec<f64>,
 }
 
@@ -69,7 +69,7 @@ impl QpSolution {
     }
 }
 
-/// A solver that is kept from problem to problem.
+/// Solver that is reused for consecutive problems.
 #[derive(Default)]
 pub struct QpSolver {
     kept: Option<(usize, usize, DefaultSolver<f64>)>,
@@ -111,7 +111,7 @@ impl QpSolver {
         }
     }
 
-    /// The kept solver with the problem's numbers, or a new one where the shape is new.
+    /// Returns the stored solver with the problem's numbers, or a new one if the shape differs.
     fn load(&mut self, problem: &QpProblem, n: usize, m: usize) -> Option<&mut DefaultSolver<f64>> {
         let (p, a) = (upper(&problem.p, n), full(&problem.a, n, m));
         let fits = self.kept.as_ref().is_some_and(|&(columns, rows, _)| (columns, rows) == (n, m));
@@ -128,9 +128,10 @@ impl QpSolver {
         let settings = DefaultSettings {
             verbose: false,
             max_iter: MOST_STEPS,
-            // Presolving would forbid replacing the numbers later.
+            // Presolving would prevent later updates of the numbers.
             presolve_enable: false,
-            // Scaling is fixed at the first problem; ours are scaled already and differ.
+            // Equilibration is fixed at the first problem, but the problems differ and are already
+            // scaled.
             equilibrate_enable: false,
             ..DefaultSettings::default()
         };
@@ -142,7 +143,8 @@ impl QpSolver {
 }
 
 impl QpProblem {
-    /// Numbers of unknowns and constraints, if all dimensions match and all numbers are sane.
+    /// Returns the numbers of unknowns and constraints, if all dimensions match and all numbers are
+    /// valid.
     fn shape(&self) -> Option<(usize, usize)> {
         let (n, m) = (self.q.len(), self.b.len());
         let square = self.p.len() == n && self.p.iter().all(|row| row.len() == n);
@@ -154,7 +156,7 @@ impl QpProblem {
 }
 
 impl QpProblem {
-    /// The same problem with its objective and every constraint divided by their largest entry.
+    /// Returns the problem with its objective and every constraint divided by their largest entry.
     fn scaled(&self) -> Self {
         let objective = largest(self.p.iter().flatten().chain(&self.q));
         let over = |row: &[f64], size: f64| row.iter().map(|v| v / size).collect::<Vec<f64>>();
@@ -173,13 +175,13 @@ impl QpProblem {
     }
 }
 
-/// Size of the largest number; 1 if all are zero or so small that dividing by them would not do.
+/// Returns the largest absolute value; 1 if all values are zero or too small to divide by.
 fn largest<'a>(values: impl Iterator<Item = &'a f64>) -> f64 {
     let size = values.fold(0.0f64, |most, v| most.max(v.abs()));
     if size > 1.0 / LARGEST { size } else { 1.0 }
 }
 
-/// The upper triangle by columns, with every entry stored.
+/// Returns the upper triangle in column-major form, with every entry stored.
 fn upper(rows: &[Vec<f64>], n: usize) -> CscMatrix<f64> {
     let mut starts = vec![0];
     let (mut indices, mut values) = (Vec::new(), Vec::new());
@@ -193,7 +195,7 @@ fn upper(rows: &[Vec<f64>], n: usize) -> CscMatrix<f64> {
     CscMatrix::new(n, n, starts, indices, values)
 }
 
-/// The whole matrix by columns, with every entry stored.
+/// Returns the whole matrix in column-major form, with every entry stored.
 fn full(rows: &[Vec<f64>], n: usize, m: usize) -> CscMatrix<f64> {
     let starts = (0..=n).map(|column| column * m).collect();
     let indices = (0..n).flat_map(|_| 0..m).collect();
@@ -205,7 +207,7 @@ fn full(rows: &[Vec<f64>], n: usize, m: usize) -> CscMatrix<f64> {
 mod tests {
     use super::*;
 
-    /// Minimise (x0 - 1)^2 + (x1 + 2)^2 within plus and minus `bound`.
+    /// Returns the problem of minimising (x0 - 1)^2 + (x1 + 2)^2 within plus and minus `bound`.
     fn boxed(bound: f64) -> QpProblem {
         QpProblem {
             p: vec![vec![2.0, 0.0], vec![0.0, 2.0]],
@@ -232,7 +234,7 @@ mod tests {
     #[test]
     fn what_is_no_problem_of_ours_has_a_status_too() {
         let mut solver = QpSolver::default();
-        // No constraints and no curvature: no lower bound.
+        // Without constraints and curvature, the objective has no lower bound.
         let free = QpProblem { p: vec![vec![0.0]], q: vec![1.0], a: vec![], b: vec![] };
         assert!(solver.solve(&free).x.is_empty());
         let mut ragged = boxed(1.0);

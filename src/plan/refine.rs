@@ -1,18 +1,19 @@
-//! Refinement: offsets, directions and lengths of every push of a candidate, moved by a
-//! quadratic programme on a linear model of where the object ends.
+//! Refinement of candidates: offsets, directions and lengths of all pushes are improved by a
+//! quadratic programme on a linear model of the object's final pose.
 //!
-//! Around the present parameters x0 (in steps, see `parameters`) the model
-//! y = y0 + J u is fitted by least squares from rollouts at plus and minus half the trust
-//! radius along every parameter, and a few seeded random combinations. No gradient of the
-//! effect model is needed. The programme minimises the squared goal error of y in units of the
-//! tolerances, within the trust radius, the parameters' bounds and the linearised margins of
-//! reach and clearance; it is solved for several radii and every answer is rolled out. The best
-//! rollout that keeps all rules becomes the new centre if it is better; so a candidate never
-//! gets worse. All candidates share their batches.
+//! Around the current parameters x0 (in steps, see `parameters`), the model y = y0 + J u is fitted
+//! by least squares. Its samples are rollouts at plus and minus half the trust radius along every
+//! parameter, and a few seeded random combinations. No gradient of the effect model is needed.
 //!
-//! What is brought to the goal is the middle of where the object ends on plausible supports (see
-//! `supports`). It is taken to move along with the predicted end, and looked at again for the best
-//! rollout of every round.
+//! The programme minimises the squared goal error of y in units of the tolerances. Its constraints
+//! are the trust radius, the parameters' bounds and the linearised margins of reach and clearance.
+//! The solutions for several radii are rolled out. The best rollout that satisfies all rules
+//! becomes the new centre if it is better, so that a candidate never gets worse. All candidates
+//! share their batches.
+//!
+//! The refined quantity is the centre of the object's final poses over plausible support models
+//! (see `supports`). Its offset from the predicted final pose is taken as constant and recomputed
+//! for the best rollout of every round.
 
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
@@ -30,69 +31,70 @@ use super::{
     Rollouts, Workspace, evaluate, preferred,
 };
 
-/// Trust radius, in steps, for what a search found: an early stop is off by up to a frame, an
+/// Initial trust radius for search results, in steps. An early stop is off by up to a frame, and an
 /// offset by up to half the coarse spacing.
 pub const FOUND_RADIUS: f64 = 2.0;
 
-/// Refinement, which moves ends by centimetres, brings no plan to the goal that misses it by more tolerances.
+/// Largest error that refinement can correct, in tolerances: it moves final poses by centimetres.
 pub const REFINABLE: f64 = 5.0;
 
-/// Radii between which the trust region stays, in steps. Below the smallest, changes drown in
-/// the noise of contact.
+/// Smallest and largest trust radius, in steps. Below the smallest, changes are lost in the noise
+/// of contact.
 const RADII: (f64, f64) = (0.05, 8.0);
 
-/// Radii of the programmes solved each round, in units of the trust radius.
+/// Radii of the programmes solved in each round, in units of the trust radius.
 const TRIALS: [f64; 3] = [2.0, 1.0, 0.5];
 
-/// The radius shrinks to this share when a round brought nothing.
+/// Factor of the radius after a round without improvement.
 const SHRINK: f64 = 0.25;
 
-/// A score, in units of the tolerance, at which there is nothing left to gain: a tenth of
-/// the error that effect models and robots have anyway.
+/// Score that needs no further improvement, in units of the tolerance: a tenth of the usual error
+/// of effect models and robots.
 const GOOD_ENOUGH: f64 = 0.01;
 
-/// A candidate is given up when even this many times its last gain in every round that is left
-/// would not bring it within the tolerance. Gains grow at first, as the trust radius does.
+/// Factor of the last gain that estimates the gain of each remaining round optimistically. A
+/// candidate is dropped if even these gains would not bring it within the tolerance. Gains grow at
+/// first because the trust radius grows.
 const HOPE: f64 = 4.0;
 
-/// Weight of the step's own length against the goal, in units of the mean curvature: decides
-/// only between parameters that do not matter.
+/// Weight of the step's length relative to the goal error, in units of the mean curvature. It only
+/// decides between parameters without effect.
 const DAMPING: f64 = 1e-3;
 
 /// Budgets of refinement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RefineSettings {
-    /// Rounds of fitting, solving and trying.
+    /// Number of rounds of fitting, solving and rolling out.
     pub rounds: usize,
-    /// Random combinations per round besides the two samples of every parameter.
+    /// Number of random combinations per round in addition to the two samples of every parameter.
     pub extra: usize,
-    /// Seed of these combinations.
+    /// Seed of the random combinations.
     pub seed: u64,
-    /// Stop when this many candidates have nothing left to gain: more will not be looked at.
+    /// Number of candidates without further gain at which refinement stops.
     pub enough: usize,
-    /// Stop after the round in which this many rollouts are reached.
+    /// Number of rollouts after which no further round begins.
     pub rollouts: usize,
-    /// The rounds are for this many candidates, the best before the first; of the others it is
-    /// only told where they end.
+    /// Number of candidates that take part in the rounds, the best before the first round. The
+    /// other candidates are only evaluated.
     pub short_list: usize,
-    /// Trust radius at the start, in steps.
+    /// Initial trust radius, in steps.
     pub radius: f64,
 }
 
 struct Work {
     parameters: Parameters,
     refined: Refined,
-    /// The best one's ends on plausible supports.
+    /// Final poses of the best evaluation for plausible support models.
     ends: Ends,
     radius: f64,
-    /// Whether it is on the short list.
+    /// Whether the candidate is on the short list.
     listed: bool,
     random: Pcg64,
 }
 
-/// Refines candidates that keep all rules; those that do not are left out of the answer, which
-/// is otherwise in the order given. `watch` is told the rounds done and to do, and can stop
-/// it between rounds.
+/// Refines the candidates that satisfy all rules and returns them in the given order; infeasible
+/// candidates are left out. `watch` receives the numbers of completed and total rounds, and can
+/// stop the refinement between rounds.
 pub fn refine(
     workspace: &Workspace,
     rollouts: &mut Rollouts,
@@ -152,7 +154,8 @@ pub fn refine(
     work.into_iter().map(|w| w.refined).collect()
 }
 
-/// Leaves only the best `most` open, by the end farthest from the goal; equal ones keep their order.
+/// Keeps only the best `most` candidates open, in the order of [`preferred`]. Ties keep their
+/// order.
 fn shorten(work: &mut [Work], most: usize, workspace: &Workspace, situation: &Situation) {
     let mut order: Vec<usize> = (0..work.len()).collect();
     let refined = |k: usize| &work[k].refined;
@@ -161,7 +164,7 @@ fn shorten(work: &mut [Work], most: usize, workspace: &Workspace, situation: &Si
 }
 
 impl Work {
-    /// Score of the middle of all ends of the best.
+    /// Returns the score of the centre of the best evaluation's final poses.
     fn score(&self) -> f64 {
         self.refined.rounds.last().copied().unwrap_or(f64::INFINITY)
     }
@@ -170,7 +173,7 @@ impl Work {
         self.score() <= GOOD_ENOUGH
     }
 
-    /// Whether more rounds, `left` of them, can be worth their rollouts.
+    /// Returns `true` if the `left` remaining rounds can be worth their rollouts.
     fn is_open(&self, left: usize) -> bool {
         let score = bare(self.score());
         if !self.listed || self.is_good() || !score.is_finite() || self.radius <= RADII.0 {
@@ -181,7 +184,7 @@ impl Work {
     }
 }
 
-/// Score of the middle of all ends of a candidate.
+/// Returns the score of the centre of a candidate's final poses.
 fn score(task: &Task, evaluation: &Evaluation, ends: &Ends) -> f64 {
     let score = largest(&beside(&goal_errors(task, &evaluation.outcome), &ends.middles));
     match evaluation.score {
@@ -191,12 +194,13 @@ fn score(task: &Task, evaluation: &Evaluation, ends: &Ends) -> f64 {
     }
 }
 
-/// Distance of the middle of all ends from the goal, metres; from that which is missed by most.
+/// Returns the distance of the centre of the final poses from the goal, metres: the largest over
+/// all goals.
 fn off(task: &Task, evaluation: &Evaluation, ends: &Ends) -> f64 {
     farthest(task, &beside(&goal_errors(task, &evaluation.outcome), &ends.middles))
 }
 
-/// One round for all candidates that are still open.
+/// Runs one round for all open candidates.
 fn step(
     (workspace, supports): (&Workspace, &Supports),
     rollouts: &mut Rollouts,
@@ -214,8 +218,8 @@ fn step(
         trials.push(proposals(workspace.task, work, samples, solver, statistics));
     }
     let tried = evaluate_groups(workspace, rollouts, active, &trials);
-    // The best of every candidate, as far as can be said before its ends are known, and the radius
-    // after it.
+    // Best evaluation of every candidate, before its final poses are known, and the radius after
+    // it.
     let mut leaders: Vec<(usize, f64, &Evaluation)> = Vec::new();
     for (k, work) in active.iter_mut().enumerate() {
         let tried = tried[k].iter().map(|(u, trial)| {
@@ -247,7 +251,7 @@ fn step(
     active.iter_mut().zip(scores).for_each(|(work, score)| work.refined.rounds.push(score));
 }
 
-/// Points to sample around the present parameters, in steps.
+/// Returns the points to sample around the current parameters, in steps.
 fn design(work: &mut Work, extra: usize) -> Vec<Vec<f64>> {
     let n = work.parameters.count();
     let reach = 0.5 * work.radius;
@@ -265,8 +269,8 @@ fn design(work: &mut Work, extra: usize) -> Vec<Vec<f64>> {
     points
 }
 
-/// Evaluates every group of points around its candidate in one batch. Points are clamped to the
-/// bounds first; those that cannot be placed are left out.
+/// Evaluates every group of points around its candidate in one batch. Points are first clamped to
+/// the bounds; points that cannot be placed are left out.
 fn evaluate_groups(
     workspace: &Workspace,
     rollouts: &mut Rollouts,
@@ -292,7 +296,7 @@ fn evaluate_groups(
     evaluated
 }
 
-/// The minimisers of the fitted programme for every trial radius, in steps.
+/// Returns the minimisers of the fitted programme for every trial radius, in steps.
 fn proposals(
     task: &Task,
     work: &Work,
@@ -307,7 +311,7 @@ fn proposals(
         match solution.status {
             QpStatus::Solved | QpStatus::AlmostSolved => {
                 statistics.solved += 1;
-                // A radius that does not bind gives the same answer again.
+                // Inactive radii give equal solutions.
                 let repeats = found.iter().any(|x| {
                     x.iter().zip(&solution.x).all(|(a, b)| (a - b).abs() < 1e-3 * RADII.0)
                 });
@@ -321,7 +325,7 @@ fn proposals(
     found
 }
 
-/// The quadratic programme of one candidate: see the module's text.
+/// Returns the quadratic programme of one candidate: see the module's documentation.
 fn programme(
     task: &Task,
     work: &Work,
@@ -367,9 +371,10 @@ fn programme(
         }
     }
     for (slope, margin) in fitted[goals..].iter().zip(&held) {
-        // Rows scaled to about the size of the bounds' rows.
+        // Rows are scaled to about the size of the bounds' rows.
         let scale = 1.0 / slope.iter().fold(1e-3f64, |most, v| most.max(v.abs()));
-        // Rules that no step breaks stay near, as far ones have kept the solver from converging.
+        // Bounds that no step can violate are moved near, because distant ones have prevented
+        // convergence of the solver.
         let reach = 1.0 + radius * scale * slope.iter().map(|v| v.abs()).sum::<f64>();
         a.push(slope.iter().map(|v| -v * scale).collect());
         b.push((margin.max(0.0) * scale).min(reach));

@@ -1,19 +1,19 @@
-//! A candidate after its refinement.
+//! Candidates after their refinement.
 
 use super::Evaluation;
 
-/// A candidate after its refinement.
+/// Candidate after its refinement.
 #[derive(Clone, Debug)]
 pub struct Refined {
     /// Index among the candidates.
     pub index: usize,
-    /// The best evaluation of all rounds.
+    /// Best evaluation of all rounds.
     pub best: Evaluation,
-    /// Distances of the middle of its ends on plausible supports from the goal, before and now,
-    /// metres.
+    /// Distances from the goal to the centre of the final poses over plausible support models,
+    /// before refinement and now, metres.
     pub off: [f64; 2],
-    /// Score on the support on which it ends farthest from the goal.
+    /// Score for the worst support model.
     pub worst: f64,
-    /// Score of the middle of all its ends, before and after every round; it never rises.
+    /// Score of the centre of the final poses, before and after every round; it never rises.
     pub rounds: Vec<f64>,
 }

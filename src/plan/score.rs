@@ -1,5 +1,4 @@
-//! How good a rollout is: the error in units of the tolerance, and which ones come after all
-//! others.
+//! Scores of rollouts: the error in units of the tolerance, with blocked rollouts ranked last.
 
 use crate::{
     outcome::{Trajectory, Warning},
@@ -7,14 +6,14 @@ use crate::{
     task::Task,
 };
 
-/// Added to the score of a rollout that leads through something that a rigid body cannot pass. More
-/// than any error in units of a tolerance, so such a candidate is tried only when there is no
-/// other: it is not refused, because a prediction of a few millimetres too much proves nothing.
+/// Amount added to the score of a blocked rollout. It exceeds any error in units of a tolerance, so
+/// that a blocked candidate is tried only if there is no other. Such candidates are not rejected,
+/// because a prediction that is off by a few millimetres proves nothing.
 const BEHIND: f64 = 1e6;
 
-/// Score of a finished rollout: error in units of the tolerance, infinite where the outcome
-/// cannot count (not finite, not at rest), and behind all others where something cannot pass or is not
-/// to be moved so far.
+/// Returns the score of a finished rollout: the error in units of the tolerance. It is infinite if
+/// the outcome is invalid (not finite, not at rest), and behind all others if the motion is blocked
+/// or an object moves too far.
 pub(super) fn final_score(task: &Task, trajectory: &Trajectory) -> f64 {
     let Some(frame) = trajectory.frames.last() else { return f64::INFINITY };
     let fatal = |warning: &Warning| warning.forbids_success() && !warning.blocks();
@@ -26,28 +25,28 @@ pub(super) fn final_score(task: &Task, trajectory: &Trajectory) -> f64 {
     if stops { behind(score) } else { score }
 }
 
-/// Score of a state, infinite where it is not a number.
+/// Returns the score of a state; infinite instead of NaN.
 pub(super) fn finite_score(task: &Task, state: &State) -> f64 {
     let score = if state.is_finite() { task.score(state) } else { f64::NAN };
     if score.is_nan() { f64::INFINITY } else { score }
 }
 
-/// Whether something on the way of a rollout could not pass.
+/// Returns `true` if a rollout was blocked.
 pub(super) fn is_blocked(trajectory: &Trajectory) -> bool {
     trajectory.warnings.iter().any(Warning::blocks)
 }
 
-/// The score, moved after those of all rollouts that are not blocked.
+/// Returns the score moved behind the scores of all unblocked rollouts.
 pub fn behind(score: f64) -> f64 {
     bare(score) + BEHIND
 }
 
-/// Whether a score comes after those of all rollouts that are not blocked.
+/// Returns `true` if a score is behind the scores of all unblocked rollouts.
 pub fn is_behind(score: f64) -> bool {
     score >= BEHIND && score.is_finite()
 }
 
-/// The score without regard to whether something is in the way.
+/// Returns the score as if the rollout were unblocked.
 pub fn bare(score: f64) -> f64 {
     if is_behind(score) { score - BEHIND } else { score }
 }

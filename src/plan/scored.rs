@@ -1,39 +1,39 @@
-//! What the search makes of every way to push: the best that it leads to, or why it cannot be done.
+//! Results of the search for every kind of push: the best score or the reason for rejection.
 
 use serde::{Deserialize, Serialize};
 
 use super::{CandidatePush, Infeasible, Start};
 
-/// More ways than this are not kept: a thousand times what a reader can look at, it only bounds
-/// what a file with thousands of directions or offsets can ask for.
+/// Maximum number of stored kinds of pushes. It exceeds a reader's needs a thousandfold and only
+/// bounds files with thousands of directions or offsets.
 const MOST: usize = 100_000;
 
-/// A kind of push, over all states that the search tried it from.
+/// Kind of push, over all states from which the search tried it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ScoredPush {
-    /// Pushes of the sequences that end with it.
+    /// Number of pushes of the sequences that end with it.
     pub pushes: usize,
-    /// Index into the tools that were offered.
+    /// Index of the tool among the offered ones.
     pub tool: usize,
-    /// Turn of the end effector against world +x, radians.
+    /// Rotation of the end effector relative to world +x, radians.
     pub grip_yaw: f64,
     /// Heading of the motion, radians from world +x.
     pub direction: f64,
-    /// Start, as tried from the first state.
+    /// Start of the push from the first state.
     pub start: Start,
-    /// The best score that was predicted: error in units of the tolerance, behind all others where
-    /// something could not pass (see [`super::is_behind`]). `None` if it was not rolled out, or
-    /// led to no rest.
+    /// Best predicted score: error in units of the tolerance, behind all others if the motion was
+    /// blocked (see [`super::is_behind`]). `None` if the push was not rolled out or never came to
+    /// rest.
     pub score: Option<f64>,
-    /// Why it cannot be made, as found last; a way with a score can be made from another state.
+    /// Last reason why the push cannot be made. A push with a score is feasible from another state.
     pub refused: Option<Infeasible>,
 }
 
-/// All ways to push that a search went through.
+/// Kinds of pushes considered by a search.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Scores {
     list: Vec<ScoredPush>,
-    /// Grips of the present length of sequence, each with the place of its first way.
+    /// Grips for the current sequence length, each with the index of its first push.
     grips: Vec<((usize, f64), Option<usize>)>,
     pushes: usize,
 }
@@ -44,14 +44,14 @@ impl Scores {
         &self.list
     }
 
-    /// Goes on to sequences of one push more.
+    /// Starts sequences with one more push.
     pub fn deepen(&mut self) {
         self.pushes += 1;
         self.grips.clear();
     }
 
-    /// Place of the first of `ways`, which are as many and in the same order for every state;
-    /// `None` if they are too many to be kept.
+    /// Returns the index of the first of the pushes `ways`, which have the same number and order
+    /// for every state. Returns `None` if they are too many to store.
     pub fn place(
         &mut self,
         pair: (usize, f64),
@@ -78,14 +78,14 @@ impl Scores {
         place
     }
 
-    /// Notes that the way at `place` cannot be made from a state.
+    /// Records that the push at `place` cannot be made from a state.
     pub fn refuse(&mut self, place: Option<usize>, reason: Infeasible) {
         if let Some(way) = place.and_then(|place| self.list.get_mut(place)) {
             way.refused = Some(reason);
         }
     }
 
-    /// Notes what the way at `place` leads to from a state.
+    /// Records the score of the push at `place` from a state.
     pub fn improve(&mut self, place: Option<usize>, score: f64) {
         if let Some(way) = place.and_then(|place| self.list.get_mut(place)) {
             way.score = Some(way.score.map_or(score, |best| best.min(score)));

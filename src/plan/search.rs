@@ -1,9 +1,9 @@
-//! Rollout search over push sequences: all first pushes, then a beam of the most promising
-//! states, one push more at a time.
+//! Rollout search over push sequences: all first pushes, then a beam of the most promising states,
+//! one more push at a time.
 //!
-//! Every rollout is recorded frame by frame and the tool may stop after any of them, so one
-//! rollout scores every shorter push as well. The budget is in rollouts, never in seconds, and
-//! ties go to the lower index, so a search gives the same answer on any machine.
+//! Every rollout is recorded frame by frame. The tool may stop after any frame, so that one rollout
+//! also scores every shorter push. The budget counts rollouts and not seconds, and ties go to the
+//! lower index, so that a search is deterministic on any machine.
 
 use std::sync::Arc;
 
@@ -28,29 +28,30 @@ use super::uncertainty::{Uncertainty, room};
 use super::workspace::MIN_LENGTH;
 use super::{Candidate, Rollouts, ScoredPush, SearchResult, SweptRegion, Workspace};
 
-/// Rollouts handed to the effect model at a time: enough for every thread, few enough that
-/// their recorded frames stay in the cache.
+/// Number of rollouts per batch: enough for every thread, and few enough that their recorded frames
+/// stay in the cache.
 const BATCH: usize = 256;
 
-/// Every how many frames a stop is offered to the beam, besides the best and the last one.
+/// Number of frames between the stops offered to the beam, in addition to the best and last stop.
 const BEAM_STRIDE: usize = 5;
 
 /// Budgets of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SearchSettings {
-    /// Lateral offsets tried per contacting face, where the task lists none.
+    /// Number of lateral offsets per contacting face, if the task lists none.
     pub offsets: usize,
-    /// States from which sequences are continued.
+    /// Number of states from which sequences are continued.
     pub beam: usize,
     /// Maximum number of rollouts for each further push of a sequence.
     pub rollouts: usize,
-    /// Scored candidates that are kept.
+    /// Number of scored candidates kept.
     pub kept: usize,
-    /// Error of the effect model at times, metres: room that later pushes get for it.
+    /// Error that the effect model occasionally has, metres: later pushes keep this additional
+    /// room.
     pub model_error: f64,
 }
 
-/// A search in progress.
+/// Search in progress.
 pub struct Search<'a> {
     workspace: Workspace<'a>,
     situation: Situation,
@@ -58,8 +59,8 @@ pub struct Search<'a> {
     field: CostToGo<'a>,
     grips: Grips,
     nodes: Vec<Node>,
-    /// Where the last pushes may stop, and those pushes: from some of these the next level starts. They
-    /// become nodes when it is asked for, as rolling them out is wasted where shorter plans work.
+    /// Last pushes and their possible stops, from which the next level starts. They become nodes on
+    /// demand, because rolling them out is wasted if shorter plans work.
     ends: (Vec<Extension>, Vec<Stop>),
     spread: Uncertainty,
     depth: usize,
@@ -68,13 +69,14 @@ pub struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// Prepares a search; rolls nothing out.
+    /// Prepares a search without any rollout.
     pub fn new(workspace: Workspace<'a>, situation: &Situation, settings: SearchSettings) -> Self {
         let laid = (CostToGo::new(workspace.task), Uncertainty::around(situation));
         Self::laid(workspace, situation, settings, laid)
     }
 
-    /// The same with the task's field and the situation's spread, which serve many searches.
+    /// Prepares a search with the task's cost to go and the situation's uncertainty, which can be
+    /// shared by several searches.
     pub fn laid(
         workspace: Workspace<'a>,
         situation: &Situation,
@@ -89,16 +91,16 @@ impl<'a> Search<'a> {
         Self::from_start(workspace, situation, settings, laid, grips)
     }
 
-    /// The same search from its start for plans that may take another tool, and hold it otherwise, before
-    /// every push; `None` where that makes no difference.
+    /// Returns a new search for plans that may change the tool and grip before every push. Returns
+    /// `None` if this makes no difference.
     pub fn changing(&self) -> Option<Self> {
         let grips = self.grips.changing(&self.workspace)?;
         let kept = (self.field.clone(), self.spread.clone());
         Some(Self::from_start(self.workspace, &self.situation, self.settings, kept, grips))
     }
 
-    /// The same search from its start for plans that first move aside what stands in `corridor`, with the
-    /// tool and grip yaw (radians) of the plan that needs it free.
+    /// Returns a new search for plans that first clear the region `corridor`, with the tool and
+    /// grip yaw (radians) of the plan that needs it free.
     pub fn clearing(&self, corridor: SweptRegion, grip: (usize, f64)) -> Self {
         let field = self.field.clone().clearing(corridor);
         let kept = (field, self.spread.clone());
@@ -106,7 +108,8 @@ impl<'a> Search<'a> {
         Self::from_start(self.workspace, &self.situation, self.settings, kept, grips)
     }
 
-    /// The same from a start that earlier pushes lead to: the first of its own gets this room, metres.
+    /// Sets the position uncertainty for the first push, metres, if earlier pushes lead to the
+    /// start.
     pub(super) fn with_first_room(mut self, room: f64) -> Self {
         self.nodes.iter_mut().for_each(|node| node.room = room);
         self
@@ -141,17 +144,17 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns its budgets.
+    /// Returns the budgets of the search.
     pub fn settings(&self) -> SearchSettings {
         self.settings
     }
 
-    /// The tools and grip yaws (radians) that it tries.
+    /// Returns the tools and grip yaws (radians) that the search tries.
     pub fn grips(&self) -> &[(usize, f64)] {
         &self.grips.all
     }
 
-    /// Pushes per candidate that the last call of [`Search::deepen`] looked at.
+    /// Returns the number of pushes per candidate in the last call of [`Search::deepen`].
     pub fn depth(&self) -> usize {
         self.depth
     }
@@ -161,20 +164,20 @@ impl<'a> Search<'a> {
         &self.statistics
     }
 
-    /// Every way to push that was considered so far, with the best that it leads to.
+    /// Returns every kind of push considered so far, with its best score.
     pub fn scored(&self) -> &[ScoredPush] {
         self.scores.list()
     }
 
-    /// Whether sequences of one push more are allowed and any state is left to continue.
+    /// Returns `true` if sequences of one more push are allowed and any state is left to continue.
     pub fn can_deepen(&self) -> bool {
         let any = self.depth == 0 || !self.ends.1.is_empty();
         self.depth < self.workspace.task.pushes.max_count && any
     }
 
-    /// Looks at all sequences of one push more and returns the best of them, best first.
-    /// `watch` is told the rollouts done and to do; stopped, the best of what was rolled out are
-    /// returned.
+    /// Searches all sequences of one more push and returns the best ones, best first. `watch`
+    /// receives the numbers of completed and total rollouts. If it stops the search, the best
+    /// results so far are returned.
     pub fn deepen(&mut self, rollouts: &mut Rollouts, watch: &dyn Watch) -> Vec<SearchResult> {
         let before = rollouts.used();
         if self.depth > 0 {
@@ -212,7 +215,7 @@ impl<'a> Search<'a> {
                     self.statistics.improve(self.statistics.rollouts + index + 1, score);
                     self.scores.improve(extension.scored, score);
                     let candidate = self.candidate(extension, length);
-                    // Those with one grip are what the search without changes finds.
+                    // The search without changes already finds candidates with one grip.
                     if self.grips.changes.is_none() || !candidate.has_one_grip() {
                         found.push(SearchResult { candidate, score });
                     }
@@ -224,7 +227,7 @@ impl<'a> Search<'a> {
         self.depth += 1;
         self.ends = if watch.cancelled() { Default::default() } else { (list, offers) };
         self.statistics.rollouts += rollouts.used() - before;
-        // Stable, so equal scores keep the order in which they were enumerated.
+        // The sort is stable, so that equal scores keep the order of enumeration.
         found.sort_by(|a, b| a.score.total_cmp(&b.score));
         found.truncate(self.settings.kept);
         found
@@ -250,7 +253,8 @@ impl<'a> Search<'a> {
         before.then(super::CandidatePush { length, ..extension.planned })
     }
 
-    /// The best stop of a rollout as `(score, length)`, and the stops worth continuing from.
+    /// Returns the best stop of a rollout as `(score, length)`, and the stops worth continuing
+    /// from.
     fn rate(
         &self,
         extension: &Extension,
@@ -262,7 +266,7 @@ impl<'a> Search<'a> {
         let counts = task.wants(task.scene.thing(object));
         let mut best = match counts {
             true => (final_score(task, trajectory), length),
-            // What is moved aside is no plan yet.
+            // Moving an obstruction is not yet a plan.
             false => (f64::INFINITY, length),
         };
         let deeper = self.depth + 1 < task.pushes.max_count;
@@ -271,7 +275,7 @@ impl<'a> Search<'a> {
         let mut offers: Vec<Stop> = Vec::new();
         let mut cheapest: Option<Stop> = None;
         let moving = stroke.frames();
-        // What something could not pass is recorded up to there, and then its outcome.
+        // A blocked trajectory holds the frames up to the obstruction, followed by the outcome.
         let blocked = is_blocked(trajectory);
         let recorded = trajectory.frames.len() - usize::from(blocked);
         for (frame, travel) in stops(stroke, recorded) {
@@ -284,7 +288,8 @@ impl<'a> Search<'a> {
             if frame < moving && score < best.0 && counts {
                 best = (score, travel);
             }
-            // A chained push is continued from its end only; where it turns is refined later.
+            // A chained push is continued only from its end; refinement varies its turning point
+            // later.
             if deeper && (placed && frame < moving) {
                 let cost = self.field.cost(&rest);
                 let stop = Stop::new(extension, travel, cost, &rest, None);
@@ -297,7 +302,7 @@ impl<'a> Search<'a> {
             }
         }
         if deeper {
-            // The whole push is known exactly and need not be rolled out again.
+            // The state after the whole push is known exactly and needs no further rollout.
             let index = if placed { trajectory.frames.len() - 1 } else { moving };
             let known = trajectory.frames.get(index).unwrap_or(last).state.clone();
             if known.is_finite() && !blocked {
@@ -310,15 +315,15 @@ impl<'a> Search<'a> {
         (best.0.is_finite().then_some(best), offers)
     }
 
-    /// The nodes of the next level: the chosen stops, rolled out exactly where they are early.
+    /// Returns the nodes of the next level: the chosen stops, rolled out exactly if they are early.
     fn continue_from(
         &self,
         rollouts: &mut Rollouts,
         list: &[Extension],
         offers: Vec<Stop>,
     ) -> Vec<Node> {
-        // A tree of chained pushes is small and its branches share their beginnings, so it is
-        // kept whole as long as the budget allows.
+        // A tree of chained pushes is small and its branches share their beginnings. It is kept
+        // whole while the budget allows.
         let ways = self.workspace.task.pushes.directions.headings().len();
         let whole = !self.workspace.is_placed() && offers.len() * ways <= self.settings.rollouts;
         let chosen = choose(offers, if whole { None } else { Some(self.settings.beam) });
@@ -358,9 +363,9 @@ impl<'a> Search<'a> {
         self.with_room(rollouts, nodes)
     }
 
-    /// The nodes, each with room for where the object may stand there after its extension.
+    /// Returns the nodes, each with the object's position uncertainty after its extension.
     fn with_room(&self, rollouts: &mut Rollouts, nodes: Vec<(Extension, Node)>) -> Vec<Node> {
-        // A chained push goes on where the last one ended, wherever the object is.
+        // A chained push starts at the end of the previous one, wherever the object is.
         if !self.workspace.is_placed() {
             return nodes.into_iter().map(|(_, node)| node).collect();
         }

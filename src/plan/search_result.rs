@@ -2,19 +2,19 @@
 
 use super::Candidate;
 
-/// A candidate as the search scored it.
+/// Candidate with its score from the search.
 #[derive(Clone, Debug)]
 pub struct SearchResult {
-    /// The candidate, its last push cut to the best stop.
+    /// The candidate, with its last push ended at the best stop.
     pub candidate: Candidate,
-    /// Predicted error in units of the tolerance at that stop, estimated where the tool stops
-    /// early; behind all others where something could not pass (see [`super::is_behind`]).
+    /// Predicted error in units of the tolerance at that stop, estimated if the tool stops early.
+    /// The score is behind all others if the motion was blocked (see [`super::is_behind`]).
     pub score: f64,
 }
 
 /// Returns the indices of the best of `found` of different kinds, at most `count`, in order.
-/// `found` is sorted, best first; variants of one another (see [`Candidate::is_variant_of`]) are
-/// of one kind.
+/// `found` must be sorted, best first. Variants of each other (see [`Candidate::is_variant_of`])
+/// are of one kind.
 pub fn kinds(found: &[SearchResult], count: usize) -> Vec<usize> {
     let mut kinds: Vec<usize> = Vec::new();
     for (k, one) in found.iter().enumerate() {

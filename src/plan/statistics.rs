@@ -1,4 +1,4 @@
-//! Cost of planning, and reasons why candidates were dropped.
+//! Statistics of planning: costs and reasons for dropped candidates.
 
 use std::collections::BTreeMap;
 
@@ -6,21 +6,21 @@ use serde::{Deserialize, Serialize};
 
 use super::{Infeasible, QpProblem, QpStatus};
 
-/// Numbers of one search, added up over the lengths of sequence that it went through.
+/// Statistics of one search, summed over the sequence lengths.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SearchStatistics {
-    /// Pushes that were considered.
+    /// Number of pushes considered.
     pub considered: usize,
-    /// Of these, how many could not be made, by reason.
+    /// Number of infeasible pushes, by reason.
     pub infeasible: BTreeMap<Infeasible, usize>,
-    /// Of these, how many repeat another placement.
+    /// Number of pushes that repeat another placement.
     pub repeated: usize,
-    /// Of these, how many could be made but were beyond the budget of rollouts.
+    /// Number of feasible pushes beyond the budget of rollouts.
     pub beyond_budget: usize,
-    /// Rollouts made.
+    /// Number of rollouts.
     pub rollouts: usize,
-    /// Every time the best score improved: rollouts made by then, and the score (error in units
-    /// of the tolerance).
+    /// Improvements of the best score: the number of rollouts made and the score (error in units of
+    /// the tolerance).
     pub best: Vec<(usize, f64)>,
 }
 
@@ -36,13 +36,13 @@ impl SearchStatistics {
     }
 }
 
-/// Numbers of one refinement.
+/// Statistics of one refinement.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RefineStatistics {
-    /// Rollouts of single candidates made.
+    /// Number of rollouts of single candidates.
     pub rollouts: usize,
-    /// Quadratic programmes solved.
+    /// Number of solved quadratic programmes.
     pub solved: usize,
-    /// Those that were not, with the status, to be looked at.
+    /// Unsolved quadratic programmes with their status, for analysis.
     pub failures: Vec<(QpStatus, QpProblem)>,
 }

@@ -1,9 +1,9 @@
-//! Where a candidate ends on whatever its objects may rest on.
+//! Final poses of a candidate for all plausible support models.
 //!
-//! The underside of an object cannot be seen, and what it rests on decides how far it turns. So
-//! refinement does not bring the predicted end to the goal but the middle of all ends on plausible
-//! supports: the centre of the smallest ball around them, at which the worst one is as near as it
-//! can be.
+//! The underside of an object cannot be observed, but its support determines its rotation.
+//! Refinement therefore brings the centre of all final poses over plausible support models to the
+//! goal, and not the predicted pose. The centre is the one of the smallest enclosing ball, which
+//! minimises the distance to the worst pose.
 
 use std::sync::Arc;
 
@@ -20,28 +20,28 @@ use super::goal_errors::{apart, goal_errors};
 use super::score::final_score;
 use super::{Evaluation, Rollouts, Workspace};
 
-/// How far the middle may lie from what is predicted on the believed support, in tolerances: that
-/// one must reach the goal whatever the others do.
+/// Maximum distance of the centre from the prediction for the believed support, in tolerances,
+/// because the believed support must reach the goal in any case.
 const MOST: f64 = 0.35;
 
-/// Rounds in which the centre of the smallest ball is found, each a step towards the farthest point
-/// (Badoiu and Clarkson 2003, "Smaller core-sets for balls"); then it is off by a few hundredths of
-/// the radius at most.
+/// Number of steps to find the centre of the smallest enclosing ball, each towards the farthest
+/// point (Badoiu and Clarkson 2003, "Smaller core-sets for balls"). The remaining error is at most
+/// a few hundredths of the radius.
 const ROUNDS: usize = 64;
 
-/// All of a candidate's ends on plausible supports, the believed one among them.
+/// Final poses of a candidate for plausible support models, including the believed one.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Ends {
-    /// For every goal from the predicted end to the middle of all, in units of the tolerances: x, y,
-    /// heading.
+    /// Offset from the predicted final pose to the centre for every goal, in units of the
+    /// tolerances: x, y, heading.
     pub middles: Vec<Vector3<f64>>,
-    /// Score of the end farthest from the goal.
+    /// Score of the final pose farthest from the goal.
     pub worst: f64,
-    /// How far the farthest of all lies from their middle, in units of the tolerances.
+    /// Distance of the farthest final pose from the centre, in units of the tolerances.
     pub radius: f64,
 }
 
-/// What objects may rest on besides what is believed.
+/// Plausible support models other than the believed one.
 pub(super) struct Supports(Vec<Arc<Physics>>);
 
 impl Supports {
@@ -56,12 +56,13 @@ impl Supports {
         Self(others.filter(|other| other.feet != believed.feet).map(Arc::new).collect())
     }
 
-    /// How many they are, with the believed one.
+    /// Returns the number of support models, including the believed one.
     pub fn count(&self) -> usize {
         self.0.len() + 1
     }
 
-    /// Rolls out evaluated candidates, their pushes as they are, on all supports but the believed.
+    /// Rolls out evaluated candidates with unchanged pushes for all support models except the
+    /// believed one.
     pub fn ends(
         &self,
         workspace: &Workspace,
@@ -106,7 +107,7 @@ impl Supports {
     }
 }
 
-/// The centre and the radius of the smallest ball around the origin and `points`.
+/// Returns the centre and radius of the smallest ball around the origin and `points`.
 fn ball(points: &[Vector3<f64>]) -> (Vector3<f64>, f64) {
     let mut centre = Vector3::zeros();
     for round in 1..=ROUNDS {
@@ -131,7 +132,7 @@ mod tests {
     fn the_middle_is_as_near_to_all_as_can_be() {
         assert_eq!(ball(&[]), (Vector3::zeros(), 0.0));
         let (a, b) = (Vector3::new(2.0, 0.0, 0.0), Vector3::new(1.0, 0.2, 0.0));
-        // Among these and the origin, the two farthest decide.
+        // The two farthest of these points and the origin determine the ball.
         let (middle, radius) = ball(&[a, b]);
         assert!((middle - 0.5 * a).norm() < 0.02 && (radius - 1.0).abs() < 0.02);
         let corners = [Vector3::new(1.0, 0.0, 0.0), Vector3::new(0.0, 1.0, 0.0)];

@@ -1,8 +1,8 @@
-//! What a plan needs free: the places that its tool and the goal's object pass.
+//! Region that a plan needs free: the places that its tool and the goal's object pass.
 //!
-//! A plan that is made as if nothing else stood on the table says what has to be moved aside, as the
-//! relaxed plans of task planning do (Bonet and Geffner 2001, "Planning as heuristic search"): what
-//! stands in its corridor, and that is enough.
+//! A plan made without the other objects shows which of them must be cleared. Clearing the objects
+//! in its swept region suffices. Task planning uses relaxed plans in the same role (Bonet and
+//! Geffner 2001, "Planning as heuristic search").
 
 use std::sync::Arc;
 
@@ -15,50 +15,51 @@ use crate::{
 
 use super::Workspace;
 
-/// What stands nearer than this to the corridor stands in the way, metres: less than the play in
-/// which things are pushed past each other.
+/// Distance to the swept region below which an object obstructs it, metres: less than the play in
+/// which objects are pushed past each other.
 const NEEDED: f64 = 0.005;
 
-/// Things are moved so far from the corridor where they can be, metres: at least as far as an object
-/// comes to lie from where it is predicted.
+/// Wanted distance of cleared objects from the swept region, metres: at least the error of an
+/// object's predicted final position.
 const ROOM: f64 = 0.03;
 
-/// How densely the way of a tool or an object is sampled, metres: less than what anything that stands
-/// on a table is wide.
+/// Sampling distance along the path of a tool or an object, metres: less than the width of any
+/// object on a table.
 const SAMPLE: f64 = 0.02;
 
-/// Another turn than this is another place, radians.
+/// Rotation beyond which a pose is sampled again, radians.
 const TURNED: f64 = 0.2;
 
-/// Where things that are not to be in the way are put, metres from the robot: no push comes there.
+/// Distance from the robot at which ignored objects are placed, metres: no push reaches them.
 const FAR_AWAY: f64 = 1e3;
 
-/// What is not joined to an object that a goal speaks of, when `groups` says what is joined.
+/// Returns the objects without a joint to any object named by a goal, where `groups` lists the
+/// jointed groups.
 fn others(task: &Task, groups: &[usize]) -> Vec<usize> {
     let named: Vec<usize> = task.goals.iter().flat_map(Goal::objects).collect();
     let own = |k: usize| named.iter().any(|named| groups[*named] == groups[k]);
     (0..groups.len()).filter(|&k| !own(k)).collect()
 }
 
-/// All that a plan passes.
+/// Region swept by a plan.
 #[derive(Clone, Debug)]
 pub struct SweptRegion {
     passed: Vec<Passed>,
-    /// The objects that may stand in it.
+    /// Objects that may obstruct the region.
     others: Vec<(usize, Object)>,
 }
 
-/// A place that something passes.
+/// Place swept by a part or an object.
 #[derive(Clone, Copy, Debug)]
 struct Passed {
     footprint: Footprint,
     pose: Pose,
-    /// Heights above the table between which it is, metres.
+    /// Lowest and highest height above the table, metres.
     span: [f64; 2],
 }
 
-/// A task as it would be without all that is not joined to a goal's object, with fewer pushes by one;
-/// `None` if there is nothing else, or no push is left for it.
+/// Returns the task without the objects that have no joint to a goal's object, and with one fewer
+/// push. Returns `None` if there are no such objects or no push is left.
 pub fn alone(task: &Task, situation: &Situation) -> Option<(Task, Situation)> {
     let groups = situation.physics.groups(|_| true);
     let (mut task, mut situation) = (task.clone(), situation.clone());
@@ -69,7 +70,7 @@ pub fn alone(task: &Task, situation: &Situation) -> Option<(Task, Situation)> {
         situation.start.poses[k].position.x = -FAR_AWAY * put as f64;
         task.scene.objects[k].keep = None;
     }
-    // They are beyond the end of any table.
+    // The removed objects lie beyond the end of any table.
     task.scene.table_top = None;
     task.pushes.max_count = task.pushes.max_count.saturating_sub(1);
     situation.scene = Arc::new(task.scene.clone());
@@ -77,7 +78,7 @@ pub fn alone(task: &Task, situation: &Situation) -> Option<(Task, Situation)> {
 }
 
 impl SweptRegion {
-    /// Of `motions`, in which the goals' objects move as `trajectory` says.
+    /// Returns the region swept by `motions`, in which the goals' objects move along `trajectory`.
     pub fn of(
         workspace: &Workspace,
         situation: &Situation,
@@ -100,7 +101,7 @@ impl SweptRegion {
                 let parts = motion.tool.parts().iter();
                 passed.extend(parts.map(|part| {
                     let (footprint, pose) = (part.footprint(), tool * part.pose);
-                    // It comes down from above.
+                    // The tool comes down from above.
                     let top = if step == 0 { f64::INFINITY } else { part.shape.height() };
                     Passed { footprint, pose, span: [motion.lift, motion.lift + top] }
                 }));
@@ -126,18 +127,20 @@ impl SweptRegion {
         Self { passed, others: others.map(|k| (k, objects[k].clone())).collect() }
     }
 
-    /// What stands in it.
+    /// Returns the objects that obstruct the region.
     pub fn blocking(&self, state: &State) -> Vec<usize> {
         let depths = self.depths(state);
         depths.filter(|(_, depth)| *depth > ROOM - NEEDED).map(|(k, _)| k).collect()
     }
 
-    /// How far all that may stand in it would have to move to leave room, metres.
+    /// Returns, for every object that may obstruct the region, the distance that it would have to
+    /// move, metres.
     pub(super) fn depths(&self, state: &State) -> impl Iterator<Item = (usize, f64)> {
         self.others.iter().map(|(k, object)| (*k, self.depth(object, &state.poses[*k])))
     }
 
-    /// How far an object at `pose` would have to move, metres; 0 beside it, with room.
+    /// Returns the distance that an object at `pose` would have to move to leave the region with
+    /// room, metres; 0 outside the region.
     fn depth(&self, object: &Object, pose: &Pose) -> f64 {
         let own = object.shape.footprint();
         let into = |passed: &Passed| {
@@ -148,7 +151,7 @@ impl SweptRegion {
         met.map(into).fold(0.0, f64::max)
     }
 
-    /// The same of object `k`, if that may stand in it.
+    /// Returns the depth of object `k` at `pose`, or 0 if that object cannot obstruct the region.
     pub(super) fn depth_of(&self, k: usize, pose: &Pose) -> f64 {
         let own = self.others.iter().find(|(other, _)| *other == k);
         own.map_or(0.0, |(_, object)| self.depth(object, pose))

@@ -1,9 +1,9 @@
-//! Which of several plans that are as good is preferred: stated here, once.
+//! Preference among plans of equal quality.
 //!
-//! Among plans with the same verdict and robustness, in this order: fewer pushes, as longer plans are only
-//! looked for where no shorter one is safe; the cheaper tool; less moved besides what has a goal; the simpler
-//! tool; the smaller error. Errors well inside the tolerance are no reason to prefer one: models differ by
-//! as much.
+//! Plans with equal verdict and robustness are compared by, in order: number of pushes, cost of the
+//! tools, motion of objects without goals, simplicity of the tools, and error. Fewer pushes come
+//! first because longer plans are only searched if no shorter plan is safe. Errors well inside the
+//! tolerance do not count, because models differ by as much.
 
 use std::cmp::Ordering;
 use std::sync::Arc;
@@ -12,30 +12,30 @@ use crate::scene::{JointKind, Situation, Tool};
 
 use super::{Evaluation, Refined, Workspace};
 
-/// Predictions within this share of the tolerance are equally near: a quarter, where half is still well
-/// inside in another engine.
+/// Share of the tolerance within which predictions are equally near. It is a quarter because half
+/// is still well inside the tolerance in another engine.
 pub const NEAR: f64 = 0.25;
 
-/// What is moved by so much is counted, metres: less is what models differ by.
+/// Unit of the motion of other objects, metres: models differ by less.
 const COUNTED: f64 = 0.01;
 
-/// What a plan costs besides its pushes; compared in this order.
+/// Cost of a plan other than its pushes, compared in the order of the fields.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Cost {
-    /// Returns the number of tool changes.
+    /// Number of tool changes.
     changes: usize,
-    /// What its tools cost in the task, in thousandths.
+    /// Cost of the tools in the task, in thousandths.
     tools: u64,
-    /// By how much all that has no goal is moved, in whole units of [`COUNTED`].
+    /// Total motion of the objects without goals, in whole units of [`COUNTED`].
     moved: usize,
-    /// Pieces of the tools, flush parts taken together: a bar in four parts is a bar.
+    /// Number of pieces of the tools, with flush parts merged: a bar in four parts is one piece.
     pieces: usize,
 }
 
 impl Cost {
-    /// Of a plan as it is predicted.
+    /// Computes the cost of a plan from its prediction.
     pub fn of(plan: &Evaluation, workspace: &Workspace, situation: &Situation) -> Self {
-        // What is one with an object that has a goal moves with it.
+        // An object rigidly joined to a goal's object moves with it.
         let rigid = situation.physics.groups(|joint| joint.kind == JointKind::Fixed);
         let goals: Vec<usize> =
             workspace.task.goals.iter().map(|goal| rigid[goal.object]).collect();
@@ -56,8 +56,8 @@ impl Cost {
     }
 }
 
-/// Compares refined plans of one length, the preferred one being less: by predicted score on the worst
-/// support, and near ones by their cost.
+/// Compares refined plans of equal length; the preferred one is less. Plans are ordered by the
+/// predicted score for the worst support model, and near ones by their cost.
 pub fn preferred(
     a: &Refined,
     b: &Refined,
@@ -70,8 +70,8 @@ pub fn preferred(
     near.then(a.worst.total_cmp(&b.worst))
 }
 
-/// Sorts refined plans as they are verified: the preferred one, next to it the nearest, which most likely
-/// works, and then the others as they are [`preferred`]. Equal ones keep their order.
+/// Sorts refined plans in the order of verification: the preferred plan, then the nearest, which
+/// most likely works, and then the others as [`preferred`] orders them. Ties keep their order.
 pub fn in_order(refined: &mut [Refined], workspace: &Workspace, situation: &Situation) {
     refined.sort_by(|a, b| preferred(a, b, workspace, situation));
     let nearest = (0..refined.len()).min_by(|a, b| refined[*a].worst.total_cmp(&refined[*b].worst));

@@ -1,8 +1,8 @@
-//! Uncertainty of where an object is when a later push begins.
+//! Uncertainty of an object's pose at the start of a later push.
 //!
-//! An object that is a little off at the start is off by more after a push: boxes turn, cans roll
-//! along a face. So the states that the search continues from are rolled out with small errors as
-//! well, and the next push is placed with room for the spread of where the object ends.
+//! A small error of an object's pose at the start grows during a push, because boxes rotate and
+//! cans roll along a face. The states from which the search continues are therefore also rolled out
+//! with small errors. The next push leaves room for the spread of the object's final poses.
 
 use std::sync::Arc;
 
@@ -20,30 +20,34 @@ use crate::{
 use super::score::final_score;
 use super::{Evaluation, Rollouts, Workspace};
 
-/// Rollouts with errors for every state. The largest of six is about the 85th percentile.
+/// Number of rollouts with errors for every state. The largest of six errors is about the 85th
+/// percentile.
 const DRAWS: usize = 6;
 
-/// Errors, apart from those of supports and of the push's height, of where objects are seen, metres
-/// and radians, and of every friction value, relative.
+/// Largest shift of an object's observed position along each axis, metres.
 const SHIFT: f64 = 1e-3;
+
+/// Largest rotation of an object's observed pose, radians.
 const TURN: f64 = std::f64::consts::PI / 180.0;
+
+/// Largest relative error of every friction value.
 const FRICTION: f64 = 0.1;
 
-/// The most room that a push gets, metres: a longer approach costs reach and time.
+/// Maximum room of a push, metres: a longer approach costs reach and time.
 const MOST: f64 = 0.03;
 
-/// Possible differences from what is believed: the same draws for a whole search.
+/// Random errors of the believed situation, drawn once for a whole search.
 #[derive(Clone, Debug)]
 pub struct Uncertainty {
     physics: Vec<Arc<Physics>>,
     /// Relative changes of the tools' friction.
     tools: Vec<f64>,
-    /// States instead of that at the start.
+    /// Alternative start states.
     starts: Vec<State>,
 }
 
 impl Uncertainty {
-    /// Draws around a situation.
+    /// Draws errors around a situation.
     pub fn around(situation: &Situation) -> Self {
         let mut random = Pcg64::seed_from_u64(0x5_9EAD);
         let mut within = |range: f64| random.random_range(-range..=range);
@@ -61,9 +65,10 @@ impl Uncertainty {
             let mut start = situation.start.clone();
             for first in 0..groups.len() {
                 let (shift, turn) = (Vector::new(within(SHIFT), within(SHIFT)), within(TURN));
-                // Joined objects are only shifted: turned apart, their joints would break.
+                // Jointed objects are only shifted, because different rotations would violate their
+                // joints.
                 let alone = (0..groups.len()).filter(|&k| groups[k] == first).count() == 1;
-                // What is joined to the world stands where its joint lets it.
+                // An object joined to the world stays where its joint holds it.
                 let free = |k: &usize| situation.scene.mount(*k).is_none();
                 for k in (0..groups.len()).filter(|&k| groups[k] == first).filter(free) {
                     let turn = if alone { turn } else { 0.0 };
@@ -78,12 +83,12 @@ impl Uncertainty {
         Self { physics, tools, starts }
     }
 
-    /// The states at the start.
+    /// Returns the alternative start states.
     pub fn starts(&self) -> &[State] {
         &self.starts
     }
 
-    /// Score of a candidate in the draw in which it ends farthest from the goal.
+    /// Returns the worst score of a candidate over all draws.
     pub fn worst(&self, workspace: &Workspace, rollouts: &mut Rollouts, one: &Evaluation) -> f64 {
         let motions = one.motions(workspace);
         let each: Vec<Vec<Job>> =
@@ -94,7 +99,7 @@ impl Uncertainty {
         ends.iter().map(|end| final_score(workspace.task, end)).fold(one.score, f64::max)
     }
 
-    /// `motion` from each of `states`, which come from the draws in order.
+    /// Returns the jobs of `motion` from each of `states`, which belong to the draws in order.
     pub fn jobs(&self, motion: &ToolMotion, states: &[State]) -> Vec<Job> {
         let draws = states.iter().zip(self.physics.iter().zip(&self.tools));
         draws
@@ -109,8 +114,8 @@ impl Uncertainty {
     }
 }
 
-/// Room for object `index`, metres, predicted in `state` by a model that is off by `error` metres
-/// at times, where errors at the start lead to `others`.
+/// Returns the room for object `index`, metres. Its pose in `state` is predicted with an occasional
+/// error of `error` metres, and errors at the start lead to `others`.
 pub(super) fn room(
     scene: &Scene,
     index: usize,
@@ -124,6 +129,6 @@ pub(super) fn room(
         (a.position - b.position).norm() + radius * wrap_angle(a.heading - b.heading).abs()
     };
     let spread = others.iter().map(off).fold(0.0, f64::max);
-    // NaN leaves all the room there can be.
+    // A NaN results in the maximum room.
     (error + spread).min(MOST)
 }

@@ -1,5 +1,4 @@
-//! What a task allows the tool to do: where it can be set down, how far it can go, and by how
-//! much it keeps its distances.
+//! Limits of a task for the tool: set-down positions, free travel, and margins to all rules.
 
 use std::sync::Arc;
 
@@ -17,44 +16,45 @@ use super::{CandidatePush, Infeasible, Start};
 /// placed push).
 pub const STAND_OFF: f64 = 0.005;
 
-/// A tool that comes down keeps at least this distance from every object, metres. Small compared
-/// with the stand-off, because a glancing face is closer to a round object than it travels.
+/// Minimum distance between a descending tool and every object, metres. It is small compared with
+/// the stand-off, because a glancing face is closer to a round object than its travel.
 pub const SET_DOWN_CLEARANCE: f64 = 0.001;
 
-/// Room for where an object may be is kept on all sides up to this, metres: between the arms of a
-/// hook there is no more.
+/// Maximum room on all sides for the uncertain pose of an object, metres: the arms of a hook leave
+/// no more.
 const MOST_ASIDE: f64 = 0.01;
 
-/// A tool keeps at least this distance from obstacles, also while pushing, metres: the error of a
-/// robot arm and its calibration.
+/// Minimum distance between a tool and obstacles, also during pushes, metres: the error of a robot
+/// arm and its calibration.
 pub const OBSTACLE_CLEARANCE: f64 = 0.005;
 
-/// A hand keeps at least this distance from all that is as high as it is, metres: nobody looks there.
+/// Minimum distance between a hand and all bodies at its height, metres, because no sensor observes
+/// it.
 pub const HAND_CLEARANCE: f64 = 0.01;
 
-/// Shortest push worth making, metres: the stand-off and then as much again, to have an effect.
+/// Length of the shortest useful push, metres: the stand-off and an equal distance in contact.
 pub const MIN_LENGTH: f64 = 0.01;
 
-/// Offsets are tried up to the face's half width plus this share of the object's half width.
-/// Farther out the face only grazes the object.
+/// Share of the object's half width by which tried offsets exceed the face's half width. Farther
+/// out the face only grazes the object.
 const OVERHANG: f64 = 0.6;
 
-/// Refinement may shift the offset up to this share of the object's half width past the face.
+/// Share of the object's half width by which refined offsets may exceed the face's half width.
 const LARGEST_OVERHANG: f64 = 0.9;
 
-/// A push that an arm does not carry through is shortened by this, metres, until it does.
+/// Step by which a push that the arm cannot complete is shortened, metres.
 const SHORTER: f64 = 0.02;
 
-/// Distances larger than this are all alike to the margins, metres.
+/// Largest distance that margins distinguish, metres.
 const FAR: f64 = 0.05;
 
-/// Slack for rounding in comparisons of closed forms, metres.
+/// Tolerance for rounding in comparisons of closed forms, metres.
 const ROUNDING: f64 = 1e-9;
 
-/// Slack in the rules, metres: iterative closest points are not exact to the last digit.
+/// Tolerance of the rules, metres: iterative closest points are not exact to the last digit.
 const SLACK: f64 = 1e-6;
 
-/// Margins of a push to each rule, metres; negative where it breaks one.
+/// Margins of a push to each rule, metres; negative for a violated rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Margins {
     /// Margin of the end effector at the start to the outer reach.
@@ -65,9 +65,10 @@ pub struct Margins {
     pub base: f64,
     /// Margin of the moving tool to the obstacles, beyond [`OBSTACLE_CLEARANCE`].
     pub obstacle: f64,
-    /// Margin of the tool set down to the objects, beyond [`SET_DOWN_CLEARANCE`] and the push's room.
+    /// Margin of the tool to the objects when set down, beyond [`SET_DOWN_CLEARANCE`] and the
+    /// push's room.
     pub object: f64,
-    /// Margin of the hand to all that is as high, beyond its clearance.
+    /// Margin of the hand to all bodies at its height, beyond [`HAND_CLEARANCE`].
     pub hand: f64,
 }
 
@@ -80,7 +81,7 @@ impl Margins {
         [self.start, self.end, self.base, self.obstacle, self.object, self.hand]
     }
 
-    /// The first rule that is broken.
+    /// Returns the first violated rule.
     pub fn broken(&self) -> Option<Infeasible> {
         let reasons = [
             Infeasible::Reach,
@@ -95,23 +96,23 @@ impl Margins {
     }
 }
 
-/// A task together with the tools that may be used on it.
+/// Task with the tools that may be used.
 #[derive(Clone, Copy)]
 pub struct Workspace<'a> {
     /// The task.
     pub task: &'a Task,
-    /// The tools that candidates name by index.
+    /// Tools that candidates name by index.
     pub tools: &'a [Arc<Tool>],
 }
 
 impl Workspace<'_> {
-    /// End-effector position at which the push of a candidate starts: for a placed push so that
-    /// the part's leading face meets the object after exactly the stand-off and the push's room,
-    /// with the wanted offset; for a chained one `previous`, or home.
+    /// Returns the position of the end effector at the start of a candidate's push. In a placed
+    /// push, the part's leading face meets the object after exactly the stand-off and the push's
+    /// room, with the given offset. A chained push starts at `previous` or at home.
     ///
     /// # Errors
-    /// [`Infeasible::NoContact`] and [`Infeasible::OtherPartFirst`]. Reach and collisions are
-    /// not checked here, see [`Workspace::margins`].
+    /// Returns [`Infeasible::NoContact`] or [`Infeasible::OtherPartFirst`]. Reach and collisions
+    /// are checked by [`Workspace::margins`].
     pub fn place(
         &self,
         state: &State,
@@ -129,7 +130,7 @@ impl Workspace<'_> {
         if !meets(part) {
             return Err(Infeasible::NoContact);
         }
-        // The end effector at the world's origin; everything below is shifted from there.
+        // All poses are computed with the end effector at the world's origin and shifted later.
         let frame = tool.pose(Pose { position: Vector::zeros(), heading: grip_yaw });
         let parts: Vec<(Footprint, Pose)> = (0..tool.parts().len())
             .map(|k| (tool.parts()[k].footprint(), tool.part_pose(k, &frame)))
@@ -153,10 +154,11 @@ impl Workspace<'_> {
         Ok(start)
     }
 
-    /// Longest travel, at most `length` metres, that keeps reach and obstacle clearance.
+    /// Returns the longest travel, at most `length` metres, that satisfies reach and obstacle
+    /// clearance.
     ///
     /// # Errors
-    /// Returns why there is none of at least [`MIN_LENGTH`].
+    /// Returns the reason if the travel is shorter than [`MIN_LENGTH`].
     pub fn free_travel(
         &self,
         (tool, grip_yaw): (usize, f64),
@@ -179,7 +181,7 @@ impl Workspace<'_> {
         {
             free = free.min(t);
         }
-        // An arm does not turn the tool everywhere.
+        // An arm cannot hold the tool with this yaw everywhere.
         while free >= MIN_LENGTH && !self.task.stands(start + ahead * (free - SLACK), grip_yaw) {
             free -= SHORTER;
         }
@@ -222,8 +224,8 @@ impl Workspace<'_> {
         if free < MIN_LENGTH { Err(Infeasible::Hand) } else { Ok(free) }
     }
 
-    /// By how much hand and handle keep clear of obstacles, and of objects that are as high: of all of
-    /// them where the tool is set down, of those that are not to be moved during the push.
+    /// Returns the margin of hand and handle to obstacles and to objects at their height. All such
+    /// objects count while the tool is set down, and all but the pushed one during the push.
     fn hand(
         &self,
         tool: &Tool,
@@ -245,7 +247,7 @@ impl Workspace<'_> {
             }
             let objects = task.scene.objects.iter().zip(&state.poses).enumerate();
             for (k, (object, pose)) in objects {
-                // What comes down from above passes all that is above where it goes.
+                // During the descent, the hand passes all heights above its own.
                 if carried.span[0] >= object.top() {
                     continue;
                 }
@@ -261,9 +263,9 @@ impl Workspace<'_> {
         least - HAND_CLEARANCE
     }
 
-    /// By how much a push of object `pushed` keeps every rule, when it starts from `state`. A tool that
-    /// is set down keeps clear of the objects, with the push's room as `set_down`; a chained push after
-    /// the first begins in contact.
+    /// Returns the margins of a push of object `pushed` from `state` to every rule. A tool that is
+    /// set down must clear the objects by the push's room in `set_down`; a chained push after the
+    /// first begins in contact.
     pub fn margins(
         &self,
         (tool, grip_yaw): (usize, f64),
@@ -309,7 +311,7 @@ impl Workspace<'_> {
         }
     }
 
-    /// Offsets from an object in a state are tried within plus and minus this, metres.
+    /// Returns the largest absolute offset tried in a search, metres, for an object in a state.
     pub fn offset_span(
         &self,
         pair: (usize, f64),
@@ -320,7 +322,7 @@ impl Workspace<'_> {
         self.span(pair, object, part, along, OVERHANG)
     }
 
-    /// Offsets may be refined within plus and minus this, metres.
+    /// Returns the largest absolute offset in refinement, metres.
     pub fn largest_offset(
         &self,
         pair: (usize, f64),
@@ -331,7 +333,7 @@ impl Workspace<'_> {
         self.span(pair, object, part, along, LARGEST_OVERHANG)
     }
 
-    /// Whether pushes are placed rather than chained.
+    /// Returns `true` if pushes are placed and not chained.
     pub fn is_placed(&self) -> bool {
         self.task.pushes.form == PushForm::Placed
     }
@@ -349,7 +351,8 @@ impl Workspace<'_> {
         let (_, left) = axes(direction);
         let frame = tool.pose(Pose { position: Vector::zeros(), heading: grip_yaw });
         let face = tool.part_pose(part, &frame).local_vector(left);
-        // The wider side: offsets beyond the narrower one are seen to touch nothing.
+        // The wider side counts, because offsets beyond the narrower one are rejected later for
+        // lack of contact.
         let wide = |shape: &Footprint, axis: Vector| shape.extent(axis).max(shape.extent(-axis));
         wide(&tool.parts()[part].footprint(), face)
             + overhang * wide(&footprint, at.local_vector(left))
@@ -359,20 +362,20 @@ impl Workspace<'_> {
         (self.task.scene.objects[index].shape.footprint(), state.poses[index])
     }
 
-    /// Heights above the table between which a part of a tool is, metres.
+    /// Returns the lowest and highest height of a tool's part above the table, metres.
     fn span_of(&self, part: &Part) -> [f64; 2] {
         let lift = self.task.pushes.lift;
         [lift, lift + part.shape.height()]
     }
 }
 
-/// Unit vectors ahead and to the left.
+/// Returns the unit vectors ahead and to the left.
 fn axes(direction: f64) -> (Vector, Vector) {
     let ahead = Vector::new(direction.cos(), direction.sin());
     (ahead, perpendicular(ahead))
 }
 
-/// Distance of the straight way between two points from the origin, metres.
+/// Returns the distance between the origin and the segment between two points, metres.
 pub fn distance_to_origin(from: Vector, to: Vector) -> f64 {
     let way = to - from;
     let square = way.norm_squared();

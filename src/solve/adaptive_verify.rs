@@ -1,5 +1,5 @@
-//! Verification of attempts: in the plane first, then in 3-D where that can matter, and the best until its
-//! share of successes is clear.
+//! Verification of attempts: in 2-D first, then in 3-D if necessary. The best attempt is replayed
+//! until its share of successes is clear.
 
 use rayon::prelude::*;
 
@@ -11,32 +11,34 @@ use super::attempts::{Attempt, Attempts, Replays};
 use super::grade::{Class, Grade};
 use super::query::Query;
 
-/// Maximum number of plans of one batch that are replayed with perturbations, best first: the others
-/// miss by more.
+/// Maximum number of plans of one batch that are replayed with perturbations, best first. The other
+/// plans have larger errors.
 const PERTURBED_AT_ONCE: usize = 3;
 
 /// Replays of attempts, and their counts.
 pub(super) struct Verification<'a> {
     query: Query<'a>,
     verifier: Verifier<'a>,
-    /// Plans that were replayed.
+    /// Number of replayed plans.
     pub verified: usize,
-    /// Plans that were replayed with perturbations.
+    /// Number of plans replayed with perturbations.
     pub perturbed: usize,
-    /// Whether any plan would be worth verifying, where nothing is verified. The search ends with the first.
+    /// Whether any plan is worth verifying, in a solution without verification, which ends with the
+    /// first such plan. `None` if plans are verified.
     pub promising: Option<bool>,
 }
 
 impl<'a> Verification<'a> {
-    /// Starts counting at zero; every plan is replayed `perturbed` times with perturbations.
+    /// Creates the verification with counts of zero. Every plan has `perturbed` replays with
+    /// perturbations.
     pub fn new(query: Query<'a>, perturbed: usize) -> Self {
         let settings = VerifySettings { disturbed: perturbed, seed: query.planner.seed() };
         let verifier = Verifier::new(settings).watched(query.watch);
         Self { query, verifier, verified: 0, perturbed: 0, promising: None }
     }
 
-    /// Replays plans as written, in parallel, and the best of those that work with perturbations,
-    /// until one is safe. Keeps the best.
+    /// Replays plans as written in parallel, and then the best working plans with perturbations
+    /// until one is safe. Stores the best attempt.
     pub fn verify(&mut self, attempts: &mut Attempts, indices: &[usize]) {
         if let Some(promising) = &mut self.promising {
             *promising = true;
@@ -61,7 +63,7 @@ impl<'a> Verification<'a> {
             }
             attempts.list[k].verdict = Some(verdict);
         }
-        // Stable, so equal ones keep the order of their predictions.
+        // The sort is stable, so that ties keep the order of their predictions.
         let cost = |k: usize| attempts.list[k].cost;
         working.sort_by(|a, b| a.0.before(&b.0, cost(a.1).cmp(&cost(b.1))));
         for (_, k) in working.into_iter().take(PERTURBED_AT_ONCE) {
@@ -73,9 +75,10 @@ impl<'a> Verification<'a> {
         self.keep_best(attempts);
     }
 
-    /// Replays the best plan, if it is of this class or a better one, with further perturbations until it
-    /// is clear how often it works, as `verify` does. Where it works less often than it seemed, another
-    /// may be the best. As long as fragile plans are not wanted, one that fails on a support is left early.
+    /// Replays the best plan with further perturbations until its success rate is clear, as
+    /// `verify` does. This applies only if its class is at least `least`. If the plan works less
+    /// often than estimated, another plan may become the best. While fragile plans are not
+    /// accepted, a plan that fails with one support model is dropped early.
     pub fn settle(&self, attempts: &mut Attempts, least: Class) {
         let wanted = self.query.planner.settings().disturbed > 0;
         while let Some((grade, k)) = attempts.best
@@ -95,7 +98,7 @@ impl<'a> Verification<'a> {
         }
     }
 
-    /// Replays a plan by the goal of `task`: as written, and with perturbations if it passes.
+    /// Replays a plan for the goal of `task`: as written, and with perturbations if it passes.
     pub fn verdict(&self, task: &Task, attempt: &Attempt) -> Verdict {
         let (situation, tools, plan) = (self.query.situation, &attempt.tools, &attempt.plan);
         let nominal = self.verifier.nominal(task, situation, tools, plan);
@@ -105,8 +108,8 @@ impl<'a> Verification<'a> {
         }
     }
 
-    /// Replays a plan with perturbations and returns its class. One that is not safe in the plane is
-    /// replayed there alone: it is worth no more than that, see [`Self::keep_best`].
+    /// Replays a plan with perturbations and returns its class. A plan that is not safe in 2-D is
+    /// not replayed in 3-D, because its class cannot rise (see [`Self::keep_best`]).
     fn perturb(&self, attempt: &mut Attempt) -> Class {
         match self.replay(attempt, &self.verifier.clone().in_plane(), Replays::InPlane) {
             Class::Safe => self.complete(attempt),
@@ -114,7 +117,7 @@ impl<'a> Verification<'a> {
         }
     }
 
-    /// Replays a plan in 3-D, too.
+    /// Replays a plan with perturbations in 3-D also.
     fn complete(&self, attempt: &mut Attempt) -> Class {
         self.replay(attempt, &self.verifier, Replays::InBoth)
     }
@@ -129,8 +132,8 @@ impl<'a> Verification<'a> {
         class
     }
 
-    /// Keeps the best of the attempts that were replayed with perturbations. It has been replayed in 3-D,
-    /// which the others that seem no better need not be.
+    /// Stores the best attempt of those replayed with perturbations. Only this attempt must also
+    /// have been replayed in 3-D.
     fn keep_best(&self, attempts: &mut Attempts) {
         attempts.best = loop {
             match attempts.graded_best() {

@@ -7,20 +7,20 @@ use crate::verify;
 use super::RankedPlan;
 use super::query::Query;
 
-/// Returns why the task's arm, if it has one, cannot carry a plan out, with objects where predictions put
-/// them.
+/// Returns the reason why the task's arm, if any, cannot execute a plan, with objects at their
+/// predicted poses.
 pub(super) fn arm_fault(query: &Query, evaluation: &Evaluation) -> Option<ArmFault> {
     let (task, workspace) = (query.task, query.workspace());
     let arm = task.arm.as_deref()?;
     let (tools, plan) = (evaluation.tools(&workspace), evaluation.plan(&workspace));
-    // Between pushes they are about where they were.
+    // Between pushes, the objects are assumed near their start poses.
     let mut states = vec![query.situation.start.clone(); plan.steps.len()];
     states.push(evaluation.outcome.clone());
     let scene = &*query.situation.scene;
     arm.follow(task, scene, &tools[0], &plan, &states).err().map(|(_, fault)| fault)
 }
 
-/// Returns the arm's motion for a plan, if the task has an arm.
+/// Returns the joint trajectory for a plan, if the task has an arm.
 pub(super) fn joints(query: &Query, ranked: &RankedPlan) -> Option<JointTrajectory> {
     if ranked.plan.is_empty() {
         return None;

@@ -13,21 +13,22 @@ use super::pattern::PushPattern;
 use super::query::Query;
 use super::rank::distinct;
 
-/// A plan, verified where it was worth that.
+/// Plan, verified if that was worthwhile.
 pub(super) struct Attempt {
     pub plan: Plan,
-    /// Tools of the plan, each once; of the plan without steps the first one.
+    /// Tools of the plan, each once; the plan without steps has the first tool.
     pub tools: Vec<Arc<Tool>>,
     /// Source of a plan of pushes; `None` for the plan without steps and for lever-ups.
     pub candidate: Option<Candidate>,
-    /// Goals of the refinement: the task's, or some next to them.
+    /// Goals of the refinement: the task's goals, or shifted ones.
     pub aims: Vec<Goal>,
     pub refinement: Refinement,
     /// Predicted error in units of the tolerance; 0 for a plan with a `prediction`.
     pub score: f64,
-    /// Tie-break among plans that end equally near.
+    /// Tie-break among plans with equally near ends.
     pub cost: Cost,
-    /// Coarse simulation of a plan that leaves the plane; others are predicted when they are reported.
+    /// Coarse simulation of a plan that leaves the plane. Other plans are predicted when they are
+    /// reported.
     pub prediction: Option<(Trajectory, Outcome)>,
     pub verdict: Option<Verdict>,
     pub replays: Replays,
@@ -37,27 +38,27 @@ pub(super) struct Attempt {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Replays {
     None,
-    /// Replays in the planar engine alone.
+    /// Replays in 2-D only.
     InPlane,
     InBoth,
-    /// Until the share of successes is clear.
+    /// Replays until the share of successes is clear.
     Settled,
 }
 
-/// The attempts so far, in the order in which they were made.
+/// Attempts so far, in order.
 #[derive(Default)]
 pub(super) struct Attempts {
     pub list: Vec<Attempt>,
-    /// The best attempt that was replayed with perturbations.
+    /// Best attempt that was replayed with perturbations.
     pub best: Option<(Grade, usize)>,
-    /// Patterns of plans whose replays missed the goal by far.
+    /// Patterns of plans whose replays missed the goal by a large distance.
     pub refuted: Vec<PushPattern>,
-    /// Fault of the first plan that was not verified because the arm cannot carry it out.
+    /// Fault of the first plan that was not verified because the arm cannot execute it.
     pub arm_fault: Option<ArmFault>,
 }
 
 impl Attempt {
-    /// The attempt that a candidate becomes after its refinement towards `aims`.
+    /// Creates an attempt from a candidate refined towards `aims`.
     pub fn refined(query: &Query, refined: Refined, aims: &[Goal]) -> Self {
         let Refined { best, off: [before, after], rounds, .. } = refined;
         let (task, workspace) = (query.task, query.workspace());
@@ -71,7 +72,7 @@ impl Attempt {
                 rounds: rounds.into_iter().skip(1).map(bare).collect(),
             },
             aims: aims.to_vec(),
-            // Relative to the task's goals, whatever it was refined towards.
+            // The score is relative to the task's goals and not to `aims`.
             score: match best.score {
                 score if is_behind(score) => behind(task.score(&best.outcome)),
                 score if score.is_finite() => task.score(&best.outcome),
@@ -87,7 +88,7 @@ impl Attempt {
         }
     }
 
-    /// The plan without steps.
+    /// Creates the attempt without steps.
     pub fn idle(query: &Query) -> Self {
         let start = &query.situation.start;
         let score = query.task.score(start);
@@ -96,7 +97,7 @@ impl Attempt {
         Self { score, aims: query.goals(), ..Self::new(Plan::default(), tools, error) }
     }
 
-    /// A plan that was simulated, not refined.
+    /// Creates an attempt from a plan that was simulated and not refined.
     pub fn simulated(
         plan: Plan,
         tools: Vec<Arc<Tool>>,
@@ -126,8 +127,8 @@ impl Attempt {
         }
     }
 
-    /// Returns the strength of the evidence that it works: its robustness beyond 2 if it works as written, 1
-    /// if it fails, 0 if it was not verified.
+    /// Returns the strength of the evidence that the plan works: 2 plus its robustness if it works
+    /// as written, 1 if it fails, and 0 if it was not verified.
     pub fn evidence(&self) -> f64 {
         match &self.verdict {
             Some(verdict) if verdict.works() => 2.0 + verdict.robustness.unwrap_or(0.0),
@@ -136,14 +137,14 @@ impl Attempt {
         }
     }
 
-    /// Returns `true` if it works as written.
+    /// Returns `true` if the plan works as written.
     pub fn works(&self) -> bool {
         self.verdict.as_ref().is_some_and(Verdict::works)
     }
 }
 
 impl Attempts {
-    /// Keeps an attempt and returns its index.
+    /// Stores an attempt and returns its index.
     pub fn push(&mut self, attempt: Attempt) -> usize {
         self.list.push(attempt);
         self.list.len() - 1
@@ -164,7 +165,8 @@ impl Attempts {
         self.best_class() > Class::Fails
     }
 
-    /// Returns the best of the attempts that were replayed with perturbations; the first of equal ones.
+    /// Returns the best of the attempts that were replayed with perturbations. Ties go to the
+    /// first.
     pub fn graded_best(&self) -> Option<(Grade, usize)> {
         let graded = self.list.iter().enumerate().filter_map(|(k, attempt)| {
             let replayed = attempt.verdict.as_ref().filter(|_| attempt.replays != Replays::None);
@@ -181,8 +183,9 @@ impl Attempts {
         self.refuted.iter().any(|pattern| pattern.begins(candidate))
     }
 
-    /// Chooses up to `count` candidates of different kinds to refine, best first, none that begins like
-    /// a refuted plan or is a variant of one of `known`, as long as there are others.
+    /// Chooses up to `count` candidates of different kinds to refine, best first. Candidates that
+    /// begin like a refuted plan, or are variants of one of `known`, are skipped while there are
+    /// others.
     pub fn choose(
         &self,
         found: &[SearchResult],

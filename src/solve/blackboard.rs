@@ -1,4 +1,4 @@
-//! The state that all strategies share while one task is solved.
+//! State shared by all strategies while one task is solved.
 
 use crate::plan::{REFINABLE, Search, SearchResult, bare};
 use crate::watch::Instant;
@@ -12,19 +12,19 @@ use super::refiner::Refiner;
 use super::solution::LeverStatistics;
 use super::{PlanStatus, Timing};
 
-/// Everything that is known so far of one task. A strategy reads it to decide what to try next.
+/// Current state of the solution of one task. A strategy reads it to decide its next step.
 pub(super) struct Blackboard<'a> {
     pub query: Query<'a>,
-    /// The search for plans with one grip; `None` for tasks that leave the plane.
+    /// Search for plans with one grip; `None` for tasks that leave the plane.
     pub search: Option<Search<'a>>,
-    /// Results of the last search, until they are hardened.
+    /// Results of the last search, until they have been hardened.
     pub searched: Option<Candidates>,
     pub refiner: Refiner<'a>,
     pub verification: Verification<'a>,
     pub attempts: Attempts,
     pub progress: Progress<'a>,
     pub timing: Timing,
-    /// Costs of lever-ups, where the task leaves the plane.
+    /// Costs of lever-ups, if the task leaves the plane.
     pub levers: Option<LeverStatistics>,
 }
 
@@ -33,18 +33,18 @@ pub(super) struct Blackboard<'a> {
 pub(super) struct Candidates {
     pub found: Vec<SearchResult>,
     pub pushes: usize,
-    /// Whether others like these may be made more robust.
+    /// Whether hardening may make these candidates more robust.
     pub hardenable: bool,
 }
 
 impl<'a> Blackboard<'a> {
-    /// The state before pushes are searched for.
+    /// Creates the state before the search for pushes.
     pub fn for_pushes(query: Query<'a>, search: Search<'a>) -> Self {
         let perturbed = query.planner.settings().disturbed;
         Self { search: Some(search), ..Self::new(query, perturbed) }
     }
 
-    /// The state before lever-ups are searched for.
+    /// Creates the state before the search for lever-ups.
     pub fn for_levers(query: Query<'a>) -> Self {
         let perturbed = query.planner.settings().levers.disturbed;
         Self { levers: Some(LeverStatistics::default()), ..Self::new(query, perturbed) }
@@ -64,7 +64,7 @@ impl<'a> Blackboard<'a> {
         }
     }
 
-    /// Tries the plan without steps, which is verified where the goal is met at the start.
+    /// Tries the plan without steps, and verifies it if the goal is met at the start.
     pub fn try_idle(&mut self) {
         let idle = self.attempts.push(Attempt::idle(&self.query));
         if self.query.task.reached(&self.query.situation.start) {
@@ -72,8 +72,8 @@ impl<'a> Blackboard<'a> {
         }
     }
 
-    /// Returns `true` if plans of more than `depth` pushes are wanted: longer ones are no better than one that
-    /// passes, but one push more is better than an end near the edge of the tolerance.
+    /// Returns `true` if plans of more than `depth` pushes are wanted. Longer plans are no better
+    /// than a passing one, but one more push is better than an end near the edge of the tolerance.
     pub fn wants_longer(&self, depth: usize) -> bool {
         let wanted = self.attempts.best.is_none_or(|(grade, k)| match grade.class {
             Class::Fails | Class::Fragile => true,
@@ -83,12 +83,12 @@ impl<'a> Blackboard<'a> {
         wanted && self.verification.promising != Some(true) && !self.query.watch.cancelled()
     }
 
-    /// Searches plans of one push more.
+    /// Searches for plans with one more push.
     pub fn deepen(&mut self, search: &mut Search<'a>) -> Candidates {
         let (began, pushes) = (Instant::now(), search.depth() + 1);
         self.progress.stage_of("search", pushes);
         let mut found = search.deepen(&mut self.refiner.screening, self.query.watch);
-        // A plan that leaves one of several goals behind is no candidate yet.
+        // A plan that ignores one of several goals is not yet a candidate.
         if self.query.task.goals.len() > 1 {
             found.retain(|one| bare(one.score) <= REFINABLE);
         }
@@ -97,7 +97,7 @@ impl<'a> Blackboard<'a> {
         Candidates { found, pushes, hardenable: true }
     }
 
-    /// Returns the status that the attempts so far amount to.
+    /// Returns the status that follows from the attempts so far.
     pub fn status(&self) -> PlanStatus {
         match self.attempts.best_class() {
             Class::Fails if self.attempts.any_verified() => PlanStatus::FailedVerification,

@@ -1,4 +1,4 @@
-//! Refuses tasks made in code that could not be read from a file.
+//! Check of tasks created in code, which may hold values that no file can have.
 
 use std::sync::Arc;
 
@@ -9,10 +9,10 @@ use crate::{
 
 use super::SolveError;
 
-/// Checks every number that planning relies on, and the tools for pushes where these are known.
+/// Checks every number that planning relies on, and the tools for pushes if given.
 ///
 /// # Errors
-/// The first fault.
+/// Returns the first fault.
 pub(super) fn check<'a>(
     task: &Task,
     situation: &Situation,

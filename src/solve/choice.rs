@@ -1,5 +1,5 @@
-//! Goals that leave a choice among objects: each choice is searched as a task of plainer goals, and plans are
-//! judged by the goals as they were asked for.
+//! Goals with a choice among objects. Each choice is searched as a task with simpler goals, and
+//! plans are judged by the original goals.
 
 use crate::asset::ToolLibrary;
 use crate::outcome::{Evidence, Outcome, Verdict};
@@ -11,7 +11,7 @@ use super::error::SolveError;
 use super::planner::Planner;
 use super::solution::{PlanStatus, RankedPlan, Solution};
 
-/// Solves one choice after the other, the nearest first, until one has a plan that passes; otherwise
+/// Solves the choices one after another, nearest first, until one has a plan that passes; otherwise
 /// returns the best solution.
 pub(super) fn solve_one_of(
     planner: &Planner,
@@ -49,8 +49,8 @@ fn rank(status: PlanStatus) -> usize {
     }
 }
 
-/// Judges a plan and its replays by the goals of `task`. Whatever satisfies a choice satisfies these, so
-/// that more replays may pass and none less.
+/// Judges a plan and its replays by the goals of `task`. An outcome that satisfies a choice also
+/// satisfies these goals, so that the number of passing replays cannot fall.
 fn judge_by(task: &Task, situation: &Situation, plan: &mut RankedPlan) {
     let scene = &*situation.scene;
     plan.outcome = Outcome::judge(scene, task, &plan.predicted);

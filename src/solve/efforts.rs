@@ -1,9 +1,9 @@
 //! Efforts: measured levels of planning.
 //!
-//! `pushplan-lab tradeoff` measures robustness and cost of every level and says which of those on its
-//! front each effort is (`crates/lab/results/tradeoff.json`): of those in which the network decides. A test
-//! compares the rows below with that file, and fails when another such level is both cheaper and more
-//! robust.
+//! `pushplan-lab tradeoff` measures robustness and cost of every level and states the level of each
+//! effort (`crates/lab/results/tradeoff.json`). These levels lie on the Pareto front among the
+//! levels in which the network decides. A test compares the rows below with that file, and fails if
+//! another such level is both cheaper and more robust.
 
 use std::num::NonZeroU16;
 
@@ -11,22 +11,22 @@ use crate::scene::{Engine, ModelKind, ModelSpec, Models, Rate};
 
 use super::{Effort, LeverSettings, Settings};
 
-/// The planar engine that pushes into crowds are left to: among touching objects it is off by less
-/// in the plane than the prior, and costs a quarter of the engine at its default step.
+/// 2-D engine for pushes into crowds. Among touching objects its error is smaller than the analytic
+/// model's, and it costs a quarter of the engine at its default step.
 const CROWD_ENGINE: ModelKind = planar(60);
 
-/// The most objects that a push can set in motion for which the prior is clearly cheaper than
-/// [`CROWD_ENGINE`]: where their costs cross, by straight lines in logarithms between the numbers
-/// of objects that were measured, or the largest of these where they do not.
+/// Maximum number of objects in motion for which the analytic model is clearly cheaper than
+/// [`CROWD_ENGINE`]. It is the intersection of their costs, interpolated in logarithms between the
+/// measured numbers of objects, or the largest of these without an intersection.
 const FEW_FOR_PRIOR: u16 = 9;
 
-/// The planar engine at this many steps a second, at least one.
+/// Returns the 2-D engine at this many steps per second, at least one.
 const fn planar(rate: u16) -> ModelKind {
     let rate = Rate(NonZeroU16::MIN.saturating_add(rate.saturating_sub(1)));
     ModelKind::Simulated { engine: Engine::Planar, rate }
 }
 
-/// Coarse search, usual refinement, up to 8 verified, 4 disturbed.
+/// Coarse search, usual refinement, up to 8 plans verified, 4 perturbed replays.
 const COARSE: Settings = Settings {
     offsets: 3,
     beam: 8,
@@ -42,7 +42,7 @@ const COARSE: Settings = Settings {
     levers: LeverSettings::DRAFT,
 };
 
-/// Medium search, strong refinement, up to 24 verified, 8 disturbed.
+/// Medium search, strong refinement, up to 24 plans verified, 8 perturbed replays.
 const MEDIUM: Settings = Settings {
     offsets: 5,
     beam: 24,
@@ -59,9 +59,9 @@ const MEDIUM: Settings = Settings {
 };
 
 impl Effort {
-    /// What screens, what decides, the budgets, and the disturbed replays of the winning plan in each
-    /// engine: what a first look, a usual answer and a thorough one take. More replays than a level
-    /// was measured with do not make its plans better, but measure their robustness more finely.
+    /// Returns the screening model, the deciding model, the budgets, and the number of perturbed
+    /// replays of the winning plan in each engine. More replays than a level was measured with do
+    /// not improve its plans, but measure their robustness more precisely.
     const fn level(self) -> (ModelKind, ModelKind, Settings, usize) {
         match self {
             Effort::Draft => (ModelKind::PRIOR, ModelKind::NETWORK, COARSE, 4),
@@ -70,7 +70,7 @@ impl Effort {
         }
     }
 
-    /// Its numbers: the budgets of its level, and the replays that tell how robust the plan is.
+    /// Returns the budgets of the level and the number of replays that measure robustness.
     pub fn settings(self) -> Settings {
         let (.., settings, disturbed) = self.level();
         let levers = match self {
@@ -81,8 +81,9 @@ impl Effort {
         Settings { disturbed, levers, ..settings }
     }
 
-    /// The effect models of its level: the prior screens, the network decides, and the planar engine
-    /// does both for pushes that reach so many objects that the prior is no longer clearly cheaper.
+    /// Returns the effect models of the level: the analytic model screens and the network decides.
+    /// The 2-D engine does both for pushes that move so many objects that the analytic model is no
+    /// longer clearly cheaper.
     pub fn models(self) -> Models {
         let (screened, decided, ..) = self.level();
         let [screened, decided] = [screened, decided]

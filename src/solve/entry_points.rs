@@ -1,4 +1,5 @@
-//! Entry points of the planner: solving, why there is no plan, and the first pushes of a long one.
+//! Entry points of the planner: solutions, causes of infeasibility, and the first pushes of long
+//! plans.
 
 use std::sync::Arc;
 
@@ -29,18 +30,18 @@ use super::strategy::{Approach, approach, for_levers, for_pushes};
 use super::typical::typical;
 
 impl Planner {
-    /// Solves a task with the tools that it allows. Runs on the current rayon pool; the result
-    /// is the same for any number of threads.
+    /// Solves a task with the tools that it allows, on the current rayon pool. The result does not
+    /// depend on the number of threads.
     ///
     /// # Errors
-    /// [`SolveError`] for bad input only.
+    /// Returns [`SolveError`] for invalid input only.
     pub fn solve(&self, task: &Task, library: &ToolLibrary) -> Result<Solution, SolveError> {
         self.solve_with(task, library, &Unwatched)
     }
 
-    /// Solves tasks side by side on the current rayon pool, results in the order of the tasks and
-    /// the same as those of [`Planner::solve`], except for wall-clock times, for any number of
-    /// threads.
+    /// Solves tasks in parallel on the current rayon pool, with results in the order of the tasks.
+    /// Results equal the ones of [`Planner::solve`] for any number of threads, except for
+    /// wall-clock times.
     pub fn solve_all(
         &self,
         tasks: &[Task],
@@ -49,11 +50,12 @@ impl Planner {
         tasks.par_iter().map(|task| self.solve(task, library)).collect()
     }
 
-    /// [`Planner::solve`], telling `watch` what it does; stopped by it, the best plan so far comes
-    /// back. A [`Cancel`](crate::watch::Cancel) stops it from another thread.
+    /// Solves a task as [`Planner::solve`] does and reports progress to `watch`. If `watch` stops
+    /// it, the best plan so far is returned. A [`Cancel`](crate::watch::Cancel) stops it from
+    /// another thread.
     ///
     /// # Errors
-    /// [`SolveError`] for bad input only.
+    /// Returns [`SolveError`] for invalid input only.
     pub fn solve_with(
         &self,
         task: &Task,
@@ -74,12 +76,12 @@ impl Planner {
         Ok(solution)
     }
 
-    /// [`Planner::solve_with`] from another situation than the one that the task states: where
-    /// everything is by now, and what is believed by now. Of the task only the robot, the tools,
-    /// the rules for pushes and the goal count then.
+    /// Solves a task as [`Planner::solve_with`] does, from the given situation with its current
+    /// poses and beliefs. Only the robot, the tools, the rules for pushes and the goal are taken
+    /// from the task.
     ///
     /// # Errors
-    /// [`SolveError`] for bad input only.
+    /// Returns [`SolveError`] for invalid input only.
     pub fn solve_from(
         &self,
         situation: &Situation,
@@ -110,11 +112,11 @@ impl Planner {
         solve_pushes(Query { planner: self, task, situation, tools: &tools, watch: &until })
     }
 
-    /// Why a task of pushing has no plan, as [`Planner::solve`] would say; `None` if a plan is worth
-    /// verifying, which is not done here, or `watch` stopped it.
+    /// Returns the cause if a pushing task has no plan, as [`Planner::solve`] reports it. Returns
+    /// `None` if a plan is worth verifying, which is not done here, or if `watch` stopped it.
     ///
     /// # Errors
-    /// [`SolveError`] for bad input only.
+    /// Returns [`SolveError`] for invalid input only.
     pub fn why(
         &self,
         task: &Task,
@@ -144,11 +146,12 @@ impl Planner {
         }
     }
 
-    /// The first pushes of a way from a situation to the goals, if that takes at least `least` pushes,
-    /// however many these are: what to do where plans end before that. Nothing is verified.
+    /// Returns the first pushes towards the goals if at least `least` pushes are needed in total,
+    /// even beyond the allowed number. It serves tasks whose plans would be too long. Nothing is
+    /// verified.
     ///
     /// # Errors
-    /// [`SolveError`] for bad input only.
+    /// Returns [`SolveError`] for invalid input only.
     pub fn approach(
         &self,
         situation: &Situation,
@@ -184,7 +187,7 @@ fn solve_pushes(query: Query) -> Result<Solution, SolveError> {
     Ok(report::solution(board, began))
 }
 
-/// Solves a task in which something leaves the plane.
+/// Solves a task in which an object leaves the plane.
 fn solve_levers(query: Query, library: &ToolLibrary) -> Result<Solution, SolveError> {
     let began = Instant::now();
     let mut board = Blackboard::for_levers(query);
@@ -192,7 +195,7 @@ fn solve_levers(query: Query, library: &ToolLibrary) -> Result<Solution, SolveEr
     Ok(report::solution(board, began))
 }
 
-/// Returns the task without all that may be in the way, if there is anything else on the table.
+/// Returns the task without the possible obstructions, if there are other objects on the table.
 fn unobstructed(query: &Query) -> Option<(Task, Situation)> {
     alone(query.task, query.situation).filter(|_| query.workspace().is_placed())
 }

@@ -1,4 +1,4 @@
-//! Bad input to the planner.
+//! Errors of input to the planner.
 
 use std::fmt;
 
@@ -8,14 +8,14 @@ use crate::asset::Faults;
 use crate::effect::ModelError;
 use crate::outcome::Warning;
 
-/// Errors of tasks that cannot be tried. Not finding a plan is not an error.
+/// Error of a task that cannot be attempted. A missing plan is not an error.
 #[derive(Error)]
 pub enum SolveError {
-    /// The task names tools that the library does not have, or there are none.
+    /// The task names tools that the library lacks, or there are no tools.
     #[error(transparent)]
     Tools(#[from] Faults),
-    /// A number of the task makes no sense. Tasks from files have been checked already; this is for
-    /// those made in code.
+    /// A value of the task is invalid. Tasks from files are already checked; this concerns tasks
+    /// created in code.
     #[error("task `{task}`: {what}")]
     BadTask {
         /// Name of the task.
@@ -23,20 +23,20 @@ pub enum SolveError {
         /// Fault.
         what: String,
     },
-    /// The effect model should not be trusted with this task, and was told to refuse then.
+    /// The effect model is not reliable for this task, and its policy refuses such tasks.
     #[error("task `{task}`: {}", list(warnings))]
     Refused {
         /// Name of the task.
         task: String,
-        /// Warnings that put it outside the model's training range.
+        /// Warnings that place the task outside the model's training range.
         warnings: Vec<Warning>,
     },
-    /// The library was built around damaged weights.
+    /// The library was built with damaged weights.
     #[error(transparent)]
     Model(#[from] ModelError),
 }
 
-/// The text of [`Display`](fmt::Display), so that it reads well when it leaves `main`.
+/// Prints the text of [`Display`](fmt::Display), which reads well as the error of `main`.
 impl fmt::Debug for SolveError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)

@@ -10,35 +10,35 @@ use crate::{
 
 use super::PlanStatus;
 
-/// A plan that ends within this share of the tolerance in 3-D is well inside it. Played in another
-/// engine (MuJoCo), plans of 241 random tasks that end so, and reach the goal in all disturbed
-/// replays and in the plane, work in 97.5 %; among those that end in the outer half 55 % do.
+/// Share of the tolerance within which a plan ends well inside in 3-D. In MuJoCo, 97.5 % of the
+/// plans of 241 random tasks work that end so, and reach the goal in all perturbed replays and in
+/// 2-D. Of the plans that end in the outer half, 55 % work.
 pub const WELL_INSIDE: f64 = 0.5;
 
-/// A plan that reaches the goal in this share of the disturbed replays does so nearly always. Played in
-/// MuJoCo, of 47 plans of random and everyday tasks that do so less often, and pass, 13 fail; of 934 that do so
-/// more often, 26.
+/// Share of successful perturbed replays of a plan that works nearly always. In MuJoCo, of the
+/// passing plans of random and everyday tasks, 13 of 47 with a lower share fail, and 26 of 934 with
+/// a higher one.
 const STEADY: f64 = 0.9;
 
-/// Classes of verdicts, worst first.
+/// Class of a verdict, worst first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Class {
-    /// Does not work as written.
+    /// The plan does not work as written.
     Fails,
-    /// Works as written, too seldom under disturbances.
+    /// The plan works as written, but too seldom when perturbed.
     Fragile,
-    /// Passes, near the edge of the tolerance, or pressing harder than an ordinary arm does: one push more may
-    /// do better.
+    /// The plan passes near the edge of the tolerance, or presses harder than an ordinary arm. One
+    /// more push may improve it.
     Edge,
-    /// Passes inside of it.
+    /// The plan passes well inside the tolerance.
     Passes,
-    /// Passes well inside the tolerance and in every disturbed replay: nothing better is looked
-    /// for.
+    /// The plan passes well inside the tolerance and in every perturbed replay, so that the search
+    /// for a better plan ends.
     Safe,
 }
 
 impl Class {
-    /// The status when such a plan is the best one.
+    /// Returns the status if a plan of this class is the best one.
     pub fn status(self) -> PlanStatus {
         match self {
             Class::Fails => PlanStatus::FailedVerification,
@@ -48,19 +48,19 @@ impl Class {
     }
 }
 
-/// A verified plan's worth.
+/// Grade of a verified plan.
 #[derive(Clone, Copy, Debug)]
 pub struct Grade {
     /// Class of the verdict.
     pub class: Class,
-    /// Share of the disturbed replays that reach the goal.
+    /// Share of the perturbed replays that reach the goal.
     robustness: f64,
-    /// Error in 3-D in units of the tolerance, or the demand that is met worst.
+    /// Largest error of all demands in 3-D, in units of their tolerances.
     score: f64,
 }
 
 impl Grade {
-    /// Grades a plan with this verdict.
+    /// Returns the grade of a plan with this verdict.
     pub fn of(verdict: &Verdict) -> Self {
         let spatial = verdict.nominal(Engine::Spatial);
         let score = spatial.map_or(f64::INFINITY, |e| e.outcome.score());
@@ -80,25 +80,26 @@ impl Grade {
         Self { class, robustness, score }
     }
 
-    /// Whether this plan comes before, equal with or after another, of two that were not disturbed yet and
-    /// whose costs compare so: among those that may be safe the cheaper one comes first, then the better.
+    /// Compares the order of two plans that have not been perturbed, given the order of their
+    /// `costs`. Among plans that may be safe, the cheaper one comes first, then the better one.
     pub fn before(&self, other: &Self, costs: Ordering) -> Ordering {
         let safe = self.class == Class::Safe && other.class == Class::Safe;
         let costs = if safe { costs } else { Ordering::Equal };
         costs.then(other.compare(self))
     }
 
-    /// Whether it works nearly always, if it works at all.
+    /// Returns `true` if the plan works nearly always, if it works at all.
     pub fn is_steady(&self) -> bool {
         self.robustness >= STEADY
     }
 
-    /// Whether none has more margin that matters.
+    /// Returns `true` if no plan can have a relevantly larger margin.
     pub fn is_best(&self) -> bool {
         self.class == Class::Safe && self.score <= NEAR
     }
 
-    /// Whether it has more margin than another: it works more often, or misses by clearly less.
+    /// Returns `true` if the plan has more margin than another: it works more often, or its error
+    /// is clearly smaller.
     pub fn has_more_margin(&self, other: &Self) -> bool {
         match self.class.cmp(&other.class).then(self.robustness.total_cmp(&other.robustness)) {
             Ordering::Equal => self.score < other.score - NEAR,
@@ -106,7 +107,7 @@ impl Grade {
         }
     }
 
-    /// Compares two, the better one being greater.
+    /// Compares two grades; the better one is greater.
     pub fn compare(&self, other: &Self) -> Ordering {
         let robust = self.robustness.total_cmp(&other.robustness);
         self.class.cmp(&other.class).then(robust).then(other.score.total_cmp(&self.score))

@@ -1,4 +1,4 @@
-//! Infeasibility: the one limit without which there would be a plan.
+//! Infeasibility: the single limit that prevents a plan.
 
 use std::fmt;
 
@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::scene::ArmFault;
 
-/// What alone stands between a task and a plan that is predicted to reach the goal. It was tried: with
-/// the limit wider there is such a plan. Lengths are in metres; what is `needed` is what the plan that
-/// needs least of it takes.
+/// Single limit that prevents a plan. The limit was relaxed in a trial, and then a plan is
+/// predicted to reach the goal. Lengths are in metres; `needed` is the smallest value among the
+/// plans found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Cause {
@@ -26,54 +26,55 @@ pub enum Cause {
         /// Length needed.
         needed: f64,
     },
-    /// No push in an allowed direction leads there.
+    /// No push in an allowed direction reaches the goal.
     Directions,
-    /// The tool would have to be gripped at another turn.
+    /// The tool would need another grip yaw.
     GripYaws {
         /// Grip yaw needed, radians.
         needed: f64,
     },
-    /// The end effector would have to reach farther.
+    /// The end effector would need a larger reach.
     Far {
-        /// The largest reach.
+        /// Outer reach of the robot.
         allowed: f64,
         /// Reach needed.
         needed: f64,
     },
-    /// The end effector would have to come nearer to the base.
+    /// The end effector would have to come closer to the base.
     Near {
-        /// The smallest reach.
+        /// Inner reach of the robot.
         allowed: f64,
         /// Reach needed.
         needed: f64,
     },
-    /// A tool that the task does not name would do.
+    /// A tool that the task does not name would work.
     Tool {
-        /// Its name.
+        /// Name of the tool.
         needed: String,
     },
-    /// An object joined to the goal's object can be pushed, and it cannot.
+    /// An object joined to the goal's object can be pushed to the goal, and the goal's object
+    /// itself cannot.
     Joined {
-        /// The object to name.
+        /// Name of the object to state in the goal.
         needed: String,
     },
-    /// An object to keep, or a region to keep out of, is in the way.
+    /// An object that must stay, or a keep-out region, obstructs every plan.
     Kept,
-    /// The hand would meet something.
+    /// The hand would collide with a body.
     Hand,
-    /// The robot stands in the way.
+    /// The robot's base obstructs every plan.
     Base,
-    /// Plans are predicted to reach the goal that the arm cannot carry out.
+    /// Plans are predicted to reach the goal, but the arm cannot execute them.
     Arm {
-        /// Fault of the best of them.
+        /// Fault of the best plan.
         fault: ArmFault,
     },
-    /// This obstacle is in the way.
+    /// An obstacle obstructs every plan.
     Obstacle {
-        /// Its name.
+        /// Name of the obstacle.
         name: String,
     },
-    /// No single limit: wider ones were tried one by one.
+    /// No single limit: each was relaxed separately without success.
     Several,
 }
 

@@ -1,4 +1,5 @@
-//! Complete plans that leave the plane: verification in groups of different kinds, until one passes.
+//! Verification of complete plans that leave the plane, in groups of different kinds until one
+//! passes.
 
 use std::collections::HashMap;
 
@@ -14,25 +15,26 @@ use super::blackboard::Blackboard;
 /// Plans to verify, best first.
 pub(super) type LeverBatch = Vec<LeverPlan>;
 
-/// A plan that ends with, or contains, a lever-up.
+/// Plan that contains a lever-up.
 pub(super) struct LeverPlan {
     pub attempt: Attempt,
     pub kind: Kind,
-    /// Whether it is predicted to be worth verifying.
+    /// Whether the prediction makes the plan worth verifying.
     pub promising: bool,
 }
 
-/// Tool, edge, axis and turn of a lever-up: candidates that share them are likely to fail together.
+/// Tool, edge, axis and angle of a lever-up. Candidates that share them are likely to fail
+/// together.
 pub(super) type Kind = (usize, usize, usize, usize);
 
-/// Verifies a batch by the task's goal, and keeps all of it as attempts.
+/// Verifies a batch for the task's goal, and stores all its plans as attempts.
 pub(super) fn verify_plans(board: &mut Blackboard, mut batch: LeverBatch) {
     verify_in_groups(board, board.query.task, &mut batch);
     board.attempts.list.extend(batch.into_iter().map(|plan| plan.attempt));
     board.attempts.best = board.attempts.graded_best();
 }
 
-/// Verifies the promising plans in groups by the goal of `task`, until one passes.
+/// Verifies the promising plans in groups for the goal of `task`, until one passes.
 pub(super) fn verify_in_groups(board: &mut Blackboard, task: &Task, plans: &mut [LeverPlan]) {
     let began = Instant::now();
     board.progress.stage("verify lever-ups");
@@ -42,7 +44,7 @@ pub(super) fn verify_in_groups(board: &mut Blackboard, task: &Task, plans: &mut 
     let mut verified: Vec<usize> = Vec::new();
     let at_once = settings.verified_at_once.max(1);
     for round in 1..=settings.verify_batches {
-        // What failed does so for a reason that its kind shares.
+        // The cause of a failure is often common to its kind.
         let group = mixed(&promising, &kinds, &verified, 2 * round, at_once);
         if group.is_empty() || board.query.watch.cancelled() {
             break;
@@ -65,8 +67,8 @@ pub(super) fn verify_in_groups(board: &mut Blackboard, task: &Task, plans: &mut 
     board.timing.verification += began.elapsed().as_secs_f64();
 }
 
-/// Returns the first `wanted` of `from`, with at most so many of a kind, those `verified` included, while
-/// there are others.
+/// Returns the first `wanted` of `from`, with at most `most` of one kind while there are others;
+/// the plans in `verified` count also.
 pub(super) fn mixed(
     from: &[usize],
     kinds: &[Kind],

@@ -1,4 +1,4 @@
-//! Refuses tasks in space that were made in code and that could not be read from a file.
+//! Check of tasks with lever-ups created in code, which may hold values that no file can have.
 
 use std::sync::Arc;
 
@@ -10,10 +10,10 @@ use crate::{
 use super::SolveError;
 use super::check::check;
 
-/// Checks what planning in space relies on besides what holds for every task.
+/// Checks the values that planning of lever-ups relies on, and those common to all tasks.
 ///
 /// # Errors
-/// The first fault.
+/// Returns the first fault.
 pub(super) fn check_levers(
     task: &Task,
     situation: &Situation,

@@ -2,28 +2,28 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Budgets, all counted and none in seconds, so that results do not depend on the machine. A
-/// lever-up costs about 0.2 ms of one core in the prior, 1.8 ms in coarse and 7 ms in fine
-/// simulation; among the parts of a drive 1, 2.5 and 9 ms.
+/// Budgets of lever-ups, as counts and not in seconds, so that results do not depend on the
+/// machine. A lever-up costs about 0.2 ms of one core in the analytic model, 1.8 ms in coarse and 7
+/// ms in fine simulation. Among the parts of a drive, it costs 1, 2.5 and 9 ms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LeverSettings {
-    /// Candidates that are simulated coarsely.
+    /// Number of candidates simulated coarsely.
     pub simulated: usize,
-    /// Number of simulations of each with small errors.
+    /// Number of simulations of each candidate with small errors.
     pub doubts: usize,
-    /// Plans verified together.
+    /// Number of plans verified together.
     pub verified_at_once: usize,
-    /// Batches verified before giving up.
+    /// Maximum number of batches verified.
     pub verify_batches: usize,
-    /// Disturbed replays of every plan that works as written.
+    /// Number of perturbed replays of every plan that works as written.
     pub disturbed: usize,
-    /// Lever-ups after which pushes are looked for, and places to push to before one, where a task
-    /// allows them.
+    /// Number of lever-ups followed by a search for pushes, and of places to push to before a
+    /// lever-up, if the task allows both.
     pub followed: usize,
 }
 
 impl LeverSettings {
-    /// A look.
+    /// Budgets of a quick draft.
     pub const DRAFT: Self = Self {
         simulated: 12,
         doubts: 0,
@@ -32,7 +32,7 @@ impl LeverSettings {
         disturbed: 4,
         followed: 2,
     };
-    /// The usual.
+    /// Default budgets.
     pub const STANDARD: Self = Self {
         simulated: 32,
         doubts: 4,
@@ -41,13 +41,13 @@ impl LeverSettings {
         disturbed: 16,
         followed: 4,
     };
-    /// A careful one.
+    /// Budgets of a thorough search.
     pub const THOROUGH: Self =
         Self { simulated: 128, doubts: 8, verify_batches: 4, followed: 8, ..Self::STANDARD };
 }
 
 impl Default for LeverSettings {
-    /// [`LeverSettings::STANDARD`].
+    /// Returns [`LeverSettings::STANDARD`].
     fn default() -> Self {
         Self::STANDARD
     }

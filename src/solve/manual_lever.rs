@@ -1,4 +1,4 @@
-//! A lever-up as a person asks for it. Nothing is searched.
+//! Lever-ups specified by a user, without a search.
 
 use std::sync::Arc;
 
@@ -11,37 +11,37 @@ use crate::{
     task::{LeverUp, Pivot, Place, Plan, Task},
 };
 
-/// A lever-up as it is asked for.
+/// Lever-up specified by a user.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ManualLever {
-    /// Place where the blade goes under.
+    /// Lever point of the blade.
     pub place: ManualPlace,
     /// Depth of the tip behind the edge, metres.
     pub depth: f64,
-    /// Turn, radians.
+    /// Angle of the rotation, radians.
     pub angle: f64,
     /// Place of the axis.
     pub pivot: Pivot,
-    /// Speed of the tip, m/s; the task's if not given.
+    /// Speed of the tip, m/s; `None` for the task's speed.
     pub speed: Option<f64>,
 }
 
-/// A place on the outline.
+/// Place on the outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ManualPlace {
-    /// An edge, and how far along it, 0 to 1.
+    /// Edge and fraction along it, 0 to 1.
     Edge(usize, f64),
-    /// So far along the outline from the first corner on, metres.
+    /// Distance along the outline from the first corner, metres.
     Along(f64),
 }
 
-/// Errors of lever-ups that cannot be made.
+/// Error of a lever-up that cannot be made.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum LeverActionError {
-    /// An edge that the outline does not have.
+    /// The outline does not have the edge.
     #[error("the object has {edges} edges, counted from 0; there is no edge {edge}")]
     NoEdge {
-        /// Its number.
+        /// Index of the edge.
         edge: usize,
         /// Number of edges.
         edges: usize,
@@ -51,11 +51,11 @@ pub enum LeverActionError {
     NoSupport,
 }
 
-/// The plan of what is asked for, and a rule that it breaks. One that breaks a rule is made all the
-/// same: seeing what would happen is the point.
+/// Returns the plan of the specified lever-up, and a rule that it violates. Such plans are allowed,
+/// because their outcome may be of interest.
 ///
 /// # Errors
-/// [`LeverActionError`] if there is no such lever-up.
+/// Returns [`LeverActionError`] if the lever-up does not exist.
 pub fn manual_lever(
     task: &Task,
     tool: &Arc<Tool>,

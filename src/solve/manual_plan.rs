@@ -1,7 +1,7 @@
-//! A plan that a person asks for: pushes given by where they start, or by the object they meet.
+//! Plans specified by a user: pushes given by their start or by the object that they meet.
 //!
-//! Nothing is searched. A push before an object is placed where the pushes before it leave the
-//! objects, by the planar simulation.
+//! Nothing is searched. A push in front of an object is placed relative to the state after the
+//! previous pushes, computed by the 2-D engine.
 
 use std::sync::Arc;
 
@@ -19,89 +19,89 @@ use crate::{
 /// Maximum distance of a chained push's stated start from the end of the last push, metres.
 const SAME_PLACE: f64 = 1e-6;
 
-/// A push as a person asks for it.
+/// Push specified by a user.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ManualPush {
-    /// Start.
+    /// Start of the push.
     pub start: ManualStart,
-    /// Radians from world +x.
+    /// Direction, radians from world +x.
     pub direction: f64,
-    /// Travel, metres; the task's if not given.
+    /// Travel, metres; `None` for the task's length.
     pub length: Option<f64>,
-    /// Speed, m/s; the task's if not given.
+    /// Speed, m/s; `None` for the task's speed.
     pub speed: Option<f64>,
 }
 
 /// Start of a push.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ManualStart {
-    /// The end effector's position, metres.
+    /// Position of the end effector, metres.
     At(Vector),
     /// Home, or the end of the last push (chained pushes).
     Last,
-    /// Just before this object, by the first part of the tool that can push it without breaking a
-    /// rule, or else the first that can.
+    /// Just in front of an object, by the first part of the tool that can push it without violating
+    /// a rule, otherwise by the first that can push it.
     Before {
-        /// Its name.
+        /// Name of the object.
         object: String,
         /// Lateral offset, metres.
         offset: f64,
     },
 }
 
-/// Errors of pushes that cannot be made.
+/// Error of a push that cannot be made.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ActionError {
-    /// A chained push with a start of its own.
+    /// A chained push has a start of its own.
     #[error("chained pushes go on where the last one ended")]
     ChainBroken,
-    /// A chained push before an object.
+    /// A chained push starts in front of an object.
     #[error("the pushes of this task are chained: the first starts at home")]
     Chained,
-    /// A placed push without a start.
+    /// A placed push has no start.
     #[error("a push of this task needs a start")]
     NoStart,
-    /// A name that no object has.
+    /// No object has this name.
     #[error("no object is called `{object}`")]
     NoObject {
-        /// The name.
+        /// The unknown name.
         object: String,
     },
-    /// An object that no part of the tool can push that way.
+    /// No part of the tool can push the object in this direction.
     #[error("`{tool}` cannot push `{object}` that way: {why}")]
     CannotPush {
-        /// The tool's name.
+        /// Name of the tool.
         tool: String,
-        /// The object's name.
+        /// Name of the object.
         object: String,
-        /// Reason why the tool's last part cannot.
+        /// Reason for the last part of the tool.
         why: Infeasible,
     },
-    /// A tool with a blade.
+    /// The tool has a blade.
     #[error("`{tool}` has a blade, so it cannot push")]
     Blade {
-        /// The tool's name.
+        /// Name of the tool.
         tool: String,
     },
-    /// A list of grip yaws without an entry.
+    /// The list of grip yaws is empty.
     #[error("the task has no grip yaw")]
     NoYaw,
 }
 
-/// A plan with the rules of its task that it breaks.
+/// Plan with the rules of its task that it violates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ManualPlan {
     /// The plan.
     pub plan: Plan,
-    /// Index of a push and a rule that it breaks; a plan that is searched for breaks none.
+    /// Violated rules with the index of the push. Plans found by a search violate none.
     pub broken: Vec<(usize, Infeasible)>,
 }
 
-/// The plan of `pushes` with the first of `grip_yaws` (radians) with which they can be made.
+/// Returns the plan of `pushes` with the first of `grip_yaws` (radians) that is feasible.
 ///
 /// # Errors
-/// Why it cannot be made with the first grip yaw. A push that breaks a rule of the task (reach,
-/// obstacles) is made all the same: seeing what would happen is the point.
+/// Returns the fault with the first grip yaw. A push that violates a rule of the task (reach,
+/// obstacles) is not an error, because its outcome may be of interest.
 pub fn manual_plan(
     task: &Task,
     situation: &Situation,
@@ -150,7 +150,7 @@ fn with_yaw(
         let rule = workspace.margins((0, grip_yaw), (&state, pushed), &push, set_down).broken();
         broken.extend(rule.map(|rule| (k, rule)));
         let made = Plan::pushing(&tool.name, grip_yaw, form, lift, [push]);
-        // Where a chained push starts does not depend on the objects.
+        // The start of a chained push does not depend on the objects.
         if form == PushForm::Placed && k + 1 < pushes.len() {
             state = after(situation, tool, &made, state);
         }
@@ -159,14 +159,14 @@ fn with_yaw(
     Ok(ManualPlan { plan, broken })
 }
 
-/// Where a push leaves objects that rest at `start`: to the bit as if all the pushes before had been made
-/// with it.
+/// Returns the state after a push from `start`. It is bitwise equal to the state if all previous
+/// pushes had been replayed together with it.
 fn after(situation: &Situation, tool: &Arc<Tool>, push: &Plan, start: State) -> State {
     let job = Job { start, ..Job::new(situation, push.motion(tool)) };
     Simulator::planar().run(&situation.scene, &job, Record::Outcome).outcome().clone()
 }
 
-/// Returns the start of the push, and the object that it is meant for.
+/// Returns the start of the push and the index of its object.
 fn start(
     task: &Task,
     (tool, grip_yaw): (&Arc<Tool>, f64),

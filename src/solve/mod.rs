@@ -1,10 +1,10 @@
-//! The planner: strategies on one blackboard, and the status of the result.
+//! Planner: strategies that share one blackboard, and the status of the result.
 //!
-//! [`Planner::solve`] gives turns to strategies, in the order that `strategy` states: the first that has
-//! something to try proposes a batch of plans, which the loop refines, verifies, grades and keeps as
-//! attempts on the blackboard. It ends when no strategy has anything to add.
-//! Not finding a plan is a [`PlanStatus`], not an error. [`manual_plan`] makes a plan of pushes that a
-//! person asks for, [`manual_lever`] one of a lever-up.
+//! [`Planner::solve`] asks strategies in the order that `strategy` states. The first one with a
+//! next step proposes a batch of plans. The loop refines, verifies and grades the batch, and stores
+//! the plans as attempts on the blackboard. It ends when no strategy has a next step. A missing
+//! plan is a [`PlanStatus`] and not an error. [`manual_plan`] returns a plan of pushes specified by
+//! a user, and [`manual_lever`] a plan of a lever-up.
 
 mod adaptive_verify;
 mod arm_feasibility;

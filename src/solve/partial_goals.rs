@@ -1,4 +1,4 @@
-//! Plans that meet some of several goals: those that weigh most.
+//! Plans that meet some of several goals, by highest weight.
 
 use crate::asset::ToolLibrary;
 use crate::verify::{Verifier, VerifySettings};
@@ -9,13 +9,15 @@ use super::error::SolveError;
 use super::planner::{Planner, stated};
 use super::solution::{Partial, PlanStatus, Solution};
 
-/// Maximum number of goals of which all sets are tried; of more, all but one and each alone are tried.
+/// Maximum number of goals for which all subsets are tried. With more goals, only single goals and
+/// all but one are tried.
 const ALL_SETS: usize = 6;
 
-/// Sets of goals that are tried, each as a task of its own: what meets none of these is worth little.
+/// Maximum number of sets of goals tried, each as a separate task, because sets of low weight are
+/// worth little.
 const TRIED: usize = 12;
 
-/// Puts a plan that meets some of several goals in the place of a solution that does not meet all.
+/// Replaces a solution that does not meet all goals by a plan that meets some of them.
 pub(super) fn meet_some_goals(
     planner: &Planner,
     task: &Task,
@@ -29,7 +31,7 @@ pub(super) fn meet_some_goals(
     }
     let situation = stated(task);
     watch.stage("plans for some of the goals");
-    // What is good for some of them is no answer so far.
+    // Milestones of partial plans are not reported.
     let quiet = Quiet(watch);
     for met in sets(task) {
         let Some(part) = task.only(&met).filter(|_| !watch.cancelled()) else { break };
@@ -40,7 +42,7 @@ pub(super) fn meet_some_goals(
         let before = std::mem::take(&mut solution.statistics);
         *solution = Solution { status: PlanStatus::Partial, ..found };
         solution.statistics.add(&before);
-        // Others were judged by some goals only.
+        // The other plans were judged by some goals only.
         solution.plans.truncate(1);
         let mut robustness = None;
         for best in &mut solution.plans {
@@ -56,8 +58,8 @@ pub(super) fn meet_some_goals(
     Ok(())
 }
 
-/// Sets of a task's goals, by their indices, not all of them and not only such as are met at the start:
-/// those that weigh most first.
+/// Returns sets of a task's goals by their indices, highest weight first. The set of all goals and
+/// sets met at the start are excluded.
 fn sets(task: &Task) -> Vec<Vec<usize>> {
     let start = task.scene.start();
     let goals: Vec<(f64, bool)> =
@@ -74,7 +76,7 @@ fn sets(task: &Task) -> Vec<Vec<usize>> {
     };
     sets.retain(|set| set.iter().any(|k| !goals[*k].1));
     let weight = |set: &Vec<usize>| set.iter().map(|k| goals[*k].0).sum::<f64>();
-    // Stable: of those that weigh the same the earlier goals come first.
+    // Ties in weight go to larger sets, then to earlier goals.
     sets.sort_by(|a, b| weight(b).total_cmp(&weight(a)).then(b.len().cmp(&a.len())).then(a.cmp(b)));
     sets.truncate(TRIED);
     sets

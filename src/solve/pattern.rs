@@ -3,22 +3,23 @@
 use crate::geometry::wrap_angle;
 use crate::plan::{Candidate, CandidatePush};
 
-/// Pushes whose directions differ by no more, radians, and lengths by no more, metres, move the
-/// object alike, whatever tool makes them.
+/// Difference of directions up to which pushes move the object alike with any tool, radians.
 const SAME_DIRECTION: f64 = 0.26;
+
+/// Difference of lengths up to which pushes move the object alike with any tool, metres.
 const SAME_LENGTH: f64 = 0.02;
 
 /// Objects, directions and lengths of the pushes of a plan.
 pub(super) struct PushPattern(Vec<(usize, f64, f64)>);
 
 impl PushPattern {
-    /// The pattern of `pushes`.
+    /// Returns the pattern of `pushes`.
     pub fn of(pushes: &[CandidatePush]) -> Self {
         Self(pushes.iter().map(|push| (push.object, push.direction, push.length)).collect())
     }
 
-    /// Returns `true` if a candidate begins like this: its further pushes start from a prediction that
-    /// does not hold.
+    /// Returns `true` if a candidate begins with this pattern. Its further pushes then start from a
+    /// refuted prediction.
     pub fn begins(&self, candidate: &Candidate) -> bool {
         self.0.len() <= candidate.pushes.len()
             && self.0.iter().zip(&candidate.pushes).all(|(&(object, direction, length), push)| {

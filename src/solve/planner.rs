@@ -1,4 +1,4 @@
-//! The planner.
+//! Planner and its builder.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -17,8 +17,8 @@ use super::check::check;
 use super::error::SolveError;
 use super::settings::{Effort, Settings};
 
-/// Finds tools and pushes for tasks, with one effect model, or one that screens and one that decides,
-/// and one effort.
+/// Planner of tools and pushes for tasks. It has one effort and one effect model, or one model that
+/// screens and another that decides.
 ///
 /// ```
 /// use pushplan::{Effort, PlanStatus, Planner, Simulated, Simulator, Task, ToolLibrary};
@@ -34,7 +34,7 @@ use super::settings::{Effort, Settings};
 /// ```
 pub struct Planner {
     model: Routed,
-    /// Screening model, if that is another.
+    /// Screening model, if it differs from the deciding one.
     screen: Option<Routed>,
     outside: Outside,
     settings: Settings,
@@ -43,7 +43,7 @@ pub struct Planner {
     fit: Option<TableFit>,
 }
 
-/// Builds a [`Planner`].
+/// Builder of a [`Planner`].
 pub struct PlannerBuilder {
     model: Arc<dyn EffectModel>,
     screen: Option<Arc<dyn EffectModel>>,
@@ -57,11 +57,11 @@ pub struct PlannerBuilder {
 /// Prediction of an effect model for a plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Prediction {
-    /// Frame by frame.
+    /// Predicted trajectory.
     pub trajectory: Trajectory,
-    /// Outcome at its end.
+    /// Outcome at the end of the trajectory.
     pub outcome: Outcome,
-    /// Warnings that lower the trust in it.
+    /// Warnings that lower the trust in the prediction.
     pub warnings: Vec<Warning>,
 }
 
@@ -71,40 +71,39 @@ impl PlannerBuilder {
         self.settings(effort.settings())
     }
 
-    /// Budgets one by one.
+    /// Sets the budgets individually.
     pub fn settings(mut self, settings: Settings) -> Self {
         self.settings = settings;
         self
     }
 
-    /// Seed of the samples of refinement and of the disturbances; 0 by default.
+    /// Sets the seed of the samples of refinement and of the perturbations; 0 by default.
     pub fn seed(mut self, seed: u64) -> Self {
         self.seed = seed;
         self
     }
 
-    /// What to do where the model should not be trusted; [`Outside::Warn`] by
-    /// default.
+    /// Sets the policy if the model is not reliable; [`Outside::Warn`] by default.
     pub fn outside(mut self, outside: Outside) -> Self {
         self.outside = outside;
         self
     }
 
-    /// Stops after this time with the best plan so far; never unless said otherwise. What comes
-    /// back then depends on how fast the machine is.
+    /// Sets a time limit, after which the best plan so far is returned; none by default. Results
+    /// then depend on the speed of the machine.
     pub fn time_limit(mut self, limit: Duration) -> Self {
         self.time_limit = Some(limit);
         self
     }
 
-    /// Another model for the many rollouts of the search and the first rounds of refinement: a
-    /// cheaper one, as what it finds is decided on by the planner's own.
+    /// Sets a cheaper model for the many rollouts of the search and the first rounds of refinement.
+    /// The planner's own model decides on the results.
     pub fn screened_by(mut self, screen: impl EffectModel + 'static) -> Self {
         self.screen = Some(Arc::new(screen));
         self
     }
 
-    /// The planner.
+    /// Returns the planner.
     pub fn build(self) -> Planner {
         let Self { model, screen, outside, settings, seed, time_limit, fit } = self;
         let trusted = |model| Routed::new(model).outside(outside);
@@ -125,15 +124,15 @@ impl Planner {
     /// Starts building a planner with the models that `models` describes.
     ///
     /// # Errors
-    /// [`ModelError`] if they need weights that cannot be used.
+    /// Returns [`ModelError`] if the models need weights that cannot be used.
     pub fn with_models(models: &Models) -> Result<PlannerBuilder, ModelError> {
         Self::fitted(models, None)
     }
 
-    /// Starts building a planner for a table of which a network has learnt something.
+    /// Starts building a planner for a table to which a network has been fitted.
     ///
     /// # Errors
-    /// [`ModelError`] as in [`Self::with_models`], or for a fit of another network.
+    /// Returns [`ModelError`] as [`Self::with_models`] does, or for a fit of another network.
     pub fn fitted(models: &Models, fit: Option<&TableFit>) -> Result<PlannerBuilder, ModelError> {
         let planner = Self::builder(EffectModels::fitted(&models.decided, fit)?);
         let planner = PlannerBuilder { fit: fit.cloned(), ..planner };
@@ -146,7 +145,7 @@ impl Planner {
     /// Returns this planner with another fit of the table.
     ///
     /// # Errors
-    /// [`ModelError`] as in [`Self::fitted`].
+    /// Returns [`ModelError`] as [`Self::fitted`] does.
     pub fn fitted_anew(&self, fit: &TableFit) -> Result<Self, ModelError> {
         let Self { outside, settings, seed, time_limit, .. } = *self;
         let built = Self::fitted(&self.models(), Some(fit))?
@@ -157,55 +156,56 @@ impl Planner {
         Ok(Self { time_limit, ..built })
     }
 
-    /// Starts building the planner that an effort stands for, effect models included.
+    /// Starts building the planner of an effort, including its effect models.
     ///
     /// # Errors
-    /// [`ModelError`] if the library was built around a damaged weights file.
+    /// Returns [`ModelError`] if the library was built with a damaged weights file.
     pub fn for_effort(effort: Effort) -> Result<PlannerBuilder, ModelError> {
         Ok(Self::with_models(&effort.models())?.effort(effort))
     }
 
-    /// The effect model that decides.
+    /// Returns the effect model that decides.
     pub fn model(&self) -> &dyn EffectModel {
         &self.model
     }
 
-    /// The effect model of the many rollouts: the one that decides, unless another screens for it.
+    /// Returns the effect model of the many rollouts: the screening model if there is one,
+    /// otherwise the deciding model.
     pub fn screen(&self) -> &dyn EffectModel {
         self.screen.as_ref().unwrap_or(&self.model)
     }
 
-    /// Returns its fit of the table.
+    /// Returns the fit of the table.
     pub fn fit(&self) -> Option<&TableFit> {
         self.fit.as_ref()
     }
 
-    /// Whether another model screens for the one that decides.
+    /// Returns `true` if another model screens for the deciding one.
     pub(super) fn is_screened(&self) -> bool {
         self.screen.is_some()
     }
 
-    /// A planner that searches coarsely, with the screening model.
+    /// Returns a planner for a coarse search with the screening model.
     pub(super) fn first_look(&self) -> Self {
         let model = self.screen.as_ref().unwrap_or(&self.model).clone();
         let settings = Effort::Draft.settings();
         Self { model, screen: None, settings, time_limit: None, fit: None, ..*self }
     }
 
-    /// Returns its models.
+    /// Returns the models of the planner.
     pub fn models(&self) -> Models {
         Models::from(self.model.spec().clone()).screened_by(self.screen().spec().clone())
     }
 
-    /// The budgets.
+    /// Returns the budgets.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// Predicts a plan of pushes, made with those of `tools` that it names.
+    /// Predicts a plan of pushes with the tools of `tools` that it names.
     ///
     /// # Errors
-    /// [`SolveError`] for bad input only.
+    /// Returns [`SolveError`] for invalid input only.
     pub fn predict(
         &self,
         task: &Task,
@@ -221,7 +221,8 @@ impl Planner {
         Ok(self.predict_all(task, &situation, &[(plan, tools)]).remove(0))
     }
 
-    /// Refuses what the model should not be trusted with, if that is asked for.
+    /// Returns an error for motions for which the model is not reliable, if the policy refuses
+    /// them.
     pub(super) fn refuse(
         &self,
         task: &Task,
@@ -234,7 +235,7 @@ impl Planner {
         let mut warnings = Vec::new();
         let asked = |motion| self.model.trust(&situation.scene, &Job::new(situation, motion));
         for warning in motions.flat_map(|motion| asked(motion).warnings()) {
-            // Warnings about the scene come with every tool.
+            // Warnings about the scene repeat for every tool.
             if !warnings.contains(&warning) {
                 warnings.push(warning);
             }
@@ -245,12 +246,12 @@ impl Planner {
         }
     }
 
-    /// The seed.
+    /// Returns the seed.
     pub fn seed(&self) -> u64 {
         self.seed
     }
 
-    /// Predictions for plans of a task that is known to be sound, in one batch.
+    /// Predicts plans of a valid task in one batch.
     pub(super) fn predict_all(
         &self,
         task: &Task,
@@ -262,7 +263,7 @@ impl Planner {
             Job::sequence(situation, &plan.slides(tools).unwrap_or_default())
         };
         let sequences: Vec<Vec<Job>> = plans.iter().map(motions).collect();
-        // A plan without pushes moves nothing and needs no model.
+        // A plan without pushes moves no object and needs no model.
         let moves = |jobs: &[Job]| jobs.iter().any(|job| !job.motion.slide().strokes.is_empty());
         let moving: Vec<Vec<Job>> = sequences.iter().filter(|jobs| moves(jobs)).cloned().collect();
         let rollout = |jobs: &[Job]| self.model.rollout(scene, jobs, Record::Frames);
@@ -284,7 +285,7 @@ impl Planner {
                     }
                 }
                 if warnings.iter().any(Warning::questions_model) {
-                    // Once simulated, the doubt is a number.
+                    // A simulation quantifies the doubt.
                     warnings.extend(consequence(scene, jobs, trajectory.outcome()));
                 }
                 let outcome = Outcome::judge(scene, task, &trajectory);
@@ -294,7 +295,7 @@ impl Planner {
     }
 }
 
-/// Returns the situation that a task states, and whether it states supports.
+/// Returns the situation that a task states, including whether its supports are known.
 pub fn stated(task: &Task) -> Situation {
     let mut situation = Situation::stated(&task.scene);
     if task.unknown.support {
@@ -303,7 +304,7 @@ pub fn stated(task: &Task) -> Situation {
     situation
 }
 
-/// The trajectory of doing nothing.
+/// Returns the trajectory of no motion.
 fn still(task: &Task, start: &State, tool: &Tool) -> Trajectory {
     let home = tool.pose(Pose { position: task.robot.home, heading: 0.0 });
     Trajectory::standing(ModelKind::Still.into(), home, start.clone())

@@ -15,11 +15,11 @@ use super::grade::Class;
 enum Milestone {
     /// The screening model predicts success.
     Found,
-    /// So does the final model, after refinement.
+    /// The final model predicts success after refinement.
     Refined,
-    /// Works as written in both engines, in some of the perturbed replays.
+    /// The plan works as written in both engines, and in some of the perturbed replays.
     Works,
-    /// Passes.
+    /// The plan passes.
     Passes,
 }
 
@@ -34,16 +34,16 @@ impl Milestone {
     }
 }
 
-/// Reports to an observer, each milestone once.
+/// Progress reports to an observer, each milestone once.
 pub(super) struct Progress<'a> {
     watch: &'a dyn Watch,
-    /// Name of the strategy whose turn it is.
+    /// Name of the current strategy.
     pub strategy: &'static str,
     reported: Option<Milestone>,
 }
 
 impl<'a> Progress<'a> {
-    /// Reports to `watch`.
+    /// Creates reports to `watch`.
     pub fn new(watch: &'a dyn Watch) -> Self {
         Self { watch, strategy: "", reported: None }
     }
@@ -70,7 +70,7 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// Reports the first of these refined plans, the best one, if it is predicted to reach the goal.
+    /// Reports the best refined plan if it is predicted to reach the goal.
     pub fn refined(&mut self, best: Option<&Attempt>) {
         if let Some(attempt) = best.filter(|attempt| attempt.score <= 1.0) {
             self.report(Milestone::Refined, summary(&attempt.plan));
@@ -88,7 +88,7 @@ impl<'a> Progress<'a> {
         self.report(milestone, summary(&attempts.list[k].plan));
     }
 
-    /// Reports `plan` if there is more evidence for it than for the last one reported.
+    /// Reports `plan` if its evidence is stronger than for the last plan reported.
     fn report(&mut self, milestone: Milestone, plan: String) {
         if self.reported.is_none_or(|before| milestone > before) {
             self.reported = Some(milestone);

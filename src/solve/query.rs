@@ -1,4 +1,4 @@
-//! The question that is solved. Nothing of it changes while it is.
+//! Problem to solve, which is constant during the solution.
 
 use std::sync::Arc;
 
@@ -10,28 +10,28 @@ use crate::watch::Watch;
 use super::planner::Planner;
 use super::typical::{error_p95, typical};
 
-/// Later pushes get room for the model's error, but no more than this, metres: a longer approach
-/// costs reach and time.
+/// Maximum room of later pushes for the model's error, metres: a longer approach costs reach and
+/// time.
 const MOST_ROOM_FOR_MODEL: f64 = 0.02;
 
-/// Rollouts of a refinement, times the objects on the table. A push into a crowd costs up to
-/// a hundred times one of a single object, and its outcome is not smooth enough for late rounds to
-/// gain much; with up to four objects the rounds end first.
+/// Maximum number of rollouts of a refinement times the number of objects on the table. A push into
+/// a crowd costs up to a hundred times a push of a single object, and late rounds gain little
+/// because its outcome is not smooth. With up to four objects, the limit on rounds applies first.
 const REFINE_WORK: usize = 20_000;
 
-/// A task in a situation, the planner that solves it and the observer of its progress.
+/// Task in a situation, with its planner and progress observer.
 #[derive(Clone, Copy)]
 pub(super) struct Query<'a> {
     pub planner: &'a Planner,
     pub task: &'a Task,
     pub situation: &'a Situation,
-    /// Tools that may be used: the pushing ones, or the blades of a task of levering.
+    /// Allowed tools: for pushing, or with blades in a task of levering.
     pub tools: &'a [Arc<Tool>],
     pub watch: &'a dyn Watch,
 }
 
 impl<'a> Query<'a> {
-    /// Returns the rules that pushes keep.
+    /// Returns the limits for pushes.
     pub fn workspace(&self) -> Workspace<'a> {
         Workspace { task: self.task, tools: self.tools }
     }
@@ -57,7 +57,7 @@ impl<'a> Query<'a> {
         RefineSettings {
             rounds: settings.refine_rounds,
             extra: settings.refine_extra,
-            // Each length has a stream of its own, so that no two share samples.
+            // Each number of pushes has its own random stream, so that samples are not shared.
             seed: self.planner.seed().wrapping_mul(0x9E37_79B9).wrapping_add(pushes as u64) << 16,
             enough: self.at_once(),
             rollouts: self.refine_rollouts(),
@@ -66,7 +66,7 @@ impl<'a> Query<'a> {
         }
     }
 
-    /// Prepares the search for plans with one grip; rolls nothing out.
+    /// Prepares the search for plans with one grip, without any rollout.
     pub fn search(&self) -> Search<'a> {
         let errors = self.tools.iter().map(|tool| {
             let start = &self.situation.start;

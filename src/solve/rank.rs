@@ -3,9 +3,9 @@
 use crate::plan::{Candidate, Evaluation, SearchResult, is_behind, kinds};
 use crate::task::{Demand, End, Goal, Task};
 
-/// The best `count` found candidates of different kinds, then, if there are too few kinds, the next
-/// best ones; at most `most_behind` of them with something in the way. `found` is sorted, best
-/// first, and so is the answer.
+/// Returns the best `count` candidates of different kinds, followed by the next best ones if there
+/// are too few kinds. At most `most_behind` of them have a blocked motion. `found` must be sorted,
+/// best first, and the result is sorted also.
 pub fn distinct(found: &[SearchResult], count: usize, most_behind: usize) -> Vec<Candidate> {
     let kinds = kinds(found, count);
     let mut taken = vec![false; found.len()];
@@ -14,7 +14,7 @@ pub fn distinct(found: &[SearchResult], count: usize, most_behind: usize) -> Vec
     let spare: Vec<usize> = (0..found.len()).filter(|&k| !taken[k]).take(missing).collect();
     spare.into_iter().for_each(|k| taken[k] = true);
     let kept = found.iter().zip(&taken).filter(|(_, taken)| **taken).map(|(one, _)| one);
-    // Plans that lead through a wall come after everything else.
+    // Plans with a blocked motion come last.
     let (behind, sound): (Vec<&SearchResult>, Vec<&SearchResult>) =
         kept.partition(|one| is_behind(one.score));
     sound
@@ -24,13 +24,13 @@ pub fn distinct(found: &[SearchResult], count: usize, most_behind: usize) -> Vec
         .collect()
 }
 
-/// A prediction that is outside the tolerance by no more than this share of it is tried, however
-/// good the model is said to be: it is good only on average.
+/// Smallest model error assumed in the decision to verify, relative to the tolerance: a measured
+/// accuracy only holds on average.
 const HAIR: f64 = 0.1;
 
-/// Whether the predicted error is at most the tolerance plus the effect model's error, `error_p95`
-/// metres, or a hair; for a heading this is taken at the object's mean radius. Where that was not
-/// measured, everything that can be carried out is.
+/// Returns `true` if the predicted error is at most the tolerance plus the effect model's error
+/// `error_p95` (metres), which is at least [`HAIR`]. For headings, the model's error applies at the
+/// object's mean radius. If it is unknown, every feasible plan is worth verifying.
 pub(super) fn is_worth_verifying(
     task: &Task,
     evaluation: &Evaluation,

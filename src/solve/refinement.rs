@@ -1,4 +1,4 @@
-//! Refined candidates as attempts, and which of them are worth verifying.
+//! Refined candidates as attempts, and selection of the attempts worth verifying.
 
 use crate::plan::{Candidate, Refined, in_order};
 use crate::task::{Goal, Job};
@@ -9,8 +9,8 @@ use super::blackboard::Blackboard;
 use super::rank::is_worth_verifying;
 use super::typical::error_p95;
 
-/// Refines candidates towards `aims`, the task's goals or some next to them, keeps the results as attempts,
-/// and returns the indices of those worth verifying, best first.
+/// Refines candidates towards `aims` (the task's goals or shifted ones) and stores the results as
+/// attempts. Returns the indices of the attempts worth verifying, best first.
 pub(super) fn refined(
     board: &mut Blackboard,
     candidates: &[Candidate],
@@ -22,7 +22,7 @@ pub(super) fn refined(
     keep(board, refined, aims)
 }
 
-/// Refines changed candidates of plans that were replayed already, as [`refined`] does.
+/// Refines modified candidates of replayed plans, as [`refined`] does.
 pub(super) fn refined_again(
     board: &mut Blackboard,
     candidates: &[Candidate],
@@ -33,12 +33,13 @@ pub(super) fn refined_again(
         return self::refined(board, candidates, aims, pushes);
     }
     board.progress.stage_of("refine", pushes);
-    // What was replayed is not screened again.
+    // Replayed plans are not screened again.
     let refined = board.refiner.decide(&board.query, candidates, aims, pushes);
     keep(board, refined, aims)
 }
 
-/// Keeps what was refined towards `aims`; the indices of those worth verifying, best first.
+/// Stores candidates refined towards `aims` and returns the indices of the attempts worth
+/// verifying, best first.
 fn keep(board: &mut Blackboard, mut refined: Vec<Refined>, aims: &[Goal]) -> Vec<usize> {
     let query = board.query;
     let (workspace, situation, model) = (query.workspace(), query.situation, query.planner.model());
@@ -46,7 +47,8 @@ fn keep(board: &mut Blackboard, mut refined: Vec<Refined>, aims: &[Goal]) -> Vec
     let aimed = query.task.aiming(aims);
     let mut worth = Vec::new();
     for refined in refined {
-        // The network's prediction for this very push, or else what was measured of many.
+        // Error predicted by the network for this push, otherwise the measured error of many
+        // pushes.
         let spread = refined.best.spread.map(|spread| spread.within_90().position);
         let error = spread.or_else(|| {
             let motions = refined.best.motions(&workspace);

@@ -1,4 +1,4 @@
-//! Refinement of candidates with the models of a planner, and the rollouts that this takes.
+//! Refinement of candidates with the models of a planner, and its rollouts.
 
 use crate::plan::{
     Candidate, RefineSettings, RefineStatistics, Refined, Rollouts, Workspace, refine,
@@ -7,24 +7,24 @@ use crate::task::Goal;
 
 use super::query::Query;
 
-/// Separates the samples of the final model from those of the screening model.
+/// Seed bit that separates the samples of the final model from the samples of the screening model.
 const DECIDING: u64 = 1 << 15;
 
-/// Trust radius, in steps, of candidates that another model refined: its optimum is off by as much as
-/// the two differ.
+/// Trust radius for candidates refined by another model, in steps: the usual distance between the
+/// optima of two models.
 pub(super) const SCREENED_RADIUS: f64 = 1.0;
 
 /// Counted access to the effect models of a planner.
 pub(super) struct Refiner<'a> {
     /// Rollouts of the screening model.
     pub screening: Rollouts<'a>,
-    /// Rollouts of the final model, if that is another.
+    /// Rollouts of the final model, if it differs.
     pub deciding: Option<Rollouts<'a>>,
     pub statistics: RefineStatistics,
 }
 
 impl<'a> Refiner<'a> {
-    /// Starts counting at zero.
+    /// Creates the access with counts of zero.
     pub fn new(query: &Query<'a>) -> Self {
         let rollouts = |model| Rollouts::new(model, query.situation.clone());
         let planner = query.planner;
@@ -35,8 +35,8 @@ impl<'a> Refiner<'a> {
         }
     }
 
-    /// Refines candidates towards `aims`, the task's goals or shifted copies of them. Where one
-    /// model screens and another decides, the last rounds are the final model's.
+    /// Refines candidates towards `aims`, the task's goals or shifted copies of them. If one model
+    /// screens and another decides, the final model makes the last rounds.
     pub fn refine(
         &mut self,
         query: &Query,
@@ -65,14 +65,14 @@ impl<'a> Refiner<'a> {
         decided.into_iter().map(|one| continued(&screened[one.index], one)).collect()
     }
 
-    /// Counts rollouts that were made elsewhere, of the screening and of the final model.
+    /// Counts rollouts made elsewhere by the screening and the final model.
     pub fn count(&mut self, [screened, decided]: [usize; 2]) {
         self.screening.count(screened);
         self.deciding.as_mut().unwrap_or(&mut self.screening).count(decided);
     }
 
-    /// Predicts candidates with the final model, and refines the best of them with it; none where one model
-    /// screens and decides.
+    /// Predicts candidates with the final model and refines the best of them with it. Returns none
+    /// if a single model screens and decides.
     pub fn decide(
         &mut self,
         query: &Query,
@@ -101,7 +101,7 @@ impl<'a> Refiner<'a> {
     }
 }
 
-/// Joins both parts of a refinement: the screening model's and the final model's.
+/// Joins the refinements by the screening model and by the final model.
 fn continued(screened: &Refined, decided: Refined) -> Refined {
     let mut rounds = screened.rounds.clone();
     rounds.extend(decided.rounds);

@@ -1,4 +1,4 @@
-//! Widens the limits of a task without a plan one by one, to find the one that is the cause.
+//! Relaxation of single limits of a task without a plan, to find the limit that is the cause.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -20,40 +20,40 @@ use super::planner::{Planner, stated};
 use super::query::Query;
 use super::refinement::refined;
 
-/// Pushes that a wider task allows beyond its own.
+/// Number of additional pushes in a relaxed task.
 const MORE_PUSHES: usize = 2;
 
-/// Factor of lengths and reaches in a wider task.
+/// Factor of lengths and reaches in a relaxed task.
 const LONGER: f64 = 4.0;
 
-/// Directions and turns of the grip of a wider task.
+/// Number of directions of a relaxed task; half of it for grip yaws.
 const WAYS: usize = 16;
 
-/// Limits are reported in multiples of this, metres.
+/// Step to which reported limits are rounded up, metres.
 const STEP: f64 = 0.01;
 
-/// Maximum number of obstacles that are removed, one at a time, to find the one that is the cause.
+/// Maximum number of obstacles removed, one at a time, to find the one that is the cause.
 const OBSTACLES: usize = 8;
 
-/// A task with one limit wider, and what it means if that has a plan.
+/// Task with one limit relaxed, and the cause if it has a plan.
 struct Wider<'a> {
     task: Task,
     tools: Vec<Arc<Tool>>,
     cause: Explanation<'a>,
 }
 
-/// The cause that follows from plans of a wider task.
+/// Function that returns the cause from plans of a relaxed task.
 type Explanation<'a> = Box<dyn Fn(&[Way]) -> Cause + Send + Sync + 'a>;
 
-/// A plan that is predicted to reach the goal.
+/// Plan that is predicted to reach the goal.
 struct Way {
     plan: Plan,
     tool: String,
 }
 
-/// Returns what keeps `task`, of which no plan was found, from being solved: each of its limits is widened,
-/// and the first with which a plan is predicted to reach the goal is the cause. Only the
-/// screening model is used: nothing is verified.
+/// Returns the cause that prevents a plan for `task`. Each limit is relaxed separately, and the
+/// first relaxation with a plan that is predicted to reach the goal is the cause. Only the
+/// screening model is used, and nothing is verified.
 pub(super) fn cause(
     planner: &Planner,
     task: &Task,
@@ -72,7 +72,7 @@ pub(super) fn cause(
     (!watch.cancelled()).then(|| found.unwrap_or(Cause::Several))
 }
 
-/// Returns plans that are predicted to reach the goal, with as few pushes as do.
+/// Returns plans that are predicted to reach the goal, with as few pushes as possible.
 fn ways(query: Query) -> Vec<Way> {
     let (settings, goals) = (query.planner.settings(), query.goals());
     let search = Search::new(query.workspace(), query.situation, settings.search(0.0));
@@ -96,7 +96,8 @@ fn ways(query: Query) -> Vec<Way> {
     Vec::new()
 }
 
-/// The tasks with one limit wider: first those that cost nothing to widen, last what stands there.
+/// Returns the tasks with one limit relaxed: first limits that are free to relax, and obstacles
+/// last.
 fn wider<'a>(task: &'a Task, tools: &[Arc<Tool>], library: &ToolLibrary) -> Vec<Wider<'a>> {
     let mut all: Vec<Wider> = Vec::new();
     let mut add = |change: &dyn Fn(&mut Task), cause: Explanation<'a>| {
@@ -193,14 +194,14 @@ fn wider<'a>(task: &'a Task, tools: &[Arc<Tool>], library: &ToolLibrary) -> Vec<
         let cause = |ways: &[Way]| Cause::Tool {
             needed: ways.first().map(|way| way.tool.clone()).unwrap_or_default(),
         };
-        // After what the robot and the pushes are, before what stands there.
+        // The relaxed tools follow the limits of robot and pushes, and precede the obstacles.
         let at = all.len().min(4);
         all.insert(at, Wider { task: others, tools, cause: Box::new(cause) });
     }
     all
 }
 
-/// The obstacles that stand nearest to the goal and to its object.
+/// Returns the obstacles nearest to the goal and to its object.
 fn nearest(task: &Task) -> Vec<&Obstacle> {
     let from = task.scene.objects[task.goals[0].object].pose.position;
     let goal = task.goals[0].place(&task.scene.start());
@@ -214,7 +215,7 @@ fn nearest(task: &Task) -> Vec<&Obstacle> {
     obstacles
 }
 
-/// The least of what the ways need, in whole steps.
+/// Returns the smallest value that one of the plans needs, rounded up to whole steps.
 fn least(ways: &[Way], of: impl Fn(&Way) -> f64) -> f64 {
     let least = ways.iter().map(of).fold(f64::INFINITY, f64::min);
     (least / STEP).ceil() * STEP

@@ -1,4 +1,4 @@
-//! The result: the attempts, ranked.
+//! Solution from ranked attempts.
 
 use std::sync::Arc;
 
@@ -16,15 +16,18 @@ use super::infeasibility::Cause;
 use super::query::Query;
 use super::solution::{LeverStatistics, PlanStatus, RankedPlan, Solution, Statistics};
 
-/// Maximum number of plans that are returned: as many as a reader looks at.
+/// Maximum number of returned plans: as many as a reader examines.
 const REPORTED: usize = 8;
 
-/// A plan that brings the object nearer to the goal by less, metres, or turns it nearer to the wanted
-/// heading by less, radians, is none to look at: simulations differ by as much.
+/// Minimum improvement of the distance to the goal by a reported plan without success, metres:
+/// simulations differ by as much.
 const NEARER: f64 = 0.01;
+
+/// Minimum improvement of the heading by a reported plan without success, radians.
 const TURNED: f64 = 0.1;
 
-/// Ranks the attempts on a blackboard; solving `began` then.
+/// Returns the solution with the ranked attempts of a blackboard. `began` is the time at which
+/// solving began.
 pub(super) fn solution(mut board: Blackboard, began: Instant) -> Solution {
     let (query, status) = (board.query, board.status());
     let attempts = match board.levers {
@@ -43,7 +46,7 @@ pub(super) fn solution(mut board: Blackboard, began: Instant) -> Solution {
         stopped: query.watch.cancelled(),
         models: match statistics.levers {
             None => query.planner.models(),
-            // The coarse simulation decides on lever-ups.
+            // The coarse simulation is the final model of lever-ups.
             Some(_) => Models::from(LeverSimulator::COARSE.spec())
                 .screened_by(query.planner.screen().spec().clone()),
         },
@@ -57,8 +60,8 @@ pub(super) fn solution(mut board: Blackboard, began: Instant) -> Solution {
     }
 }
 
-/// Orders plans of pushes: the best; then those that passed, are untried, have failed - or, where
-/// none passed, the evidence first.
+/// Orders plans of pushes: the best plan, then passed, untried and failed ones. If none passed,
+/// verified plans come before untried ones.
 fn ranked_pushes(board: &mut Blackboard, status: PlanStatus) -> Vec<Attempt> {
     let best = board.attempts.best.filter(|_| board.attempts.works()).map(|(_, k)| k);
     let rank = |index: usize, attempt: &Attempt| match (&attempt.verdict, status) {
@@ -86,8 +89,9 @@ fn ranked_pushes(board: &mut Blackboard, status: PlanStatus) -> Vec<Attempt> {
     order.into_iter().map(|(_, attempt)| attempt).collect()
 }
 
-/// Orders plans that leave the plane: those that work by how often, then those that failed, then the rest.
-/// Of equals, plans that push after a lever-up come first, since they are made where none alone passes.
+/// Orders plans that leave the plane: working plans by their success rate, then failed ones, then
+/// the rest. Among ties, plans with pushes after a lever-up come first, because they are only made
+/// if no lever-up alone passes.
 fn ranked_levers(board: &mut Blackboard) -> Vec<Attempt> {
     let mut order = std::mem::take(&mut board.attempts.list);
     let pushes_last = |attempt: &Attempt| {
@@ -101,7 +105,7 @@ fn ranked_levers(board: &mut Blackboard) -> Vec<Attempt> {
     order
 }
 
-/// Returns attempts as plans with their predictions, and the warnings of the first.
+/// Returns the attempts as plans with their predictions, and the warnings of the first plan.
 fn predicted(query: &Query, attempts: Vec<Attempt>) -> (Vec<RankedPlan>, Vec<Warning>) {
     let (task, situation) = (query.task, query.situation);
     let pushes: Vec<(&Plan, &[Arc<Tool>])> = attempts
@@ -136,10 +140,11 @@ fn predicted(query: &Query, attempts: Vec<Attempt>) -> (Vec<RankedPlan>, Vec<War
     (plans, first.unwrap_or_default())
 }
 
-/// Returns `true` if a plan, by prediction, is clearly better than the plan without steps.
+/// Returns `true` if a plan is predicted to be clearly better than the plan without steps.
 fn is_nearer(query: &Query, attempt: &Attempt) -> bool {
     let (task, start) = (query.task, &query.situation.start);
-    // By the goal that asks for least, as scores are in units of tolerances.
+    // The goal with the smallest required improvement counts, because scores are in units of
+    // tolerances.
     let kinds = task.goals.iter().flat_map(|goal| &goal.demands).map(|demand| demand.kind());
     let least = kinds.flat_map(|kind| {
         let nearer = kind.tolerance().map(|tolerance| NEARER / tolerance);

@@ -1,5 +1,5 @@
-//! Retries after failed replays: refuted patterns of pushes are left for others, and plans that
-//! end near the goal are aimed again, by as much as they missed it.
+//! Retries after failed replays. Refuted patterns of pushes are avoided, and plans that end near
+//! the goal are aimed again, corrected by their error.
 
 use std::sync::Arc;
 
@@ -14,26 +14,30 @@ use super::blackboard::{Blackboard, Candidates};
 use super::pattern::PushPattern;
 use super::refinement::{refined, refined_again};
 
-/// A plan is refuted if its replay misses the goal by more than this many tolerances: one that
-/// misses by less may work with another tool.
+/// Error of a replay in tolerances above which a plan is refuted. With a smaller error it may work
+/// with another tool.
 const REFUTED: f64 = 1.25;
 
-/// A plan is aimed again if its replay misses the goal by at most this many tolerances. Farther
-/// out the prediction is wrong in kind, and shifting the aim shifts something else.
+/// Maximum error of a replay in tolerances for which a plan is aimed again. Beyond it the
+/// prediction is wrong in kind, and a shifted aim has other effects.
 const NEAR: f64 = 4.0;
 
-/// A plan that ends within this share of the tolerance on average cannot be aimed better.
+/// Mean error in tolerances below which a plan cannot be aimed better.
 const ON_THE_GOAL: f64 = 0.1;
 
-/// Room that a push gets after its tool came down on the object, metres.
+/// Minimum room of a push after its tool came down on the object, metres.
 const LEAST_ROOM: f64 = 0.01;
+
+/// Maximum room of a push after its tool came down on the object, metres.
 const MOST_ROOM: f64 = 0.04;
 
-/// Reorders the queue of plans of one length after the plans `failed` did not pass, or were not
-/// safe: first those of them that reached the goal before their last push, without it; those
-/// whose tool came down on an object, set down farther away; those that came near, aimed
-/// again; then other patterns, of which new ones are refined where too few are left; then the
-/// rest. `first` is the first plan of this length.
+/// Reorders the queue of plans of one length after the plans `failed` did not pass or were not
+/// safe. `first` is the first plan of this length.
+///
+/// Failed plans that reached the goal before their last push come first, without that push. They
+/// are followed by plans whose tool came down on an object, set down farther away, and by near
+/// plans aimed again. Other patterns are next, with newly refined ones if too few are left, and the
+/// rest comes last.
 pub(super) fn retry(
     board: &mut Blackboard,
     queue: &mut Vec<usize>,
@@ -61,12 +65,12 @@ pub(super) fn retry(
         next.extend(refined(board, &others, &query.goals(), *pushes));
     }
     next.extend(rest);
-    // Stable: plans through a wall go last, everything else keeps its order.
+    // The sort is stable: blocked plans go last, and all others keep their order.
     next.sort_by_key(|&k| is_behind(board.attempts.list[k].score));
     *queue = next;
 }
 
-/// Notes the patterns of failed plans whose replays missed the goal by far.
+/// Records the patterns of failed plans whose replays missed the goal by a large distance.
 fn refute(task: &Task, attempts: &mut Attempts, failed: &[usize]) {
     for &k in failed {
         let attempt = &attempts.list[k];
@@ -78,8 +82,8 @@ fn refute(task: &Task, attempts: &mut Attempts, failed: &[usize]) {
     }
 }
 
-/// Plans that reached the goal after an earlier push than the last, in both engines, without
-/// the pushes that spoiled it.
+/// Returns the plans that reached the goal in both engines before their last push, without the
+/// later pushes.
 fn shortened(board: &mut Blackboard, failed: &[usize]) -> Vec<usize> {
     let (task, placed) = (board.query.task, board.query.workspace().is_placed());
     let mut next = Vec::new();
@@ -121,7 +125,7 @@ fn shortened(board: &mut Blackboard, failed: &[usize]) -> Vec<usize> {
     next
 }
 
-/// Plans whose tool came down on an object for a later push, with more room there.
+/// Returns the plans whose tool came down on an object for a later push, with more room there.
 fn set_down_farther(board: &mut Blackboard, failed: &[usize], pushes: usize) -> Vec<usize> {
     let mut wider = Vec::new();
     for &k in failed {
@@ -148,8 +152,8 @@ fn set_down_farther(board: &mut Blackboard, failed: &[usize], pushes: usize) -> 
     }
 }
 
-/// Refines the nearest of the failed plans towards goals that lie as far on the other side
-/// of ours as their replays ended next to it.
+/// Refines the nearest failed plans towards aims that are shifted against the mean error of their
+/// replays.
 fn aim_again(board: &mut Blackboard, failed: &[usize], count: usize, pushes: usize) -> Vec<usize> {
     let task = board.query.task;
     let mut near: Vec<(f64, usize)> = failed
@@ -177,8 +181,8 @@ fn aim_again(board: &mut Blackboard, failed: &[usize], count: usize, pushes: usi
     next
 }
 
-/// Error of a plan as written in tolerances, in the engine where it is larger; infinite where its end does
-/// not count at all.
+/// Returns the error of a plan as written in tolerances, in the engine where it is larger. The
+/// error is infinite if the outcome is invalid.
 fn replayed_error(task: &Task, attempt: &Attempt) -> f64 {
     let Some(verdict) = &attempt.verdict else { return f64::INFINITY };
     if !verdict.forbidden.is_empty() {
@@ -192,14 +196,14 @@ fn replayed_error(task: &Task, attempt: &Attempt) -> f64 {
     Engine::ALL.into_iter().map(missed).fold(0.0, f64::max)
 }
 
-/// The next target of each demand, when a plan aimed at `aim` missed the goal: as far on the other side.
-/// One step of iterative learning control (Arimoto et al. 1984, doi:10.1002/rob.4620010203) with
-/// the effect model's own slopes, for the middle of the ends in both engines, disturbed or
-/// not. `None` if the plan ends on the goal already.
+/// Returns the next aim after a plan aimed at `aim` missed the goal, shifted against the mean error
+/// of each demand. This is one step of iterative learning control (Arimoto et al. 1984,
+/// doi:10.1002/rob.4620010203) with the effect model's slopes, for the mean end of all replays in
+/// both engines. Returns `None` if the plan already ends on the goal.
 fn aim(goal: &Goal, aim: &Goal, verdict: &Verdict) -> Option<Goal> {
     let found = goal.demands.iter().zip(&aim.demands).map(|(demand, aim)| {
         let (shift, turn) = mean_miss(goal.object, demand, verdict)?;
-        // From where it was aimed at last.
+        // The correction starts from the last aim.
         let next = demand.kind().aimed(aim, shift, turn);
         let [place, angle] = [demand.kind().tolerance(), demand.kind().turn_tolerance()];
         let off = angle.map_or(0.0, |tolerance| turn.abs() / tolerance);
@@ -211,8 +215,8 @@ fn aim(goal: &Goal, aim: &Goal, verdict: &Verdict) -> Option<Goal> {
     (off > ON_THE_GOAL).then_some(Goal { demands, ..*goal })
 }
 
-/// The mean offset from a demand in its own frame, metres, and the mean turn, radians, of the replays that
-/// count, each engine with equal weight; `None` if there are none.
+/// Returns the mean offset from a demand in its own frame, metres, and the mean rotation, radians,
+/// of the valid replays, each engine with equal weight. Returns `None` without valid replays.
 fn mean_miss(object: usize, demand: &Demand, verdict: &Verdict) -> Option<(Vector, f64)> {
     let (mut shift, mut turn, mut engines) = (Vector::zeros(), 0.0, 0.0);
     for engine in Engine::ALL {

@@ -14,17 +14,17 @@ use super::LeverSettings;
 )]
 #[serde(rename_all = "snake_case")]
 pub enum Effort {
-    /// A first look.
+    /// Quick draft.
     Draft,
-    /// The default: a one-push task in well under half a second on two cores.
+    /// Default effort: a one-push task takes well under half a second on two cores.
     #[default]
     Standard,
-    /// The network in every rollout, and twice as many replays to tell how robust the plan is.
+    /// The network in every rollout, and twice as many replays to measure robustness.
     Thorough,
 }
 
 impl Effort {
-    /// The efforts, cheapest first.
+    /// Efforts, cheapest first.
     pub const ALL: [Effort; 3] = [Effort::Draft, Effort::Standard, Effort::Thorough];
 }
 
@@ -38,55 +38,57 @@ impl fmt::Display for Effort {
     }
 }
 
-/// Budgets of a planner, all counted and none in seconds, so that results do not depend on the
-/// machine. A push of one object costs about 0.04 ms of one core in the prior, 0.16 in the network,
-/// 1.1 in the planar engine and 9 in the 3-D one (`crates/lab/results/tradeoff.md`).
+/// Budgets of a planner, as counts and not in seconds, so that results do not depend on the
+/// machine. A push of one object costs about 0.04 ms of one core in the analytic model, 0.16 in the
+/// network, 1.1 in 2-D and 9 in 3-D simulation (`crates/lab/results/tradeoff.md`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Settings {
-    /// Lateral offsets per contacting face. Three tell left, right and middle; from five on,
-    /// neighbours are closer than refinement moves them.
+    /// Number of lateral offsets per contacting face. Three distinguish left, right and middle;
+    /// with five or more, neighbours are closer than the range of refinement.
     pub offsets: usize,
-    /// States from which sequences are continued. Each costs about a hundred rollouts.
+    /// Number of states from which sequences are continued. Each costs about a hundred rollouts.
     pub beam: usize,
-    /// Most rollouts of the search for each number of pushes: bounds what a large tool rack or
-    /// a fine list of directions costs.
+    /// Maximum number of rollouts of the search for each number of pushes. It bounds the cost of a
+    /// large tool rack or a fine list of directions.
     pub search_rollouts: usize,
-    /// Candidates refined, for each number of pushes. They are of different kinds (tool, grip,
-    /// faces, directions), as the linear model cannot change kind.
+    /// Number of candidates refined for each number of pushes. They are of different kinds (tool,
+    /// grip, faces, directions), because the linear model cannot change the kind.
     pub refined: usize,
-    /// Rounds of refinement; one push needs eleven to thirteen rollouts a round, and an error of
-    /// centimetres two to four rounds.
+    /// Number of rounds of refinement. One push needs eleven to thirteen rollouts a round, and an
+    /// error of centimetres two to four rounds.
     pub refine_rounds: usize,
-    /// Random samples a round besides two for each parameter: they average out contact noise.
+    /// Number of random samples per round in addition to two for each parameter. They average out
+    /// contact noise.
     pub refine_extra: usize,
-    /// Of the rounds of refinement, how many are left to the model that decides, where another one
-    /// screens; the rounds before are the screening model's. Measured files from before that may
-    /// lack it.
+    /// Number of the last refinement rounds that use the deciding model, if another model screens;
+    /// the screening model makes the earlier rounds. Older measured files may lack this field.
     #[serde(default)]
     pub decided_rounds: usize,
-    /// Candidates that go through these rounds: the best after the model that decides has predicted
-    /// them all.
+    /// Number of candidates in these rounds: the best after the deciding model has predicted all of
+    /// them.
     #[serde(default)]
     pub short_list: usize,
-    /// Plans verified together. The nearest two nearly always hold one that works, and replays are a
-    /// third to a half of the cost. More than two become fewer where there are more than four objects.
+    /// Number of plans verified together. The nearest two nearly always hold one that works, and
+    /// replays are a third to a half of the cost. Numbers above two are reduced if there are more
+    /// than four objects.
     pub verified_at_once: usize,
-    /// Batches verified for each number of pushes before giving up on it.
+    /// Maximum number of batches verified for each number of pushes.
     pub verify_batches: usize,
-    /// Disturbed replays of the winning plan in each engine.
+    /// Number of perturbed replays of the winning plan in each engine.
     pub disturbed: usize,
     /// Budgets of lever-ups; measured files of pushes may lack them.
     #[serde(default)]
     pub levers: LeverSettings,
 }
 
-/// A replay costs more the more objects there are, so at most this many, of all plans, are replayed
-/// together: with four on the table, eight plans.
+/// Maximum number of objects in all plans replayed together, because the cost of a replay grows
+/// with its objects: with four on the table, eight plans.
 const REPLAYED_AT_ONCE: usize = 32;
 
 impl Settings {
-    /// Plans verified together where this many objects are on the table: fewer in a crowd, where
-    /// the first ones are often good and their replays are most of the cost.
+    /// Returns the number of plans verified together with this many objects on the table. It is
+    /// smaller in a crowd, where the first plans are often good and their replays are most of the
+    /// cost.
     pub(super) fn at_once(&self, objects: usize) -> usize {
         self.verified_at_once.min((REPLAYED_AT_ONCE / objects.max(1)).max(2)).max(1)
     }
@@ -97,7 +99,7 @@ impl Settings {
         Self { disturbed, levers: LeverSettings { disturbed, ..self.levers }, ..self }
     }
 
-    /// The least that still searches, refines and verifies.
+    /// Smallest budgets that still search, refine and verify.
     pub const FIRST_LOOK: Settings = Settings {
         offsets: 3,
         beam: 8,
@@ -113,13 +115,14 @@ impl Settings {
         levers: LeverSettings::DRAFT,
     };
 
-    /// The settings of the search, with a model that is off by `model_error` metres at times.
+    /// Returns the settings of the search for a model with an occasional error of `model_error`
+    /// metres.
     pub fn search(&self, model_error: f64) -> SearchSettings {
         SearchSettings {
             offsets: self.offsets,
             beam: self.beam,
             rollouts: self.search_rollouts,
-            // Variants of one kind stand close together in the ranking; enough to get past them.
+            // Variants of one kind have close ranks; this number suffices to get past them.
             kept: self.refined.saturating_mul(64),
             model_error,
         }

@@ -1,4 +1,4 @@
-//! The result of solving a task.
+//! Solution of a task.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -21,72 +21,72 @@ use super::Cause;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PlanStatus {
-    /// The first plan passes: it keeps the rules of the task, its replays as written reach the goal
-    /// in both engines, and so does the share of the disturbed ones that the task asks for.
+    /// The first plan passes: it satisfies the rules of the task, its nominal replays reach the
+    /// goal in both engines, and so does the required share of perturbed replays.
     Solved,
-    /// The first plan works as written, but in fewer of the disturbed replays than the task asks
-    /// for, and none was found that is more robust.
+    /// The first plan works as written, but in fewer perturbed replays than required, and no more
+    /// robust plan was found.
     Fragile,
-    /// Not all of several goals could be met; the first plan meets [some](Solution::partial), and as such it
-    /// passes.
+    /// Not all goals could be met. The first plan meets [some](Solution::partial) of them, and
+    /// passes for these.
     Partial,
-    /// After refinement no candidate's predicted error was at most the tolerance plus the effect
+    /// After refinement, no candidate's predicted error was at most the tolerance plus the effect
     /// model's 95th-percentile error. The first plan is the nearest one.
     NoPlan,
-    /// Some candidates were good enough to be verified, and none of those works. The first plan
-    /// is the best predicted of them, with the evidence against it.
+    /// Some candidates were good enough to verify, but none of them works. The first plan is the
+    /// one with the best prediction, with the evidence against it.
     FailedVerification,
 }
 
 /// Refinement of a plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Refinement {
-    /// How far from where it was aimed the middle of the predicted ends on plausible supports lay
-    /// as the search left it, metres.
+    /// Distance from the aim to the centre of the predicted final poses over plausible support
+    /// models before refinement, metres.
     pub before: f64,
-    /// Distance of that middle from its aim now.
+    /// Distance from the aim to this centre after refinement, metres.
     pub after: f64,
-    /// Where the plan was aimed instead of the goal, metres, because its replay in 3-D missed the
-    /// goal.
+    /// Position at which the plan was aimed instead of the goal, metres, because its replay in 3-D
+    /// missed the goal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub aimed_at: Option<Vector>,
-    /// Score of that middle (error in units of the tolerance) after each round.
+    /// Score of this centre (error in units of the tolerance) after each round.
     pub rounds: Vec<f64>,
 }
 
-/// A plan with everything that is known about it.
+/// Plan with its prediction, verdict and refinement.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RankedPlan {
     /// The plan.
     pub plan: Plan,
-    /// The tools that it names, each once, in the order in which they are used; of a plan without
-    /// steps the first that was offered.
+    /// Tools that the plan names, in the order of their first use. A plan without steps has the
+    /// first offered tool.
     #[serde(with = "shared")]
     pub tools: Vec<Arc<Tool>>,
     /// Predicted trajectory, frame by frame.
     pub predicted: Trajectory,
-    /// Outcome at its end.
+    /// Outcome at the end of the trajectory.
     pub outcome: Outcome,
-    /// Whether it works in the simulator, if that was tried.
+    /// Verdict of the replays in the simulator, if any were made.
     pub verdict: Option<Verdict>,
     /// Effect of refinement.
     pub refinement: Refinement,
-    /// Motion of the arm, where the task has one that can carry it out.
+    /// Joint trajectory of the arm, if the task has an arm that can execute the plan.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joints: Option<JointTrajectory>,
 }
 
 impl RankedPlan {
-    /// Its first tool.
+    /// Returns the first tool.
     ///
     /// # Panics
-    /// Never for a plan that a planner returned: those have at least one tool.
+    /// Never for a plan returned by a planner, which has at least one tool.
     pub fn tool(&self) -> &Arc<Tool> {
         &self.tools[0]
     }
 
-    /// Its nominal replays in both engines: those of the verdict, or ones made now from
-    /// `situation` where the plan was not worth verifying.
+    /// Returns the nominal replays in both engines. They are taken from the verdict, or made from
+    /// `situation` if the plan was not verified.
     pub fn replays(&self, task: &Task, situation: &Situation) -> Cow<'_, Verdict> {
         match &self.verdict {
             Some(verdict) => Cow::Borrowed(verdict),
@@ -99,7 +99,8 @@ impl RankedPlan {
 }
 
 impl RankedPlan {
-    /// Whether the plan, as written, works in both engines on whatever the objects may rest.
+    /// Returns `true` if the plan as written works in both engines with every plausible support
+    /// model.
     pub fn works_on_all_supports(&self, task: &Task, situation: &Situation) -> bool {
         let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
         Physics::PLAUSIBLE_SUPPORTS.iter().all(|support| {
@@ -115,28 +116,28 @@ impl RankedPlan {
 pub struct LeverStatistics {
     /// Statistics of the last search.
     pub search: LeverSearchStatistics,
-    /// Candidates that were simulated coarsely.
+    /// Number of candidates simulated coarsely.
     pub simulated: usize,
-    /// Plans that were verified.
+    /// Number of verified plans.
     pub verified: usize,
-    /// Lever-ups after which pushes were looked for.
+    /// Number of lever-ups followed by a search for pushes.
     pub followed: usize,
 }
 
-/// Wall-clock time of each stage, seconds. Reported, never used to decide anything.
+/// Wall-clock time of each stage, seconds. It is reported only and does not affect results.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Timing {
-    /// Search.
+    /// Time of the search.
     pub search: f64,
-    /// Refinement.
+    /// Time of the refinement.
     pub refinement: f64,
-    /// Replays in the simulator.
+    /// Time of the replays in the simulator.
     pub verification: f64,
-    /// Everything.
+    /// Total time.
     pub total: f64,
 }
 
-/// Cost of solving.
+/// Cost of the solution.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Statistics {
     /// Statistics of the search.
@@ -145,22 +146,22 @@ pub struct Statistics {
     pub refinement: RefineStatistics,
     /// Number of rollouts of the effect models.
     pub rollouts: usize,
-    /// Number of these by the final model; all, where no other one screens.
+    /// Number of rollouts by the final model; all if no other model screens.
     #[serde(default)]
     pub decided: usize,
-    /// Plans replayed in the simulator.
+    /// Number of plans replayed in the simulator.
     pub verified: usize,
-    /// Pushes of the longest plans that were looked at.
+    /// Number of pushes of the longest plans searched.
     pub depth: usize,
     /// Wall-clock times.
     pub timing: Timing,
-    /// Cost of lever-ups, where a task allows them.
+    /// Cost of lever-ups, if the task allows them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub levers: Option<LeverStatistics>,
 }
 
 impl Statistics {
-    /// Adds what was spent before on the same question.
+    /// Adds the cost of earlier work on the same task.
     pub(super) fn add(&mut self, before: &Self) {
         self.rollouts += before.rollouts;
         self.decided += before.decided;
@@ -176,34 +177,34 @@ impl Statistics {
 /// Evidence for a plan that meets some of several goals.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Partial {
-    /// The goals that it meets, by their indices.
+    /// Indices of the goals that the plan meets.
     pub met: Vec<usize>,
-    /// Share of the disturbed replays that meet these.
+    /// Share of the perturbed replays that meet these goals.
     pub robustness: Option<f64>,
 }
 
-/// The result of [`super::Planner::solve`].
+/// Result of [`super::Planner::solve`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Solution {
-    /// Status.
+    /// Status of the solution.
     pub status: PlanStatus,
-    /// Whether it was stopped, by its time limit or from outside, before the search was over: the
-    /// plans are the best so far.
+    /// Whether the search was stopped early by its time limit or from outside, so that the plans
+    /// are the best found until then.
     pub stopped: bool,
     /// Screening and final model.
     pub models: Models,
-    /// Ranked plans, the one to use first. Empty only if no push can be made at all.
+    /// Ranked plans, best first. Empty only if no push can be made at all.
     pub plans: Vec<RankedPlan>,
-    /// The tools that were offered; candidates name them by index.
+    /// Offered tools; candidates name them by index.
     pub tools: Vec<Tool>,
-    /// Every way to push that the search considered, with the best that it leads to.
+    /// Every kind of push considered by the search, with its best score.
     pub candidates: Vec<ScoredPush>,
-    /// Cost.
+    /// Cost of the solution.
     pub statistics: Statistics,
-    /// Goals that are met, where not all of several are.
+    /// Goals that are met, if not all of several are.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub partial: Option<Partial>,
-    /// Reason why there is no plan, where that was looked for.
+    /// Cause if there is no plan and the cause was searched for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cause: Option<Cause>,
     /// Warnings that lower the trust in the predictions of the first plan.
@@ -211,13 +212,13 @@ pub struct Solution {
 }
 
 impl Solution {
-    /// The plan to use: the verified one if solved, otherwise the nearest.
+    /// Returns the plan to use: the verified plan if solved, otherwise the nearest.
     pub fn best(&self) -> Option<&RankedPlan> {
         self.plans.first()
     }
 }
 
-/// Shared tools are written as the tools themselves.
+/// Serialisation of shared tools as plain tools.
 mod shared {
     use std::sync::Arc;
 

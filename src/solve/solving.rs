@@ -1,34 +1,36 @@
-//! The loop of solving: the first strategy that has something to try has its turn, until none has.
+//! Main loop of the planner: in each turn, the first strategy with a next step proposes a batch,
+//! until no strategy has one.
 
 use super::SolveError;
 use super::blackboard::{Blackboard, Candidates};
 use super::lever_batch::{LeverBatch, verify_plans};
 use super::try_out::try_out;
 
-/// A way to come to plans. Strategies share nothing but the blackboard.
+/// Strategy that proposes plans. Strategies share only the blackboard.
 pub(super) trait Strategy<'a> {
-    /// Returns its name in progress reports.
+    /// Returns the strategy's name in progress reports.
     fn name(&self) -> &'static str;
 
-    /// Returns what to try next, or `None` as long as it has nothing to add to the board.
+    /// Returns the next batch to try, or `None` while the strategy has no next step for this state
+    /// of the board.
     ///
     /// # Errors
-    /// [`SolveError`] for bad input only.
+    /// Returns [`SolveError`] for invalid input only.
     fn next(&mut self, board: &mut Blackboard<'a>) -> Result<Option<Batch>, SolveError>;
 }
 
-/// Plans to try together.
+/// Batch of plans to try together.
 pub(super) enum Batch {
-    /// Pushes, to be refined first.
+    /// Pushes that need refinement first.
     Pushes(Candidates),
     /// Complete plans that leave the plane.
     Levers(LeverBatch),
 }
 
-/// Tries the batches of `strategies`, which stand in order of precedence.
+/// Tries the batches of `strategies`, which are in order of precedence.
 ///
 /// # Errors
-/// [`SolveError`] for bad input only.
+/// Returns [`SolveError`] for invalid input only.
 pub(super) fn run<'a>(
     board: &mut Blackboard<'a>,
     strategies: &mut [Box<dyn Strategy<'a> + 'a>],

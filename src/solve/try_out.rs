@@ -1,4 +1,5 @@
-//! A batch of candidates: refinement, verification of the best in small groups, and retries.
+//! Trial of a batch of candidates: refinement, verification of the best in small groups, and
+//! retries.
 
 use crate::plan::is_behind;
 use crate::watch::Instant;
@@ -8,11 +9,12 @@ use super::grade::Class;
 use super::refinement::refined;
 use super::retry::retry;
 
-/// Maximum share of the plans of one length that are replayed with perturbations: where so many work and
-/// none is safe, the task is a fragile one, and these replays are most of its cost.
+/// Maximum share of the plans of one length that are replayed with perturbations. If this many
+/// plans work and none is safe, the task is fragile and these replays are most of its cost.
 const PERTURBED_SHARE: f64 = 0.375;
 
-/// Refines and verifies candidates until one is safe, then replays the best until its verdict is clear.
+/// Refines and verifies candidates until one is safe, then replays the best until its verdict is
+/// clear.
 pub(super) fn try_out(board: &mut Blackboard, candidates: Candidates) {
     refine_and_verify(board, &candidates);
     let began = Instant::now();
@@ -57,7 +59,7 @@ fn refine_and_verify(board: &mut Blackboard, candidates: &Candidates) {
         board.progress.replayed(&board.attempts);
         let safe = board.attempts.best_class() == Class::Safe;
         let enough = board.verification.perturbed - before >= most_perturbed;
-        // Where even the most promising plan leads through a wall, a few attempts are enough.
+        // If even the most promising plan is blocked, a few attempts suffice.
         let behind = is_behind(board.attempts.list[leader].score);
         if board.verification.promising.is_some() || safe || enough || behind {
             break;

@@ -1,4 +1,4 @@
-//! A typical push of a task, before anything is searched.
+//! Typical push of a task, known before any search.
 
 use std::sync::Arc;
 
@@ -9,8 +9,8 @@ use crate::{
     task::{Job, Push, Task, ToolMotion},
 };
 
-/// A push of the goal's object towards the goal by the tool's first part: what a model would be
-/// used for, as far as can be known beforehand.
+/// Returns a push of the goal's object towards the goal by the tool's first part. It represents the
+/// pushes for which the model will be used.
 pub(super) fn typical(task: &Task, start: &State, tool: &Arc<Tool>) -> ToolMotion {
     let (rules, goal) = (&task.pushes, &task.goals[0]);
     let object = start.poses[goal.object].position;
@@ -25,7 +25,8 @@ pub(super) fn typical(task: &Task, start: &State, tool: &Arc<Tool>) -> ToolMotio
     ToolMotion::pushes(Arc::clone(tool), rules.lift, 0.0, &[push], true)
 }
 
-/// 95th percentile of an effect model's error on pushes like this one, metres, if it was measured.
+/// Returns the 95th percentile of an effect model's error on pushes like this one, metres, if it
+/// was measured.
 pub(super) fn error_p95(model: &dyn EffectModel, situation: &Situation, job: &Job) -> Option<f64> {
     model.trust(&situation.scene, job).error().map(|error| error.p95)
 }

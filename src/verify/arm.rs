@@ -1,5 +1,5 @@
-//! Whether the arm of a task can carry a plan out: the joint trajectory that comes with the plan, or one
-//! that is made for it, judged by its numbers.
+//! Check that the arm of a task can execute a plan, by the joint trajectory stated with the plan or
+//! by one computed for it.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use crate::{
     task::{Followed, Plan, Task},
 };
 
-/// Where objects are before the first push of a plan and after each, by a replay in 3-D.
+/// Returns the states before the first push of a plan and after each push, from a replay in 3-D.
 fn states(situation: &Situation, plan: &Plan, evidence: &[Evidence]) -> Vec<State> {
     let mut states = vec![situation.start.clone()];
     let nominal =
@@ -22,7 +22,8 @@ fn states(situation: &Situation, plan: &Plan, evidence: &[Evidence]) -> Vec<Stat
     states
 }
 
-/// How the joints of the task's arm carry out a plan that was replayed like this; `None` without an arm.
+/// Returns the joint trajectory of the task's arm for a plan with these replays; `None` without an
+/// arm.
 pub fn joints(
     task: &Task,
     situation: &Situation,
@@ -35,7 +36,7 @@ pub fn joints(
     Some(arm.follow(task, &situation.scene, tool, plan, &states))
 }
 
-/// What the arm cannot do of a plan.
+/// Returns a warning for every push that the arm cannot execute.
 pub(super) fn arm_faults(
     (task, situation): (&Task, &Situation),
     tool: &Arc<Tool>,

@@ -1,42 +1,45 @@
-//! When it is clear whether a plan works often enough: a sequential test.
+//! Sequential test of the share of perturbed replays that succeed.
 //!
-//! What share p of the disturbed replays of a plan would reach the goal, were all of them made, is
-//! assumed to be distributed, before any is made, as `P(1 - p < x) = x^0.2`: most plans that work as
-//! written work nearly always, a quarter less often than three times in four. After every few replays
-//! the posterior says how likely it is that the share is below what is asked for; the answer is clear
-//! once that is less likely, or more likely, than one error in a hundred allows. A posterior does not
-//! depend on how often one looked (Wald 1945, doi:10.1214/aoms/1177731118; for priors Berger 1985,
-//! section 7.4).
+//! Let p be the share of all possible perturbed replays of a plan that reach the goal. Its prior is
+//! `P(1 - p < x) = x^0.2`. Most plans that work as written thus work nearly always, and a quarter
+//! of them less often than three times in four.
 //!
-//! One in a hundred is an average over that prior, and of clear answers alone. With the rest taken as
-//! they are after the last replay, three in a hundred of all answers are wrong, nearly all of them where
-//! the share is within 0.1 of what is asked for. Simulated for 0.75 in one engine: a plan passes in
-//! 0.3 % at a share of 0.5, 8 % at 0.65, 26 % at 0.7, 88 % at 0.8 and 99 % at 0.85.
+//! After every few replays the posterior gives the probability that the share is below the required
+//! one. The test ends once this probability is below 1 % or above 99 %. A posterior does not depend
+//! on how often the test was evaluated (Wald 1945, doi:10.1214/aoms/1177731118; for priors Berger
+//! 1985, section 7.4).
+//!
+//! The error of 1 % is an average over that prior and over the decided cases alone. If undecided
+//! cases are judged by their observed share after the last replay, 3 % of all answers are wrong.
+//! Nearly all wrong answers have a share within 0.1 of the required one. In simulations with a
+//! required share of 0.75 in one engine, the probability of passing depends on p: 0.3 % at 0.5, 8 %
+//! at 0.65, 26 % at 0.7, 88 % at 0.8 and 99 % at 0.85.
 
 use crate::{outcome::Evidence, scene::Physics};
 
-/// How often an answer that is clear may be wrong.
+/// Error probability of a decided test.
 const ERROR: f64 = 0.01;
 
-/// The exponent of the prior above, an assumption: three quarters of the plans that work as written pass
-/// where three replays in four must.
+/// Exponent of the prior, an assumption: three quarters of the plans that work as written pass if
+/// three in four replays must succeed.
 const PRIOR: f64 = 0.2;
 
-/// Steps of the integral over the prior.
+/// Number of steps of the integral over the prior.
 const STEPS: usize = 400;
 
-/// Replays between two looks: one on each of the supports that are tried in turn.
+/// Number of replays between two evaluations: one with each support model in turn.
 pub(super) const LOOK: usize = Physics::PLAUSIBLE_SUPPORTS.len() + 1;
 
-/// Most replays in each engine: a share that is still not clear then is taken as it is.
+/// Maximum number of replays in each engine. A share that is then still undecided is taken as
+/// observed.
 pub(super) const MOST: usize = 64;
 
-/// Whether at least the share `wanted` of the disturbed replays reaches the goal, where those that an
-/// engine has made so far make it clear.
+/// Returns whether at least the share `wanted` of the perturbed replays reaches the goal. Returns
+/// `None` while the replays of one engine do not decide it.
 pub(super) fn answer(replays: &[Evidence], wanted: f64) -> Option<bool> {
     let reached: Vec<bool> = replays.iter().map(|one| one.outcome.reached).collect();
     let count = reached.iter().filter(|reached| **reached).count();
-    // What has never worked so far on one of the supports is no clear yes.
+    // A support model without a success so far prevents a positive answer.
     let doubtful = (0..LOOK).any(|first| {
         let mut draws = reached.iter().skip(first).step_by(LOOK).peekable();
         draws.peek().is_some() && draws.all(|reached| !reached)
@@ -48,7 +51,8 @@ pub(super) fn answer(replays: &[Evidence], wanted: f64) -> Option<bool> {
     }
 }
 
-/// The probability that a share is below `wanted` after `reached` of `replays`.
+/// Returns the probability that the share is below `wanted`, given `reached` successes in
+/// `replays`.
 fn below(wanted: f64, reached: usize, replays: usize) -> f64 {
     let (mut below, mut all) = (0.0, 0.0);
     for step in 0..STEPS {
@@ -76,15 +80,15 @@ mod tests {
         };
         assert!(clear(8, 8) && clear(0, 4) && clear(15, 30) && clear(62, 64));
         assert!(!clear(4, 4) && !clear(6, 8) && !clear(48, 64));
-        // All of them, or none: what is asked for is met or not whatever is seen.
+        // A required share of 0 is always met, and a share of 1 is always missed.
         assert_eq!(below(0.0, 0, 4), 0.0);
         assert!(below(1.0, 64, 64) > 0.9);
     }
 
     #[test]
     fn clear_answers_are_wrong_as_seldom_as_stated() {
-        // Shares from the prior, replays from the shares: a stream of numbers that fills the unit
-        // interval evenly.
+        // Shares are drawn from the prior and replays from the shares, with a uniform random
+        // stream.
         let mut seed = 1u64;
         let mut uniform = || {
             seed = seed

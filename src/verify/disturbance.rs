@@ -1,5 +1,5 @@
-//! Small differences between the world and the task as written: errors of a camera and a data
-//! sheet.
+//! Perturbations: small differences between the world and the task, such as errors of a camera or a
+//! data sheet.
 
 use std::sync::Arc;
 
@@ -15,21 +15,21 @@ use crate::{
 /// Largest shift of an object at the start along each axis, metres.
 const SHIFT: f64 = 1e-3;
 
-/// Largest turn of an object at the start, radians (one degree).
+/// Largest rotation of an object at the start, radians (one degree).
 const TURN: f64 = std::f64::consts::PI / 180.0;
 
 /// Largest relative change of every friction value.
 const FRICTION: f64 = 0.1;
 
-/// How well it is known where the table ends, metres: of objects pushed to 1 and 3 mm from there all
-/// fell in MuJoCo, to 5 mm none.
+/// Uncertainty of the table's edge, metres. In MuJoCo, all objects pushed to 1 and 3 mm from the
+/// edge fell, and none at 5 mm.
 const EDGE: f64 = 0.004;
 
-/// How well it is known how high a tool is held, metres.
+/// Uncertainty of the height at which a tool is held, metres.
 const HAIR: f64 = 1e-3;
 
-/// `motions` in turn as they happen under one draw of disturbances, uniform within their ranges; the same
-/// for the same seed and draw.
+/// Returns the jobs of `motions` in order under one draw of perturbations, uniform within their
+/// ranges. The result is deterministic for a seed and a draw.
 pub(super) fn disturbed(
     situation: &Situation,
     motions: &[ToolMotion],
@@ -37,22 +37,22 @@ pub(super) fn disturbed(
     draw: usize,
 ) -> Vec<Job> {
     let mut random = Pcg64::new(u128::from(seed), draw as u128);
-    // A fresh stream's first numbers resemble those of its neighbours.
+    // The first numbers of a new stream resemble those in neighbouring streams.
     let mut random = Pcg64::seed_from_u64(random.random());
     let mut situation = situation.clone();
-    // Moving only one side of a joint would break it.
+    // Moving only one side of a joint would violate it.
     let groups = situation.physics.groups(|_| true);
     for first in 0..groups.len() {
         let mut within = |range: f64| random.random_range(-range..=range);
         let (shift, turn) = (Vector::new(within(SHIFT), within(SHIFT)), within(TURN));
         let group: Vec<usize> = (0..groups.len()).filter(|&k| groups[k] == first).collect();
-        // What is joined to the world stands where its joint lets it.
+        // An object joined to the world stays where its joint holds it.
         if group.iter().all(|&k| situation.scene.mount(k).is_none()) {
             disturb(&mut situation.start.poses, &group, first, shift, turn);
         }
     }
     let physics = Arc::make_mut(&mut situation.physics);
-    // Of all tools alike.
+    // Friction factor common to all tools.
     let mut tools = 1.0;
     let own = physics.frictions.iter_mut();
     let pairs = physics.pairs.iter_mut().map(|pair| &mut pair.coefficient);
@@ -68,8 +68,8 @@ pub(super) fn disturbed(
     motions.iter().map(job).collect()
 }
 
-/// Shifts a group and turns it about its object `first`, but only as far as moves none of its
-/// objects by more than [`SHIFT`].
+/// Shifts a group and rotates it about its object `first`, limited so that no object moves by more
+/// than [`SHIFT`] through the rotation.
 fn disturb(poses: &mut [Pose], group: &[usize], first: usize, shift: Vector, turn: f64) {
     let about = poses[first].position;
     let reach = group.iter().map(|&k| (poses[k].position - about).norm()).fold(0.0, f64::max);
@@ -81,8 +81,8 @@ fn disturb(poses: &mut [Pose], group: &[usize], first: usize, shift: Vector, tur
     }
 }
 
-/// The scene as disturbed replays have it: what comes as near to where the table ends as that is known
-/// falls, unless something is to.
+/// Returns the scene of perturbed replays: an object within the edge's uncertainty falls, unless a
+/// goal requires a fall.
 pub(super) fn wary(task: &Task, scene: &Scene) -> Scene {
     let mut scene = scene.clone();
     let falls = task.goals.iter().any(Goal::falls);
@@ -92,14 +92,14 @@ pub(super) fn wary(task: &Task, scene: &Scene) -> Scene {
     scene
 }
 
-/// The motion with a tool that is held a little higher, where that decides what it meets.
+/// Returns the motion with the tool held slightly higher, if that changes which objects it meets.
 pub(super) fn lifted(scene: &Scene, motion: ToolMotion) -> ToolMotion {
     let more = if misses_by_a_hair(scene, &motion) { HAIR } else { 0.0 };
     ToolMotion { lift: motion.lift + more, ..motion }
 }
 
-/// Whether a tool that is held a little higher passes over an object that it meets as planned, or meets
-/// one that it passes below.
+/// Returns `true` if a tool held slightly higher passes over an object that it meets as planned, or
+/// meets one that it passes below.
 fn misses_by_a_hair(scene: &Scene, motion: &ToolMotion) -> bool {
     let heights = || motion.tool.parts().iter().map(|part| part.shape.height());
     let meets = |object: &Object, height: f64, more: f64| {

@@ -1,8 +1,8 @@
-//! Replays plans in the simulator, as written and disturbed, and gives a verdict with evidence.
+//! Replays of plans in the simulator, nominal and perturbed, and verdicts with evidence.
 //!
-//! A plan passes when it breaks no rule of its task, its replays as written reach the goal at rest
-//! in both engines, and so does a wanted share of those with small errors. What leaves the plane is
-//! replayed in 3-D alone. Knows nothing of how plans are found.
+//! A plan passes if it violates no rule of its task and its nominal replays reach the goal at rest
+//! in both engines. The required share of perturbed replays must also reach it. Steps that leave
+//! the plane are replayed in 3-D only. This module is independent of how plans are found.
 
 mod arm;
 mod clear;

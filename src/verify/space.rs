@@ -1,4 +1,5 @@
-//! Small differences between the world and the task as written, for plans that are replayed in space.
+//! Perturbations of plans that are replayed in 3-D: small differences between the world and the
+//! task.
 
 use std::sync::Arc;
 
@@ -9,17 +10,18 @@ use crate::geometry::Vector;
 use crate::scene::{Situation, Tool};
 use crate::task::Motion;
 
-/// Largest shift of everything that is seen against where the blade goes, along each axis, metres.
+/// Largest shift of the observed scene relative to the blade along each axis, metres.
 const SHIFT: f64 = 0.5e-3;
 
-/// Largest turn of it, about the object, radians (one degree).
+/// Largest rotation of the scene about the object, radians (one degree).
 const TURN: f64 = std::f64::consts::PI / 180.0;
 
 /// Largest relative change of every friction value.
 const FRICTION: f64 = 0.1;
 
-/// The situation as it really is: all of it a little aside of where it was seen, rubbing a little
-/// otherwise, as do the blades of the motions. What lies in a pocket lies aside with its pocket.
+/// Returns the perturbed situation: the whole scene is slightly displaced from its observed pose
+/// and all frictions differ slightly, also for the blades of `motions`. Objects in pockets move
+/// together with their pockets.
 pub(super) fn disturbed(
     situation: &Situation,
     motions: &mut [Motion],
@@ -27,7 +29,7 @@ pub(super) fn disturbed(
     (seed, draw): (u64, usize),
 ) -> Situation {
     let mut random = Pcg64::new(u128::from(seed), draw as u128);
-    // A fresh stream's first numbers resemble those of its neighbours.
+    // The first numbers of a new stream resemble those in neighbouring streams.
     let mut random = Pcg64::seed_from_u64(random.random());
     let mut within = |range: f64| random.random_range(-range..=range);
     let (shift, turn) = (Vector::new(within(SHIFT), within(SHIFT)), within(TURN));
@@ -46,7 +48,7 @@ pub(super) fn disturbed(
     }
     scene.obstacles.iter_mut().for_each(|obstacle| rub(&mut obstacle.friction));
     rub(&mut physics.table_friction);
-    // Of all blades alike.
+    // Friction factor common to all blades.
     let mut blades = 1.0;
     rub(&mut blades);
     for motion in motions.iter_mut().filter(|motion| motion.is_lever()) {

@@ -1,4 +1,4 @@
-//! The verifier: plan in, verdict out.
+//! Verifier of plans.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -20,43 +20,46 @@ use super::disturbance::{disturbed, lifted, wary};
 use super::rules::{broken_rules, unplayable};
 use super::space;
 
-/// Processor time of a time step for each object, seconds: with one object 1 and 6 us were measured,
-/// with nine 0.5 and 5.
+/// Processor time of a 2-D time step for each object, seconds: 1 us measured with one object and
+/// 0.5 with nine.
 const PLANAR_STEP: f64 = 1e-6;
+
+/// Processor time of a 3-D time step for each object, seconds: 6 us measured with one object and 5
+/// with nine.
 const SPATIAL_STEP: f64 = 6e-6;
 
-/// What an ordinary arm keeps up, newtons: those that stand beside people have 50 to 150.
+/// Sustained force of an ordinary arm, newtons. Arms that work beside people have 50 to 150 N.
 const ORDINARY_ARM: f64 = 150.0;
 
-/// How thoroughly to verify.
+/// Settings of the verification.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct VerifySettings {
-    /// Disturbed replays in each engine, the fewest after which the answer may be clear; none in 3-D of
-    /// plans that clearly fail in the planar engine.
+    /// Minimum number of perturbed replays in each engine before a decision. Plans that clearly
+    /// fail in 2-D have no perturbed replays in 3-D.
     pub disturbed: usize,
-    /// Seed of the disturbances.
+    /// Seed of the perturbations.
     pub seed: u64,
 }
 
-/// Replays plans in both engines.
+/// Verifier that replays plans in both engines.
 #[derive(Clone)]
 pub struct Verifier<'a> {
     settings: VerifySettings,
     planar: Simulator,
     spatial: Simulator,
     watch: &'a dyn Watch,
-    /// Whether replays are added until the answer is clear.
+    /// Whether replays are added until the verdict is clear.
     until_clear: bool,
-    /// Whether none are added to those of a plan that has not worked on one of the supports.
+    /// Whether replays end once a plan has never worked with one of the support models.
     giving_up: bool,
-    /// Whether disturbed replays are those of the planar engine alone.
+    /// Whether perturbed replays are made in 2-D only.
     in_plane: bool,
-    /// How an arm carries the plan out, if that was made with it.
+    /// Joint trajectory stated with the plan, if any.
     joints: Option<&'a JointTrajectory>,
 }
 
 impl<'a> Verifier<'a> {
-    /// A verifier on the engines at their default steps.
+    /// Creates a verifier with the engines at their default time steps.
     pub fn new(settings: VerifySettings) -> Self {
         let [planar, spatial] =
             [Simulator::planar(), Simulator::spatial()].map(Simulator::retreating);
@@ -73,39 +76,40 @@ impl<'a> Verifier<'a> {
         }
     }
 
-    /// The same, which `watch` can stop. Replays that are not over then say so, and the plan does
-    /// not pass.
+    /// Sets a watch that can stop the replays. Stopped replays carry [`Warning::Stopped`], and the
+    /// plan does not pass.
     pub fn watched(self, watch: &'a dyn Watch) -> Self {
         Self { watch, ..self }
     }
 
-    /// The same, which goes on with disturbed pushes until it is clear whether the wanted share of them
-    /// reaches the goal, or 64 have been replayed in each engine; one clear answer in a hundred is wrong
-    /// on average, see `clear`.
+    /// Adds perturbed replays until the sequential test decides whether the required share reaches
+    /// the goal, or until each engine has made 64. One decision in a hundred is wrong on average,
+    /// see `clear`.
     pub fn until_clear(self) -> Self {
         Self { until_clear: true, ..self }
     }
 
-    /// The same, which makes no more replays where those of an engine on one support, four at least, all
-    /// fail: reason enough to look for another plan, not for a verdict, as one in 64 may still work.
+    /// Ends the replays if all replays of one engine with one support model, at least four, fail.
+    /// This suffices for trying another plan but not for a verdict, because one in 64 such plans
+    /// may still work.
     pub fn giving_up(self) -> Self {
         Self { giving_up: true, ..self }
     }
 
-    /// The same, whose disturbed replays are those of the planar engine alone: a plan works no more often
-    /// than it works there.
+    /// Limits perturbed replays to the 2-D engine. The resulting share is an upper bound, because a
+    /// plan cannot succeed more often than it does there.
     pub fn in_plane(self) -> Self {
         Self { in_plane: true, ..self }
     }
 
-    /// The same of plans that came with this motion of an arm's joints: it is judged rather than another
-    /// one made.
+    /// Sets the joint trajectory stated with the plan, which is then judged in place of a computed
+    /// one.
     pub fn moving(self, joints: Option<&'a JointTrajectory>) -> Self {
         Self { joints, ..self }
     }
 
-    /// About how long verifying a plan takes on one core, seconds: right to within a factor of
-    /// three unless everything is pushed into everything.
+    /// Estimates the processor time of verifying a plan on one core, seconds. The estimate is right
+    /// to within a factor of three unless all objects are pushed into each other.
     pub fn seconds(&self, scene: &Scene, plan: &Plan) -> f64 {
         let pushing = plan.push_steps().map(|step| step.push.duration());
         let levering = plan.lever_steps().map(|step| step.lever.duration());
@@ -115,10 +119,10 @@ impl<'a> Verifier<'a> {
         replay * scene.objects.len() as f64 * (self.settings.disturbed + 1) as f64
     }
 
-    /// Nominal replays in both engines, or in 3-D of what leaves the plane; enough to tell whether a
-    /// plan works as written.
+    /// Makes the nominal replays in both engines, or only in 3-D for plans that leave the plane.
+    /// They show whether a plan works as written.
     ///
-    /// `tools` are those that the plan names.
+    /// `tools` holds the tools that the plan names.
     pub fn nominal(
         &self,
         task: &Task,
@@ -141,7 +145,7 @@ impl<'a> Verifier<'a> {
             .into_par_iter()
             .map(|engine| self.replay(engine, task, scene, &jobs, Disturbance::Nominal))
             .collect();
-        // The planar engine is the one that people compare predictions with: it comes first.
+        // The 2-D engine comes first, because people compare predictions with it.
         evidence.reverse();
         if let Some(first) = motions.first() {
             let asked = (task, situation);
@@ -150,8 +154,8 @@ impl<'a> Verifier<'a> {
         Verdict::judge(forbidden, evidence, task.robustness)
     }
 
-    /// The verdict of [`Verifier::nominal`] together with the disturbed replays; those that it holds
-    /// already are not made again.
+    /// Adds the perturbed replays to a verdict of [`Verifier::nominal`]. Replays that the verdict
+    /// already holds are not repeated.
     pub fn disturb(
         &self,
         task: &Task,
@@ -189,7 +193,7 @@ impl<'a> Verifier<'a> {
         let (mut planar, mut spatial): (Vec<Evidence>, Vec<Evidence>) =
             replays.into_iter().partition(|one| one.engine == Engine::Planar);
         let asked = (task, situation, &scene, &motions[..]);
-        // The planar engine comes first. If it says no, there is no need for the slower one.
+        // The 2-D engine comes first. If the plan fails there, the slower engine is skipped.
         self.add_disturbed(&self.planar, asked, &mut planar);
         let refused =
             never(&planar, task) || clear::answer(&planar, task.robustness) == Some(false);
@@ -200,7 +204,7 @@ impl<'a> Verifier<'a> {
         Verdict::judge(forbidden, evidence, task.robustness)
     }
 
-    /// Adds disturbed replays to those that an engine has made, until they are enough.
+    /// Adds perturbed replays in one engine until they suffice.
     fn add_disturbed(
         &self,
         engine: &Simulator,
@@ -227,7 +231,7 @@ impl<'a> Verifier<'a> {
         }
     }
 
-    /// These disturbed replays in an engine.
+    /// Makes the perturbed replays of these draws in an engine.
     fn disturbed(
         &self,
         engine: &Simulator,
@@ -247,7 +251,7 @@ impl<'a> Verifier<'a> {
             .collect()
     }
 
-    /// All replays of a plan: nominal, then disturbed.
+    /// Makes all replays of a plan: nominal, then perturbed.
     pub fn verify(
         &self,
         task: &Task,
@@ -259,7 +263,7 @@ impl<'a> Verifier<'a> {
         self.disturb(task, situation, tools, plan, nominal)
     }
 
-    /// Plays a plan that can be played in space, as written or as this draw disturbs it.
+    /// Replays a plan in 3-D, as written or perturbed by this draw.
     fn replay_in_space(
         &self,
         task: &Task,
@@ -279,7 +283,7 @@ impl<'a> Verifier<'a> {
         let record = if draw.is_none() { Record::Frames } else { Record::Outcome };
         let watched = (record, self.watch);
         let trajectory = LeverSimulator::default().run_all(really, scene, &motions, watched);
-        // What must be left has been moved as well.
+        // The obstacles have been displaced as well.
         let scene = Scene { obstacles: really.scene.obstacles.clone(), ..scene.clone() };
         let disturbance = match draw {
             None => Disturbance::Nominal,
@@ -288,7 +292,7 @@ impl<'a> Verifier<'a> {
         evidence(&self.spatial, task, &scene, trajectory, disturbance)
     }
 
-    /// Plays jobs in turn; one without pushes leaves everything where it is.
+    /// Replays jobs in order; a job without pushes leaves everything in place.
     fn replay(
         &self,
         engine: &Simulator,
@@ -304,17 +308,17 @@ impl<'a> Verifier<'a> {
     }
 }
 
-/// Whether a plan is fragile by a support on which it works in none of these replays.
+/// Returns `true` if a plan is fragile, because it fails in all replays with one support model.
 fn never(replays: &[Evidence], task: &Task) -> bool {
     task.robustness > 0.0 && never_on(replays.iter()).is_some()
 }
 
-/// Whether a plan is replayed in space.
+/// Returns `true` if a plan is replayed in 3-D only.
 fn in_space(task: &Task, plan: &Plan) -> bool {
     task.in_space() || plan.levers()
 }
 
-/// What a replay shows.
+/// Returns the evidence of a replay.
 fn evidence(
     engine: &Simulator,
     task: &Task,
@@ -335,7 +339,7 @@ fn evidence(
         trajectory.warnings.push(Warning::HardPush { needed: force.lasting });
     }
     trajectory.warnings.extend(scene.not_kept(trajectory.outcome()));
-    // What is to fall need not be told of.
+    // Falls that a goal requires need no warning.
     let wanted = |name: &str| {
         let goals = task.goals.iter().filter(|goal| goal.falls());
         let mut movers = goals.flat_map(|goal| goal.movers());
@@ -353,8 +357,8 @@ fn evidence(
     }
 }
 
-/// A replay that was stopped before it began: thousands of draws would take a minute to be made for
-/// nothing.
+/// Returns the evidence of a replay that was stopped before its start. Setting up thousands of
+/// draws would otherwise take a minute.
 fn stopped(
     engine: &Simulator,
     task: &Task,

@@ -1,5 +1,5 @@
-//! What is left of a task once some of its steps are made: pushes of what lies on the table by then,
-//! or lever-ups of what still lies on its underside.
+//! Remaining tasks after some steps of a plan: pushes of objects that lie on the table, or
+//! lever-ups of objects that still rest on their undersides.
 
 use crate::geometry::{ConvexPolygon, Pose, Pose3, Vector, Vector3, clearance};
 use crate::{
@@ -10,35 +10,37 @@ use crate::{
     task::{Demand, Ending, Goal, PushRules, Task},
 };
 
-/// A plate whose lowest point is higher above the table lies on something else, metres.
+/// Largest height of a plate's lowest point that counts as lying on the table, metres.
 const ON_TABLE: f64 = 1e-3;
 
-/// What leans by more is not stated as lying on its underside, radians: on feet of 6 mm plates of
-/// the size of a hand lean by 0.002 where one foot stands in the air.
+/// Largest tilt that counts as lying on the underside, radians. A hand-sized plate on 6 mm feet
+/// tilts by 0.002 if one foot is in the air.
 const LEVEL: f64 = 0.01;
 
-/// How far gaps to blocks are looked for, metres.
+/// Distance up to which gaps to obstacles are computed, metres.
 const BESIDE: f64 = 1e-3;
 
-/// Of a long name so many letters are kept, which leaves room for more.
+/// Maximum number of letters kept from a task's name, which leaves room for a suffix.
 const NAME: usize = 56;
 
-/// Points of a plate this near to its lowest one carry it, metres.
+/// Height above a plate's lowest point up to which its points carry it, metres.
 const CARRYING: f64 = 3e-4;
 
 impl Task {
-    /// The task of pushing the goals' objects to their places once all objects lie at `rests` (their
-    /// frames): nothing if the task allows no pushes or asks for nothing in the plane, or if such an object
-    /// does not lie on the table.
+    /// Returns the task of pushing the goals' objects to their places once all objects rest at
+    /// `rests`, which holds their frames. Returns `None` if the task allows no pushes or no further
+    /// tool change, or has no planar goal. Also returns `None` if a goal's object does not lie on
+    /// the table.
     ///
-    /// Objects that stand as they stood are those of the scene, with their joints. Of others that lie on the
-    /// table the outlines are left, on the points that carry them. Those that lie on something else are
-    /// obstacles, and obstacles count as standing on the table.
+    /// Objects that still stand on their undersides keep their shapes and joints. Other objects
+    /// that lie on the table become prisms of their outlines, carried by their lowest points.
+    /// Objects that lie on something else become obstacles, and all obstacles count as standing on
+    /// the table.
     pub fn after(&self, rests: &[Pose3]) -> Option<Task> {
         if self.pushes.max_count == 0 {
             return None;
         }
-        // Between a lever-up and a push the tool is changed.
+        // The tool is changed between a lever-up and a push.
         let tool_changes = match (self.pushes.tool_changes, &self.levers) {
             (Some(allowed), Some(_)) => Some(allowed.checked_sub(1)?),
             (stated, _) => stated,
@@ -63,8 +65,8 @@ impl Task {
         })
     }
 
-    /// The task from where all objects lie at `rests`; nothing if one of several solids does not lie on its
-    /// underside any more, because it is then no object that a scene can state.
+    /// Returns the task with all objects at `rests`. Returns `None` if a compound object no longer
+    /// lies on its underside, because a scene cannot represent it.
     pub fn moved_to(&self, rests: &[Pose3]) -> Option<Task> {
         let seen: Vec<Pose> = rests.iter().map(Pose3::from_above).collect();
         let mut task = Task { scene: carried(&self.scene, &seen), ..self.clone() };
@@ -78,7 +80,7 @@ impl Task {
         Some(task)
     }
 
-    /// Whether an object is beside all obstacles, not over one.
+    /// Returns `true` if the object overlaps no obstacle seen from above.
     fn is_clear(&self, object: &Object) -> bool {
         let own = object.shape.footprint();
         self.scene.obstacles.iter().all(|obstacle| {
@@ -88,7 +90,8 @@ impl Task {
     }
 }
 
-/// Returns the demands of a goal that pushes can satisfy; `None` for one that leaves the plane and names no place.
+/// Returns the demands of a goal that pushes can satisfy. Returns `None` for a goal that leaves the
+/// plane and states no place.
 fn flat(goal: &Goal) -> Option<Goal> {
     let mut flat = goal.clone();
     flat.demands.retain(Demand::is_pose);
@@ -96,13 +99,13 @@ fn flat(goal: &Goal) -> Option<Goal> {
     wanted.then_some(flat)
 }
 
-/// Returns `true` if an object still stands on its underside as it did.
+/// Returns `true` if an object still stands on its underside at its original height.
 fn stands(plate: &Plate, rest: &Pose3) -> bool {
     let sunk = (rest.position.z - plate.z).abs();
     Ending::of(rest) == Ending::Back && rest.tilt() <= LEVEL && sunk <= ON_TABLE
 }
 
-/// The scene with its objects at these poses, and all joints as they are then.
+/// Returns the scene with its objects at these poses and its joints as they are then.
 fn carried(scene: &Scene, seen: &[Pose]) -> Scene {
     let mut now = scene.moved_to(&State::at_rest(scene.with_parts(seen.to_vec())));
     let joints = scene.joints.iter().map(|joint| joint.carried(&scene.objects, &now.objects));
@@ -110,17 +113,17 @@ fn carried(scene: &Scene, seen: &[Pose]) -> Scene {
     now
 }
 
-/// The scene in the plane that some steps leave.
+/// Planar scene left by the steps made so far.
 struct Left {
-    /// The scene with its objects seen from above.
+    /// Scene with its objects at their poses seen from above.
     now: Scene,
-    /// The objects that can be pushed, then the parts of those that are objects of the scene.
+    /// Objects that can be pushed, followed by the parts of unchanged compound objects.
     objects: Vec<Object>,
-    /// The others.
+    /// Objects that cannot be pushed, as obstacles.
     fixed: Vec<Obstacle>,
-    /// For each object of the scene its place among the objects.
+    /// Index among `objects` of each object of the scene.
     places: Vec<Option<usize>>,
-    /// Heading of an object that is an outline in its first pose.
+    /// Heading of each object that became an outline. The outline itself starts with heading zero.
     turned: Vec<Option<f64>>,
 }
 
@@ -163,8 +166,8 @@ impl Left {
         left
     }
 
-    /// The goal of an object that can be pushed; nothing if it relates the object to one that has another
-    /// number here, or asks for an outline that is not that of the scene.
+    /// Returns the goal for an object that can be pushed. Returns `None` if the goal relates the
+    /// object to one with another index here, or depends on an outline that has changed.
     fn goal(&self, mut goal: Goal) -> Option<Goal> {
         let same = |k: usize| self.places[k] == Some(k);
         let others = goal.demands.iter().flat_map(|demand| {
@@ -181,7 +184,7 @@ impl Left {
             if outlined || related {
                 return None;
             }
-            // The outline that is pushed is unturned where it rests.
+            // The pushed outline has heading zero at its rest pose.
             let facing = goal.demands.iter_mut().filter_map(Demand::facing_mut);
             facing.for_each(|facing| facing.heading -= turned);
         }
@@ -221,11 +224,11 @@ impl Left {
     }
 }
 
-/// The plate as an object that is pushed, if it lies on the table.
+/// Returns the plate as an object that can be pushed, if it lies on the table.
 fn lying(plate: &Plate, rest: &Pose3) -> Option<Object> {
     let points = corners(plate, rest);
     let lowest = points.iter().map(|point| point.z).fold(f64::INFINITY, f64::min);
-    // A NaN is not on the table either.
+    // A NaN does not count as on the table.
     let on_table = lowest <= ON_TABLE;
     if !on_table || Ending::of(rest) == Ending::Leaning {
         return None;
@@ -247,7 +250,7 @@ fn lying(plate: &Plate, rest: &Pose3) -> Option<Object> {
     Some(object.mass(plate.mass).friction(plate.friction).at(at.x, at.y, 0.0))
 }
 
-/// The plate as something to keep away from: the cuboid around it, on the world's axes.
+/// Returns the plate as an obstacle: its bounding box aligned with the world's axes.
 fn standing(plate: &Plate, rest: &Pose3) -> Obstacle {
     let points = corners(plate, rest);
     let span = |of: &dyn Fn(&Vector3) -> f64| {
@@ -260,7 +263,7 @@ fn standing(plate: &Plate, rest: &Pose3) -> Obstacle {
     Obstacle::new(&plate.name, [length, width, top], Pose::new(x, y, 0.0)).friction(plate.friction)
 }
 
-/// Corners of all solids of a plate and its feet, in the world, metres.
+/// Returns the corners of all solids of a plate and of its feet, in the world frame, metres.
 fn corners(plate: &Plate, rest: &Pose3) -> Vec<Vector3> {
     let at = |corner: &Vector, z: f64| rest.point(Vector3::new(corner.x, corner.y, z));
     let mut points: Vec<Vector3> = Vec::new();

@@ -4,15 +4,15 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// What lowers the trust in a lever-up.
+/// Event that lowers the trust in a lever-up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LeverWarning {
-    /// The plate slid off the blade during the turn.
+    /// The plate slid off the blade during the rotation.
     Slipped,
-    /// Forces grew as they do when something is jammed.
+    /// Forces grew as in a jam.
     Jammed,
-    /// It did not come to rest in time.
+    /// The plate still moved at the time limit.
     Moving,
 }
 

@@ -1,43 +1,43 @@
-//! Why a lever-up cannot be made.
+//! Faults of lever-ups.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// What a lever-up does that no robot can do or its task does not allow.
+/// Violation by a lever-up of its task's rules or of the robot's abilities.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LeverFault {
     /// A depth, angle, axis or plate that the task does not allow.
     ForbiddenLever {
-        /// Which of them.
+        /// Name of the forbidden quantity.
         what: String,
     },
-    /// A lever point that is nearer to a corner than blades are set.
+    /// The lever point is closer to a corner than blades may be placed.
     NearCorner,
-    /// The blade is thicker than the free height below the edge.
+    /// The blade is thicker than the clearance below the edge.
     TooThick,
-    /// The tip would come out at the other side of the plate, or has no room beneath it.
+    /// The tip would come out on the far side of the plate, or has no room beneath it.
     TooDeep,
-    /// The blade would go through something fixed.
+    /// The blade would pass through a fixed body.
     Meets {
-        /// The name of what it meets.
+        /// Name of the body that the blade meets.
         body: String,
     },
-    /// The fingers that hold the shaft behind the blade would go through something fixed.
+    /// The fingers that hold the shaft behind the blade would pass through a fixed body.
     HandMeets {
-        /// The name of what they meet.
+        /// Name of the body that the fingers meet.
         body: String,
     },
-    /// The shaft would go through the table.
+    /// The shaft would pass through the table.
     BelowTable,
-    /// The end effector cannot be everywhere where it would have to be.
+    /// The end effector would leave its reach.
     OutOfReach,
     /// The tool has no blade.
     NoBlade,
-    /// There is no support line that the axis could lie on.
+    /// No support line exists for the axis of rotation.
     NoSupport,
-    /// It takes longer than [`LeverUp::LONGEST`](crate::task::LeverUp::LONGEST).
+    /// The lever-up takes longer than [`LeverUp::LONGEST`](crate::task::LeverUp::LONGEST).
     TooLong,
 }
 

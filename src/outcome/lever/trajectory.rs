@@ -1,4 +1,4 @@
-//! How a plate moved when it was levered.
+//! Trajectory of a levered plate.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,39 +7,40 @@ use crate::geometry::Pose3;
 use super::LeverWarning;
 use crate::task::Ending;
 
-/// Frames of a turn, at even times, the last one at its end.
+/// Number of frames of a levering rotation, evenly spaced in time, the last one at its end.
 pub const LEVER_FRAMES: usize = 15;
 
-/// How the levered plate moved.
+/// Motion of a levered plate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeverTrajectory {
-    /// The plate's frame during the turn: at the end of each of [`LEVER_FRAMES`] equal times.
+    /// Frame of the plate at the end of each of [`LEVER_FRAMES`] equal intervals of the rotation.
     pub lift: Vec<Pose3>,
-    /// Of each of these, whether the plate lay on the blade.
+    /// Whether the plate lay on the blade, for each frame of `lift`.
     pub held: Vec<bool>,
-    /// The plate's frame when everything rests.
+    /// Frame of the plate when everything is at rest.
     pub rest: Pose3,
-    /// How it lies then.
+    /// Side on which the plate lies at rest.
     pub ending: Ending,
-    /// What went wrong on the way.
+    /// Warnings raised during the motion.
     pub warnings: Vec<LeverWarning>,
 }
 
 impl LeverTrajectory {
-    /// Whether the plate slid off the blade.
+    /// Returns `true` if the plate slid off the blade.
     pub fn slipped(&self) -> bool {
         self.warnings.contains(&LeverWarning::Slipped)
     }
 
-    /// Frames before the plate slips off the blade: all if it does not.
+    /// Returns the number of frames before the plate slips off the blade: all if it does not.
     pub fn before_slip(&self) -> usize {
         let held = || self.held.iter().rposition(|held| *held).map_or(0, |frame| frame + 1);
         if self.slipped() { held() } else { self.lift.len() }
     }
 }
 
-/// Whether the plate was off the blade at the end of the turn and had fallen back since it left
-/// it; one that tips over the far side leaves the blade too, and leans on.
+/// Returns `true` if the plate was off the blade at the end of the rotation and has fallen back
+/// since it left the blade. A plate that tips over the far side also leaves the blade, but its tilt
+/// keeps growing.
 pub fn has_slipped(start: &Pose3, lift: &[Pose3], held: &[bool]) -> bool {
     let last_held = held.iter().rposition(|held| *held);
     match last_held {

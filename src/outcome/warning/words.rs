@@ -1,11 +1,11 @@
-//! Warnings in words: what happened, what it means, which option helps.
+//! Texts of warnings: the fact, its consequence and the option that helps.
 
 use std::fmt;
 
 use super::Warning;
 
 impl Warning {
-    /// The fact, without what it means or what helps.
+    /// Returns the fact, without its consequence or the option that helps.
     pub(super) fn fact(&self) -> String {
         match self {
             Warning::OutsideRange { of, quantity, value, low, high } => {
@@ -169,12 +169,12 @@ impl fmt::Display for Warning {
     }
 }
 
-/// `value` with four digits after the point, or with as many as tell it from these bounds.
+/// Formats `value` with four decimals, or with as many as distinguish it from these bounds.
 fn told_apart(value: f64, bounds: [f64; 2]) -> String {
     let same = |text: &str| text.parse().is_ok_and(|shown: f64| bounds.contains(&shown));
     let short = (4..12).map(|digits| format!("{value:.digits$}")).find(|text| !same(text));
     let text = short.unwrap_or_else(|| value.to_string());
-    // As short as the bounds are.
+    // Trailing zeros are removed, as in the bounds.
     match text.contains('.') {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
         false => text,

@@ -1,42 +1,44 @@
-//! The lever-ups that a task's rules allow, on a grid.
+//! Lever-ups that a task's rules allow, on a grid.
 
 use crate::task::{LeverRules, LeverUp, Pivot, Place, Task};
 
-/// Most lever points along the outline.
+/// Maximum number of lever points along the outline.
 const MOST: f64 = 256.0;
 
-/// The axes that are tried where it follows from the plate, in distances of its support line: at
-/// the line itself slips are fewest, a little behind or before it boards come out of pockets that
-/// hold their far edge.
+/// Distances tried for axes derived from the plate, as multiples of the distance of its support
+/// line. Slips are fewest at the line itself. Slightly other distances lift boards out of pockets
+/// that hold their far edge.
 const AUTO: [f64; 3] = [1.0, 0.85, 1.2];
 
-/// Depths and turns that are tried of the ranges that a task allows.
+/// Number of depths tried within the task's range.
 const DEPTHS: usize = 3;
+
+/// Number of angles tried within the task's range.
 const ANGLES: usize = 6;
 
-/// A lever-up and where it stands on the grid.
+/// Lever-up with its cell of the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LeverCandidate {
     /// Index of the tool.
     pub tool: usize,
-    /// Which lever point along the outline, depth, axis and turn.
+    /// Indices of the lever point along the outline, depth, axis and angle.
     pub cell: [usize; 4],
     /// The lever-up.
     pub lever: LeverUp,
 }
 
-/// The lever-ups of one tool in a task.
+/// Grid of the lever-ups of one tool in a task.
 pub struct LeverGrid<'a> {
     /// The task.
     pub task: &'a Task,
     /// Index of the tool.
     pub tool: usize,
-    /// How far apart lever points are, metres.
+    /// Distance between lever points, metres.
     pub apart: f64,
 }
 
 impl LeverGrid<'_> {
-    /// All of them, in order. Where no axis follows from the plate, it is no number.
+    /// Returns all lever-ups in order. The pivot is NaN if no axis follows from the plate.
     pub fn candidates(&self) -> Vec<LeverCandidate> {
         let (plate, rules) = (self.task.plate(), self.task.lever_rules());
         let depths = spread(rules.depth, DEPTHS);
@@ -75,7 +77,8 @@ impl LeverGrid<'_> {
         found
     }
 
-    /// Lever points along the outline, not too near to its corners and even on each edge.
+    /// Returns lever points along the outline, away from its corners and evenly spaced on each
+    /// edge.
     fn places(&self) -> Vec<Place> {
         let plate = self.task.plate();
         let corners = plate.corners();
@@ -101,7 +104,8 @@ impl LeverGrid<'_> {
     }
 }
 
-/// So many numbers from the smallest to the largest; one if both are the same.
+/// Returns `count` evenly spaced numbers from the lowest to the highest, or a single number if both
+/// are equal.
 fn spread([low, high]: [f64; 2], count: usize) -> Vec<f64> {
     if high - low < 1e-12 {
         return vec![low];

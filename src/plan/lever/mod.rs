@@ -1,8 +1,8 @@
 //! Candidates of lever-ups, and their parallel search.
 //!
-//! Every place of the outline, depth, axis and turn that the rules of a task allow is looked at;
-//! what no robot can do is refused with a reason, the rest is predicted by a model and ranked.
-//! Nothing is simulated and nothing is verified here.
+//! Lever-ups are enumerated over every lever point, depth, axis and angle that a task's rules
+//! allow. Infeasible ones are rejected with a reason; the rest are predicted by a model and ranked.
+//! This module neither simulates nor verifies.
 
 mod candidate;
 mod room;

@@ -1,4 +1,4 @@
-//! What a blade can reach and where it has room.
+//! Reach of a blade and the room around a plate.
 
 use std::f64::consts::PI;
 
@@ -9,32 +9,32 @@ use crate::{
     task::{LeverRules, LeverUp, Task},
 };
 
-/// The blade may sink so deep into what is fixed, metres: it slides along floors.
+/// Depth to which the blade may penetrate fixed bodies, metres, because it slides along floors.
 const SLACK: f64 = 1e-4;
 
-/// The blade's farthest point moves so far between two looks at it, metres.
+/// Maximum motion of the blade's farthest point between two checks, metres.
 const LOOK: f64 = 0.006;
 
-/// Of the way below the plate, a tip goes so far at most: behind it there must be something to
-/// lift.
+/// Maximum depth of the tip as a share of the distance below the plate: beyond the tip, part of the
+/// plate must remain to lift.
 const DEEPEST: f64 = 0.8;
 
-/// What stands around a plate that is to be levered.
+/// Surroundings of a plate that is levered.
 pub struct LeverRoom<'a> {
     task: &'a Task,
     plate: Plate,
     blade: Blade,
-    /// What the blade must not meet, with names.
+    /// Solids that the blade must not meet, with names.
     bodies: Vec<(String, Solid)>,
-    /// Solids that the hand alone must not meet.
+    /// Solids that only the hand must not meet, with names.
     beside: Vec<(String, Solid)>,
-    /// Above this nothing can be met, metres.
+    /// Height above which there is no body, metres.
     top: f64,
 }
 
 impl<'a> LeverRoom<'a> {
-    /// The room around the object that a task levers, for the blade of a tool; one without has an empty
-    /// one.
+    /// Creates the room around the object that a task levers, for the blade of a tool. A tool
+    /// without a blade has an empty one.
     pub fn new(task: &'a Task, tool: &Tool) -> Self {
         let scene = &task.scene;
         let blocks = scene
@@ -62,7 +62,7 @@ impl<'a> LeverRoom<'a> {
         Self { task, plate, blade, bodies, beside: hand.iter().map(column).collect(), top }
     }
 
-    /// Why a lever-up cannot be made; `None` if it can.
+    /// Returns the reason why a lever-up cannot be made; `None` if it can.
     pub fn fault(&self, lever: &LeverUp) -> Option<LeverFault> {
         let plate = &self.plate;
         let corners = plate.corners();
@@ -79,7 +79,7 @@ impl<'a> LeverRoom<'a> {
         {
             return Some(LeverFault::TooDeep);
         }
-        // An axis over the blade would press its tip down.
+        // An axis above the blade would press its tip down.
         let over = (0.0..lever.depth + 1e-3).contains(&lever.pivot);
         if over || ![lever.pivot, lever.angle, lever.depth].iter().all(|v| v.is_finite()) {
             return Some(LeverFault::NoSupport);
@@ -90,20 +90,20 @@ impl<'a> LeverRoom<'a> {
         self.way(lever)
     }
 
-    /// How far it is below the plate from a point of an edge straight inward, metres.
+    /// Returns the distance below the plate from a point of an edge straight inward, metres.
     fn way_below(&self, corners: &[Vector], from: Vector, side: Vector) -> f64 {
         let inward = perpendicular(side).normalize();
         let sides = (0..corners.len()).map(|k| {
             let (a, b) = (corners[k], corners[(k + 1) % corners.len()]);
             let along = b - a;
             let towards = cross(along, inward);
-            // Only sides that the way leaves by.
+            // Only sides through which the path leaves count.
             if towards < -1e-9 * along.norm() { cross(along, a - from) / towards } else { f64::MAX }
         });
         sides.fold(f64::MAX, f64::min)
     }
 
-    /// What is wrong on the way in, during the turn or on the way back.
+    /// Returns the first fault during the approach, the rotation or the retreat.
     fn way(&self, lever: &LeverUp) -> Option<LeverFault> {
         let blade = &self.blade;
         let at = |time: f64| lever.blade_on(&self.plate, blade, time);
@@ -121,7 +121,7 @@ impl<'a> LeverRoom<'a> {
         {
             return Some(LeverFault::OutOfReach);
         }
-        // What the blade sweeps when it moves along its shaft is a longer blade.
+        // The volume swept along the shaft is a longer blade.
         let swept = |pose: &Pose3| {
             let size = [blade.length + lever.retreat, blade.width, blade.thickness];
             Solid::cuboid(size, &shaft(pose, 0.5 * lever.retreat))
@@ -142,7 +142,7 @@ impl<'a> LeverRoom<'a> {
             }
             let size = [blade.length, blade.width, blade.thickness];
             let solid = Solid::cuboid(size, &pose);
-            // An arc in front rises all the way up to a quarter turn.
+            // An arc in front of the blade rises up to a quarter rotation.
             let rises = lever.pivot > 0.0 && lever.angle <= 0.5 * PI;
             if rises && solid.lowest() > self.top {
                 break;
@@ -154,7 +154,7 @@ impl<'a> LeverRoom<'a> {
         None
     }
 
-    /// What the fingers meet that hold the blade at `pose`.
+    /// Returns a fault if the fingers that hold the blade at `pose` meet a body.
     fn held(&self, pose: &Pose3) -> Option<LeverFault> {
         self.task.robot.hand?;
         let fingers = self.blade.fingers(pose);

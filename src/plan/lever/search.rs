@@ -1,4 +1,4 @@
-//! The search: every candidate with room is predicted, and ranked with its neighbours.
+//! Search for lever-ups: every candidate with room is predicted and ranked with its neighbours.
 
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
@@ -14,66 +14,71 @@ use crate::{
 
 use super::{LeverCandidate, LeverGrid, LeverRoom};
 
-/// Jobs that are predicted together, in parallel; between batches the search can be stopped.
+/// Number of jobs predicted together, in parallel. Between batches the search can be stopped.
 const BATCH: usize = 256;
 
-/// How far apart lever points are along the outline, metres: less where that leaves fewer than so
-/// many lever-ups that can be made, as in a notch that is little wider than the blade.
+/// Distances between lever points along the outline, metres. A smaller one is used if fewer than
+/// [`ENOUGH`] lever-ups are feasible, as in a notch slightly wider than the blade.
 const APART: [f64; 3] = [0.010, 0.005, 0.0025];
+
+/// Number of feasible lever-ups that suffices for a search.
 const ENOUGH: usize = 300;
 
-/// Tilts at the end of the turn between which plates fall either way, degrees. Measured on
-/// thousands of plates: below 75 two of a hundred turn over, above 85 all but two.
+/// Tilts at the end of the rotation between which plates fall to either side, degrees. In thousands
+/// of measurements, two in a hundred turn over below 75, and all but two above 85.
 const UNDECIDED_DEG: [f64; 2] = [70.0, 90.0];
 
-/// What it costs a candidate to end in the middle of them, to slip, and to have no neighbour that
-/// reaches the goal, in units of the score.
+/// Penalty for a final tilt in the middle of [`UNDECIDED_DEG`], in units of the score.
 const UNDECIDED: f64 = 1.0;
+
+/// Penalty for a slip, in units of the score.
 const SLIPPED: f64 = 0.5;
+
+/// Penalty for a candidate without a neighbour that reaches the goal, in units of the score.
 const ALONE: f64 = 1.0;
 
-/// What it costs to end against something, where the goal leaves that open: a little push would
-/// change it.
+/// Penalty for a plate that leans against something, in units of the score, because a small push
+/// would change its pose.
 const LEANING: f64 = 0.3;
 
-/// A candidate with what is predicted of it.
+/// Candidate with its prediction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScoredLever {
     /// The candidate.
     pub candidate: LeverCandidate,
-    /// What comes of it.
+    /// Predicted outcome.
     pub outcome: Outcome,
-    /// By what it is ranked, the smaller the better.
+    /// Ranking cost, lower is better.
     pub merit: f64,
-    /// Share of its neighbours on the grid that reach the goal.
+    /// Share of the neighbours on the grid that reach the goal.
     pub company: f64,
 }
 
-/// What a search looked at.
+/// Statistics of a search.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LeverSearchStatistics {
-    /// Candidates on the grid.
+    /// Number of candidates on the grid.
     pub considered: usize,
-    /// How many of them cannot be made, by why.
+    /// Number of infeasible candidates, by reason.
     pub refused: BTreeMap<String, usize>,
-    /// Candidates that were predicted.
+    /// Number of predicted candidates.
     pub rollouts: usize,
-    /// How many of those reach the goal by prediction.
+    /// Number of candidates predicted to reach the goal.
     pub promising: usize,
 }
 
-/// A search for lever-ups of one task.
+/// Search for lever-ups of one task.
 pub struct LeverSearch<'a> {
     /// The task.
     pub task: &'a Task,
-    /// Its scene as it is believed.
+    /// Believed situation of the task's scene.
     pub situation: &'a Situation,
-    /// The tools with blades.
+    /// Tools with blades.
     pub tools: &'a [Arc<Tool>],
 }
 
 impl LeverSearch<'_> {
-    /// The candidates that can be made, with lever points so far `apart`, metres.
+    /// Returns the feasible candidates for lever points at the distance `apart`, metres.
     fn feasible(&self, apart: f64) -> (LeverSearchStatistics, Vec<LeverCandidate>) {
         let mut statistics = LeverSearchStatistics::default();
         let mut candidates = Vec::new();
@@ -93,15 +98,15 @@ impl LeverSearch<'_> {
         (statistics, candidates)
     }
 
-    /// What a candidate does.
+    /// Returns the job of a candidate.
     pub fn job(&self, candidate: &LeverCandidate) -> Job {
         let tool = Arc::clone(&self.tools[candidate.tool]);
         let motion = Motion::Lever(LeverMotion::new(tool, candidate.lever, None));
         Job::new(self.situation, motion)
     }
 
-    /// All candidates that can be made, the best first; `predict` tells what comes of jobs, and
-    /// `cancelled` whether to make do with those that were predicted by now.
+    /// Returns all feasible candidates, best first. `predict` rolls out jobs. If `cancelled`
+    /// returns `true`, the candidates predicted so far are returned.
     pub fn run(
         &self,
         predict: &dyn Fn(&[Job]) -> Vec<Trajectory>,
@@ -139,14 +144,14 @@ impl LeverSearch<'_> {
                 ScoredLever { candidate, outcome, merit, company }
             })
             .collect();
-        // Stable, so that the order of the grid decides between equals.
+        // The sort is stable, so that ties keep the order of the grid.
         scored.sort_by(|a, b| a.merit.total_cmp(&b.merit));
         (scored, statistics)
     }
 }
 
-/// By what a lever-up is ranked, its neighbours aside: the score, more where the plate slips, leans,
-/// jams or is left undecided.
+/// Returns the ranking cost of a lever-up without regard to its neighbours: the score, with
+/// penalties if the plate slips, leans, jams or ends between two sides.
 pub fn merit(goal: &Goal, outcome: &Outcome, trajectory: &Trajectory) -> f64 {
     let tilt = trajectory.lifts.last().map_or(0.0, |lift| lift.tilt.to_degrees());
     let (score, ending) = (outcome.score(), outcome.side(goal.object));
@@ -158,13 +163,13 @@ pub fn merit(goal: &Goal, outcome: &Outcome, trajectory: &Trajectory) -> f64 {
     let slipped = if trajectory.warnings.iter().any(slips) { SLIPPED } else { 0.0 };
     let leaning = if ending == Ending::Leaning { LEANING } else { 0.0 };
     let wrong = if outcome.reached || score > 1.0 { 0.0 } else { 2.0 };
-    // Among those that are well within the goal the others decide.
+    // Well within the goal, the penalties decide.
     score.clamp(0.5, 1e6) + undecided + slipped + leaning + wrong
 }
 
-/// Of each candidate the share of its neighbours (one step along the outline, in depth or in turn)
-/// that reach the goal by prediction; those that cannot be made or are beyond the ranges count as
-/// half.
+/// Returns for each candidate the share of its neighbours predicted to reach the goal. Neighbours
+/// are one step away along the outline, in depth or in angle; infeasible ones and ones beyond the
+/// ranges count as half.
 fn company(candidates: &[LeverCandidate], outcomes: &[(Outcome, f64)]) -> Vec<f64> {
     let cells: HashMap<(usize, [usize; 4]), usize> =
         candidates.iter().enumerate().map(|(k, c)| ((c.tool, c.cell), k)).collect();

@@ -1,28 +1,28 @@
-//! Quadratic programmes with numbers that refinement should never produce, but might.
+//! Tests of quadratic programmes with extreme numbers, which refinement should not produce.
 //!
-//! All are of the shape that refinement solves: 1/2 x'Px + q'x within low <= x <= high. The
-//! reference is coordinate descent, which for a convex quadratic over a box converges to the
-//! minimum (Tseng 2001, J. Optim. Theory Appl. 109, 475).
+//! Problems have the form used in refinement: 1/2 x'Px + q'x within low <= x <= high. The reference
+//! is coordinate descent, which for a convex quadratic over a box converges to the minimum (Tseng
+//! 2001, J. Optim. Theory Appl. 109, 475).
 
 use super::{QpProblem, QpSolver, QpStatus};
 
-/// A bound may be missed by this share of its size.
+/// Allowed violation of a bound, relative to its size.
 const VIOLATION: f64 = 1e-6;
 
-/// The objective may be above the reference's by this share of its range.
+/// Allowed excess of the objective over the reference, relative to its range.
 const EXCESS: f64 = 1e-4;
 
-/// Sweeps of the reference.
+/// Number of sweeps of the reference.
 const SWEEPS: usize = 20_000;
 
-/// The expected result of a programme.
+/// Expected result of a programme.
 #[derive(Clone, Copy, Debug)]
 enum Expected {
     /// The minimum.
     Minimum,
-    /// This status, and no answer.
+    /// This status and no solution.
     Status(QpStatus),
-    /// Any status, but no answer that is not finite or breaks a bound.
+    /// Any status, but no solution that is not finite or violates a bound.
     Anything,
 }
 
@@ -34,15 +34,15 @@ struct Programme {
     q: [f64; 2],
     low: f64,
     high: f64,
-    /// Every bound is multiplied by this.
+    /// Factor of the constraints' rows and bounds.
     rows: f64,
 }
 
-/// Minimise (x0 - 1)^2 + (x1 + 2)^2 within plus and minus 1.5.
+/// Programme that minimises (x0 - 1)^2 + (x1 + 2)^2 within plus and minus 1.5.
 const ORDINARY: Programme =
     Programme { p: [[2.0, 0.0], [0.0, 2.0]], q: [-2.0, 4.0], low: -1.5, high: 1.5, rows: 1.0 };
 
-/// Columns of the fitted model multiplied by these.
+/// Returns the programme with the columns of the fitted model multiplied by `by`.
 fn scaled(by: [f64; 2]) -> Programme {
     let mut programme = ORDINARY;
     for i in 0..2 {
@@ -54,7 +54,7 @@ fn scaled(by: [f64; 2]) -> Programme {
     programme
 }
 
-/// Columns [1, 0] and [1, apart] of J, P = 2 J'J.
+/// Returns the programme with the columns [1, 0] and [1, apart] of J, where P = 2 J'J.
 fn parallel(apart: f64) -> Programme {
     let p = [[2.0, 2.0], [2.0, 2.0 + 2.0 * apart * apart]];
     Programme { p, q: [-2.0, -2.0 - 2.0 * apart], ..ORDINARY }
@@ -103,7 +103,7 @@ fn list() -> Vec<(&'static str, Programme, Expected)> {
         ("NaN", pulled([f64::NAN, 4.0]), bad),
         ("an infinite number", pulled([f64::INFINITY, 4.0]), bad),
         ("a number of 1e300", pulled([1e300, 4.0]), bad),
-        // After all that it must still solve an ordinary one.
+        // The solver must still solve an ordinary problem afterwards.
         ("an ordinary one at the end", ORDINARY, Minimum),
     ]
 }
@@ -154,8 +154,8 @@ impl Programme {
         curved + product(&self.q)
     }
 
-    /// By how much the objective can differ within the box, or a thousandth of a step where the
-    /// box is smaller than that: finer answers mean nothing to a push.
+    /// Returns the range of the objective within the box, with a minimum size of a thousandth of a
+    /// step, because smaller differences do not affect a push.
     fn range(&self) -> f64 {
         let reach = self.low.abs().max(self.high.abs()).max(1e-3);
         let curved =
@@ -164,7 +164,7 @@ impl Programme {
         range.max(f64::MIN_POSITIVE)
     }
 
-    /// The objective's minimum over the box.
+    /// Returns the minimum of the objective over the box.
     fn minimum(&self) -> f64 {
         let mut x = [0.0f64; 2];
         for _ in 0..SWEEPS {

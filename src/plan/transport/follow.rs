@@ -1,5 +1,5 @@
-//! Pushes that carry things along legs: for each the best that the search finds and refines from where
-//! the pushes before it leave everything.
+//! Real pushes along the legs of a transport. For each leg, the search and refinement start from
+//! the state left by the previous pushes.
 
 use crate::effect::EffectModel;
 use crate::geometry::Footprint;
@@ -17,46 +17,48 @@ use crate::{
 
 use super::Leg;
 
-/// An object ends a leg this near to where that leads, metres, and turned from how it stood at first by
-/// no more than this, radians: with more it would not pass the next gap.
+/// Tolerance of an object's position at the end of a leg, metres. An object further off would not
+/// pass the next gap.
 const NEAR: f64 = 0.01;
+
+/// Tolerance of an object's heading at the end of a leg relative to the start, radians.
 const TURNED: f64 = 0.1;
 
-/// Where it ends farther off by more than this factor, the legs after it do not begin there.
+/// Score above which a leg is lost, so that the next legs do not start.
 const LOST: f64 = 1.5;
 
-/// What is moved besides the leg's object counts like a miss by as many units, metres.
+/// Motion of other objects that counts as one unit of the score, metres.
 const BESIDE: f64 = 0.02;
 
-/// Length of a push beyond its leg, metres: the tool begins farther away.
+/// Length of a push beyond its leg, metres, because the tool starts farther away.
 const LONGER: f64 = 0.05;
 
-/// Budgets of following legs.
+/// Budgets of the pushes along legs.
 #[derive(Clone, Copy, Debug)]
 pub struct FollowSettings {
-    /// Search for each push.
+    /// Settings of the search for each push.
     pub search: SearchSettings,
-    /// Candidates that are refined for each.
+    /// Number of candidates to refine for each push.
     pub candidates: usize,
-    /// Refinement with the screening model.
+    /// Settings of the refinement with the screening model.
     pub refine: RefineSettings,
-    /// Refinement with the final model, if that is another.
+    /// Settings of the refinement with the final model, if it differs.
     pub decide: RefineSettings,
 }
 
-/// Legs that could be followed.
+/// Legs that pushes could follow.
 #[derive(Clone, Debug)]
 pub struct Followed {
-    /// The pushes.
+    /// Pushes along the legs.
     pub candidate: Candidate,
-    /// Legs that were followed to their ends.
+    /// Number of legs followed to their ends.
     pub legs: usize,
-    /// State then.
+    /// State at the end of these legs.
     pub state: State,
 }
 
-/// Makes pushes of `legs` with a tool and grip yaw, as `models` predict them: the first screens, the
-/// second decides. `used` counts their rollouts.
+/// Finds pushes along `legs` with one tool and grip yaw. The first of `models` screens candidates
+/// and the second decides; `used` counts the rollouts of each.
 pub fn follow(
     workspace: &Workspace,
     situation: &Situation,
@@ -91,7 +93,7 @@ pub fn follow(
         let ends = rollouts.run(&jobs, Record::Outcome);
         used[0] += rollouts.used();
         others = ends.iter().map(|end| end.outcome().clone()).collect();
-        // It knew of one tool alone.
+        // The search had a single tool, at index 0.
         let pushes = best.candidate.pushes.iter().map(|push| CandidatePush { tool, ..*push });
         followed.candidate.pushes.extend(pushes);
         followed.state = best.outcome;
@@ -100,7 +102,7 @@ pub fn follow(
     followed
 }
 
-/// The task of carrying one object to the end of a leg.
+/// Returns the task of carrying one object to the end of a leg.
 fn towards(task: &Task, leg: &Leg, situation: &Situation, grip_yaw: f64) -> Task {
     let object = &task.scene.objects[leg.object];
     let own = task.goals.iter().find(|goal| leg.last && goal.object == leg.object);
@@ -121,7 +123,7 @@ fn towards(task: &Task, leg: &Leg, situation: &Situation, grip_yaw: f64) -> Task
     Task { goals: vec![goal], pushes, ..task.clone() }
 }
 
-/// The best single push for a task from here.
+/// Returns the best single push for a task from the current situation.
 fn push(
     workspace: &Workspace,
     now: &Situation,

@@ -1,4 +1,4 @@
-//! The things that are carried, and how a tool holds on to them.
+//! Groups of solids that one push carries, and the holds of a tool behind them.
 
 use crate::geometry::{Footprint, Grid, Pose, Vector, perpendicular};
 use crate::{
@@ -10,58 +10,60 @@ use super::lattice::{Extent, Solid};
 use crate::plan::workspace::{HAND_CLEARANCE, OBSTACLE_CLEARANCE};
 use crate::plan::{CandidatePush, SET_DOWN_CLEARANCE, Start, Workspace};
 
-/// What a thing keeps clear of whatever stands still, metres: as far as one is off that was pushed twice.
+/// Clearance between a carried object and fixed bodies, metres: the error of an object after two
+/// pushes.
 const APART: f64 = 0.003;
 
-/// Where it has as much room on all sides it has enough, metres.
+/// Clearance that counts as ample, metres.
 pub(super) const ROOMY: f64 = 0.03;
 
-/// Room about everything that matters, metres.
+/// Margin of the grid around all bodies and goals, metres.
 const BORDER: f64 = 0.2;
 
-/// Rounding, metres.
+/// Tolerance for rounding, metres.
 const SLACK: f64 = 1e-6;
 
-/// Offsets that are looked at, in shares of the widest.
+/// Offsets tried, as shares of the largest one.
 const OFFSETS: [f64; 5] = [0.0, 0.35, -0.35, 0.7, -0.7];
 
-/// Holds of one direction.
+/// Maximum number of holds for one direction.
 const HOLDS: usize = 3;
 
-/// Holds nearer together are one, metres.
+/// Distance below which two holds count as one, metres.
 const SAME_HOLD: f64 = 0.015;
 
-/// Room that the tool keeps from a thing where it is set down, beyond what it must, metres.
+/// Additional clearance between the tool and the object where the tool is set down, metres.
 const ROOM: f64 = 0.005;
 
-/// A push that leads past a thing's centre by more than this share of its mean radius beyond the face
-/// turns it over.
+/// Largest distance of an object's centre beyond the edge of the face, relative to its mean radius.
+/// A push farther out rotates the object.
 const BESIDE: f64 = 0.25;
 
-/// A thing that one push carries along.
+/// Group of solids that one push carries along.
 pub(super) struct Group {
     pub thing: usize,
     pub solids: Vec<Solid>,
     pub lattice: Grid,
-    /// Its goal, and the place next to that.
+    /// Goal position and the nearest place of the grid.
     pub goal: Option<(Vector, usize)>,
-    /// For every place the gap to what stands still, at most [`ROOMY`]; negative where it cannot be.
+    /// Gap to fixed bodies for every place, at most [`ROOMY`]; negative if the group cannot be
+    /// there.
     pub clear: Vec<f32>,
 }
 
-/// A tool behind a thing.
+/// Position of a tool behind a group.
 pub(super) struct Hold {
-    /// Radians from world +x.
+    /// Direction of the push, radians from world +x.
     pub direction: f64,
     pub step: [i32; 2],
-    /// Solids that come along.
+    /// Solids of the tool and hand that move along.
     pub solids: Vec<Solid>,
-    /// Whether the tool can be there, for every place of the group.
+    /// Whether the tool can be behind the group, for every place of the group.
     pub free: Vec<bool>,
 }
 
-/// All things that can be carried from `situation`; `None` where a goal asks for more than to be carried
-/// somewhere.
+/// Returns all groups that can be carried from `situation`; `None` if a goal requires more than a
+/// change of position.
 pub(super) fn groups(workspace: &Workspace, situation: &Situation) -> Option<Vec<Group>> {
     let (task, state) = (workspace.task, &situation.start);
     let scene = &*situation.scene;
@@ -123,7 +125,7 @@ pub(super) fn groups(workspace: &Workspace, situation: &Situation) -> Option<Vec
     Some(loose.iter().map(group).collect())
 }
 
-/// The solids of a thing, against where it is.
+/// Returns the solids of an object relative to its position.
 fn solids_of(scene: &Scene, state: &State, thing: usize) -> Vec<Solid> {
     let at = state.poses[thing].position;
     let solid = |k: usize| {
@@ -138,7 +140,8 @@ fn solids_of(scene: &Scene, state: &State, thing: usize) -> Vec<Solid> {
     [thing].into_iter().chain(scene.parts_of(thing)).map(solid).collect()
 }
 
-/// What a thing keeps clear of: obstacles, regions that are not for objects, what cannot be carried.
+/// Returns the clearance of an object at every place from obstacles, keep-out regions for objects
+/// and objects that cannot be carried.
 fn clear(
     scene: &Scene,
     (state, loose): (&State, &[usize]),
@@ -150,7 +153,7 @@ fn clear(
     for solid in solids {
         let mut keep = |footprint: Footprint, pose: Pose, apart: f64| {
             let still = (&footprint, &pose);
-            // What stands nearer already may slide along.
+            // An object that starts nearer may slide along.
             let apart = apart.min(solid.gap(here, still, ROOMY) - SLACK);
             solid.near(lattice, still, ROOMY, |place, gap| {
                 let gap = if gap < apart { -1.0 } else { gap.max(0.0) };
@@ -179,7 +182,7 @@ fn clear(
     clear
 }
 
-/// Returns how a tool with this grip yaw can be behind a group, for every direction.
+/// Returns the holds of a tool with this grip yaw behind a group, for every direction.
 pub(super) fn holds(
     workspace: &Workspace,
     pair: (usize, f64),
@@ -211,7 +214,7 @@ pub(super) fn holds(
                     let ((tool, grip_yaw), length, room) = (pair, 0.0, ROOM);
                     let push =
                         CandidatePush { tool, grip_yaw, object, start, direction, length, room };
-                    // The thing's centre from the middle of the face.
+                    // Lateral offset of the object's centre from the middle of the face.
                     let past = offset + (centre - state.poses[object].position).dot(&left);
                     let Ok(effector) = workspace.place(state, &push, None) else { continue };
                     if past.abs() < half + BESIDE * radius {
@@ -246,7 +249,8 @@ pub(super) fn holds(
     found
 }
 
-/// The tool, and what holds it as low as things are, against the thing behind which it is.
+/// Returns the solids of the tool and of the hand at the height of objects, relative to the pushed
+/// object.
 fn tool_solids(workspace: &Workspace, (tool, yaw): (usize, f64), effector: Vector) -> Vec<Solid> {
     let (task, tool) = (workspace.task, &*workspace.tools[tool]);
     let frame = tool.pose(Pose { position: effector, heading: yaw });
@@ -266,7 +270,7 @@ fn tool_solids(workspace: &Workspace, (tool, yaw): (usize, f64), effector: Vecto
     parts.chain(carried).collect()
 }
 
-/// Returns for every place of a group whether the tool can be there.
+/// Returns whether the tool can be behind the group, for every place of the group.
 fn free(
     workspace: &Workspace,
     situation: &Situation,

@@ -1,45 +1,45 @@
-//! Solids that move along with a thing, and the grid of places to which it may be carried.
+//! Solids that move with a carried object, and the grid of places to which it may be carried.
 
 use crate::geometry::{Footprint, Grid, Pose, Vector, contact_points};
 
-/// Grid spacing where the scene is small enough, metres: half of the play in which things are still
+/// Grid spacing for scenes of normal size, metres: half of the play in which objects are still
 /// pushed past each other.
 const SPACING: f64 = 0.01;
 
 /// Maximum number of places along a side; a larger scene gets coarser ones.
 const MOST_PLACES: usize = 256;
 
-/// A solid that moves along with a thing: one of its own, or of the tool behind it.
+/// Solid that moves with a carried object: one of its own, or one of the tool behind it.
 #[derive(Clone, Debug)]
 pub(super) struct Solid {
     pub footprint: Footprint,
-    /// Against where the thing is, turned as in the world.
+    /// Pose relative to the position of the object, with the heading in the world frame.
     pub pose: Pose,
-    /// Heights above the table between which it is, metres.
+    /// Lowest and highest height above the table, metres.
     pub span: [f64; 2],
     /// Clearance to everything, metres.
     pub apart: f64,
 }
 
 impl Solid {
-    /// Returns the solid with the group there.
+    /// Returns the pose of the solid with the group at `position`.
     pub fn at(&self, position: Vector) -> Pose {
         Pose { position: self.pose.position + position, ..self.pose }
     }
 
-    /// Whether another is partly as high.
+    /// Returns `true` if the height ranges of both solids overlap.
     pub fn meets(&self, other: &Self) -> bool {
         self.span[0] < other.span[1] && other.span[0] < self.span[1]
     }
 
-    /// Gap to something that stands still, with the thing at `position`, metres; at most `reach`.
+    /// Returns the gap to a fixed body, with the object at `position`, metres; at most `reach`.
     pub fn gap(&self, position: Vector, still: (&Footprint, &Pose), reach: f64) -> f64 {
         let (points, _) = contact_points((&self.footprint, &self.at(position)), still, reach);
         points[0].map_or(reach, |point| point.gap)
     }
 
-    /// Calls `found` for every place of a grid from which this is nearer than `reach` to what stands still,
-    /// with the gap, metres.
+    /// Calls `found` for every place of a grid at which the solid is nearer than `reach` to a fixed
+    /// body, with the gap, metres.
     pub fn near(
         &self,
         grid: &Grid,
@@ -47,7 +47,7 @@ impl Solid {
         reach: f64,
         mut found: impl FnMut(usize, f64),
     ) {
-        // The other way round: where the thing may be for the boxes around both to meet.
+        // The bounding boxes of both bodies limit the places of the object.
         let wide = |(footprint, pose): (&Footprint, &Pose), axis: Vector| {
             footprint.extent(pose.local_vector(axis))
         };
@@ -67,7 +67,7 @@ impl Solid {
     }
 }
 
-/// A box in the world, metres along the grid's axes.
+/// Axis-aligned box in the world frame, metres.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
     pub low: Vector,
@@ -84,12 +84,12 @@ impl Extent {
         self.high = self.high.sup(&point);
     }
 
-    /// The grid over it with a place where a thing stands.
+    /// Returns the grid over the box with `origin` as a place.
     pub fn grid(&self, origin: Vector, spacing: f64) -> Grid {
         Grid::covering(origin, [self.low, self.high], spacing)
     }
 
-    /// The spacing of grids in it, metres.
+    /// Returns the spacing of grids in the box, metres.
     pub fn spacing(&self) -> f64 {
         SPACING.max((self.high - self.low).max() / (MOST_PLACES - 1) as f64)
     }

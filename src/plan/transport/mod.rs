@@ -1,11 +1,11 @@
-//! Which things are carried where, and in which order, if every push carried one of them straight along
-//! without turning it: what is left of a task without its physics, as a skeleton for plans of many pushes.
+//! Transport of objects in straight pushes without rotation: a simplified model that yields
+//! skeletons for plans of many pushes.
 //!
-//! [`Transport`] finds legs, each of one push, on a grid of places: every goal's object on its way around
-//! what stands still, and things that stand in each other's way aside first, or where they wait until
-//! another has passed (as in navigation among movable obstacles, Stilman and Kuffner 2005, "Navigation
-//! among movable obstacles: real-time reasoning in complex environments"). Nothing is rolled out for that;
-//! [`follow`] then makes real pushes of them, one after another.
+//! [`Transport`] finds legs of one push each on a grid of places. Every goal's object moves around
+//! fixed bodies. Obstructing objects are first cleared, or wait until another object has passed.
+//! This is navigation among movable obstacles (Stilman and Kuffner 2005, "Navigation among movable
+//! obstacles: real-time reasoning in complex environments"). No rollouts are needed; [`follow`]
+//! then finds real pushes for the legs, one after another.
 
 mod follow;
 mod group;

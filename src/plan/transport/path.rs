@@ -1,20 +1,22 @@
-//! The cheapest way of one thing to all places: by the fewest pushes, then the shortest and roomiest.
+//! Cheapest paths of one group to all places: fewest pushes first, then shortest and widest.
 
 use crate::geometry::Frontier;
 
 use super::group::{Group, Hold, ROOMY};
 
-/// Cost of a metre that is carried, in pushes.
+/// Cost of a metre of transport, in pushes.
 const METRE: f64 = 1.0;
 
-/// Cost of a metre in the narrowest gap, in pushes, and of a stop there.
+/// Additional cost of a metre in the narrowest gap, in pushes.
 const NARROW_METRE: f64 = 2.0;
+
+/// Cost of a stop in the narrowest gap, in pushes.
 const NARROW_STOP: f64 = 0.5;
 
-/// A shorter push is none, metres: a tool moves half of it before it meets anything.
+/// Length of the shortest useful push, metres: a tool moves half of it before contact.
 const SHORTEST: f64 = 0.015;
 
-/// Places in which a thing, and the tool behind it, cannot be for what else can be carried.
+/// Places blocked by other movable objects, for a group and for the tool behind it.
 pub(super) struct Taken {
     pub thing: Vec<bool>,
     pub holds: Vec<Vec<bool>>,
@@ -28,16 +30,16 @@ pub(super) struct PathSegment {
     pub to: usize,
 }
 
-/// Ways to places.
+/// Paths to all places.
 pub(super) struct Paths {
-    /// Cost of every place, in pushes.
+    /// Cost of the path to every place, in pushes.
     pub cost: Vec<f64>,
     last: Vec<Option<(usize, usize)>>,
 }
 
 impl Paths {
-    /// Of a thing from one place, with pushes of at most `longest` metres, as far as `enough` does not
-    /// say of the next place and its cost that it is.
+    /// Computes the paths of a group from the place `start` with pushes of at most `longest`
+    /// metres. The search ends when `enough` returns `true` for the next place and its cost.
     pub fn from(
         (group, holds): (&Group, &[Hold]),
         start: usize,
@@ -71,7 +73,7 @@ impl Paths {
                     at = next;
                     length += lattice.spacing;
                     on_the_way += lattice.spacing * (METRE + NARROW_METRE * narrow(at));
-                    // One push, and one more for every full length.
+                    // A path costs one push, and another for every full length.
                     let so_far = on_the_way + 1.0 + ((length - 1e-9) / longest).floor();
                     if passed[k][at] <= so_far {
                         break;
@@ -89,7 +91,7 @@ impl Paths {
         ways
     }
 
-    /// The pushes to a place; none if there is no way.
+    /// Returns the pushes to a place; empty if no path exists.
     pub fn to(&self, place: usize) -> Vec<PathSegment> {
         let mut way = Vec::new();
         let mut at = place;

@@ -15,7 +15,7 @@ use super::path::{PathSegment, Paths, Taken};
 /// Clearance between groups, and to a tool that carries another, metres.
 const BESIDE: f64 = 0.004;
 
-/// Distance between samples of paths for obstructions beside them, in places.
+/// Distance between samples of paths in the search for obstructions, in places.
 const SAMPLE: usize = 3;
 
 /// Push that carries a group straight along.
@@ -23,13 +23,13 @@ const SAMPLE: usize = 3;
 pub struct Leg {
     /// Index of the object.
     pub object: usize,
-    /// Radians from world +x.
+    /// Direction, radians from world +x.
     pub direction: f64,
     /// Start, metres.
     pub from: Vector,
     /// End, metres.
     pub to: Vector,
-    /// Whether that is the goal.
+    /// Whether the end is the goal.
     pub last: bool,
 }
 
@@ -37,26 +37,26 @@ pub struct Leg {
 pub struct Groups(Vec<Group>);
 
 impl Groups {
-    /// Returns the groups of a situation; `None` where a goal asks for more than to be carried somewhere.
+    /// Returns the groups of a situation; `None` if a goal requires more than a change of position.
     pub fn of(workspace: &Workspace, situation: &Situation) -> Option<Self> {
         groups(workspace, situation).map(Self)
     }
 }
 
-/// Things that one grip of a tool carries.
+/// Transport of groups by one grip of a tool.
 pub struct Transport<'a> {
     workspace: Workspace<'a>,
     situation: &'a Situation,
     pair: (usize, f64),
     pub(super) groups: &'a [Group],
-    /// Holds of every group, once they are asked for.
+    /// Holds of every group, computed on demand.
     holds: Vec<OnceCell<Vec<Hold>>>,
     longest: f64,
     marks: RefCell<HashMap<(usize, usize, usize), Rc<Marks>>>,
     alone: RefCell<HashMap<(usize, usize), Rc<Course>>>,
 }
 
-/// Places that another thing takes from one and from the tool behind it, in order.
+/// Places that another group blocks for a group and for the tool behind it, sorted.
 struct Marks {
     thing: Vec<usize>,
     holds: Vec<Vec<usize>>,
@@ -70,8 +70,8 @@ pub(super) struct Course {
 }
 
 impl<'a> Transport<'a> {
-    /// With this tool and grip yaw (radians) and pushes of at most `longest` metres; `None` where a goal's
-    /// object finds no way even alone.
+    /// Creates the transport with this tool and grip yaw (radians) and pushes of at most `longest`
+    /// metres. Returns `None` if a goal's object has no path even without other objects.
     pub fn new(
         workspace: Workspace<'a>,
         situation: &'a Situation,
@@ -87,7 +87,7 @@ impl<'a> Transport<'a> {
         carrying.wanting(&start).iter().all(finds).then_some(carrying)
     }
 
-    /// Returns the least number of pushes left.
+    /// Returns a lower bound of the remaining cost, in pushes.
     pub fn least(&self) -> f64 {
         let start = self.start();
         self.wanting(&start).into_iter().map(|k| self.alone(k, start[k]).cost).sum()
@@ -105,13 +105,14 @@ impl<'a> Transport<'a> {
             .get_or_init(|| holds(&self.workspace, self.pair, self.situation, (group, self.groups)))
     }
 
-    /// The things that are not at their goals.
+    /// Returns the groups that are not at their goals.
     pub(super) fn wanting(&self, places: &[usize]) -> Vec<usize> {
         let off = |k: &usize| self.groups[*k].goal.is_some_and(|(_, goal)| places[*k] != goal);
         (0..self.groups.len()).filter(off).collect()
     }
 
-    /// Returns samples of what a group and the tool behind it pass: positions of the group, and solids about these.
+    /// Returns samples of the path of a group and the tool behind it: positions of the group with
+    /// the solids around them.
     pub(super) fn passed(&self, k: usize, way: &[PathSegment]) -> Vec<(Vector, &[Solid])> {
         let group = &self.groups[k];
         let mut passed = Vec::new();
@@ -151,7 +152,7 @@ impl<'a> Transport<'a> {
         (0..self.groups.len()).filter(|other| *other != k).filter(blocks).collect()
     }
 
-    /// A stretch as pushes that are short enough.
+    /// Splits a segment into pushes that are short enough.
     pub(super) fn parted(&self, k: usize, stretch: PathSegment) -> Vec<(usize, PathSegment)> {
         let (group, hold) = (&self.groups[k], &self.holds(k)[stretch.hold]);
         let passed = places(group, hold, &stretch);
@@ -162,7 +163,7 @@ impl<'a> Transport<'a> {
         (0..count).map(|n| (k, PathSegment { from: end(n), to: end(n + 1), ..stretch })).collect()
     }
 
-    /// The way of a thing to its goal if nothing else stood on the table.
+    /// Returns the path of a group to its goal without other movable objects.
     pub(super) fn alone(&self, k: usize, place: usize) -> Rc<Course> {
         if let Some(known) = self.alone.borrow().get(&(k, place)) {
             return Rc::clone(known);
@@ -182,7 +183,7 @@ impl<'a> Transport<'a> {
         course
     }
 
-    /// Its ways from a place.
+    /// Returns the paths of a group from a place.
     pub(super) fn ways(
         &self,
         k: usize,
@@ -193,14 +194,14 @@ impl<'a> Transport<'a> {
         Paths::from((&self.groups[k], self.holds(k)), start, taken, self.longest, enough)
     }
 
-    /// Returns the places that all others take from a group.
+    /// Returns the places that all other groups block for a group.
     pub(super) fn taken_by_others(&self, k: usize, places: &[usize]) -> Taken {
         let others: Vec<(usize, usize)> =
             places.iter().copied().enumerate().filter(|(other, _)| *other != k).collect();
         self.taken(k, &others)
     }
 
-    /// Returns the places that others at these places take from a group.
+    /// Returns the places that other groups at these places block for a group.
     pub(super) fn taken(&self, k: usize, others: &[(usize, usize)]) -> Taken {
         let count = self.groups[k].lattice.count();
         let mut all = Taken {
@@ -217,7 +218,7 @@ impl<'a> Transport<'a> {
         all
     }
 
-    /// Returns the places that one of them takes.
+    /// Returns the places that one other group blocks.
     fn marks(&self, k: usize, other: usize, place: usize) -> Rc<Marks> {
         let key = (k, other, place);
         if let Some(known) = self.marks.borrow().get(&key) {
@@ -234,7 +235,7 @@ impl<'a> Transport<'a> {
                     let there = one.at(at);
                     let other = (&one.footprint, &there);
                     let apart = match own && stood {
-                        // What stands nearer already may slide along.
+                        // A group that starts nearer may slide along.
                         true => BESIDE.min(solid.gap(here, other, BESIDE) - 1e-6),
                         false => BESIDE,
                     };

@@ -1,4 +1,5 @@
-//! In which order things are carried, and what is moved aside for whom: best first over who has come where.
+//! Order of transports and clearing of obstructions, by a best-first search over the places of all
+//! groups.
 
 use std::collections::{HashMap, HashSet};
 
@@ -8,44 +9,46 @@ use super::lattice::Solid;
 use super::path::{PathSegment, Paths};
 use super::reach::{Leg, Transport};
 
-/// Room that what is moved aside leaves for what it makes way for, metres: objects come to lie off by as
-/// much.
+/// Clearance between a cleared group and the path that it makes free, metres: the error of final
+/// positions.
 const ASIDE: f64 = 0.012;
 
-/// Places aside that are tried for one thing, and how far they are apart, metres.
+/// Number of clearing places tried for one group.
 const ASIDES: usize = 3;
+
+/// Distance between the clearing places of one group, metres.
 const ASIDE_APART: f64 = 0.08;
 
-/// Places that are looked at for that, nearest first.
+/// Maximum number of places examined for clearing, cheapest first.
 const LOOKED_AT: usize = 2000;
 
-/// Where what stands in the way is itself in need of room: how many things deep that is followed.
+/// Maximum depth of the recursion if a group to clear is itself obstructed.
 const DEEP: usize = 3;
 
-/// Cost of standing in the way of another thing, in pushes.
+/// Cost of obstructing another group, in pushes.
 const IN_THE_WAY: f64 = 1.2;
 
-/// Weight of how far what is moved aside comes from its own goal, in pushes a metre.
+/// Weight of the distance between a cleared group and its own goal, in pushes per metre.
 const ASTRAY: f64 = 1.0;
 
-/// Orders that are looked at: more than a plan of a dozen pushes needs.
+/// Maximum number of expanded nodes: more than a plan of a dozen pushes needs.
 const MOST: usize = 120;
 
-/// Places of all groups in the course of a schedule.
+/// Places of all groups at one point of a schedule.
 #[derive(Clone)]
 struct Node {
     places: Vec<usize>,
     moves: Vec<(usize, PathSegment)>,
-    /// Pushes so far.
+    /// Cost so far, in pushes.
     cost: f64,
-    /// Cost with the least that is left.
+    /// Cost so far plus the estimated remaining cost.
     total: f64,
-    /// Pushes left at least.
+    /// Lower bound of the number of remaining pushes.
     left: usize,
 }
 
 impl Transport<'_> {
-    /// The legs of plans of at most `most` pushes, up to `count` of them, cheapest first.
+    /// Returns the legs of up to `count` plans with at most `most` pushes each, cheapest first.
     pub fn legs(&self, most: usize, count: usize) -> Vec<Vec<Leg>> {
         let mut found = Vec::new();
         let start =
@@ -53,7 +56,7 @@ impl Transport<'_> {
         let mut open = vec![start];
         let mut seen: HashMap<Vec<usize>, f64> = HashMap::new();
         for _ in 0..MOST {
-            // The first of equals, so that the order does not depend on chance.
+            // Ties go to the first node, so that the order is deterministic.
             let next = (0..open.len()).min_by(|a, b| open[*a].total.total_cmp(&open[*b].total));
             let Some(next) = next else { break };
             let node = open.remove(next);
@@ -98,7 +101,8 @@ impl Transport<'_> {
         children
     }
 
-    /// Moves aside what stands in the ways of the last of `ways`, out of all of them.
+    /// Adds moves that clear the obstructions of the last path in `ways`, to places outside all
+    /// these paths.
     fn make_room(
         &self,
         node: &Node,
@@ -130,7 +134,7 @@ impl Transport<'_> {
         }
     }
 
-    /// The best places for a thing beside these ways.
+    /// Returns the best places for a group outside these paths.
     fn asides(
         &self,
         k: usize,
@@ -177,7 +181,7 @@ impl Transport<'_> {
         taken
     }
 
-    /// The node after a thing has come to a place.
+    /// Returns the node after a group has moved to a place.
     fn child(&self, node: &Node, k: usize, place: usize, ways: &Paths) -> Option<Node> {
         let mut child = node.clone();
         child.places[k] = place;
@@ -194,7 +198,7 @@ impl Transport<'_> {
             }
             left += course.cost;
             child.left += course.pushes;
-            // What wants to go on anyway will be out of the way.
+            // Groups with a move ahead leave the path anyway.
             let blocking = self.blocking(k, &course.way, &child.places);
             in_the_way.extend(blocking.into_iter().filter(|other| !wanting.contains(other)));
         }

@@ -27,7 +27,7 @@ fn the_next_aim_lies_as_far_on_the_other_side_as_the_last_replay_ended() {
     let Facing { heading, tolerance, .. } = *first.heading().expect("a heading");
     let turned = wrap_angle(-3.2 - 3.0);
     assert!((heading - (3.0 - turned)).abs() < 1e-12 && tolerance == 0.1, "{heading}");
-    // What is still missed after that is added.
+    // The remaining error is added to the correction.
     let second = aim(&goal, &first, &ended(0.51, 0.1, 3.0)).expect("an aim");
     assert!((second.position().unwrap() - Vector::new(0.46, 0.11)).norm() < 1e-12, "{second:?}");
     assert_eq!(second.heading(), first.heading());

@@ -5,7 +5,7 @@ use crate::solve::SolveError;
 use crate::solve::blackboard::Blackboard;
 use crate::solve::solving::{Batch, Strategy};
 
-/// Searches where no plan with one grip is even predicted to reach the goal.
+/// Search for tasks in which no plan with one grip is even predicted to reach the goal.
 #[derive(Default)]
 pub(super) struct ChangeTool<'a> {
     begun: bool,

@@ -1,4 +1,4 @@
-//! Plans that first clear an obstruction out of the way.
+//! Plans that first clear an obstruction.
 
 use std::collections::VecDeque;
 
@@ -12,39 +12,39 @@ use crate::solve::blackboard::Blackboard;
 use crate::solve::solving::{Batch, Strategy};
 use crate::task::{Job, Task};
 
-/// Number of kinds of plans of one length whose obstructions are looked at.
+/// Number of kinds of plans of one length whose obstructions are examined.
 const KINDS: usize = 16;
 
-/// Number of swept regions of one length that are cleared, those with the nearest ends first.
+/// Number of swept regions of one length to clear, nearest ends first.
 const REGIONS: usize = 3;
 
-/// A plan is looked at if it misses the goal by at most this many tolerances: refinement brings it
-/// nearer.
+/// Maximum error of an examined plan in tolerances, because refinement can reduce it.
 const NEAR: f64 = 2.0;
 
-/// Number of pushes beyond one for each obstruction: one that stands in a corner takes two.
+/// Number of additional pushes to clear obstructions, because an object in a corner takes two.
 const MORE: usize = 1;
 
-/// Looks for plans of as many pushes as the usual search has come to and up to [`MORE`] beyond.
+/// Search for plans with at least as many pushes as the usual search has reached, and up to
+/// [`MORE`] beyond one for each obstruction.
 pub(super) struct Clear<'a> {
-    /// The task without all that may be in the way.
+    /// Task without the possible obstructions.
     alone: Option<&'a (Task, Situation)>,
-    /// The search in that task.
+    /// Search in that task.
     unobstructed: Option<Unobstructed<'a>>,
-    /// Length of the usual search's plans when it was looked at last.
+    /// Length of the usual search's plans at the last examination.
     depth: usize,
     waiting: Vec<Clearing>,
     open: VecDeque<Clearing>,
-    /// The current search, and the maximum length of its plans.
+    /// Current search, and the maximum length of its plans.
     current: Option<(Search<'a>, usize)>,
 }
 
-/// A swept region in which the goals' objects would come to their goals if nothing else stood on the table.
+/// Swept region in which the goals' objects would reach their goals without other objects.
 struct Clearing {
     region: SweptRegion,
-    /// Tool and grip yaw of its plan.
+    /// Tool and grip yaw of the plan.
     grip: (usize, f64),
-    /// Pushes of the goals' objects, and one for each obstruction.
+    /// Number of pushes of the goals' objects plus one for each obstruction.
     pushes: usize,
 }
 
@@ -61,10 +61,10 @@ impl<'a> Clear<'a> {
         Self { alone, unobstructed: None, depth: 0, waiting, open, current: None }
     }
 
-    /// Notes what is to be cleared for plans of `pushes` pushes.
+    /// Finds the regions to clear for plans of `pushes` pushes.
     fn look(&mut self, board: &mut Blackboard<'a>, pushes: usize) {
         let (Some(alone), Some(usual)) = (self.alone, &board.search) else { return };
-        // To clear an obstruction and to push takes two pushes at least.
+        // Clearing an obstruction and pushing an object take at least two pushes.
         if pushes < 2 || !board.wants_longer(pushes - 1) {
             return;
         }
@@ -84,13 +84,13 @@ impl<'a> Clear<'a> {
         let (now, later): (Vec<Clearing>, Vec<Clearing>) =
             std::mem::take(&mut self.waiting).into_iter().partition(|one| one.pushes <= pushes);
         self.waiting = later;
-        // In the order in which they were found: nearest ends first.
+        // Regions keep their order, nearest ends first.
         self.open.extend(now.into_iter().take(REGIONS));
     }
 }
 
 impl Unobstructed<'_> {
-    /// Searches plans of one push more, and returns those that something obstructs.
+    /// Searches plans of one more push, and returns the swept regions of obstructed plans.
     fn deepen(&mut self, board: &Blackboard) -> Vec<Clearing> {
         let found = self.search.deepen(&mut self.rollouts, board.query.watch);
         let near = |k: &usize| !is_behind(found[*k].score) && found[*k].score <= NEAR;

@@ -1,4 +1,4 @@
-//! Plans that depend less on the support, where the best plan works, but not nearly always.
+//! Hardening of plans against unknown support, if the best plan works, but not nearly always.
 
 use crate::plan::{HardenSettings, harden};
 use crate::solve::SolveError;
@@ -7,10 +7,10 @@ use crate::solve::grade::{Class, Grade};
 use crate::solve::solving::{Batch, Strategy};
 use crate::watch::Instant;
 
-/// Separates the samples of hardening from those of refinement.
+/// Seed bit that separates the samples of hardening from the samples of refinement.
 const HARDENING: u64 = 1 << 14;
 
-/// Varies the results of the last search, once.
+/// Strategy that varies the results of the last search once.
 pub(super) struct Harden;
 
 impl<'a> Strategy<'a> for Harden {

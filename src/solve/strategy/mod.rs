@@ -1,6 +1,7 @@
-//! Strategies: the ways to come to plans, a file each. Their order stands in [`order`](for_pushes).
+//! Strategies that propose plans, one file each. Their order is defined in [`order`](for_pushes).
 //!
-//! None verifies, grades or keeps attempts: that is done with the batches that they return.
+//! No strategy verifies, grades or stores attempts: the main loop does so with the batches that
+//! strategies return.
 
 mod change_tool;
 mod clear;

@@ -1,4 +1,4 @@
-//! The order of the strategies.
+//! Order of the strategies.
 
 use crate::asset::ToolLibrary;
 use crate::scene::Situation;
@@ -13,15 +13,15 @@ use super::lever::{FollowUp, InTurn, LeverUp, MakeRoom};
 use super::push::Push;
 use super::transport::Transport;
 
-/// Strategies in order of precedence: of those that have something to try, the first has its turn.
+/// Strategies in order of precedence: the first one with a next step has the turn.
 type Strategies<'a> = Vec<Box<dyn Strategy<'a> + 'a>>;
 
-/// Returns the strategies for tasks of pushing; `alone` is the task without all that may be in the way,
-/// where that makes a difference.
+/// Returns the strategies for pushing tasks. `alone` is the task without the possible obstructions,
+/// if there are any.
 ///
-/// Plans that nearly always work are looked for first among what is at hand, then with an obstruction
-/// cleared, then after legs of transport; only then may plans be a push longer. Tools change last,
-/// where no plan with one grip is even predicted to reach the goal.
+/// Plans that work nearly always are first searched among the existing results, then with an
+/// obstruction cleared, then after legs of transport. Only then may plans be a push longer. Tool
+/// changes come last, if no plan with one grip is even predicted to reach the goal.
 pub(in crate::solve) fn for_pushes<'a>(alone: Option<&'a (Task, Situation)>) -> Strategies<'a> {
     vec![
         Box::new(Harden),
@@ -32,8 +32,9 @@ pub(in crate::solve) fn for_pushes<'a>(alone: Option<&'a (Task, Situation)>) -> 
     ]
 }
 
-/// Returns the strategies for tasks that leave the plane: a lever-up alone, then pushes that follow one,
-/// then pushes to where one can be made. Several goals are met in turn, each by these.
+/// Returns the strategies for tasks that leave the plane: a single lever-up, then pushes after one,
+/// then pushes that make room for one. Several goals are met in consecutive stages, each by these
+/// strategies.
 pub(in crate::solve) fn for_levers<'a>(
     query: Query<'a>,
     library: &'a ToolLibrary,

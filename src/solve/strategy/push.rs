@@ -1,13 +1,14 @@
-//! Plans with one grip: of one push, then of one more.
+//! Plans with one grip, one push longer in each turn.
 
 use crate::solve::SolveError;
 use crate::solve::blackboard::Blackboard;
 use crate::solve::solving::{Batch, Strategy};
 
-/// Plans of more pushes are not searched for, only made after legs: they cost more with every push.
+/// Maximum number of pushes of searched plans, because the cost grows with every push. Longer plans
+/// are only made along legs of transport.
 const LONGEST: usize = 8;
 
-/// Deepens the search on the blackboard.
+/// Strategy that deepens the search on the blackboard.
 pub(super) struct Push;
 
 impl<'a> Strategy<'a> for Push {

@@ -16,32 +16,33 @@ use crate::solve::solving::{Batch, Strategy};
 use crate::task::Plan;
 use crate::watch::Instant;
 
-/// Length of the usual search's plans once which legs are looked for.
+/// Length of the usual search's plans at which the search for legs begins.
 const FIRST: usize = 3;
 
-/// Number of grips with which that is done, those that need the fewest pushes first, and of plans of legs
-/// for each.
+/// Number of grips for which legs are searched, fewest pushes first.
 const GRIPS: usize = 3;
+
+/// Number of plans of legs for each grip.
 const PLANS: usize = 2;
 
-/// Number of candidates for one leg that are refined.
+/// Number of refined candidates for one leg.
 const CANDIDATES: usize = 4;
 
-/// Maximum length of a push of a leg, in lengths of the task: a little less than what refinement may make it.
+/// Maximum length of a push of a leg relative to the task's: slightly less than refinement allows.
 const LONGEST: f64 = 1.4;
 
-/// Maximum number of legs where only the first are to be followed.
+/// Maximum number of legs if only the first ones are followed.
 const FAR: usize = 24;
 
-/// Number of legs that are followed then.
+/// Number of first legs followed in this case.
 const AHEAD: usize = 2;
 
 /// Legs for a tool and grip yaw.
 type Legs = ((usize, f64), Vec<Leg>);
 
-/// The first pushes of a plan that leads to the goals.
+/// First pushes of a plan that leads to the goals.
 pub struct Approach {
-    /// The pushes.
+    /// The first pushes.
     pub plan: Plan,
     /// The pushing tool.
     pub tool: Arc<Tool>,
@@ -49,7 +50,7 @@ pub struct Approach {
     pub pushes: usize,
 }
 
-/// Follows legs once the usual search has come far enough.
+/// Strategy that follows legs once the usual search has reached a given length.
 #[derive(Default)]
 pub(super) struct Transport {
     depth: usize,
@@ -93,8 +94,8 @@ impl<'a> Strategy<'a> for Transport {
     }
 }
 
-/// Returns the first pushes of a plan of at least `least` pushes that leads to the goals, and of more than
-/// plans may have; `None` if there is no such plan.
+/// Returns the first pushes of a plan of at least `least` pushes that leads to the goals, even with
+/// more pushes than plans may have. Returns `None` if there is no such plan.
 pub(in crate::solve) fn approach(board: &mut Blackboard, least: usize) -> Option<Approach> {
     let mut ways = legs(board, FAR, 1);
     ways.sort_by_key(|(_, legs)| legs.len());
@@ -117,7 +118,8 @@ pub(in crate::solve) fn approach(board: &mut Blackboard, least: usize) -> Option
     None
 }
 
-/// Returns legs with the grips that need the fewest pushes, up to `count` plans of at most `most` legs each.
+/// Returns legs for the grips that need the fewest pushes, up to `count` plans of at most `most`
+/// legs each.
 fn legs(board: &Blackboard, most: usize, count: usize) -> Vec<Legs> {
     let (workspace, situation) = (board.query.workspace(), board.query.situation);
     let Some(usual) = board.search.as_ref().filter(|_| workspace.is_placed()) else {
@@ -130,16 +132,16 @@ fn legs(board: &Blackboard, most: usize, count: usize) -> Vec<Legs> {
         Some((*pair, Carrier::new(workspace, situation, &groups, *pair, longest)?))
     };
     let mut all: Vec<_> = usual.grips().iter().filter_map(carrier).collect();
-    // Stable: of those that need as much the first comes first.
+    // The sort is stable, so that ties keep their order.
     all.sort_by(|a, b| a.1.least().total_cmp(&b.1.least()));
     let best = all.iter().take(GRIPS);
     let ways =
         best.flat_map(|(pair, one)| one.legs(most, count).into_iter().map(|legs| (*pair, legs)));
-    // Where the grid is too coarse to tell a goal from the start there is nothing to carry.
+    // If the grid is too coarse to distinguish a goal from the start, no leg is needed.
     ways.filter(|(_, legs)| !legs.is_empty()).collect()
 }
 
-/// Makes pushes of legs, and counts their rollouts.
+/// Finds pushes along legs and counts their rollouts.
 fn followed(board: &mut Blackboard, pair: (usize, f64), legs: &[Leg]) -> Option<Followed> {
     let query = board.query;
     let refine = query.refine_settings(1);

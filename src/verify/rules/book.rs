@@ -1,4 +1,4 @@
-//! All rules applied to one plan.
+//! Check of all rules for one plan.
 
 use std::sync::Arc;
 
@@ -8,8 +8,8 @@ use crate::task::{Plan, Step, Task};
 
 use super::{clearance, lever, push, reach, tools};
 
-/// Returns every rule that `plan` breaks when its tools, found by name in `library`, carry it out in
-/// `scene`.
+/// Returns every violation of a rule when `plan` is executed in `scene` with its tools, found by
+/// name in `library`.
 pub fn broken_rules(
     task: &Task,
     scene: &Scene,

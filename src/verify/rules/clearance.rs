@@ -1,4 +1,4 @@
-//! Rules of clearance: fixed bodies that tool, handle and hand must not run into, and the way of a
+//! Rules of clearance: fixed bodies that the tool, handle and hand must avoid, and the path of a
 //! lifted tool from push to push.
 
 use std::sync::Arc;
@@ -10,8 +10,8 @@ use crate::task::{Plan, PushStep, Step, Task, Way};
 
 use super::{SLACK, tools};
 
-/// Returns the fixed bodies that tool and hand pass through during a push, or on the way down to it if
-/// the tool `comes_down` from above.
+/// Returns the fixed bodies that the tool and hand pass through during a push, or during its
+/// descent if the tool `comes_down` from above.
 pub(super) fn collisions(
     (task, scene): (&Task, &Scene),
     tool: &Tool,
@@ -35,7 +35,7 @@ pub(super) fn collisions(
     tool.into_iter().chain(hand).collect()
 }
 
-/// Returns the name of the fixed body that a mover runs into on its way, or on the way down to its start.
+/// Returns the name of the fixed body that a mover hits during its motion or its descent.
 fn obstruction(
     scene: &Scene,
     mover: Mover,
@@ -54,8 +54,8 @@ fn obstruction(
     found.map(|fixed| fixed.name.to_owned())
 }
 
-/// Returns the pushes that the lifted tool does not get to from the push right before. Another tool comes
-/// from the place where tools are kept.
+/// Returns the pushes that the lifted tool cannot reach from the previous push. A different tool
+/// comes from the place where tools are kept.
 pub(super) fn blocked_ways(
     (task, scene): (&Task, &Scene),
     library: &[Arc<Tool>],

@@ -1,4 +1,4 @@
-//! Rules of lever-ups: the task's ranges, the free height below the edge, and the way of the blade.
+//! Rules of lever-ups: the task's ranges, the clearance below the edge, and the path of the blade.
 
 use crate::geometry::{Pose, Solid, Vector3};
 use crate::outcome::LeverFault;
@@ -10,10 +10,11 @@ use super::{SLACK, reach};
 /// Depth to which a blade may touch and scratch a fixed body, metres.
 const SCRATCH: f64 = 3e-4;
 
-/// Number of poses at which the blade is checked during the turn.
+/// Number of poses at which the blade is checked during the rotation.
 const LOOKS: usize = 48;
 
-/// Returns the part of a lever-up that makes no sense in a scene, so that it cannot even be replayed.
+/// Returns the value of a lever-up that is invalid in the scene, so that the lever-up cannot even
+/// be replayed.
 pub(super) fn nonsense(scene: &Scene, step: &LeverStep) -> Option<LeverFault> {
     nonsensical(scene, &step.lever, step.expected)
         .map(|what| LeverFault::ForbiddenLever { what: what.to_owned() })
@@ -94,7 +95,7 @@ fn on_the_way(
             found.push(fault);
         }
     };
-    // In from behind, then the turn and the way back.
+    // The blade approaches from behind, then rotates and retreats.
     let (lying, span) = (at(0.0), lever.duration());
     let coming = (0..LOOKS).map(|k| {
         let mut pose = lying;

@@ -1,8 +1,8 @@
-//! The rule book: everything that a plan does that its task does not allow, or that no robot can do,
-//! before anything moves.
+//! Rule book: violations of the task's rules and of the robot's abilities that a plan shows before
+//! any motion.
 //!
-//! Rules are matched on the step, and all of them hold for every plan. They are written apart from the
-//! planner's own, which are stricter: the planner keeps distances.
+//! Each rule matches on the step, and all rules apply to every plan. They are independent of the
+//! planner's own rules, which are stricter because the planner keeps safety distances.
 
 mod book;
 mod clearance;

@@ -1,4 +1,4 @@
-//! Plans that cannot even be replayed: they name bodies or tools that are not there, or take too long.
+//! Plans that cannot be replayed, because they name missing bodies or tools or take too long.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ pub(in crate::verify) fn unplayable(
         let Some(tool) = tools::named(library, step) else { return Some(forbidden()) };
         match step {
             Step::Push(_) if !tool.pushes() => Some(forbidden()),
-            // A NaN is too long as well.
+            // A NaN counts as too long.
             Step::Push(step) => {
                 let in_time = step.push.duration() <= Push::LONGEST;
                 let fault = PushFault::TooLong(step.push.duration());

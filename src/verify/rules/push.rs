@@ -6,14 +6,15 @@ use crate::task::{Plan, PushForm, PushStep, Step, Task};
 
 use super::SLACK;
 
-/// Largest angle by which refinement may turn a push away from the directions of a task, radians (25
+/// Largest angle by which refinement may rotate a push away from the task's directions, radians (25
 /// degrees).
 const TURNED: f64 = 0.436_333;
 
 /// Largest ratio by which refinement may lengthen a push.
 const LONGER: f64 = 1.5;
 
-/// Returns the grip yaws, the rows of pushes and the pushes that the task does not allow.
+/// Returns the grip yaws, the sequences of pushes and the single pushes that the task does not
+/// allow.
 pub(super) fn forbidden_pushes(task: &Task, plan: &Plan) -> Vec<Warning> {
     let mut found = forbidden_yaws(task, plan);
     found.extend(too_many(task, plan));
@@ -28,7 +29,7 @@ pub(super) fn comes_down(plan: &Plan, index: usize) -> bool {
     !(chained && matches!(before, Some(Step::Push(_))))
 }
 
-/// Returns each grip yaw that the task does not allow, once for pushes in a row.
+/// Returns each grip yaw that the task does not allow, once for consecutive pushes.
 fn forbidden_yaws(task: &Task, plan: &Plan) -> Vec<Warning> {
     let mut yaws: Vec<f64> = plan.push_steps().map(|step| step.grip_yaw).collect();
     yaws.dedup();
@@ -39,7 +40,7 @@ fn forbidden_yaws(task: &Task, plan: &Plan) -> Vec<Warning> {
     yaws.into_iter().map(|yaw| Warning::ForbiddenYaw { yaw }).collect()
 }
 
-/// Returns the rows of pushes that are longer than the task allows.
+/// Returns the sequences of consecutive pushes that are longer than the task allows.
 fn too_many(task: &Task, plan: &Plan) -> Vec<Warning> {
     let allowed = task.pushes.max_count;
     let rows = plan.steps.chunk_by(|a, b| matches!((a, b), (Step::Push(_), Step::Push(_))));
@@ -48,7 +49,7 @@ fn too_many(task: &Task, plan: &Plan) -> Vec<Warning> {
     long.map(|pushes| Warning::TooManyPushes { pushes, allowed }).collect()
 }
 
-/// Returns the pushes that are not of the form that the task allows, each with its first fault.
+/// Returns the pushes that violate the task's rules, each with its first fault.
 fn forbidden_forms(task: &Task, plan: &Plan) -> Vec<Warning> {
     let headings = task.pushes.directions.headings();
     let mut found = Vec::new();
@@ -60,14 +61,14 @@ fn forbidden_forms(task: &Task, plan: &Plan) -> Vec<Warning> {
                 found.extend(fault.map(|fault| Warning::ForbiddenPush { push, fault }));
                 Some(step.push.end())
             }
-            // The tool is lifted for another one.
+            // The tool is lifted before the lever-up.
             Step::LeverUp(_) => None,
         };
     }
     found
 }
 
-/// Returns the first fault of a push, `last` being the end of the push right before it.
+/// Returns the first fault of a push. `last` is the end of the directly preceding push.
 fn form_fault(
     task: &Task,
     headings: &[f64],

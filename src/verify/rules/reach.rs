@@ -12,7 +12,7 @@ pub(super) fn out_of_reach(task: &Task, (push, step): (usize, &PushStep)) -> Opt
     (!is_within_reach(&task.robot, &step.push)).then_some(Warning::OutOfReach { push })
 }
 
-/// Returns `true` if the end effector is within reach all along a push.
+/// Returns `true` if the end effector stays within reach during a push.
 fn is_within_reach(robot: &Robot, push: &Push) -> bool {
     let (from, to) = (push.start, push.end());
     let way = to - from;
@@ -22,7 +22,8 @@ fn is_within_reach(robot: &Robot, push: &Push) -> bool {
         && (from + nearest * way).norm() >= robot.reach_min - SLACK
 }
 
-/// Returns a fault if the end effector that holds the blade, whose centre is at `pose`, is out of reach.
+/// Returns a fault if the end effector is out of reach when it holds the blade with its centre at
+/// `pose`.
 pub(super) fn blade_out_of_reach(robot: &Robot, blade: &Blade, pose: &Pose3) -> Option<LeverFault> {
     let grip = pose.point(Vector3::new(-0.5 * blade.length, 0.0, 0.0)).xy().norm();
     let outside = grip < robot.reach_min - SLACK || grip > robot.reach_max + SLACK;

@@ -1,4 +1,4 @@
-//! Rules of tools: which of them, and how often one is changed for another.
+//! Rules of tools: allowed tools and number of tool changes.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ pub(super) fn named<'a>(library: &'a [Arc<Tool>], step: &Step) -> Option<&'a Arc
     library.iter().find(|tool| tool.name == step.tool())
 }
 
-/// Returns the tools that the task does not allow, and too many changes of the tool.
+/// Returns a warning for each tool that the task does not allow, and for too many tool changes.
 pub(super) fn forbidden_tools(task: &Task, plan: &Plan) -> Vec<Warning> {
     let mut found = Vec::new();
     if let ToolChoice::Named(names) = &task.tools {

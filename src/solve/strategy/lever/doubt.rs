@@ -1,15 +1,21 @@
-//! Small errors under which the planner looks at its candidates; verification has its own.
+//! Perturbations used by the planner for candidates, independent of the perturbations of
+//! verification.
 
 use std::sync::Arc;
 
 use crate::geometry::Vector;
 use crate::scene::Situation;
 
-/// Shift along each axis (metres), turn (radians) and relative change of frictions, in signs of
-/// which neighbours differ in two at least.
+/// Shift of the scene along each axis, metres.
 const SHIFT: f64 = 0.5e-3;
+
+/// Rotation of the scene, radians.
 const TURN: f64 = std::f64::consts::PI / 180.0;
+
+/// Relative change of frictions.
 const FRICTION: f64 = 0.1;
+
+/// Signs of the shifts, rotation and change of friction; consecutive draws differ in at least two.
 const SIGNS: [[f64; 4]; 8] = [
     [1.0, 1.0, 1.0, 1.0],
     [-1.0, -1.0, -1.0, -1.0],
@@ -21,8 +27,8 @@ const SIGNS: [[f64; 4]; 8] = [
     [-1.0, 1.0, -1.0, 1.0],
 ];
 
-/// The situation as it may be instead, everything moved as one about the object that is levered, and the
-/// friction value of the blade.
+/// Returns the perturbed situation, with the scene moved as one body about the levered object, and
+/// the friction of the blade.
 pub(super) fn doubted(
     situation: &Situation,
     plate: usize,

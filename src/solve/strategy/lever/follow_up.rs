@@ -1,5 +1,5 @@
-//! Pushes that follow a lever-up: the object is levered to where it lies on the table, as the goal asks for,
-//! and pushed to its place from there. Of a task without lever-ups, pushes alone.
+//! Pushes that follow a lever-up. The object is levered until it lies on the table as the goal
+//! requires, and is then pushed to its place. For tasks without lever-ups, only pushes are planned.
 
 use std::collections::VecDeque;
 
@@ -15,29 +15,29 @@ use crate::task::Task;
 use super::prefix::{Prefix, pushed, pushing_task, start};
 use super::search::lever_ups;
 
-/// Follows lever-ups of a task, best first, until a plan passes.
+/// Strategy that follows lever-ups of a task by pushes, best first, until a plan passes.
 pub(in crate::solve::strategy) struct FollowUp<'a> {
-    /// The task as it is after the prefix.
+    /// Task after the prefix.
     task: Task,
     prefix: Prefix,
     library: &'a ToolLibrary,
-    /// Lever-ups that meet all of the goal but its place, once they are searched.
+    /// Lever-ups that meet the goal except for its place, once searched.
     levered: Option<VecDeque<Attempt>>,
     followed: usize,
 }
 
 impl<'a> FollowUp<'a> {
-    /// Follows lever-ups of the task from its start.
+    /// Creates the strategy for lever-ups of the task from its start.
     pub fn new(task: Task, library: &'a ToolLibrary) -> Self {
         Self::after(Prefix::default(), task, library)
     }
 
-    /// Follows lever-ups after `prefix`, which leads to the start of `task`.
+    /// Creates the strategy for lever-ups after `prefix`, which leads to the start of `task`.
     pub(super) fn after(prefix: Prefix, task: Task, library: &'a ToolLibrary) -> Self {
         Self { task, prefix, library, levered: None, followed: 0 }
     }
 
-    /// Searches and verifies lever-ups, with the place left to the pushes.
+    /// Searches and verifies lever-ups without regard to the goal's place, which is left to pushes.
     fn levered(&self, board: &mut Blackboard<'a>) -> VecDeque<Attempt> {
         let goal = self.task.goals[0].clone().anywhere();
         let lifted = Task { goals: vec![goal.clone()], ..self.task.clone() };
@@ -45,7 +45,7 @@ impl<'a> FollowUp<'a> {
         let goal = Task { goals: vec![goal], ..board.query.task.clone() };
         verify_in_groups(board, &goal, &mut plans);
         let mut levered: Vec<Attempt> = plans.into_iter().map(|plan| plan.attempt).collect();
-        // Stable: the search decides between equals.
+        // The sort is stable, so that ties keep the order of the search.
         levered.sort_by(|a, b| b.evidence().total_cmp(&a.evidence()));
         let reaches = |attempt: &Attempt| attempt.prediction.as_ref().is_some_and(|p| p.1.reached);
         levered.into_iter().filter(reaches).collect()

@@ -1,4 +1,5 @@
-//! Several goals, one stage for each: a lever-up for what leaves the plane, pushes for all else.
+//! Stages for several goals: a lever-up for each goal that leaves the plane, and pushes for all
+//! others.
 
 use std::collections::VecDeque;
 
@@ -14,20 +15,20 @@ use crate::task::{Goal, Plan, Step, Task};
 
 use super::prefix::{Prefix, coarse, pushing_task, start};
 
-/// Distance by which later pushes may move an object whose goal is reached, metres: as far as objects that
-/// a task keeps may be moved by default.
+/// Distance by which later pushes may move an object whose goal is reached, metres: the default for
+/// objects that must stay.
 const KEPT: f64 = 0.005;
 
-/// The goals that one part of a plan meets.
+/// Goals that one part of a plan meets.
 #[derive(Clone)]
 enum Stage {
-    /// The object of this goal is levered.
+    /// Lever-up of the goal's object.
     Lever(Goal),
-    /// The objects of these are pushed.
+    /// Pushes of the goals' objects.
     Push(Vec<Goal>),
 }
 
-/// Tries the stages in different orders, until a plan passes.
+/// Strategy that tries the stages in different orders, until a plan passes.
 pub(in crate::solve::strategy) struct InTurn<'a> {
     library: &'a ToolLibrary,
     orders: VecDeque<Vec<Stage>>,
@@ -38,7 +39,7 @@ impl<'a> InTurn<'a> {
         Self { library, orders: orders(task) }
     }
 
-    /// Plans the stages of an order, each from where the last one leaves everything.
+    /// Plans the stages of an order, each from the state left by the previous one.
     fn plan(
         &self,
         board: &mut Blackboard<'a>,
@@ -70,7 +71,7 @@ impl<'a> InTurn<'a> {
         Ok((!prefix.plan.is_empty()).then_some(prefix))
     }
 
-    /// Plans a lever-up, with pushes that it needs, for one goal.
+    /// Plans a lever-up for one goal, with the pushes that it needs.
     fn levered(
         &self,
         board: &mut Blackboard<'a>,
@@ -95,7 +96,7 @@ impl<'a> InTurn<'a> {
         }))
     }
 
-    /// Plans pushes for some goals; the objects of those that are `met` stay where they are.
+    /// Plans pushes for some goals; the objects in `met` must stay in place.
     fn pushed(
         &self,
         board: &mut Blackboard<'a>,
@@ -135,8 +136,8 @@ impl<'a> Strategy<'a> for InTurn<'a> {
     }
 }
 
-/// Returns a plan that works for a task of some of the goals; one without steps where nothing is to be
-/// done.
+/// Returns a working plan for a task with some of the goals. The plan has no steps if these goals
+/// are already met.
 fn solved(
     board: &mut Blackboard,
     task: &Task,
@@ -157,8 +158,8 @@ fn solved(
     Ok(best.map(|best| Prefix { plan: best.plan.clone(), tools: best.tools.clone() }))
 }
 
-/// Returns the orders of the stages that are tried: lever-ups first, which need the room that they find, or
-/// pushes first, and of several lever-ups either first.
+/// Returns the orders of the stages to try: lever-ups first, or pushes first to make room for them.
+/// The reversed order of several lever-ups is also tried.
 fn orders(task: &Task) -> VecDeque<Vec<Stage>> {
     let (lifted, flat): (Vec<Goal>, Vec<Goal>) =
         task.goals.iter().cloned().partition(|goal| !goal.is_pose());
@@ -177,7 +178,7 @@ fn orders(task: &Task) -> VecDeque<Vec<Stage>> {
         let reversed: Vec<Goal> = lifted.iter().rev().cloned().collect();
         add(&reversed, &flat);
     }
-    // Of several goals in the plane one may be for the blade.
+    // One of several planar goals may need the blade.
     if lifted.is_empty() && flat.len() > 1 {
         let levered = task.levered().object;
         let (blade, others): (Vec<Goal>, Vec<Goal>) =

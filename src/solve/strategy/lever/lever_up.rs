@@ -1,4 +1,4 @@
-//! A lever-up alone.
+//! Single lever-ups.
 
 use crate::solve::SolveError;
 use crate::solve::blackboard::Blackboard;
@@ -7,7 +7,7 @@ use crate::solve::solving::{Batch, Strategy};
 use super::prefix::Prefix;
 use super::search::lever_ups;
 
-/// Searches lever-ups of the task, once.
+/// Strategy that searches lever-ups of the task once.
 #[derive(Default)]
 pub(in crate::solve::strategy) struct LeverUp {
     begun: bool,

@@ -1,4 +1,4 @@
-//! Pushes to where the object can be levered, before a lever-up.
+//! Pushes that bring the object to a place where it can be levered.
 
 use std::f64::consts::TAU;
 
@@ -16,20 +16,22 @@ use super::follow_up::FollowUp;
 use super::prefix::{Prefix, pushing_task, start};
 use super::search::{lever_ups, promising};
 
-/// Distances by which the object is pushed, metres, and number of directions.
+/// Distances by which the object is pushed, metres.
 const AWAY: [f64; 3] = [0.08, 0.14, 0.2];
+
+/// Number of directions in which the object is pushed.
 const DIRECTIONS: usize = 8;
 
-/// Maximum error of the push, metres: the blade goes where the replay as written has the object then.
+/// Maximum error of the push, metres: the blade is planned for the pose in the nominal replay.
 const NEAR: f64 = 0.01;
 
-/// Tries places next to the object, nearest first, until a plan works.
+/// Strategy that tries places next to the object, nearest first, until a plan works.
 pub(in crate::solve::strategy) struct MakeRoom<'a> {
     library: &'a ToolLibrary,
-    /// Displacements of the object that were not tried yet.
+    /// Untried displacements of the object.
     displacements: Box<dyn Iterator<Item = Vector>>,
     pushed: usize,
-    /// The last push, and the task after it, whose lever-ups were tried.
+    /// Last push, and the task after it whose lever-ups were tried.
     last: Option<(Prefix, Task)>,
     follow_up: Option<FollowUp<'a>>,
 }
@@ -112,7 +114,7 @@ impl<'a> Strategy<'a> for MakeRoom<'a> {
     }
 }
 
-/// Returns `true` if the goal's object has room where it is put.
+/// Returns `true` if the goal's object has room at its position.
 fn is_free(task: &Task) -> bool {
     let (scene, own) = (&task.scene, task.plate());
     let others = scene.plates().enumerate().filter(|(k, _)| *k != task.goals[0].object);

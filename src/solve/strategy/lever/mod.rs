@@ -1,5 +1,5 @@
-//! Strategies for tasks that leave the plane: a lever-up alone, pushes that follow one, pushes that make
-//! room for one, and one stage after another for several goals.
+//! Strategies for tasks that leave the plane: a single lever-up, pushes after one, pushes that make
+//! room for one, and consecutive stages for several goals.
 
 mod doubt;
 mod follow_up;

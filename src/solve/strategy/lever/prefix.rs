@@ -1,4 +1,4 @@
-//! Steps before the next one, and where they leave everything.
+//! First steps of a plan, and the state that they leave.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use crate::solve::lever_batch::LeverPlan;
 use crate::task::{Plan, Task};
 use crate::watch::{Instant, Unwatched};
 
-/// The first steps of a plan, with their tools.
+/// First steps of a plan, with their tools.
 #[derive(Default)]
 pub(super) struct Prefix {
     pub plan: Plan,
@@ -22,7 +22,7 @@ pub(super) struct Prefix {
 }
 
 impl Prefix {
-    /// Returns its tools and `more`, each once.
+    /// Returns the tools of the prefix and `more`, each once.
     pub fn with(&self, more: &[Arc<Tool>]) -> Vec<Arc<Tool>> {
         let mut tools = self.tools.clone();
         for tool in more {
@@ -33,7 +33,7 @@ impl Prefix {
         tools
     }
 
-    /// Returns the poses in which it leaves all objects, as written.
+    /// Returns the poses of all objects after the nominal prefix.
     pub fn rests(&self, task: &Task) -> Option<Vec<Pose3>> {
         simulated(LeverSimulator::FINE, task, &self.plan, &self.tools)?.outcome().space.clone()
     }
@@ -44,14 +44,14 @@ pub(super) fn start(task: &Task) -> Vec<Pose3> {
     task.scene.plates().map(|plate| plate.start()).collect()
 }
 
-/// Returns what is left of `task` to be pushed once all objects lie at `rests`, if it can be.
+/// Returns the remaining pushing task once all objects rest at `rests`, if it can be stated.
 pub(super) fn pushing_task(task: &Task, rests: &[Pose3], library: &ToolLibrary) -> Option<Task> {
     let left = task.after(rests)?;
     Some(Task { tools: task.pushers(library), ..left })
 }
 
-/// Returns `prefix` with the pushes that bring the object to its place from `rests`; nothing if there are
-/// none.
+/// Returns `prefix` with the pushes that bring the object from `rests` to its place. Returns `None`
+/// if no such pushes are found.
 pub(super) fn pushed(
     board: &mut Blackboard,
     library: &ToolLibrary,
@@ -74,7 +74,7 @@ pub(super) fn pushed(
     }))
 }
 
-/// Simulates a plan as written, coarsely.
+/// Simulates a plan as written at coarse resolution.
 pub(super) fn coarse(task: &Task, plan: &Plan, tools: &[Arc<Tool>]) -> Option<Trajectory> {
     simulated(LeverSimulator::COARSE, task, plan, tools)
 }

@@ -1,4 +1,4 @@
-//! Lever-ups of a task: search with the screening model, and coarse simulation of the best.
+//! Search for lever-ups of a task with the screening model, and coarse simulation of the best.
 
 use std::sync::Arc;
 
@@ -18,10 +18,10 @@ use crate::watch::{Instant, Unwatched};
 use super::doubt::doubted;
 use super::prefix::Prefix;
 
-/// Cost in rank of a candidate whose coarse replays with small errors all miss the goal.
+/// Ranking cost of a candidate whose perturbed coarse simulations all miss the goal.
 const DOUBTED: f64 = 2.0;
 
-/// A candidate after coarse simulation.
+/// Candidate after coarse simulation.
 struct Simulated {
     candidate: LeverCandidate,
     trajectory: Trajectory,
@@ -66,7 +66,7 @@ fn search(query: &Query, task: &Task) -> (Vec<ScoredLever>, LeverSearchStatistic
     search.run(&predict, &|| query.watch.cancelled())
 }
 
-/// Predicts jobs with the model, or by coarse simulation where it leaves out something that matters.
+/// Predicts jobs with the model, or by coarse simulation if the model does not support them.
 fn predict(query: &Query, scene: &Scene, jobs: &[Job]) -> Vec<Trajectory> {
     let model = query.planner.screen();
     if jobs.iter().all(|job| model.takes(scene, job)) {
@@ -77,13 +77,14 @@ fn predict(query: &Query, scene: &Scene, jobs: &[Job]) -> Vec<Trajectory> {
     }
 }
 
-/// Simulates a motion coarsely in the situation as it really is; it was planned in `scene`.
+/// Simulates a motion planned in `scene` coarsely in the true situation.
 fn simulated(really: &Situation, scene: &Scene, motion: Motion) -> Trajectory {
     let watched = (Record::Outcome, &Unwatched as _);
     LeverSimulator::COARSE.run_all(really, scene, &[motion], watched)
 }
 
-/// Chooses the best `wanted` of different kinds: no more than an eighth of one while there are others.
+/// Chooses the best `wanted` candidates of different kinds: at most an eighth of one kind while
+/// there are others.
 fn choose(scored: Vec<ScoredLever>, wanted: usize) -> Vec<ScoredLever> {
     let kinds: Vec<Kind> = scored.iter().map(|found| kind(&found.candidate)).collect();
     let all: Vec<usize> = (0..scored.len()).collect();
@@ -92,7 +93,7 @@ fn choose(scored: Vec<ScoredLever>, wanted: usize) -> Vec<ScoredLever> {
     chosen.into_iter().filter_map(|k| scored[k].take()).collect()
 }
 
-/// Simulates candidates coarsely, as planned and with small errors, and ranks them by that.
+/// Simulates candidates coarsely, nominal and perturbed, and ranks them by the results.
 fn simulate(query: &Query, task: &Task, chosen: Vec<ScoredLever>) -> Vec<Simulated> {
     let doubts = query.planner.settings().levers.doubts;
     let stated = Situation::stated(&task.scene);
@@ -119,12 +120,12 @@ fn simulate(query: &Query, task: &Task, chosen: Vec<ScoredLever>) -> Vec<Simulat
             Simulated { candidate: scored.candidate, trajectory, outcome, merit }
         })
         .collect();
-    // Stable: the search decides between equals.
+    // The sort is stable, so that ties keep the order of the search.
     simulated.sort_by(|a, b| a.merit.total_cmp(&b.merit));
     simulated
 }
 
-/// Simulates a motion in a scene as it really is and as it was planned.
+/// Simulates a motion coarsely in the true situation and judges its outcome by the task.
 fn coarse(task: &Task, really: &Situation, motion: Motion) -> (Trajectory, Outcome) {
     let trajectory = simulated(really, &task.scene, motion);
     let scene = Scene { obstacles: really.scene.obstacles.clone(), ..task.scene.clone() };
