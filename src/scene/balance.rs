@@ -3,8 +3,8 @@
 use crate::geometry::Vector;
 
 /// Returns the shares of the weight that the points carry if its centre of mass is at the origin.
-/// Among the possible shares, those nearest to equal are chosen, as under equal springs. Returns
-/// `None` if the origin is outside of the convex hull of the points.
+/// The chosen shares are the nearest to equal ones, as under equal springs. Returns `None` if the
+/// origin is outside of the convex hull of the points.
 pub fn carries(points: &[Vector]) -> Option<Vec<f64>> {
     balanced(points, &vec![1.0; points.len()])
 }

@@ -13,7 +13,8 @@ pub enum LeverFeatures {
     /// Counts of outline points in 10 rings and 11 wedges of the half-plane before the lever point;
     /// they do not contain the size of the plate.
     ShapeContext,
-    /// Up to 10 corners, counter-clockwise from the end of the levered edge, and the centre of mass.
+    /// Up to 10 corners, counter-clockwise from the end of the levered edge, and the centre of
+    /// mass.
     Corners,
     /// The ends of the support edge, and the centre of mass.
     Support,

@@ -45,7 +45,7 @@ pub struct ModelSpec {
     others: Vec<ModelPart>,
 }
 
-/// One model of a [`ModelSpec`].
+/// A single model of a [`ModelSpec`].
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct ModelPart {
     /// Kind with its settings.
@@ -107,7 +107,7 @@ impl Stride {
 impl Rate {
     /// The default of both engines.
     ///
-    /// At 1/240 s a 20 cm push at 0.1 m/s in the planar engine ends 0.06 mm (cylinders) and 0.2 mm
+    /// A 20 cm push at 0.1 m/s and 1/240 s in the planar engine ends 0.06 mm (cylinders) and 0.2 mm
     /// (cuboids, median) from a run with finer steps. The 3-D engine is about 4 mm from another
     /// good engine on boxes.
     pub const DEFAULT: Self = Self(NonZeroU16::MIN.saturating_add(239));
