@@ -32,7 +32,7 @@ const ROUND: f64 = 0.002;
 pub struct Coverage {
     /// Minimum share of the area, 0 to 1.
     pub share: f64,
-    /// The outline with all parts in the object's frame: convex polygons that share no area, metres.
+    /// Outline with all parts in the object's frame: convex polygons that share no area, metres.
     pieces: Vec<Vec<Vector>>,
     /// Position of the wanted outline, with a tolerance for search.
     pub place: AtPlace,

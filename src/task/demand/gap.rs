@@ -1,4 +1,4 @@
-//! Demand: a gap between two objects, seen from above: touching, beside each other, clear of each other.
+//! Demand: a gap between two bodies, seen from above: touching, side by side, or apart.
 
 use serde::{Deserialize, Serialize};
 
