@@ -22,9 +22,9 @@ impl Body {
     /// not reach it.
     ///
     /// Obstacles are hardly entered: 0 mm in 300 solved random tasks, and 2.5 mm and more for
-    /// objects squeezed through too narrow gaps. Light objects in front of heavy ones sink into the
-    /// pushing body: in 3-D an object of 0.1 kg in front of three of 1 kg sinks 3.1 mm into the
-    /// tool and 4.4 mm into its neighbour.
+    /// objects squeezed through gaps that are too narrow. Light objects in front of heavy ones sink
+    /// into the pushing body. In 3-D an object of 0.1 kg in front of three of 1 kg sinks 3.1 mm
+    /// into the tool and 4.4 mm into its neighbour.
     pub fn most_overlap(&self) -> f64 {
         match self {
             Body::Obstacle(_) => 2e-3,

@@ -16,8 +16,8 @@ const SAME_HEIGHT: f64 = 1e-6;
 /// A solid of the tool's outline.
 ///
 /// Cuboids of one height with parallel sides are merged into one body. That body is divided into
-/// the fewest and largest cuboids that contain each of its faces whole, so a row of parts is one
-/// cuboid and the end of an L is one face. Any other part is a piece of its own. Engines, analytic
+/// the fewest and largest cuboids that contain each of its faces whole. A row of parts is thus one
+/// cuboid, and the end of an L is one face. Any other part is a piece of its own. Engines, analytic
 /// model and network represent the tool by its pieces; each is a node of the graph.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {

@@ -68,8 +68,8 @@ struct Tracked {
 }
 
 impl World for PlanarWorld {
-    /// Friction decreases with the speed below a share of mu g dt, which is 16 mm/s at mu 0.4:
-    /// below all of it in moving joints, and below a twentieth elsewhere.
+    /// Friction decreases with the speed below a share of mu g dt, which is 16 mm/s at mu 0.4. The
+    /// share is all of it in moving joints, and a twentieth elsewhere.
     const SLOWEST: f64 = 0.05;
 
     fn hurry(&mut self, factor: f64) {

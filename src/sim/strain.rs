@@ -2,11 +2,11 @@
 //! force that the tool needs, and the force on fragile objects.
 //!
 //! Tool and obstacles do not yield. If the tool travels farther than an object has room, the
-//! engines' soft contacts let the object sink into one of them, and finally through it, at any
-//! setting of the solver. On a real table the arm stops, or something breaks. The depth separates
-//! the two cases. Over 300 solved random tasks no object entered an obstacle at all, and none was
-//! deeper than 0.6 mm in the tool. Squeezed through too narrow gaps, objects sank at least 2.5 mm
-//! into a wall.
+//! engines' soft contacts let the object sink into one of them. Finally the object passes through,
+//! at any setting of the solver. On a real table the arm stops, or something breaks. The depth
+//! separates the two cases. Over 300 solved random tasks no object entered an obstacle at all, and
+//! none was deeper than 0.6 mm in the tool. Squeezed through gaps that are too narrow, objects sank
+//! at least 2.5 mm into a wall.
 //!
 //! Rounded bodies pass gaps that are narrower by less than twice that, without becoming any
 //! thinner. An object inside two facing obstacles is therefore jammed at any depth.
@@ -174,7 +174,9 @@ pub(super) fn overlap(
 }
 
 /// Returns the force (newtons) for the impulse (newton seconds) that rapier reports after a step of
-/// `dt` seconds. rapier adds up one solver iteration too many, so the contact of a sliding object
+/// `dt` seconds.
+///
+/// The reported impulse includes one solver iteration too many, so the contact of a sliding object
 /// reads (n + 1) / n of its true value.
 pub(super) fn force(impulse: f64, dt: f64, small_steps: usize) -> f64 {
     let n = small_steps as f64;

@@ -12,9 +12,9 @@ use super::{ModelSpec, SpecError};
 /// Maximum number of moving objects in a frame that the network corrects. With more objects, the
 /// correction costs more time than the analytic model and does not improve the prediction.
 ///
-/// Measured with `pushplan-lab evaluate --on dense sparse` on 24 trajectories of each set, as mean
-/// error relative to the analytic model: 1.11 (dense) and 0.98 (sparse) if every frame is
-/// corrected, 1.00 and 0.95 with at most five objects, 1.00 and 0.98 with three.
+/// Measured with `pushplan-lab evaluate --on dense sparse` on 24 trajectories of each set. Relative
+/// to the analytic model, the mean error is 1.11 (dense) and 0.98 (sparse) if every frame is
+/// corrected. It is 1.00 and 0.95 with at most five objects, and 1.00 and 0.98 with three.
 pub const CORRECTED: usize = 5;
 
 /// The effect models of a planner.

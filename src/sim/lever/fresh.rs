@@ -1,9 +1,9 @@
 //! Recomputation of contacts in every step.
 //!
-//! parry reuses the contact points of two solids from step to step, as long as the solids rotate
-//! against each other by less than a degree and slide by less than a millimetre *a step*. Reused
-//! points do not end at the end of a face. A plate whose edge has slid off the blade then hangs 5
-//! mm in the air before it, the longer the finer the steps.
+//! parry reuses the contact points of two solids while their relative motion *in a step* is small:
+//! a rotation by less than a degree and a slide by less than a millimetre. Reused points do not end
+//! at the end of a face. A plate whose edge has slid off the blade then hangs 5 mm in the air
+//! before it, the longer the finer the steps.
 
 use rapier3d_f64::parry::query::details::{ContactManifoldsWorkspace, NormalConstraints};
 use rapier3d_f64::parry::query::{

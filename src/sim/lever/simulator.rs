@@ -24,11 +24,11 @@ pub struct LeverSimulator {
 }
 
 impl LeverSimulator {
-    /// The rate of search: 60 steps a second.
+    /// Simulator for search: 60 steps a second.
     pub const COARSE: Self = Self::per_second(60);
-    /// The rate of data and checks: 240 steps a second.
+    /// Simulator for data and checks: 240 steps a second.
     pub const FINE: Self = Self::per_second(240);
-    /// The reference rate: 1920 steps a second.
+    /// Reference simulator: 1920 steps a second.
     pub const TRUTH: Self = Self::per_second(1920);
 
     /// Creates a simulator with this number of steps a second, at least one.
