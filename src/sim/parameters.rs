@@ -15,8 +15,8 @@ const SOFT_MASS_RATIO: f64 = 10.0;
 /// A can of 0.11 kg sinks by 1.7 mm into a pair of 0.82 kg that it pushes with rapier's default (30
 /// Hz, 5), and needs several frames to separate. Sinking decreases with the square of the
 /// frequency. With 300 Hz and ratio 1, objects jammed between tool and wall are ejected at 12 and
-/// 18 times the tool's speed in two of 1000 random scenes. With this setting they reach 5 times the
-/// speed, with rapier's default twice.
+/// 18 times the tool's speed in two of 1000 random scenes. With this setting they reach at most 5
+/// times the tool's speed, with rapier's default twice.
 pub(super) const PLANAR_CONTACT: (f64, f64) = (100.0, 5.0);
 
 /// Contact spring of both engines for articulated scenes and scenes above [`SOFT_MASS_RATIO`]. With

@@ -93,7 +93,7 @@ impl Simulator {
         self.run_watched(scene, job, record, &Unwatched)
     }
 
-    /// Runs [`Simulator::run`], which `watch` can stop after any frame; a warning reports the stop.
+    /// Plays a job as [`Simulator::run`]; `watch` can stop it after any frame, with a warning.
     pub fn run_watched(
         &self,
         scene: &Scene,

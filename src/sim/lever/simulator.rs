@@ -43,14 +43,14 @@ impl LeverSimulator {
         self.run_as_planned(job, &job.scene)
     }
 
-    /// Runs [`LeverSimulator::run`] with the blade at its place in `planned`, in which objects may
-    /// have slightly other poses than in reality.
+    /// Plays a job as [`LeverSimulator::run`], with the blade at its place in `planned`, in which
+    /// objects may have slightly other poses than in reality.
     pub fn run_as_planned(&self, job: &LeverJob, planned: &LeverScene) -> LeverTrajectory {
         play(job, planned, self.rate.step(), None).0
     }
 
-    /// Runs [`LeverSimulator::run`] and records a frame every `interval` seconds, with the force on
-    /// the blade, newtons.
+    /// Plays a job as [`LeverSimulator::run`] and records a frame every `interval` seconds, with the
+    /// force on the blade, newtons.
     pub fn record(&self, job: &LeverJob, interval: f64) -> (LeverTrajectory, Vec<(Frame, f64)>) {
         play(job, &job.scene, self.rate.step(), Some(Film { frames: Vec::new(), interval }))
     }
