@@ -49,8 +49,8 @@ impl LeverSimulator {
         play(job, planned, self.rate.step(), None).0
     }
 
-    /// Plays a job as [`LeverSimulator::run`] and records a frame every `interval` seconds, with the
-    /// force on the blade, newtons.
+    /// Plays a job as [`LeverSimulator::run`] and records a frame every `interval` seconds, with
+    /// the force on the blade, newtons.
     pub fn record(&self, job: &LeverJob, interval: f64) -> (LeverTrajectory, Vec<(Frame, f64)>) {
         play(job, &job.scene, self.rate.step(), Some(Film { frames: Vec::new(), interval }))
     }
