@@ -1,47 +1,47 @@
-//! What an arm cannot do.
+//! Reasons why an arm cannot carry out a plan.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// Why no pose of an arm carries out a push, or brings it there.
+/// The reason why an arm cannot carry out a push or the approach to it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ArmFault {
-    /// It does not reach there with its joints within their limits.
+    /// No pose within the joint limits reaches the tool pose.
     Unreachable,
     /// A joint leaves its limits.
     Limit {
-        /// Its name.
+        /// Name of the joint.
         joint: String,
     },
-    /// A joint would have to be faster than it is.
+    /// A joint would have to move faster than its speed limit.
     TooFast {
-        /// Its name.
+        /// Name of the joint.
         joint: String,
-        /// How fast, radians or metres a second.
+        /// Required speed, radians or metres a second.
         needed: f64,
-        /// How fast it is.
+        /// Speed limit of the joint, radians or metres a second.
         limit: f64,
     },
-    /// It is stretched out or folded so that it cannot move on in some direction.
+    /// The arm is so stretched out or folded that it cannot move in some direction.
     Singular,
-    /// Two things of the arm, or the arm and something that stands there, are in each other.
+    /// Two bodies of the arm overlap, or the arm overlaps an obstacle.
     Collides {
-        /// Their names.
+        /// Names of the two bodies.
         between: [String; 2],
     },
-    /// The joints do not hold the tool where the plan has it.
+    /// The joint positions do not hold the tool at the planned pose.
     Off {
-        /// How far, metres; a turn counts at 10 cm.
+        /// Distance from the planned pose, metres; a rotation counts at a radius of 10 cm.
         distance: f64,
     },
-    /// There is no way to it, around what was met last.
+    /// No collision-free path to the push was found.
     NoWay {
-        /// The names of what met.
+        /// Names of the two bodies that collided last.
         between: [String; 2],
     },
-    /// The joints are others than the arm has, or the plan has other pushes.
+    /// The joint names differ from the joints of the arm, or the plan has other pushes.
     OfAnother,
 }
 

@@ -2,14 +2,15 @@
 
 use crate::geometry::Vector;
 
-/// Shares of the weight that points carry, so that together they carry it at the origin: those
-/// nearest to equal shares, as even springs would have them. `None` where they cannot, because the
-/// origin lies outside of them.
+/// Returns the shares of the weight that the points carry if its centre of mass is at the origin.
+/// The chosen shares are the nearest to equal ones, as under equal springs. Returns `None` if the
+/// origin is outside of the convex hull of the points.
 pub fn carries(points: &[Vector]) -> Option<Vec<f64>> {
     balanced(points, &vec![1.0; points.len()])
 }
 
-/// The same for points whose shares would be these `weights` if the origin were in their middle.
+/// Computes [`carries`] for points whose shares would be these `weights` if the origin were their
+/// weighted mean.
 pub(super) fn balanced(points: &[Vector], weights: &[f64]) -> Option<Vec<f64>> {
     let mut used = vec![true; points.len()];
     loop {
@@ -26,7 +27,7 @@ pub(super) fn balanced(points: &[Vector], weights: &[f64]) -> Option<Vec<f64>> {
         let a = xx * yy - xy * xy;
         let b = Vector::new(sum.y * xy - sum.x * yy, sum.x * xy - sum.y * xx);
         let whole = n * a + sum.dot(&b);
-        // On one line they carry nothing: it would tip.
+        // Points on one line carry nothing: the body would tip.
         if whole <= 1e-9 * n * (xx + yy) * (xx + yy) {
             return None;
         }
@@ -65,7 +66,7 @@ mod tests {
         let square = square.map(|(x, y)| Vector::new(x, y));
         let loads = carries(&square).expect("inside");
         assert!(loads.iter().all(|load| (load - 0.25).abs() < 1e-12));
-        // Far out on one side, one point more carries less.
+        // A fifth point far out on one side carries less.
         let lopsided = [&square[..], &[Vector::new(8.0, 0.0)]].concat();
         let loads = carries(&lopsided).expect("inside");
         assert!(loads[4] < loads[0] && loads[0] < loads[1], "{loads:?}");

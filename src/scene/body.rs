@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Bodies with a smaller gap than this touch, metres; the same depth of overlap is no more than a
-/// touch.
+/// Largest gap of bodies that touch, metres; also the largest overlap that is a mere touch.
 pub const TOUCHING: f64 = 1e-4;
 
 /// A body that a contact names.
@@ -19,13 +18,13 @@ pub enum Body {
 }
 
 impl Body {
-    /// An object deeper inside such a body than this is jammed, metres: rigid ones do not get
-    /// there.
+    /// Returns the overlap above which an object is jammed in this body, metres; rigid bodies do
+    /// not reach it.
     ///
-    /// Nothing comes into an obstacle: over 300 solved random tasks 0 mm, squeezed through gaps too
-    /// narrow 2.5 mm and more. Light objects in front of heavy ones do sink into what pushes them:
-    /// in 3-D one of 0.1 kg in front of three of 1 kg sinks 3.1 mm into the tool and 4.4 mm into
-    /// its neighbour.
+    /// Obstacles are hardly entered: 0 mm in 300 solved random tasks, and 2.5 mm and more for
+    /// objects squeezed through gaps that are too narrow. Light objects in front of heavy ones sink
+    /// into the pushing body. In 3-D an object of 0.1 kg in front of three of 1 kg sinks 3.1 mm
+    /// into the tool and 4.4 mm into its neighbour.
     pub fn most_overlap(&self) -> f64 {
         match self {
             Body::Obstacle(_) => 2e-3,

@@ -9,13 +9,13 @@ use super::support::Support;
 use super::underside::underside;
 
 impl Support {
-    /// Returns the points that stand for this support under an object that covers `footprint`.
+    /// Returns the points that represent this support under an object that covers `footprint`.
     ///
-    /// Even pressure is that of sixteen points with equal loads: a grid of four by four under a
+    /// Sixteen points with equal loads represent even pressure: a grid of four by four under a
     /// cuboid, two rings of eight under a cylinder. They have the second moments of the underside,
-    /// so friction is exact for slides that hardly turn; the torque of turns on the spot is exact
-    /// under cylinders and thin rods, and 0.5 % too small under squares. Under prisms
-    /// see `underside`.
+    /// so friction is exact for slides with little rotation. The torque of rotations on the spot is
+    /// exact under cylinders and thin rods, and 0.5 % too small under squares. For prisms see
+    /// `underside`.
     pub fn feet(&self, footprint: &Footprint) -> Feet {
         let mut feet = match (self, *footprint) {
             (Self::Points(points), _) => on(points),
@@ -35,7 +35,7 @@ impl Support {
             }
             (Self::Even, Footprint::Polygon(polygon)) => {
                 let (points, even) = underside(&polygon);
-                // Even pressure carries no centre of mass that is not the centroid.
+                // Even pressure can only carry a centre of mass at the centroid.
                 let loads = balanced(&points, &even).unwrap_or(even);
                 Feet::of(points.into_iter().zip(loads))
             }
@@ -52,10 +52,11 @@ impl Support {
     }
 }
 
-/// Returns in place of even pressure fewer points with the same first and second moments, for engines
-/// in which all of them are contacts of a body that can tip: there it is left to chance how its
-/// weight spreads over many contacts, and each costs time. Eight under a cylinder, four under
-/// anything else. Points that are stated stay.
+/// Replaces even pressure by fewer points with the same first and second moments: eight under a
+/// cylinder, four otherwise. Stated points stay.
+///
+/// Fewer points serve engines in which every point is a contact of a body that can tip. There the
+/// distribution of weight over many contacts is arbitrary, and each contact costs time.
 pub fn few(feet: &Feet, footprint: &Footprint) -> Feet {
     if !feet.even {
         return feet.clone();
@@ -63,7 +64,7 @@ pub fn few(feet: &Feet, footprint: &Footprint) -> Feet {
     let mut made = match *footprint {
         Footprint::Disc { .. } => Feet::equal(ring(feet.mean_square.sqrt(), 0.0)),
         Footprint::Rectangle { .. } | Footprint::Polygon(_) => {
-            // On the principal axes of the second moments, which have these means and spread.
+            // On the principal axes of the second moments, which have this mean and this spread.
             let sum = |value: &dyn Fn(Vector) -> f64| -> f64 {
                 feet.each().map(|(at, load)| load * value(at)).sum()
             };
@@ -80,9 +81,9 @@ pub fn few(feet: &Feet, footprint: &Footprint) -> Feet {
     made
 }
 
-/// Returns [`few`] points of a solid that carries this `share` of what an equal one beside it would: engines
-/// in which the points of one body are contacts load them all alike, so light solids stand on fewer,
-/// one in their middle or two on their long axis.
+/// Reduces [`few`] points further for a solid that carries this `share` of the load of an equal
+/// solid beside it. Light solids stand on one point in their middle or on two points on their long
+/// axis, because some engines load all contacts of a body alike.
 pub fn fewer(feet: &Feet, footprint: &Footprint, share: f64) -> Feet {
     let few = few(feet, footprint);
     let count = share * few.count as f64;
@@ -92,8 +93,8 @@ pub fn fewer(feet: &Feet, footprint: &Footprint, share: f64) -> Feet {
     let mut made = match count < 1.5 {
         true => Feet::equal([Vector::zeros()]),
         false => {
-            // Neighbours are the ends of a side; the middles of the shorter sides are as far apart
-            // as the points of the whole are spread.
+            // Neighbouring points are the ends of a side; the middles of the shorter sides are as
+            // far apart as the spread of all points.
             let middle = |k: usize| {
                 let next = (k + 1) % few.count;
                 0.5 * Vector::new(few.x[k] + few.x[next], few.y[k] + few.y[next])
@@ -107,7 +108,7 @@ pub fn fewer(feet: &Feet, footprint: &Footprint, share: f64) -> Feet {
     made
 }
 
-/// These points with loads that leave the centre of mass where it is, as equal as can be; see
+/// Returns these points with loads that keep the centre of mass, as equal as possible; see
 /// [`carries`].
 fn on(points: &[Vector]) -> Feet {
     let loads = carries(points).unwrap_or_else(|| vec![1.0 / points.len() as f64; points.len()]);
@@ -128,7 +129,8 @@ fn corners(footprint: &Footprint, share: f64) -> Feet {
     }
 }
 
-/// Eight points on a circle, the first one turned by `turn` of the angle between two.
+/// Returns eight points on a circle; the first one is rotated by `turn` times the angle between
+/// two.
 fn ring(radius: f64, turn: f64) -> impl Iterator<Item = Vector> {
     (0..8).map(move |k| {
         let (y, x) = (std::f64::consts::FRAC_PI_4 * (f64::from(k) + turn)).sin_cos();

@@ -1,26 +1,26 @@
-//! What does not move and must not be run into: obstacles, and regions to keep out of.
+//! Fixed bodies that must not be touched: obstacles and keep-out regions.
 
 use crate::geometry::{Footprint, Pose};
 
 use super::{Obstacle, Region};
 
-/// What moves through a scene by the robot's will.
+/// A body that the robot moves through a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mover {
     /// The parts of a tool.
     Tool,
-    /// The hand, and what it holds the tool by.
+    /// The hand and the handle by which it holds the tool.
     Hand,
 }
 
-/// Something to keep clear of, seen from above.
+/// An area to keep clear of, seen from above.
 #[derive(Clone, Copy, Debug)]
 pub struct Fixed<'a> {
-    /// What it is called.
+    /// Name of the obstacle or region.
     pub name: &'a str,
-    /// What it covers.
+    /// Outline.
     pub footprint: Footprint,
-    /// Where it is.
+    /// Pose of the outline.
     pub pose: Pose,
 }
 

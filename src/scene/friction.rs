@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What rubs on an object.
+/// The other body of a friction pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Surface {
@@ -12,23 +12,23 @@ pub enum Surface {
     Obstacle(usize),
     /// The table.
     Table,
-    /// Every part of whatever tool.
+    /// Every part of any tool.
     Tool,
 }
 
-/// The friction of an object and another body, where it is not the mean of their two values.
+/// The friction of an object and another body, if it is not the mean of their two values.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PairFriction {
     /// The object, by index.
     pub object: usize,
-    /// What rubs on it.
+    /// The other body.
     pub with: Surface,
-    /// Their coefficient of friction.
+    /// Coefficient of friction of the pair.
     pub coefficient: f64,
 }
 
 impl PairFriction {
-    /// Whether these two are the pair; two objects are it either way round.
+    /// Returns `true` if these two bodies are the pair; the order of two objects does not matter.
     pub fn is_of(&self, object: usize, with: Surface) -> bool {
         let turned = || match with {
             Surface::Object(other) => (other, Surface::Object(object)) == (self.object, self.with),
@@ -38,8 +38,8 @@ impl PairFriction {
     }
 }
 
-/// The coefficient of friction of two bodies: what is stated of the pair, or else the mean of the
-/// two `values`.
+/// Returns the coefficient of friction of two bodies: the stated coefficient of the pair if there
+/// is one, otherwise the mean of the two `values`.
 pub fn pair_friction(
     stated: &[PairFriction],
     object: usize,

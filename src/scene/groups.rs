@@ -1,26 +1,26 @@
-//! Which objects joints connect.
+//! Groups of objects that joints connect.
 
 use super::{DisjointSets, Joint, JointKind, Physics};
 
-/// Objects that move as one, because fixed joints hold them together.
+/// Groups of objects that move as one body because fixed joints connect them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RigidGroups {
-    /// The group of every object; groups are in the order of their first objects.
+    /// Group index of every object; groups are in the order of their first objects.
     pub of: Vec<usize>,
-    /// The objects of every group, in order; single ones are groups, too.
+    /// Objects of every group, in order; a single object also is a group.
     pub members: Vec<Vec<usize>>,
 }
 
 impl Physics {
-    /// For every object the lowest index among those that the joints chosen by `counts`
-    /// connect it with, itself included: objects with the same number move as one group.
+    /// Returns for every object the lowest index in its group. Joints for which `counts` returns
+    /// `true` connect objects to groups; objects with equal numbers move together.
     pub fn groups(&self, counts: impl Fn(&Joint) -> bool) -> Vec<usize> {
         let joints = self.joints.iter().filter(|joint| counts(joint));
         let pairs = joints.map(|joint| joint.between);
         DisjointSets::of(self.masses.len(), pairs).names().to_vec()
     }
 
-    /// The objects that fixed joints make one.
+    /// Returns the groups of objects that fixed joints connect.
     pub fn rigid_groups(&self) -> RigidGroups {
         let mut groups = RigidGroups::default();
         let lowest = self.groups(|joint| joint.kind == JointKind::Fixed);

@@ -1,22 +1,22 @@
-//! Other beliefs about the joints of a scene: none, every contact fixed, or geometry guessed from
-//! the types.
+//! Other beliefs about the joints of a scene: no joints, a fixed joint at every contact, or
+//! geometry guessed from the joint types.
 
 use crate::geometry::{ContactPoint, Vector, contact_points};
 
 use super::{Joint, JointKind, Object, Physics, Scene};
 
-/// Objects whose gap at the start is smaller than this count as touching when every contact is
-/// taken for a joint, metres: the reach in which the thesis looks for joints.
+/// Largest gap at the start of objects that count as touching when every contact becomes a joint,
+/// metres. The thesis looks for joints within this distance.
 pub const NEARLY_TOUCHING: f64 = 0.005;
 
 impl Physics {
-    /// The beliefs of someone who knows which objects of `scene` are joined, and by which type of
-    /// joint, but not where the axes are.
+    /// Returns the belief of an observer who knows which objects of `scene` are joined and by which
+    /// type of joint, but not the axes.
     ///
-    /// Geometry is guessed from the stated poses: the axis of a revolute joint stands midway
-    /// between the closest points of the two objects, a prismatic joint slides along the line
-    /// of their centres, and nothing is limited. Such joints are marked [`Joint::guessed`]. A
-    /// fixed joint has no geometry to guess and stays as it is.
+    /// The geometry is guessed from the stated poses. The axis of a revolute joint is midway
+    /// between the closest points of the two objects, a prismatic joint slides along the line of
+    /// their centres, and neither has limits. Such joints are marked [`Joint::guessed`]. A fixed
+    /// joint has no geometry to guess and stays as it is.
     pub fn guess_joints(&self, scene: &Scene) -> Self {
         let guess = |joint: &Joint| {
             let [first, second] = joint.between.map(|index| &scene.objects[index]);
@@ -34,13 +34,13 @@ impl Physics {
         Self { joints: self.joints.iter().map(guess).collect(), ..self.clone() }
     }
 
-    /// The same without joints.
+    /// Removes all joints.
     pub fn without_joints(&self) -> Self {
         Self { joints: Vec::new(), ..self.clone() }
     }
 
-    /// The same with a fixed joint between every two objects of `scene` that touch or nearly
-    /// touch at their stated poses (gap below [`NEARLY_TOUCHING`]), and no other joints.
+    /// Replaces all joints by fixed joints between objects of `scene` that touch or nearly touch at
+    /// their stated poses (gap below [`NEARLY_TOUCHING`]).
     pub fn with_contacts_fixed(&self, scene: &Scene) -> Self {
         let mut joints = Vec::new();
         for (a, first) in scene.objects.iter().enumerate() {
@@ -55,12 +55,12 @@ impl Physics {
     }
 }
 
-/// Smallest distance of two objects at the start, metres; negative where they overlap.
+/// Returns the smallest distance of two objects at the start, metres; negative if they overlap.
 fn gap(first: &Object, second: &Object) -> f64 {
     closest(first, second).map_or(f64::INFINITY, |point| point.gap)
 }
 
-/// The point midway between the closest points of two objects.
+/// Returns the midpoint of the closest points of two objects.
 fn between(first: &Object, second: &Object) -> Vector {
     match closest(first, second) {
         Some(point) => 0.5 * (point.on_first + point.on_second),
@@ -68,8 +68,8 @@ fn between(first: &Object, second: &Object) -> Vector {
     }
 }
 
-/// Unit vector from the first centre to the second; the first object's own x axis where the
-/// centres coincide.
+/// Returns the unit vector from the first centre to the second; the first object's own x axis if
+/// the centres coincide.
 fn line_of_centres(first: &Object, second: &Object) -> Vector {
     let line = second.pose.position - first.pose.position;
     line.try_normalize(1e-9).unwrap_or_else(|| first.pose.vector(Vector::x()))

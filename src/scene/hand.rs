@@ -6,32 +6,33 @@ use crate::geometry::{Footprint, Pose, Vector};
 
 use super::{Obstacle, Part, Robot, Scene, Tool};
 
-/// Nothing of a hand is lower than this unless a task says so, metres: fingers reach down to a tool.
+/// Lowest height of a hand if the task states none, metres; fingers reach down to a tool.
 const LOWEST: f64 = 0.12;
 
-/// A grip outside of all parts holds the nearest one by a handle of this half width, metres.
+/// Half width of the handle by which a grip outside of all parts holds the nearest part, metres.
 const HANDLE: f64 = 0.01;
 
-/// Room between hand and column, metres.
+/// Clearance between hand and column, metres.
 const ROOM: f64 = 0.01;
 
-/// Height of the column, metres: nothing that is pushed is above it.
+/// Height of the column, metres; pushed objects are below it.
 const COLUMN: f64 = 1.0;
 
 /// A hand: an upright cylinder about the end effector.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Hand {
-    /// Its radius, metres.
+    /// Radius, metres.
     pub radius: f64,
-    /// Height above the table at which it begins, metres; `None` where the tool at the grip ends, but
-    /// 0.12 m at least.
+    /// Height of the lower end above the table, metres; `None` for the top of the tool at the grip,
+    /// but at least 0.12 m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub from: Option<f64>,
 }
 
 impl Hand {
-    /// Height above the table at which it begins where what it holds ends at `top`, metres.
+    /// Returns the height of the lower end above the table for a held part whose top is at `top`,
+    /// metres.
     pub fn begins(&self, top: f64) -> f64 {
         self.from.unwrap_or(top.max(LOWEST))
     }
@@ -44,31 +45,33 @@ impl Default for Hand {
     }
 }
 
-/// A body that the end effector carries besides the parts of the tool, and that touches nothing.
+/// A body that the end effector carries in addition to the parts of the tool, and that touches
+/// nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Carried {
-    /// What it covers, seen from above.
+    /// Outline, seen from above.
     pub footprint: Footprint,
-    /// Where it is in the tool frame.
+    /// Pose in the tool frame.
     pub pose: Pose,
-    /// Heights above the table between which it is, metres; above a hand there is the arm.
+    /// Lower and upper end above the table, metres; a hand has no upper end, because the arm is
+    /// above it.
     pub span: [f64; 2],
 }
 
-/// Height of a hand as it is shown, metres.
+/// Height of a hand in drawings, metres.
 pub const SHOWN_HAND: f64 = 0.1;
 
 impl Robot {
-    /// What the task calls the column on which the arm stands; no other body can be called so.
+    /// Name of the column on which the arm stands; no other body can have it.
     pub const BASE: &str = "robot base";
 
-    /// Half the side of the usual column of an arm that reaches from `min` metres on: 0.08 m, or as much
-    /// less as the hand comes nearer.
+    /// Returns half the side of the default column of an arm whose reach begins at `min` metres:
+    /// 0.08 m, or less if the hand would touch it.
     pub fn usual_base(min: f64) -> f64 {
         (min - Hand::default().radius - ROOM).clamp(0.0, 0.08)
     }
 
-    /// The column as a body of the scene, unless there is none.
+    /// Returns the column as an obstacle, or `None` for a robot without one.
     pub fn column(&self) -> Option<Obstacle> {
         (self.base > 0.0).then(|| Obstacle {
             name: Self::BASE.to_owned(),
@@ -79,8 +82,8 @@ impl Robot {
         })
     }
 
-    /// The hand and, where the grip is outside of all parts, the handle, when `tool` is held `lift`
-    /// metres above the table.
+    /// Returns the hand and, if the grip is outside of all parts, the handle, when `tool` is held
+    /// `lift` metres above the table.
     pub fn carried(&self, tool: &Tool, lift: f64) -> [Option<Carried>; 2] {
         let Some(hand) = self.hand else { return [None, None] };
         let Some((_, held)) = tool.held() else { return [None, None] };
@@ -100,7 +103,7 @@ impl Robot {
 }
 
 impl Tool {
-    /// The part nearest to the grip, and how far that is from it, metres.
+    /// Returns the part nearest to the grip, and its distance from the grip, metres.
     fn held(&self) -> Option<(f64, &Part)> {
         let parts = self.parts().iter().map(|part| {
             let local = part.pose.local_point(self.grip.position);
@@ -109,8 +112,8 @@ impl Tool {
         parts.min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// What it is held by where the grip is outside of all parts: a handle to the nearest one, in the
-    /// tool frame, and as high as that, metres.
+    /// Returns the handle between a grip outside of all parts and the nearest part: outline, pose
+    /// in the tool frame, and height, metres. The handle is as high as that part.
     pub fn handle(&self) -> Option<(Footprint, Pose, f64)> {
         let (_, held) = self.held().filter(|(gap, _)| *gap > HANDLE)?;
         let way: Vector = held.pose.position - self.grip.position;
@@ -120,7 +123,7 @@ impl Tool {
     }
 }
 
-/// Distance of a point from a shape about its own origin, metres; zero inside.
+/// Returns the distance of a point from a shape about its own origin, metres; zero inside.
 fn distance(footprint: &Footprint, point: Vector) -> f64 {
     match footprint {
         Footprint::Disc { radius } => (point.norm() - radius).max(0.0),

@@ -1,4 +1,4 @@
-//! Joints between objects: how two of them may move against each other.
+//! Joints between objects.
 
 use std::f64::consts::PI;
 
@@ -8,31 +8,33 @@ use crate::geometry::{Pose, Vector, wrap_angle};
 
 use super::{Object, Span};
 
-/// How two joined objects may move against each other.
+/// The relative motion that a joint allows.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum JointKind {
-    /// Nothing: they move as one body.
+    /// No relative motion: the objects move as one body.
     Fixed,
-    /// Turn about a vertical axis through `at` (world frame at the start, metres).
+    /// Rotation about a vertical axis through `at` (world frame at the start, metres).
     Revolute {
-        /// Where the axis stands.
+        /// Position of the axis.
         at: Vector,
-        /// Turns of the second object against the first, radians from the start, where limited.
+        /// Range of rotations of the second object against the first, radians from the start;
+        /// `None` if not limited.
         limits: Option<Span>,
     },
-    /// Slide along `axis` (unit vector, world frame at the start).
+    /// Translation along `axis` (unit vector, world frame at the start).
     Prismatic {
-        /// Direction of sliding.
+        /// Sliding direction.
         axis: Vector,
-        /// Shifts of the second object against the first, metres along the axis from the
-        /// start, where limited.
+        /// Range of translations of the second object against the first, metres along the axis from
+        /// the start; `None` if not limited.
         limits: Option<Span>,
     },
 }
 
 impl JointKind {
-    /// The range of turns (radians) or shifts (metres) against the start, where limited.
+    /// Returns the range of rotations (radians) or translations (metres) against the start, or
+    /// `None` without limits.
     pub fn limits(&self) -> Option<Span> {
         match *self {
             JointKind::Fixed => None,
@@ -40,13 +42,14 @@ impl JointKind {
         }
     }
 
-    /// The range of turns against the start, radians, where it turns and is limited.
+    /// Returns the range of rotations against the start, radians, or `None` without limits and for
+    /// other joints.
     pub fn turns(&self) -> Option<Span> {
         self.limits().filter(|_| matches!(self, JointKind::Revolute { .. }))
     }
 
-    /// Turns are told from those a full turn away by being nearest to this one, radians: the middle of
-    /// limits that go beyond half a turn, else none.
+    /// Returns the rotation about which angles are unwrapped, radians: the middle of limits beyond
+    /// half a turn, otherwise zero.
     pub fn middle(&self) -> f64 {
         match *self {
             JointKind::Revolute { limits: Some(Span { low, high }), .. }
@@ -64,22 +67,22 @@ impl JointKind {
 pub struct Joint {
     /// Indices of the two objects in [`super::Scene::objects`].
     pub between: [usize; 2],
-    /// What it allows.
+    /// Relative motion that it allows.
     pub kind: JointKind,
-    /// Whether only the type is known and the anchor or axis is a guess from the start poses.
+    /// Whether only the type is known, and the anchor or axis is a guess from the start poses.
     #[serde(default)]
     pub guessed: bool,
 }
 
 impl Joint {
-    /// A joint between two objects, by index, its anchor or axis known.
+    /// Creates a joint between two objects, by index, with a known anchor or axis.
     pub fn new(between: [usize; 2], kind: JointKind) -> Self {
         Self { between, kind, guessed: false }
     }
 
-    /// The joint's own frame as seen from each of its two objects. At the poses that the scene
-    /// states (not where the objects have moved since) the two coincide. A revolute joint turns
-    /// about the frames' origin; a prismatic one slides along their x axis.
+    /// Returns the joint's frame relative to each of its two objects. The two frames coincide at
+    /// the poses that the scene states, not at later poses. A revolute joint rotates about the
+    /// origin of the frames; a prismatic joint slides along their x axis.
     pub fn frames(&self, objects: &[Object]) -> [Pose; 2] {
         let [first, second] = self.between.map(|index| objects[index].pose);
         let world = match self.kind {
@@ -92,12 +95,13 @@ impl Joint {
         [first.inverse() * world, second.inverse() * world]
     }
 
-    /// The range of turns (radians) or shifts (metres) against the start, where limited.
+    /// Returns the range of rotations (radians) or translations (metres) against the start, or
+    /// `None` without limits.
     pub fn limits(&self) -> Option<Span> {
         self.kind.limits()
     }
 
-    /// Returns the joint where its objects start as in `now` instead of as in `before`.
+    /// Returns the joint for objects that start as in `now` instead of as in `before`.
     pub fn carried(&self, before: &[Object], now: &[Object]) -> Self {
         let [first, second] = self.frames(before);
         let [here, there] = self.between.map(|index| now[index].pose);

@@ -1,37 +1,37 @@
-//! How the joints of an arm move through a plan.
+//! Motion of the joints of an arm through a plan.
 
 use serde::{Deserialize, Serialize};
 
-/// Maximum number of joints that move.
+/// Maximum number of moving joints.
 pub const MAX_JOINTS: usize = 16;
 
-/// The joints at an instant.
+/// The state of the joints at an instant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JointPoint {
-    /// Since the start, seconds.
+    /// Time since the start, seconds.
     pub time: f64,
-    /// Radians or metres.
+    /// Joint positions, radians or metres.
     pub positions: Vec<f64>,
-    /// Radians or metres a second.
+    /// Joint velocities, radians or metres a second.
     pub velocities: Vec<f64>,
 }
 
-/// What an arm does to carry out a plan: between its points joints follow the cubics through position
-/// and velocity.
+/// The joint motion with which an arm carries out a plan. Between points the joints follow cubic
+/// Hermite polynomials.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JointTrajectory {
     /// Names of the joints.
     pub joints: Vec<String>,
-    /// In order of time.
+    /// Points in order of time.
     pub points: Vec<JointPoint>,
-    /// Of every push the points at which it begins and ends.
+    /// Indices of the first and last point of every push.
     pub pushes: Vec<[usize; 2]>,
 }
 
 impl JointTrajectory {
-    /// Positions a share of the way (0 to 1) from a point to the next.
+    /// Returns the positions at a share (0 to 1) of the time between a point and the next.
     pub fn between(&self, point: usize, share: f64) -> Vec<f64> {
         let [a, b] = [&self.points[point], &self.points[point + 1]];
         let (time, s) = (b.time - a.time, share);
@@ -47,12 +47,12 @@ impl JointTrajectory {
             .collect()
     }
 
-    /// How long it takes, seconds.
+    /// Returns the duration, seconds.
     pub fn duration(&self) -> f64 {
         self.points.last().map_or(0.0, |point| point.time)
     }
 
-    /// What is wrong with it as numbers, if anything.
+    /// Returns the first inconsistency of the numbers, if any.
     pub fn fault(&self) -> Option<&'static str> {
         let count = self.joints.len();
         let mut before = f64::NEG_INFINITY;

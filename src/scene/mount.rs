@@ -6,18 +6,18 @@ use crate::geometry::Pose;
 
 use super::{JointKind, Object, Span};
 
-/// How an object may move against the world: a revolute or a prismatic joint.
+/// A revolute or prismatic joint between an object and the world.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mount {
     /// Index into [`Scene::objects`](super::Scene::objects).
     pub object: usize,
-    /// What it allows. Turns and shifts are those of the object, from the start.
+    /// Motion that it allows; angles and lengths count from the start of the object.
     pub kind: JointKind,
 }
 
 impl Mount {
-    /// The joint's frame in the world, and as seen from the object. A revolute joint turns about the
-    /// frame's origin; a prismatic one slides along its x axis.
+    /// Returns the joint's frame in the world and relative to the object. A revolute joint rotates
+    /// about the frame's origin; a prismatic joint slides along its x axis.
     pub fn frames(&self, objects: &[Object]) -> [Pose; 2] {
         let start = objects[self.object].pose;
         let world = match self.kind {
@@ -30,25 +30,26 @@ impl Mount {
         [world, start.inverse() * world]
     }
 
-    /// The range of turns (radians) or shifts (metres) against the start, where limited.
+    /// Returns the range of rotations (radians) or translations (metres) against the start, or
+    /// `None` without limits.
     pub fn limits(&self) -> Option<Span> {
         self.kind.limits()
     }
 
-    /// How far the object has turned (radians) or slid (metres) from `start` to `now`.
+    /// Returns the rotation (radians) or translation (metres) of the object from `start` to `now`.
     pub fn come(&self, start: &Pose, now: &Pose) -> f64 {
         match self.kind {
             JointKind::Fixed => 0.0,
-            // Turns are counted.
+            // Headings are not wrapped, so they count full turns.
             JointKind::Revolute { .. } => now.heading - start.heading,
             JointKind::Prismatic { axis, .. } => axis.dot(&(now.position - start.position)),
         }
     }
 
-    /// The same joint where the object starts at `now` instead of at `start`.
+    /// Returns the joint for an object that starts at `now` instead of at `start`.
     pub fn carried(&self, start: &Pose, now: &Pose) -> Self {
         let come = self.come(start, now);
-        // What was seen may be a little beyond a limit; the start never is.
+        // An observed pose may be slightly beyond a limit; a start may not.
         let left = |limits: Option<Span>| {
             limits.map(|span| Span::new((span.low - come).min(0.0), (span.high - come).max(0.0)))
         };
@@ -62,7 +63,8 @@ impl Mount {
         Self { kind, ..*self }
     }
 
-    /// Where the object is when it has come this far (radians or metres) from `start`.
+    /// Returns the pose of the object after this rotation (radians) or translation (metres) from
+    /// `start`.
     pub fn pose(&self, start: &Pose, come: f64) -> Pose {
         match self.kind {
             JointKind::Fixed => *start,

@@ -1,14 +1,14 @@
-//! Objects so near each other that they may be joined.
+//! Pairs of objects near enough to be joined.
 
 use crate::geometry::{Vector, contact_points};
 
 use super::Scene;
 
-/// Objects with a larger gap at the start are taken not to be joined, metres.
+/// Largest gap at the start of objects that may be joined, metres.
 pub const JOINABLE: f64 = 0.03;
 
-/// Pairs of objects that may be joined, lower index first, and the point midway between the closest
-/// points of each.
+/// Returns the pairs of objects that may be joined, lower index first, with the midpoint of their
+/// closest points.
 pub fn near_pairs(scene: &Scene) -> Vec<([usize; 2], Vector)> {
     let pairs = pairs_within(scene, JOINABLE).into_iter();
     pairs.map(|pair| (pair.between, pair.midway)).collect()
@@ -17,15 +17,15 @@ pub fn near_pairs(scene: &Scene) -> Vec<([usize; 2], Vector)> {
 /// Two objects near each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearPair {
-    /// Their indices, the lower first.
+    /// Indices of the objects, the lower first.
     pub between: [usize; 2],
-    /// Distance of their closest points, metres; below zero where they overlap.
+    /// Distance of the closest points, metres; negative if the objects overlap.
     pub gap: f64,
-    /// The point midway between these.
+    /// Midpoint of the closest points.
     pub midway: Vector,
 }
 
-/// Pairs of objects with a gap of at most `reach` metres.
+/// Returns the pairs of objects with a gap of at most `reach` metres.
 pub fn pairs_within(scene: &Scene, reach: f64) -> Vec<NearPair> {
     let objects = &scene.objects;
     let mut pairs = Vec::new();

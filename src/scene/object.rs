@@ -1,4 +1,4 @@
-//! A movable body: an upright solid, alone or a part of another.
+//! A movable body: an upright solid, alone or as a part of a compound object.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,9 +10,9 @@ use super::{Feet, Support};
 /// A movable body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Object {
-    /// Unique among objects and obstacles.
+    /// Name, unique among objects and obstacles.
     pub name: String,
-    /// Its solid.
+    /// Solid.
     pub shape: Shape,
     /// Distribution of its weight over its underside.
     #[serde(default)]
@@ -23,29 +23,30 @@ pub struct Object {
     pub friction: f64,
     /// Pose at the start.
     pub pose: Pose,
-    /// Largest distance by which a plan may move it, metres; unlimited where nothing is stated.
+    /// Maximum distance by which a plan may move it, metres; `None` for no limit.
     #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
     pub keep: Option<f64>,
-    /// `true` if it may topple or leave the table.
+    /// Whether it may topple or leave the table.
     #[serde(with = "planar_only", default, skip_serializing_if = "std::ops::Not::not")]
     pub may_fall: bool,
-    /// The largest force that may act on it through the tool for longer than an impact, newtons; any by
-    /// default.
+    /// Maximum force that may act on it through the tool for longer than an impact, newtons; `None`
+    /// for no limit.
     #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
     pub max_force: Option<f64>,
-    /// Red, green and blue in pictures and other programs, each from 0 to 1; by default that of its role.
+    /// Red, green and blue in pictures and other programs, each from 0 to 1; `None` for the colour
+    /// of its role.
     #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
     pub color: Option<[f64; 3]>,
-    /// Free height below its edge, metres: what a blade that goes under it has. An object whose
-    /// underside is no higher above the table stands on feet of this height at its corners; a
-    /// higher one lies on obstacles.
+    /// Free height below its edge, metres, available to a blade. An object whose underside is at
+    /// most this high above the table stands on feet of this height at its corners; a higher one
+    /// lies on obstacles.
     #[serde(with = "planar_only", default, skip_serializing_if = "is_zero")]
     pub clearance: f64,
-    /// Height of its underside at the start, metres: above the table, or of a part above its object's, see
-    /// [`Self::is_raised`].
+    /// Height of its underside at the start, metres: above the table, or, for a part, above the
+    /// underside of its object; see [`Self::is_raised`].
     #[serde(with = "planar_only", default, skip_serializing_if = "is_zero")]
     pub z: f64,
-    /// The object that it is a part of, if it is a part.
+    /// The compound object of which it is a part, if any.
     #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
     pub whole: Option<Whole>,
 }
@@ -57,7 +58,8 @@ impl Object {
     /// Default friction value of an object: wood or plastic.
     pub const FRICTION: f64 = 0.4;
 
-    /// An object at the origin, of mass [`Object::MASS`] and friction value [`Object::FRICTION`].
+    /// Creates an object at the origin, of mass [`Object::MASS`] and friction value
+    /// [`Object::FRICTION`].
     ///
     /// ```
     /// use pushplan::Object;
@@ -84,17 +86,17 @@ impl Object {
         }
     }
 
-    /// [`Object::new`] for an upright cylinder, metres.
+    /// Calls [`Object::new`] for an upright cylinder, metres.
     pub fn cylinder(name: impl Into<String>, radius: f64, height: f64) -> Self {
         Self::new(name, Shape::Cylinder { radius, height })
     }
 
-    /// [`Object::new`] for a cuboid of these full extents along its x, y and z, metres.
+    /// Calls [`Object::new`] for a cuboid with these full extents along its x, y and z, metres.
     pub fn cuboid(name: impl Into<String>, size: [f64; 3]) -> Self {
         Self::new(name, Shape::Cuboid { size })
     }
 
-    /// [`Object::new`] for an upright prism of this height, metres.
+    /// Calls [`Object::new`] for an upright prism of this height, metres.
     ///
     /// ```
     /// use pushplan::{ConvexPolygon, Object, Vector};
@@ -108,27 +110,27 @@ impl Object {
         Self::new(name, Shape::Prism { base, height })
     }
 
-    /// The object with another mass, kg.
+    /// Sets the mass, kg.
     pub fn mass(self, mass: f64) -> Self {
         Self { mass, ..self }
     }
 
-    /// The object with another friction value.
+    /// Sets the friction value.
     pub fn friction(self, friction: f64) -> Self {
         Self { friction, ..self }
     }
 
-    /// The object with its weight spread in another way than evenly.
+    /// Sets the distribution of its weight.
     pub fn standing_on(self, support: Support) -> Self {
         Self { support, ..self }
     }
 
-    /// The points under it, with their shares of its weight, that stand for its support.
+    /// Returns the points under it that represent its support, with their shares of its weight.
     pub fn feet(&self) -> Feet {
         self.support.feet(&self.shape.footprint())
     }
 
-    /// The object on feet of this height at its corners, metres, so that a blade fits below its edge.
+    /// Puts it on feet of this height at its corners, metres, so that a blade fits below its edge.
     pub fn on_feet(self, height: f64) -> Self {
         Self { clearance: height, z: height, ..self }
     }
@@ -139,7 +141,7 @@ impl Object {
         above || self.clearance != 0.0
     }
 
-    /// The object with its centre at (`x`, `y`), metres, turned by `heading`, radians.
+    /// Puts its centre at (`x`, `y`), metres, with this `heading`, radians.
     pub fn at(self, x: f64, y: f64, heading: f64) -> Self {
         Self { pose: Pose::new(x, y, heading), ..self }
     }
@@ -149,7 +151,7 @@ impl Object {
         self.whole.is_some()
     }
 
-    /// A part with its underside this high above that of its object, metres.
+    /// Puts the underside of a part at this height above the underside of its object, metres.
     ///
     /// ```
     /// use pushplan::{Object, Pose, Scene};
@@ -168,40 +170,41 @@ impl Object {
         self.is_part() && self.z > 0.0
     }
 
-    /// Heights above the table between which it is while its object stands there, metres.
+    /// Returns its lower and upper height above the table while its object stands there, metres.
     pub fn span(&self) -> [f64; 2] {
         let low = if self.is_raised() { self.z } else { 0.0 };
         [low, low + self.shape.height()]
     }
 
-    /// Height of its top above the table, metres: what comes from above must be clear of it.
+    /// Returns the height of its top above the table, metres; a body that passes above must be
+    /// higher.
     pub fn top(&self) -> f64 {
         self.span()[1]
     }
 
-    /// Height of its middle above the table, metres.
+    /// Returns the height of its middle above the table, metres.
     pub fn middle(&self) -> f64 {
         self.span()[0] + self.shape.height() / 2.0
     }
 
-    /// Returns `true` if some of it is as high as what is between these two heights above the table, metres.
+    /// Returns `true` if it overlaps this range of heights above the table, metres.
     pub fn meets(&self, [low, high]: [f64; 2]) -> bool {
         let [underside, top] = self.span();
         low < top && underside < high
     }
 }
 
-/// The object that a solid is a part of.
+/// A link from a part to its compound object.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Whole {
-    /// Index of the thing's first solid in [`Scene::objects`](super::Scene::objects).
+    /// Index of the compound object's first solid in [`Scene::objects`](super::Scene::objects).
     pub object: usize,
-    /// The part's pose in the frame of that one.
+    /// Pose of the part in the frame of the first solid.
     pub place: Pose,
 }
 
 impl Whole {
-    /// Returns the link where the first solid has another index.
+    /// Returns the link with another index of the first solid.
     pub(super) fn under(self, object: usize) -> Self {
         Self { object, ..self }
     }

@@ -6,33 +6,33 @@ use crate::geometry::{Extent, Footprint, Pose, Rim, Shape, Vector, outline};
 
 use super::Part;
 
-/// Parts whose turns differ by this little from quarter turns, radians, have sides along the same
-/// axes: written in degrees, turns are rounded.
+/// Largest deviation from a quarter turn of parts whose sides count as parallel, radians; angles
+/// written in degrees are rounded.
 const SAME_AXES: f64 = 1e-6;
 
-/// Parts whose heights differ by less reach equally high, metres.
+/// Largest height difference of parts that count as equally high, metres.
 const SAME_HEIGHT: f64 = 1e-6;
 
 /// A solid of the tool's outline.
 ///
-/// Cuboids of one height whose sides lie along the same axes are taken as one body, made of as
-/// few and as large cuboids as hold each of its faces whole; so a row of parts is one cuboid, and
-/// the end of an L is one face. Any other part is a piece of its own. Engines, prior and network
-/// know the tool by its pieces: to the graph each is a node.
+/// Cuboids of one height with parallel sides are merged into one body. That body is divided into
+/// the fewest and largest cuboids that contain each of its faces whole. A row of parts is thus one
+/// cuboid, and the end of an L is one face. Any other part is a piece of its own. Engines, analytic
+/// model and network represent the tool by its pieces; each is a node of the graph.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
-    /// The names of the parts that it contains, or of those that it has a share in.
+    /// Names of the parts that it contains or overlaps.
     pub name: String,
-    /// Its solid, upright.
+    /// Solid, upright.
     pub shape: Shape,
     /// Pose of the centre in the tool frame.
     pub pose: Pose,
-    /// Where it can be touched; everywhere by default.
+    /// Part of its boundary that bodies can touch; `None` for all of it.
     pub rim: Option<Rim>,
 }
 
 impl Piece {
-    /// What it covers on the table.
+    /// Returns its outline on the table.
     pub fn footprint(&self) -> Footprint {
         self.shape.footprint()
     }
@@ -42,7 +42,7 @@ impl Piece {
     }
 }
 
-/// The pieces of a tool of these parts.
+/// Returns the pieces of a tool with these parts.
 pub(super) fn pieces(parts: &[Part]) -> Vec<Piece> {
     let mut pieces = Vec::with_capacity(parts.len());
     let mut done = vec![false; parts.len()];
@@ -66,8 +66,8 @@ pub(super) fn pieces(parts: &[Part]) -> Vec<Piece> {
     pieces
 }
 
-/// Numbers pieces of one name, of which a part with shares in several makes some: files of engines
-/// tell bodies apart by their names.
+/// Appends numbers to equal names of pieces, because engine files identify bodies by name. Equal
+/// names occur if one part overlaps several pieces.
 fn number(pieces: &mut [Piece]) {
     for k in 1..pieces.len() {
         let (before, own) = pieces.split_at_mut(k);
@@ -81,7 +81,7 @@ fn number(pieces: &mut [Piece]) {
     }
 }
 
-/// Whether both are cuboids of one height with sides along the same axes.
+/// Returns `true` if both are cuboids of one height with parallel sides.
 fn are_alike(a: &Part, b: &Part) -> bool {
     let (Shape::Cuboid { size: first }, Shape::Cuboid { size: second }) = (a.shape, b.shape) else {
         return false;
@@ -91,7 +91,7 @@ fn are_alike(a: &Part, b: &Part) -> bool {
         && (first[2] - second[2]).abs() <= SAME_HEIGHT
 }
 
-/// The pieces of cuboids that are alike.
+/// Returns the pieces of cuboids that are alike.
 fn merged(parts: &[&Part]) -> Vec<Piece> {
     let axes = Pose { position: Vector::zeros(), heading: parts[0].pose.heading };
     let height = parts[0].shape.height();
@@ -108,13 +108,13 @@ fn merged(parts: &[&Part]) -> Vec<Piece> {
         }
     };
     match &found[..] {
-        // One rectangle has no seams.
+        // A single rectangle has no seams.
         [only] => vec![Piece { rim: None, ..piece(only.extent, Rim::default()) }],
         _ => found.into_iter().map(|found| piece(found.extent, found.rim)).collect(),
     }
 }
 
-/// Where a cuboid part lies as seen along `axes`.
+/// Returns the extent of a cuboid part along `axes`.
 fn extent(part: &Part, axes: &Pose) -> Extent {
     let centre = axes.local_point(part.pose.position);
     let turned = ((part.pose.heading - axes.heading) / FRAC_PI_2).round().rem_euclid(2.0) == 1.0;
@@ -128,7 +128,7 @@ fn extent(part: &Part, axes: &Pose) -> Extent {
 }
 
 fn name(parts: &[&Part], extents: &[Extent], piece: Extent) -> String {
-    /// The most that rounding, and gaps that do not count, may hide, metres.
+    /// Tolerance for rounding and for gaps that count as contact, metres.
     const SLACK: f64 = 2e-4;
     let among = |is_in: &dyn Fn(&Extent, usize) -> bool| -> Vec<&str> {
         let within = |extent: &Extent| (0..2).all(|axis| is_in(extent, axis));

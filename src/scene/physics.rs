@@ -1,14 +1,13 @@
-//! What is believed about the objects of a scene: masses, frictions, supports
-//! and joints.
+//! Beliefs about the objects of a scene: masses, frictions, supports and joints.
 
 use std::sync::Arc;
 
 use super::{Feet, Joint, Object, PairFriction, Scene, Support, Surface, Tool, pair_friction};
 
-/// Physical parameters under which a motion is played. Effect models read these and not what the
-/// scene states, so that several beliefs about one scene can be rolled out side by side.
+/// Physical parameters of a rollout. Effect models read these instead of the values in the scene,
+/// so that several beliefs about one scene can be rolled out side by side.
 ///
-/// A tool's friction belongs to the tool.
+/// The friction value of a tool is stored in the tool.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Physics {
     /// Mass of every object, kg.
@@ -19,25 +18,24 @@ pub struct Physics {
     pub table_friction: f64,
     /// Frictions of pairs that are not the mean of the two values.
     pub pairs: Vec<PairFriction>,
-    /// What every object stands on.
+    /// Support points of every object.
     pub feet: Vec<Arc<Feet>>,
-    /// Whether that is known, rather than one guess of many.
+    /// Whether the supports are known; otherwise they are one guess of many.
     pub supports_known: bool,
-    /// How high the tool presses on objects, as a share of the mean height of where their faces
-    /// meet: 0 at the table, 1 in the middle. `None` where flat faces leave it open. The higher,
-    /// the more of the weight moves ahead, see [`Self::lean`].
+    /// Height at which the tool presses on objects: 0 at the table, 1 at the mean height of the
+    /// common face. `None` if flat faces leave it open. With greater height, more of the weight
+    /// moves ahead, see [`Self::lean`].
     pub push_height: Option<f64>,
-    /// Joints between objects; their anchors, axes and limits are given where the objects stand
-    /// at the poses that the scene states.
+    /// Joints between objects. Anchors, axes and limits refer to the stated poses of the objects.
     pub joints: Vec<Joint>,
 }
 
 impl Physics {
-    /// The value of [`Self::push_height`] where none is stated. A flat face can press anywhere on
-    /// another; this is the middle.
+    /// Default of [`Self::push_height`]. A flat face can press anywhere on another; this is the
+    /// middle.
     pub const PUSH_HEIGHT: f64 = 0.5;
 
-    /// Exactly what the scene states.
+    /// Returns exactly the values that the scene states.
     pub fn stated(scene: &Scene) -> Self {
         Self {
             masses: scene.objects.iter().map(|object| object.mass).collect(),
@@ -53,65 +51,68 @@ impl Physics {
         }
     }
 
-    /// How far the centre of the load of object `index` moves ahead when this tool, `lift` metres above
-    /// the table, pushes it as hard as friction resists, metres. A push R at height z must not
-    /// tip the object of mass m, so its load moves by z R / (m g).
+    /// Returns the forward shift of the centre of load of object `index`, metres, while this tool,
+    /// `lift` metres above the table, pushes it against full friction.
+    ///
+    /// A push R at height z must not tip an object of mass m, so its load shifts by z R / (m g).
     pub fn lean(&self, scene: &Scene, index: usize, tool: (&Tool, f64)) -> f64 {
         let [low, middle] = face_height(scene, index, tool);
         let height = low + self.push_height.unwrap_or(Self::PUSH_HEIGHT) * (middle - low);
         height * self.support_friction(index)
     }
 
-    /// What an object may rest on: its underside cannot be seen, but most are somewhere in this
+    /// Plausible supports of an object: its underside is not visible, but most objects are in this
     /// range.
     pub const PLAUSIBLE_SUPPORTS: [Support; 3] =
         [Support::Spread(0.75), Support::Even, Support::Corners];
 
-    /// Lets all objects rest on the table in another plausible way, in turn for each `draw`; every
-    /// fourth one leaves them as they are believed to be.
+    /// Replaces the supports of all objects by another plausible support, in turn for each `draw`;
+    /// every fourth draw keeps the believed supports.
     pub fn doubt_supports(&mut self, scene: &Scene, draw: usize) {
         if let Some(support) = Self::doubted(draw) {
             self.support_all(scene, support);
         }
     }
 
-    /// What objects rest on in this draw, if not as they are believed to.
+    /// Returns the support of all objects in this draw; `None` if it keeps the believed supports.
     pub fn doubted(draw: usize) -> Option<&'static Support> {
         const SUPPORTS: &[Support] = &Physics::PLAUSIBLE_SUPPORTS;
         (draw % (SUPPORTS.len() + 1)).checked_sub(1).map(|number| &SUPPORTS[number])
     }
 
-    /// Lets all objects rest on the table in this way.
+    /// Sets the support of all objects.
     pub fn support_all(&mut self, scene: &Scene, support: &Support) {
         (0..scene.objects.len()).for_each(|index| self.support(scene, index, support));
     }
 
-    /// Lets object `index` rest on the table in this way.
+    /// Sets the support of object `index`.
     pub fn support(&mut self, scene: &Scene, index: usize, support: &Support) {
         self.feet[index] = Arc::new(scene.feet(index, support));
     }
 
-    /// Coefficient of friction between an object and a body of this friction `value`.
+    /// Returns the coefficient of friction between an object and a body with this friction `value`.
     pub fn friction(&self, object: usize, with: Surface, value: f64) -> f64 {
         pair_friction(&self.pairs, object, with, [self.frictions[object], value])
     }
 
-    /// Returns the parameters with this coefficient of friction between an object and another body.
+    /// Sets the coefficient of friction between an object and another body.
     pub fn with_pair(mut self, object: usize, with: Surface, coefficient: f64) -> Self {
         self.pairs.retain(|pair| !pair.is_of(object, with));
         self.pairs.push(PairFriction { object, with, coefficient });
         self
     }
 
-    /// Coefficient of friction between object `index` and the table.
+    /// Returns the coefficient of friction between object `index` and the table.
     pub fn support_friction(&self, index: usize) -> f64 {
         self.friction(index, Surface::Table, self.table_friction)
     }
 }
 
-/// Least and mean height at which object `index` and a tool `lift` metres above the table meet, metres:
-/// the first is the underside of what the tool meets. Where it passes over what stands and meets a part
-/// above the table, it is there; where it passes over everything, both are zero.
+/// Returns two heights for object `index` and a tool `lift` metres above the table, metres: the
+/// underside of the touched solid, and the middle of the common face.
+///
+/// A tool that passes over the standing solids may touch a part above the table; the heights are
+/// then at that part. Both are zero if the tool passes over everything.
 pub fn face_height(scene: &Scene, index: usize, (tool, lift): (&Tool, f64)) -> [f64; 2] {
     let tallest = tool.outline().iter().map(|piece| piece.shape.height()).fold(0.0, f64::max);
     let of = |object: &Object| {

@@ -1,7 +1,9 @@
-//! Fields that only scenes in space have, and what only tasks say, left out of binary records of pushes.
+//! Serialisation of fields that only spatial scenes and tasks have: omitted from binary records of
+//! pushes.
 //!
-//! Records of data sets are not self-describing: a field more in each of millions of frames would make
-//! every data set that exists unreadable. They hold scenes in the plane alone, so nothing is lost.
+//! Records of data sets are not self-describing: an added field in each of millions of frames would
+//! make every existing data set unreadable. Data sets contain planar scenes only, so nothing is
+//! lost.
 
 pub(crate) mod planar_only {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};

@@ -1,4 +1,4 @@
-//! Physical quantities that have a range.
+//! Physical quantities for which models have ranges.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
-    /// Number of objects that come into play.
+    /// Number of objects in play.
     Objects,
     /// Mass of an object, kg.
     Mass,
@@ -26,7 +26,7 @@ pub enum Quantity {
     SideRatio,
     /// Vertical extent of an object, metres.
     Height,
-    /// How far a corner of a prism is from a right angle, radians.
+    /// Deviation of a prism's corner from a right angle, radians.
     Slant,
     /// Distance of a prism's centre of mass from the centroid, metres.
     Imbalance,
@@ -38,9 +38,9 @@ pub enum Quantity {
     Width,
     /// Speed of the tool, m/s.
     Speed,
-    /// How far an object released at the tool's speed slides on, metres.
+    /// Sliding distance of an object released at the tool's speed, metres.
     Slide,
-    /// Turn of the tool for each metre of travel, rad/m.
+    /// Rotation of the tool for each metre of travel, rad/m.
     Turn,
 }
 

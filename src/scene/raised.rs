@@ -1,22 +1,22 @@
-//! Parts of things above the table, as the handle of a pot is: what passes below them, and what carries
-//! their weight.
+//! Parts of compound objects above the table, such as the handle of a pot, and the distribution of
+//! their weight over the standing solids.
 
 use crate::geometry::{Pose, Vector, clearance};
 
 use super::balance::balanced;
 use super::{Feet, JOIN_GAP, Object};
 
-/// What the points under a solid carry.
+/// Load on the points under a solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bearing {
-    /// As a share of the solid's own weight; nothing of a part above the table.
+    /// Load as a share of the solid's own weight; zero for a part above the table.
     pub share: f64,
-    /// Where the centre of the load is in the solid's frame, metres.
+    /// Centre of the load in the solid's frame, metres.
     pub centre: Vector,
 }
 
-/// The solids of a thing that nothing holds: above the table, and not in touch with what stands there or
-/// is held by it.
+/// Returns the solids of a compound object without any connection to the ground: parts above the
+/// table that touch neither a standing solid nor another connected part.
 pub fn hanging(solids: &[Object]) -> Vec<usize> {
     let touch = |a: &Object, b: &Object| {
         let [one, other] = [a, b].map(|solid| (solid.shape.footprint(), solid.pose));
@@ -37,8 +37,8 @@ pub fn hanging(solids: &[Object]) -> Vec<usize> {
     hanging
 }
 
-/// What every solid of a thing carries, so that its weight is carried below its centre of mass; `None`
-/// where what stands cannot.
+/// Returns the load on every solid of a compound object, with the centre of all loads below the
+/// centre of mass. Returns `None` if the standing solids cannot carry it there.
 pub fn bearings(solids: &[&Object]) -> Option<Vec<Bearing>> {
     let place = |object: &Object| object.whole.map_or(Pose::default(), |whole| whole.place);
     let mass: f64 = solids.iter().map(|solid| solid.mass).sum();
@@ -64,7 +64,8 @@ pub fn bearings(solids: &[&Object]) -> Option<Vec<Bearing>> {
     Some(solids.iter().zip(&feet).map(bearing).collect())
 }
 
-/// The weight of what is above the table on what stands, by mass.
+/// Distributes the weight of parts above the table over the standing solids, in proportion to their
+/// mass.
 pub(super) fn by_mass(solids: &[&Object]) -> Vec<Bearing> {
     let sum = |raised: bool| -> f64 {
         let those = solids.iter().filter(|solid| raised || !solid.is_raised());

@@ -1,28 +1,30 @@
-//! The ranges of physical quantities for which a model was trained or measured, so that a rollout outside them
-//! can be reported.
+//! The ranges of physical quantities for which a model was trained or measured, so that a rollout
+//! outside them can be reported.
 
 use super::Span;
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::{ConvexPolygon, Vector};
 
-/// How far an object released at the speed of the push slides on in nearly all training pushes
-/// (all but 11 of 2000: the fastest ones on the smoothest tables are rare), metres. Beyond it errors exceed
-/// three times those of ordinary pushes (`crates/lab/results/extremes.md`, corners).
+/// Sliding distance of an object released at the speed of the push in nearly all training pushes,
+/// metres (all but 11 of 2000: the fastest pushes on the smoothest tables are rare).
+///
+/// Beyond it, errors exceed three times the errors of ordinary pushes
+/// (`crates/lab/results/extremes.md`, corners).
 pub const TRAINED_SLIDE: f64 = 0.020;
 
-/// Most that the tool turns in training for each metre of travel, rad/m: a blade that turns about one
-/// of its tips while it pushes.
+/// Maximum rotation of the tool in training for each metre of travel, rad/m: a blade that rotates
+/// about one of its tips while it pushes.
 pub const TRAINED_TURN: f64 = 20.0;
 
-/// How far a corner may be from a right angle, radians: training draws corners of any angle, down to
-/// about five degrees.
+/// Maximum deviation of a corner from a right angle, radians: training draws corners of any angle,
+/// down to about five degrees.
 pub const TRAINED_SLANT: f64 = 1.5;
 
-/// How far a centre of mass may be from the centroid, metres: in data sets they are one.
+/// Maximum distance of a centre of mass from the centroid, metres; in data sets they coincide.
 pub const TRAINED_IMBALANCE: f64 = 1e-3;
 
-/// What the scenes and motions of a data set cover.
+/// Ranges of the scenes and motions of a data set.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ranges {
     /// Number of movable objects.
@@ -31,7 +33,7 @@ pub struct Ranges {
     pub mass: Span,
     /// Largest ratio of two masses in one scene.
     pub mass_ratio: f64,
-    /// Friction values of objects, tools and the table alike.
+    /// Friction values of objects, tools and the table.
     pub friction: Span,
     /// Radius of a cylinder, metres.
     pub radius: Span,
@@ -51,19 +53,18 @@ pub struct Ranges {
     pub part_radius: Span,
     /// Speed of a push, m/s.
     pub speed: Span,
-    /// Distance v^2 / (2 mu g) that an object released at the speed of the push slides on,
-    /// metres.
+    /// Sliding distance v^2 / (2 mu g) of an object released at the speed of the push, metres.
     pub slide: f64,
-    /// Turn of the tool for each metre of travel, rad/m.
+    /// Rotation of the tool for each metre of travel, rad/m.
     pub turn: f64,
     /// Travel of a push, metres.
     pub travel: Span,
-    /// Number of pushes one after another.
+    /// Number of consecutive pushes.
     pub pushes: Span,
 }
 
 impl Ranges {
-    /// The smallest ranges that cover both.
+    /// Returns the smallest ranges that contain both.
     pub fn hull(&self, other: &Self) -> Self {
         Self {
             objects: self.objects.hull(other.objects),
@@ -86,8 +87,8 @@ impl Ranges {
         }
     }
 
-    /// The first bound, by the name of its range, that no data set can have: not finite, or on the
-    /// wrong side of the other one.
+    /// Returns the first invalid bound with the name of its range: not finite, or on the wrong side
+    /// of the other bound.
     pub fn unsound(&self) -> Option<(&'static str, f64)> {
         let Self { objects, mass, friction, radius, side, height, parts, .. } = self;
         let Self { part_length, part_width, part_radius, speed, travel, pushes, .. } = self;
@@ -119,7 +120,7 @@ impl Ranges {
     }
 }
 
-/// How far the corner farthest from it is from a right angle, radians.
+/// Returns the largest deviation of a corner from a right angle, radians.
 pub fn slant(base: &ConvexPolygon) -> f64 {
     let normals: Vec<Vector> = base.faces().map(|(_, normal)| normal).collect();
     let next = normals.iter().cycle().skip(1);

@@ -1,23 +1,23 @@
-//! Regions of the table that are to be kept out of.
+//! Keep-out regions of the table.
 
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Footprint, Pose, Shape, clearance};
 
-/// A region of the table that some bodies keep out of, at whatever height.
+/// A region of the table from which some bodies keep out, at any height.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Region {
-    /// Unique among objects, obstacles and regions.
+    /// Name, unique among objects, obstacles and regions.
     pub name: String,
-    /// Its outline is that of this solid; the height does not matter.
+    /// Solid with the region's outline; its height does not matter.
     pub shape: Shape,
-    /// Where it is.
+    /// Pose of the region.
     pub pose: Pose,
     /// Whether objects keep out of it.
     pub objects: bool,
-    /// Whether the tool does.
+    /// Whether the tool keeps out of it.
     pub tool: bool,
-    /// Whether the hand does.
+    /// Whether the hand keeps out of it.
     pub hand: bool,
 }
 
@@ -25,16 +25,16 @@ impl Region {
     /// Overlap with a region below which a body is outside of it, metres: rounding.
     pub(super) const SLACK: f64 = 1e-6;
 
-    /// Objects are predicted to keep this far out of regions, metres: predictions are off by
-    /// millimetres, and starts are known no better.
+    /// Clearance of predicted objects from regions, metres: predictions and start poses have errors
+    /// of millimetres.
     pub const MARGIN: f64 = 0.01;
 
-    /// What it covers.
+    /// Returns its outline.
     pub fn footprint(&self) -> Footprint {
         self.shape.footprint()
     }
 
-    /// Its outline as a sheet on the table that is so thick, metres: to be shown.
+    /// Returns a sheet on the table with its outline and this thickness, metres, for drawings.
     pub fn sheet(&self, thick: f64) -> Shape {
         match self.shape {
             Shape::Cylinder { radius, .. } => Shape::Cylinder { radius, height: thick },
@@ -43,14 +43,15 @@ impl Region {
         }
     }
 
-    /// Who keeps out of it, in words.
+    /// Returns the bodies that keep out of it, in words.
     pub fn words(&self) -> String {
         let all = [(self.objects, "objects"), (self.tool, "tool"), (self.hand, "hand")];
         let all: Vec<&str> = all.iter().filter(|(out, _)| *out).map(|(_, word)| *word).collect();
         format!("no place for {}", all.join(", "))
     }
 
-    /// Whether this footprint is in it, there, or nearer to it than `margin` metres.
+    /// Returns `true` if this footprint at `pose` is in the region or nearer to it than `margin`
+    /// metres.
     pub fn holds(&self, footprint: &Footprint, pose: &Pose, margin: f64) -> bool {
         let own = match margin {
             margin if margin > 0.0 => self.footprint().grown(margin),

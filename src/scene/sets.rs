@@ -1,20 +1,20 @@
-//! Disjoint sets: what pairs connect.
+//! Disjoint sets of numbers connected by pairs.
 
-/// Numbers connected by pairs, in sets that are named by their lowest member: joining towards the
-/// lower root keeps that name in any order of the pairs.
+/// Disjoint sets, each named by its lowest member. Joining towards the lower root keeps that name
+/// in any order of the pairs.
 #[derive(Clone, Debug, Default)]
 pub struct DisjointSets {
-    /// A lower member of the same set, or the number itself where it is the lowest.
+    /// A lower member of the same set, or the number itself if it is the lowest.
     lower: Vec<usize>,
 }
 
 impl DisjointSets {
-    /// The numbers below `count`, each by itself.
+    /// Creates sets of one member each from the numbers below `count`.
     pub fn new(count: usize) -> Self {
         Self { lower: (0..count).collect() }
     }
 
-    /// The sets of the numbers below `count` that `pairs` make.
+    /// Creates the sets of the numbers below `count` that `pairs` connect.
     pub fn of(count: usize, pairs: impl IntoIterator<Item = [usize; 2]>) -> Self {
         let mut sets = Self::new(count);
         for pair in pairs {
@@ -29,14 +29,14 @@ impl DisjointSets {
         self.lower.extend(0..count);
     }
 
-    /// Joins the sets of a pair; returns whether they were two.
+    /// Joins the sets of a pair; returns `true` if they were different.
     pub fn join(&mut self, pair: [usize; 2]) -> bool {
         let [a, b] = pair.map(|number| self.lowest(number));
         self.lower[a.max(b)] = a.min(b);
         a != b
     }
 
-    /// The lowest member of the set that `number` is in.
+    /// Returns the lowest member of the set that contains `number`.
     pub fn lowest(&self, mut number: usize) -> usize {
         while self.lower[number] != number {
             number = self.lower[number];
@@ -44,10 +44,10 @@ impl DisjointSets {
         number
     }
 
-    /// For every number the lowest member of its set.
+    /// Returns the lowest member of its set for every number.
     pub fn names(&mut self) -> &[usize] {
         for number in 0..self.lower.len() {
-            // Everything below is named already.
+            // All lower numbers already have their names.
             self.lower[number] = self.lower[self.lower[number]];
         }
         &self.lower

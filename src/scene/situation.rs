@@ -1,4 +1,4 @@
-//! A scene as it stands now, and what is believed about it.
+//! The present state of a scene, with a belief about it.
 
 use std::sync::Arc;
 
@@ -6,27 +6,27 @@ use crate::geometry::{Pose, Vector};
 
 use super::{GRAVITY, JointKind, Physics, Scene, State};
 
-/// What planning starts from: to plan again from the middle, or under another belief, is the same
-/// call with another situation.
+/// The start of planning. Planning again from an intermediate state or under another belief is the
+/// same call with another situation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Situation {
-    /// What is on the table.
+    /// Scene.
     pub scene: Arc<Scene>,
-    /// Where every object is and how it moves.
+    /// Poses and velocities of all objects.
     pub start: State,
-    /// What is believed about the objects.
+    /// Belief about the objects.
     pub physics: Arc<Physics>,
 }
 
 impl Situation {
-    /// The scene as it is stated, at rest.
+    /// Returns the scene as stated, at rest.
     pub fn stated(scene: &Scene) -> Self {
         let physics = Arc::new(Physics::stated(scene));
         Self { start: scene.start(), physics, scene: Arc::new(scene.clone()) }
     }
 
-    /// The situation seen from a little aside: everything that can be seen moved as one, turned by `turn`
-    /// radians about a point and shifted, metres.
+    /// Moves everything visible as one: a rotation by `turn` radians about a point, and a
+    /// translation, metres. The result is a situation seen from a slightly different viewpoint.
     pub fn moved_as_one(&self, about: Vector, shift: Vector, turn: f64) -> Self {
         let by = Pose { position: about + shift, heading: turn };
         let moved = |pose: &mut Pose| {
@@ -50,13 +50,12 @@ impl Situation {
         situation
     }
 
-    /// Where `state` would come to rest if no tool touched anything any more and nothing were in
-    /// the way.
+    /// Returns the resting state after `state` without any further contact.
     ///
-    /// Sliding under the ellipsoidal limit surface slows down at about mu g along the generalised
-    /// velocity s = sqrt(v^2 + c^2 omega^2), so it lasts s / (mu g) and covers half of what the
-    /// present speeds would. Exact without spin; good for comparing the stops of a push, never
-    /// for a result.
+    /// Sliding under the ellipsoidal limit surface decelerates at about mu g along the generalised
+    /// velocity s = sqrt(v^2 + c^2 omega^2). It lasts s / (mu g) and covers half the distance that
+    /// the present speeds would cover in that time. Exact without spin; a comparison of the stops
+    /// of a push, never a result.
     pub fn coasted(&self, state: &State) -> State {
         let mut rest = state.clone();
         for k in 0..self.scene.objects.len() {

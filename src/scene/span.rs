@@ -2,39 +2,39 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Values within this relative distance of a bound still count as inside: the speed of a recorded
-/// push is known no better, and no model changes within one per cent.
+/// Relative distance from a bound within which values count as inside. The speed of a recorded push
+/// has no smaller error, and no model changes within one per cent.
 const SLACK: f64 = 1e-2;
 
 /// A closed interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Span {
-    /// Smallest value.
+    /// Lower end.
     pub low: f64,
-    /// Largest value.
+    /// Upper end.
     pub high: f64,
 }
 
 impl Span {
-    /// The empty interval; its ends are finite, so that it can be written down.
+    /// The empty interval; its ends are finite, so that it can be serialised.
     pub const NOTHING: Self = Self { low: f64::MAX, high: f64::MIN };
 
-    /// The interval from `low` to `high`.
+    /// Creates the interval from `low` to `high`.
     pub const fn new(low: f64, high: f64) -> Self {
         Self { low, high }
     }
 
-    /// How much there is between its ends.
+    /// Returns the difference of its ends.
     pub fn width(&self) -> f64 {
         self.high - self.low
     }
 
-    /// The smallest interval that contains both.
+    /// Returns the smallest interval that contains both.
     pub fn hull(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
-    /// Whether `value` lies inside, up to rounding.
+    /// Returns `true` if `value` is inside, up to a tolerance of one per cent.
     pub fn contains(&self, value: f64) -> bool {
         value >= self.low * (1.0 - SLACK) && value <= self.high * (1.0 + SLACK)
     }

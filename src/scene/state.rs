@@ -1,4 +1,4 @@
-//! Where every object is and how it moves at one instant.
+//! Poses and velocities of all objects at one instant.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,21 +6,21 @@ use crate::geometry::{Pose, Pose3, Vector};
 
 use super::planar::planar_only;
 
-/// Below this speed (of the centre, m/s, or of the rim, m/s) a body counts as resting. A body
-/// this slow slides v^2/(2 mu g) < 1 um further on any table that is allowed.
+/// Speed below which a body counts as resting, m/s, of the centre and of the rim. A body this slow
+/// slides v^2/(2 mu g) < 1 um further on any allowed table.
 pub const REST_SPEED: f64 = 1e-3;
 
 /// A planar velocity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Velocity {
-    /// Of the centre, m/s.
+    /// Velocity of the centre, m/s.
     pub linear: Vector,
-    /// About the vertical, rad/s.
+    /// Angular velocity about the vertical, rad/s.
     pub angular: f64,
 }
 
 impl Velocity {
-    /// Velocity at the point `arm` metres from the centre, m/s.
+    /// Returns the velocity at the point `arm` metres from the centre, m/s.
     pub fn at(&self, arm: Vector) -> Vector {
         self.linear + self.angular * Vector::new(-arm.y, arm.x)
     }
@@ -33,7 +33,7 @@ pub struct State {
     pub poses: Vec<Pose>,
     /// Velocities in the world frame.
     pub velocities: Vec<Velocity>,
-    /// Poses in space, once something has left the plane: `poses` are then what is seen of them from
+    /// Poses in space, once an object has left the plane; `poses` are then their projections from
     /// above.
     #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
     pub space: Option<Vec<Pose3>>,
@@ -45,7 +45,7 @@ impl Clone for State {
         Self { poses: poses.clone(), velocities: velocities.clone(), space: space.clone() }
     }
 
-    /// On the memory that is there: rollouts do so in every frame.
+    /// Reuses the present memory, because rollouts copy states in every frame.
     fn clone_from(&mut self, other: &Self) {
         self.poses.clone_from(&other.poses);
         self.velocities.clone_from(&other.velocities);
@@ -54,19 +54,19 @@ impl Clone for State {
 }
 
 impl State {
-    /// The given poses, nothing moving.
+    /// Creates a state with the given poses and no motion.
     pub fn at_rest(poses: Vec<Pose>) -> Self {
         let velocities = vec![Velocity::default(); poses.len()];
         Self { poses, velocities, space: None }
     }
 
-    /// The given poses in space, nothing moving.
+    /// Creates a state with the given poses in space and no motion.
     pub fn in_space(poses: Vec<Pose3>) -> Self {
         let seen = poses.iter().map(Pose3::from_above).collect();
         Self { space: Some(poses), ..Self::at_rest(seen) }
     }
 
-    /// Whether every number is finite.
+    /// Returns `true` if every number is finite.
     pub fn is_finite(&self) -> bool {
         self.poses.iter().all(Pose::is_finite)
             && self.space.iter().flatten().all(Pose3::is_finite)

@@ -1,23 +1,24 @@
-//! What an object stands on, as files state it.
+//! Support models of objects, as files state them.
 
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Vector;
 
-/// How an object's weight is spread over its underside, as a task states it.
+/// The distribution of an object's weight over its underside, stated by a task.
 ///
-/// Friction resists turning the more, the farther out the weight rests: a box on its corners turns
-/// half as far as one on even pressure. What is true of an object can be fitted to recorded pushes.
+/// Friction resists rotation the more, the farther out the weight rests: a box on its corners
+/// rotates half as far as a box on even pressure. The true support of an object can be fitted to
+/// recorded pushes.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Support {
-    /// Even pressure over the whole underside.
+    /// Even pressure on the whole underside.
     #[default]
     Even,
     /// The corners of a cuboid or prism; the rim of a cylinder.
     Corners,
-    /// Like `Corners`, but at this share of their distance from the centre.
+    /// Points at this share of the corners' distance from the centre.
     Spread(f64),
-    /// These points, in the object's frame, metres.
+    /// Stated points in the object's frame, metres.
     Points(Vec<Vector>),
 }

@@ -1,4 +1,4 @@
-//! What recorded pushes taught about one table, as files and plans carry it.
+//! A model fitted to recorded pushes on one table, as files and plans carry it.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,76 +6,77 @@ use crate::geometry::Shape;
 
 use super::{PairFriction, Scene, Support, Surface};
 
-/// Sizes and masses that differ by less than this share are those of the same object.
+/// Relative difference of sizes and masses below which objects count as the same.
 const ALIKE: f64 = 0.05;
 
-/// How much of the change of a network counts for objects that it was not learnt on.
+/// Factor of the change of a network for objects that are not in its recordings.
 ///
-/// Half: what is true of a table and its pusher carries over and what is true of an object does
-/// not, and which is which the recordings of one object cannot tell.
+/// Half: the part of a change that belongs to the table and its pusher carries over, the part that
+/// belongs to an object does not. Recordings of one object cannot separate the two.
 pub const OTHER_OBJECTS: f64 = 0.5;
 
-/// What recordings of one table say: numbers of its physics, and a change of the last layer of
-/// the network that predicts it.
+/// The result of fitting recordings of one table: physical parameters, and a change of the
+/// network's last layer.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TableFit {
-    /// Checksum of the weights of the network that the change is of.
+    /// Checksum of the weights of the changed network.
     pub weights: String,
-    /// The likeliest change of the network's last layer, [3, 2, h]; zeros where nothing was learnt.
+    /// Maximum a posteriori change of the network's last layer, [3, 2, h]; zeros without a fit of
+    /// it.
     pub head: Vec<f64>,
-    /// What is known of it.
+    /// Posterior covariance of the change.
     pub spread: HeadSpread,
-    /// Width of what no change explains, metres in x, in y and in the turn at the radius of
-    /// gyration, under Student's law with four degrees of freedom.
+    /// Scale of the residual noise in x, in y and in the rotation at the radius of gyration,
+    /// metres, under Student's distribution with four degrees of freedom.
     pub noise: f64,
-    /// Coefficient of friction of tool and objects, where the recordings tell it.
+    /// Coefficient of friction of tool and objects, if the recordings determine it.
     pub friction: Option<f64>,
-    /// Share of the corners' distance at which the objects rest, where the recordings tell it
-    /// better than what was stated of them.
+    /// Share of the corners' distance at which the objects rest, if the recordings determine it
+    /// better than the stated support.
     pub support: Option<f64>,
-    /// The table's friction, as it was stated.
+    /// Stated friction of the table.
     pub table_friction: f64,
-    /// What it was learnt on.
+    /// Recorded objects.
     pub objects: Vec<FittedObject>,
-    /// Number of pushes.
+    /// Number of recorded pushes.
     pub pushes: usize,
 }
 
-/// The posterior covariance of a head: the prior's, but narrower along some directions.
+/// The posterior covariance of a head: the prior covariance, narrowed along some directions.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HeadSpread {
-    /// The prior's deviation, of every number alike.
+    /// Prior standard deviation of every number.
     pub prior: f64,
-    /// Directions along which recordings narrow it most; they are orthogonal.
+    /// Directions along which recordings narrow it most, orthogonal to each other.
     pub directions: Vec<Narrowed>,
 }
 
-/// A direction, and how much of the prior's variance is left along it.
+/// A direction and the remaining share of the prior variance along it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Narrowed {
-    /// 0 to 1.
+    /// Remaining share, 0 to 1.
     pub left: f64,
-    /// Of length 1.
+    /// Unit vector.
     pub direction: Vec<f32>,
 }
 
-/// An object that was recorded.
+/// A recorded object.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FittedObject {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// Its shape.
+    /// Shape.
     pub shape: Shape,
-    /// Its mass as it was stated, kg.
+    /// Stated mass, kg.
     pub mass: f64,
 }
 
 impl HeadSpread {
-    /// Deviation of a number that follows the head by `row`.
+    /// Returns the standard deviation of a number that depends on the head by `row`.
     pub fn deviation(&self, row: &[f64]) -> f64 {
         let square: f64 = row.iter().map(|value| value * value).sum();
         let known: f64 = self
@@ -92,16 +93,16 @@ impl HeadSpread {
 }
 
 impl TableFit {
-    /// Half the width that holds 90 % of a number which follows the head by `row` and is recorded
-    /// with the fit's noise.
+    /// Returns half the width of the 90 % interval of a number that depends on the head by `row`
+    /// and is recorded with the fit's noise.
     pub fn half_width(&self, row: &[f64]) -> f64 {
-        // Of the normal law, and of Student's with four degrees of freedom.
+        // Quantiles of the normal distribution, and of Student's with four degrees of freedom.
         const NORMAL: f64 = 1.645;
         const STUDENT: f64 = 2.132;
         (NORMAL * self.spread.deviation(row)).hypot(STUDENT * self.noise)
     }
 
-    /// Names of the objects of `scene` that are like none of those it was learnt on.
+    /// Returns the names of the objects of `scene` that resemble none of the recorded objects.
     pub fn strange<'a>(&self, scene: &'a Scene) -> Vec<&'a str> {
         let objects = scene.objects.iter();
         let strange = objects.filter(|object| {
@@ -112,8 +113,8 @@ impl TableFit {
         strange.map(|object| object.name.as_str()).collect()
     }
 
-    /// Lets what is like the objects that it was learnt on rub and rest as the recordings say; the
-    /// rest of `scene` stays as it is stated.
+    /// Writes the fitted friction and support to objects of `scene` that resemble recorded objects;
+    /// other objects keep their stated values.
     pub fn state(&self, scene: &mut Scene) {
         let strange: Vec<String> = self.strange(scene).into_iter().map(str::to_owned).collect();
         for index in 0..scene.objects.len() {
@@ -137,7 +138,7 @@ fn alike(a: f64, b: f64) -> bool {
     (a - b).abs() <= ALIKE * a.abs().max(b.abs())
 }
 
-/// Whether two shapes are of a kind and of one size.
+/// Returns `true` if two shapes are of one kind and of about the same size.
 fn same_shape(a: &Shape, b: &Shape) -> bool {
     let size = |shape: &Shape| {
         let footprint = shape.footprint();
@@ -181,7 +182,7 @@ mod tests {
             (friction, scene.objects[0].support.clone())
         };
         assert_eq!(told(0.4), (0.2, Support::Spread(0.6)));
-        // Of another object nothing is known.
+        // The fit knows nothing about another object.
         assert_eq!(told(4.0), (0.5, Support::Even));
     }
 

@@ -1,4 +1,4 @@
-//! A tool: cuboid parts joined into one rigid piece, held by the end effector at its grip.
+//! Tools: solids joined into one rigid piece, held by the end effector at its grip.
 
 use std::fmt;
 
@@ -11,37 +11,37 @@ use super::outline::{Piece, pieces};
 use super::planar::planar_only;
 use super::{Blade, DisjointSets, Part};
 
-/// Parts whose gap is at most this are joined rigidly, metres.
+/// Largest gap of parts that are joined rigidly, metres.
 ///
-/// Wide enough for the rounding of sizes written in whole millimetres and turned by degrees.
+/// Larger than the rounding of sizes in whole millimetres and of rotations in degrees.
 pub const JOIN_GAP: f64 = 1e-4;
 
-/// Turns by so much are taken for straight, radians: an arc is then 0.2 % longer than its chord.
+/// Largest rotation in a straight segment, radians: the arc is 0.2 % longer than its chord.
 const EVEN_TURN: f64 = 0.2;
 
 /// A rigid assembly of solids, moved by the end effector.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(from = "Stated")]
 pub struct Tool {
-    /// Unique within a library.
+    /// Name, unique within a library.
     pub name: String,
-    /// One line for people.
+    /// Description of one line.
     pub description: String,
     /// Pose of the end effector in the tool frame.
     pub grip: Pose,
     /// Friction value.
     pub friction: f64,
     parts: Vec<Part>,
-    /// Follows from the parts, so neither can be changed alone.
+    /// Outline; it follows from the parts, so neither can be changed alone.
     #[serde(skip_serializing)]
     outline: Vec<Piece>,
     joints: Vec<[usize; 2]>,
-    /// A tool with a blade has no parts.
+    /// Blade; a tool with a blade has no parts.
     #[serde(with = "planar_only", skip_serializing_if = "Option::is_none")]
     blade: Option<Blade>,
 }
 
-/// A tool as it is written down: its outline follows from its parts.
+/// The serialised form of a tool, without its outline, which follows from its parts.
 #[derive(Deserialize)]
 struct Stated {
     name: String,
@@ -61,13 +61,13 @@ impl From<Stated> for Tool {
     }
 }
 
-/// Why parts do not make a tool.
+/// The reason why parts do not form a tool.
 #[derive(Clone, Error, PartialEq)]
 pub enum ToolError {
     /// No parts at all.
     #[error("a tool needs at least one part")]
     NoParts,
-    /// The parts fall into several pieces.
+    /// The parts form several separate pieces.
     #[error("the parts form {} separate pieces: {}", pieces.len(), list(pieces))]
     Apart {
         /// Names of the parts, piece by piece.
@@ -75,7 +75,8 @@ pub enum ToolError {
     },
 }
 
-/// The text of [`Display`](fmt::Display), so that it reads well when it leaves `main`.
+/// Prints the text of [`Display`](fmt::Display), so that the error is readable when `main` returns
+/// it.
 impl fmt::Debug for ToolError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)
@@ -91,8 +92,8 @@ impl Tool {
     /// Friction value of most shipped tools: painted wood or plastic.
     pub const FRICTION: f64 = 0.4;
 
-    /// A tool of `parts`, those that touch joined into one rigid piece, held at the origin of its
-    /// frame, with friction value [`Tool::FRICTION`].
+    /// Creates a tool of `parts`, held at the origin of its frame, with friction value
+    /// [`Tool::FRICTION`]. Parts that touch are joined rigidly.
     ///
     /// ```
     /// use pushplan::{Part, Pose, Tool};
@@ -114,7 +115,8 @@ impl Tool {
         Self::joined(name, parts, &[])
     }
 
-    /// [`Tool::new`] with these pairs of parts, by index, joined even if they do not touch.
+    /// Creates a tool as [`Tool::new`] with these pairs of parts, by index, also joined if they do
+    /// not touch.
     ///
     /// # Errors
     /// [`ToolError`] if there are no parts or they form several pieces.
@@ -131,7 +133,8 @@ impl Tool {
         for a in 0..parts.len() {
             for b in a + 1..parts.len() {
                 let said = by_hand.iter().any(|pair| *pair == [a, b] || *pair == [b, a]);
-                // Not by contact points: two bars that cross have no corner in each other.
+                // Contact points do not suffice: two crossing bars have no corner inside each
+                // other.
                 let gap = clearance(
                     (&parts[a].footprint(), &parts[a].pose),
                     (&parts[b].footprint(), &parts[b].pose),
@@ -155,7 +158,7 @@ impl Tool {
         Ok(Self::assembled(name, parts, joints))
     }
 
-    /// [`Tool::new`] of parts that are known to make one piece by these joints.
+    /// Creates a tool as [`Tool::new`] from parts that are known to form one piece by these joints.
     pub fn assembled(name: impl Into<String>, parts: Vec<Part>, joints: Vec<[usize; 2]>) -> Self {
         Self {
             name: name.into(),
@@ -169,7 +172,7 @@ impl Tool {
         }
     }
 
-    /// A tool that levers and does not push: a blade, held at the end of its shaft.
+    /// Creates a tool that levers and does not push: a blade, held at the end of its shaft.
     ///
     /// ```
     /// use pushplan::{Blade, Tool};
@@ -183,67 +186,67 @@ impl Tool {
         Self { friction, blade, ..Self::assembled(name, Vec::new(), Vec::new()) }
     }
 
-    /// What goes under an edge, of a tool that levers.
+    /// Returns the blade of a tool that levers.
     pub fn blade(&self) -> Option<Blade> {
         self.blade.map(|blade| Blade { friction: self.friction, ..blade })
     }
 
-    /// Whether it has parts to push with.
+    /// Returns `true` if it has parts to push with.
     pub fn pushes(&self) -> bool {
         !self.parts.is_empty()
     }
 
-    /// The parts as written; of a tool with a blade none.
+    /// Returns the parts as written; a tool with a blade has none.
     pub fn parts(&self) -> &[Part] {
         &self.parts
     }
 
-    /// The same without the seams between flush parts: what bodies touch.
+    /// Returns the solids that bodies touch: the parts without the seams between flush ones.
     pub fn outline(&self) -> &[Piece] {
         &self.outline
     }
 
-    /// Pairs of parts joined by a fixed joint; together they make one rigid piece.
+    /// Returns the pairs of parts joined by fixed joints; together they form one rigid piece.
     pub fn joints(&self) -> &[[usize; 2]] {
         &self.joints
     }
 
-    /// The tool made of other parts, those that touch joined.
+    /// Replaces the parts; parts that touch are joined.
     ///
     /// # Errors
-    /// [`ToolError`] if there are none or they form several pieces.
+    /// [`ToolError`] if there are no parts or they form several pieces.
     pub fn with_parts(self, parts: impl IntoIterator<Item = Part>) -> Result<Self, ToolError> {
         let Self { name, description, grip, friction, .. } = self;
         Ok(Self { description, grip, friction, ..Self::new(name, parts)? })
     }
 
-    /// The tool held with the end effector at `grip`, a pose in the tool frame.
+    /// Sets the grip, the pose of the end effector in the tool frame.
     pub fn held_at(self, grip: Pose) -> Self {
         Self { grip, ..self }
     }
 
-    /// The tool under another name.
+    /// Sets the name.
     pub fn named(self, name: impl Into<String>) -> Self {
         Self { name: name.into(), ..self }
     }
 
-    /// The tool with another friction value.
+    /// Sets the friction value.
     pub fn friction(self, friction: f64) -> Self {
         Self { friction, ..self }
     }
 
-    /// The tool with one line about it for people.
+    /// Sets the description, one line.
     pub fn described(self, description: impl Into<String>) -> Self {
         Self { description: description.into(), ..self }
     }
 
-    /// Pose of the tool frame in the world when the end effector is at `end_effector`.
+    /// Returns the pose of the tool frame in the world when the end effector is at `end_effector`.
     pub fn pose(&self, end_effector: Pose) -> Pose {
         end_effector * self.grip.inverse()
     }
 
-    /// The farthest that anything of its outline goes while its frame moves evenly between two poses,
-    /// metres, or a little more. Where it does not turn, that is the way of its frame.
+    /// Returns an upper bound of the travel of any outline point while the frame moves evenly
+    /// between two poses, metres. Without rotation this is the travel of the frame.
     pub fn travel(&self, from: &Pose, to: &Pose) -> f64 {
         let way = to.position - from.position;
         let turn = (to.heading - from.heading).abs();
@@ -256,7 +259,7 @@ impl Tool {
             let centre: f64 =
                 (0..pieces as usize).map(|k| (at(k as f64 + 1.0) - at(k as f64)).norm()).sum();
             match piece.shape {
-                // A round piece that turns about its middle moves nothing.
+                // A round piece that rotates about its centre moves nothing.
                 Shape::Cylinder { .. } => centre,
                 _ => centre + turn * piece.footprint().bounding_radius(),
             }
@@ -264,7 +267,7 @@ impl Tool {
         self.outline.iter().map(of).fold(0.0, f64::max)
     }
 
-    /// Pose of part `index` in the world when the tool frame is at `tool`.
+    /// Returns the pose of part `index` in the world when the tool frame is at `tool`.
     pub fn part_pose(&self, index: usize, tool: &Pose) -> Pose {
         *tool * self.parts[index].pose
     }

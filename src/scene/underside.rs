@@ -1,20 +1,20 @@
-//! Even pressure under a prism, by few points.
+//! Even pressure under a prism, represented by few points.
 
 use crate::geometry::{ConvexPolygon, Vector, cross};
 
-/// Points and shares of the weight that stand for even pressure under a polygon: two or four points
-/// in each triangle of a side and the centre of mass, with loads that have the second moments of the
-/// triangle.
+/// Returns points and shares of the weight that represent even pressure under a polygon. Two or
+/// four points lie in each triangle between a side and the centre of mass, with loads that have the
+/// second moments of the triangle.
 ///
-/// With three or four corners, at two places along a side and two depths, which make the torque of
-/// turns on the spot exact, too. With more corners, at the middles of the triangle's sides (the
-/// neighbour's being the same); that torque is then 1 to 4 % too large.
+/// Three or four corners: points at two places along a side and at two depths, which also makes the
+/// torque of rotations on the spot exact. More corners: points at the midpoints of the triangle's
+/// sides, shared with the neighbours; that torque is then 1 to 4 % too large.
 pub(super) fn underside(polygon: &ConvexPolygon) -> (Vec<Vector>, Vec<f64>) {
     let whole = 2.0 * polygon.area();
     let sides = || polygon.sides().map(|(a, b)| (a, b, cross(a, b) / whole));
     let (mut points, mut loads) = (Vec::new(), Vec::new());
     if polygon.corners().len() <= 4 {
-        // Gauss-Legendre along the side.
+        // Gauss-Legendre points along the side.
         let places: Vec<(Vector, f64)> = sides()
             .flat_map(|(a, b, share)| {
                 let (middle, off) = ((a + b) / 2.0, (b - a) / 12f64.sqrt());

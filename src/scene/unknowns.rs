@@ -1,4 +1,4 @@
-//! What a task does not know about its scene, and what that may be.
+//! Unknown properties of a scene, and their distributions.
 
 use std::fmt;
 
@@ -6,19 +6,20 @@ use serde::{Deserialize, Serialize};
 
 use super::Span;
 
-/// What is unknown of the objects of a scene. What the scene states about it is only the middle of
-/// what it may be.
+/// The unknown properties of the objects of a scene. The values in the scene are then only the
+/// centres of their distributions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Unknowns {
-    /// Which of the objects that stand near each other (gap below [`JOINABLE`](super::JOINABLE))
-    /// are joined, how and where.
+    /// Whether the joints between neighbouring objects (gap below [`JOINABLE`](super::JOINABLE))
+    /// are unknown: their existence, type and place.
     pub joints: bool,
-    /// Masses of all objects: see [`Self::MASS_FACTOR`].
+    /// Whether the masses of all objects are unknown, see [`Self::MASS_FACTOR`].
     pub masses: bool,
-    /// Friction values of all objects and of the table: see [`Self::FRICTION_FACTOR`].
+    /// Whether the friction values of all objects and of the table are unknown, see
+    /// [`Self::FRICTION_FACTOR`].
     pub frictions: bool,
-    /// What all objects rest on: see [`Self::SPREADS`].
+    /// Whether the supports of all objects are unknown, see [`Self::SPREADS`].
     pub support: bool,
 }
 
@@ -26,21 +27,22 @@ impl Unknowns {
     /// Everything is known.
     pub const NONE: Self = Self { joints: false, masses: false, frictions: false, support: false };
 
-    /// Nothing but shapes and places is known.
+    /// Only shapes and poses are known.
     pub const ALL: Self = Self { joints: true, masses: true, frictions: true, support: true };
 
-    /// An unknown mass is the stated one times or over at most this, nine times in ten; its
-    /// logarithm is normal.
+    /// Factor up or down within which an unknown mass is with 90 % probability; its logarithm is
+    /// normal.
     pub const MASS_FACTOR: f64 = 2.0;
 
-    /// The same for friction values.
+    /// Factor up or down within which an unknown friction value is with 90 % probability; its
+    /// logarithm is normal.
     pub const FRICTION_FACTOR: f64 = 1.5;
 
-    /// What an object rests on where that is unknown, as shares of its corners' distance: evenly
-    /// in here. Even pressure is like 0.5 to 0.7, the corners are 1.
+    /// Range of unknown supports, as shares of the corners' distance; the distribution is uniform.
+    /// Even pressure is like 0.5 to 0.7, the corners are 1.
     pub const SPREADS: Span = Span::new(0.5, 1.0);
 
-    /// Each with its word in files.
+    /// Returns each property with its word in files.
     pub fn words(self) -> [(&'static str, bool); 4] {
         [
             ("joints", self.joints),
@@ -50,7 +52,7 @@ impl Unknowns {
         ]
     }
 
-    /// The same with one more unknown, by its word; `None` for an unknown word.
+    /// Adds an unknown property by its word; `None` if there is no such word.
     pub fn with(mut self, word: &str) -> Option<Self> {
         *match word {
             "joints" => &mut self.joints,
@@ -62,18 +64,18 @@ impl Unknowns {
         Some(self)
     }
 
-    /// Whether anything is unknown.
+    /// Returns `true` if anything is unknown.
     pub fn any(self) -> bool {
         self != Self::NONE
     }
 
-    /// Whether a number is unknown: a mass, a friction value or a support.
+    /// Returns `true` if a number is unknown: a mass, a friction value or a support.
     pub fn numbers(self) -> bool {
         self.masses || self.frictions || self.support
     }
 }
 
-/// The words of what is unknown, as in a sentence.
+/// Prints the words of the unknown properties as a list in a sentence.
 impl fmt::Display for Unknowns {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let words: Vec<&str> =

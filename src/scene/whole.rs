@@ -1,9 +1,9 @@
-//! Things of several solids: a mug with its handle, a T, a tray with its rim.
+//! Compound objects: a mug with its handle, a T, a tray with its rim.
 //!
-//! Every solid is an object of the scene, and those of one thing are joined by fixed joints, as the
-//! parts of a tool are. Models and engines make one rigid body of what is joined so; people see the
-//! thing alone, under the name and at the pose of its first solid. All parts come after all things, so
-//! that these keep their numbers.
+//! Every solid is an object of the scene, and fixed joints connect the solids of a compound object,
+//! as with the parts of a tool. Models and engines treat connected solids as one rigid body. Users
+//! see only the compound object, under the name and at the pose of its first solid. All parts
+//! follow after all first solids, so that these keep their indices.
 
 use crate::geometry::{Pose, Vector};
 
@@ -15,8 +15,8 @@ use super::{
 };
 
 impl Scene {
-    /// The scene in which the object with this index has one more solid, joined to it at `place` in its
-    /// frame; `part` has its own mass.
+    /// Adds a solid to the object with this index, joined to it at `place` in its frame; `part` has
+    /// its own mass.
     ///
     /// ```
     /// use pushplan::{Object, Pose, Scene};
@@ -35,7 +35,7 @@ impl Scene {
         self
     }
 
-    /// The scene in which the frictions that are stated of things are those of all their solids.
+    /// Extends stated frictions of compound objects to all their solids.
     pub fn rubbing_all_over(mut self) -> Self {
         let solids = |thing: usize| std::iter::once(thing).chain(self.parts_of(thing));
         let mut all = Vec::new();
@@ -52,42 +52,43 @@ impl Scene {
         self
     }
 
-    /// Whether the friction of a pair is that of things, and not only of parts of theirs.
+    /// Returns `true` if the friction of a pair belongs to whole objects, not only to parts.
     pub fn is_of_things(&self, pair: &PairFriction) -> bool {
         let is_part = |object: usize| self.objects[object].is_part();
         !is_part(pair.object) && !matches!(pair.with, Surface::Object(other) if is_part(other))
     }
 
-    /// The objects that are no parts of others, with their indices: what a person would count.
+    /// Returns the objects that are not parts of others, with their indices: single objects and the
+    /// first solids of compound objects.
     pub fn things(&self) -> impl Iterator<Item = (usize, &Object)> {
         self.objects.iter().enumerate().filter(|(_, object)| !object.is_part())
     }
 
-    /// The indices of the parts of an object, itself not among them.
+    /// Returns the indices of the parts of an object, without the object itself.
     pub fn parts_of(&self, object: usize) -> impl Iterator<Item = usize> {
         let of =
             move |k: &usize| self.objects[*k].whole.is_some_and(|whole| whole.object == object);
         (0..self.objects.len()).filter(of)
     }
 
-    /// The object that number `index` is, or is a part of.
+    /// Returns the compound object of which object `index` is a part; otherwise `index`.
     pub fn thing(&self, index: usize) -> usize {
         self.objects[index].whole.map_or(index, |whole| whole.object)
     }
 
-    /// Mass of an object with all its parts, kg.
+    /// Returns the mass of an object with all its parts, kg.
     pub fn mass(&self, object: usize) -> f64 {
         let parts: f64 = self.parts_of(object).map(|k| self.objects[k].mass).sum();
         self.objects[object].mass + parts
     }
 
-    /// The same where masses are not as stated, kg.
+    /// Returns the mass of an object with all its parts, kg, with the masses of `physics`.
     pub fn mass_in(&self, physics: &Physics, object: usize) -> f64 {
         let parts: f64 = self.parts_of(object).map(|k| physics.masses[k]).sum();
         physics.masses[object] + parts
     }
 
-    /// Gives an object with its parts this mass, kg, spread over them as before.
+    /// Sets the mass of an object with its parts, kg; the distribution stays.
     pub fn weigh(&mut self, object: usize, mass: f64) {
         let parts: Vec<usize> = self.parts_of(object).collect();
         let heavier = mass / self.mass(object);
@@ -99,9 +100,10 @@ impl Scene {
         }
     }
 
-    /// The centre of mass of an object with its parts where these are in `state`, metres.
+    /// Returns the centre of mass of an object with its parts in `state`, metres.
     pub fn centre(&self, object: usize, state: &State) -> Vector {
-        // This is asked in every frame, and most scenes have no parts, which would come last.
+        // A fast path, because this is called in every frame; parts come last, and most scenes have
+        // none.
         if self.objects.last().is_none_or(|last| !last.is_part()) {
             return state.poses[object].position;
         }
@@ -110,7 +112,7 @@ impl Scene {
         moments.sum::<Vector>() / self.mass(object)
     }
 
-    /// Poses of all solids where things are at `poses`.
+    /// Returns the poses of all solids for these poses of the first solids.
     pub fn with_parts(&self, mut poses: Vec<Pose>) -> Vec<Pose> {
         let parts = self.objects.iter().skip(poses.len()).map_while(|object| object.whole);
         let parts: Vec<Pose> = parts.map(|part| poses[part.object] * part.place).collect();
@@ -118,7 +120,8 @@ impl Scene {
         poses
     }
 
-    /// What is seen of all solids where `seen` is of things: their parts are where they must be.
+    /// Returns the observations of all solids for these observations of the first solids; the poses
+    /// of parts follow from them.
     pub fn sights_with_parts(&self, mut seen: Vec<Option<Sight>>) -> Vec<Option<Sight>> {
         let parts = self.objects.iter().skip(seen.len()).map_while(|object| object.whole);
         let of = |part: Whole| {
@@ -131,7 +134,7 @@ impl Scene {
         seen
     }
 
-    /// Moves all parts to where their objects are.
+    /// Moves all parts to the poses that follow from their objects.
     pub fn place_parts(&mut self) {
         for k in 0..self.objects.len() {
             if let Some(Whole { object, place }) = self.objects[k].whole {
@@ -140,9 +143,9 @@ impl Scene {
         }
     }
 
-    /// The points that object `index` stands on in engines that load all points of a body alike, where
-    /// it stands on `feet`: as few as there should be of a part, see [`fewer`], and none of one above
-    /// the table.
+    /// Returns the contact points of object `index`, whose support is `feet`, for engines that load
+    /// all points of a body alike. Parts get fewer points, see [`fewer`], and parts above the table
+    /// none.
     pub fn contacts(&self, index: usize, feet: &Feet, masses: &[f64]) -> Feet {
         if self.objects[index].is_raised() {
             return Feet::none();
@@ -154,12 +157,12 @@ impl Scene {
         fewer(feet, &footprint, masses[index] / heaviest)
     }
 
-    /// Whether an object is of several solids, or one of these.
+    /// Returns `true` if an object is a compound object or a part of one.
     pub fn is_compound(&self, index: usize) -> bool {
         self.objects[index].is_part() || self.parts_of(index).next().is_some()
     }
 
-    /// The joints that make one thing of its solids.
+    /// Returns the fixed joints that connect the solids of compound objects.
     pub fn seams(&self) -> impl Iterator<Item = Joint> {
         let seam = |(k, object): (usize, &Object)| {
             object.whole.map(|whole| Joint::new([whole.object, k], JointKind::Fixed))
@@ -167,26 +170,26 @@ impl Scene {
         self.objects.iter().enumerate().filter_map(seam)
     }
 
-    /// Whether a joint is one of these.
+    /// Returns `true` if a joint connects solids of one compound object.
     pub fn is_seam(&self, joint: &Joint) -> bool {
         let [a, b] = joint.between;
         let whole = |k: usize| self.objects[k].whole.map(|whole| whole.object);
         joint.kind == JointKind::Fixed && (whole(a) == Some(b) || whole(b) == Some(a))
     }
 
-    /// Whether two objects are solids of one thing.
+    /// Returns `true` if two objects are solids of one compound object.
     pub fn same_thing(&self, [a, b]: [usize; 2]) -> bool {
         self.thing(a) == self.thing(b)
     }
 
     /// Returns `true` if an object has parts above the table, or is such a part.
     pub fn has_raised(&self, object: usize) -> bool {
-        // Most scenes have no parts, which would come last.
+        // A fast path: parts come last, and most scenes have none.
         self.objects.last().is_some_and(Object::is_part)
             && self.parts_of(self.thing(object)).any(|k| self.objects[k].is_raised())
     }
 
-    /// The points under object `index`, and what they carry, if it rests on the table in this way.
+    /// Returns the points under object `index` and their loads for this support.
     pub fn feet(&self, index: usize, support: &Support) -> Feet {
         let feet = support.feet(&self.objects[index].shape.footprint());
         if !self.has_raised(index) {
@@ -196,7 +199,7 @@ impl Scene {
         let solids: Vec<usize> = [thing].into_iter().chain(self.parts_of(thing)).collect();
         let objects: Vec<&Object> = solids.iter().map(|&k| &self.objects[k]).collect();
         let own = solids.iter().position(|&k| k == index);
-        // What would fall is no fault of those who ask; files with such things are refused.
+        // Objects that would fall are not rejected here; readers of files reject them.
         let bearings = bearings(&objects).unwrap_or_else(|| by_mass(&objects));
         own.map_or(feet.clone(), |own| feet.loaded(bearings[own].share, bearings[own].centre))
     }

@@ -1,4 +1,4 @@
-//! What stands on the table.
+//! Scenes: a table with objects, joints and obstacles.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,17 +10,17 @@ use super::{
     State, Surface, pair_friction,
 };
 
-/// A table that ends somewhere: a rectangle along the world's axes.
+/// A finite table: a rectangle along the world's axes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TableTop {
     /// Full extents along x and y, metres.
     pub size: [f64; 2],
-    /// Its middle, metres.
+    /// Centre, metres.
     pub middle: Vector,
 }
 
 impl TableTop {
-    /// Whether a body with its centre of mass there stays on the table.
+    /// Returns `true` if a body with its centre of mass at `position` stays on the table.
     pub fn holds(&self, position: Vector) -> bool {
         let off = position - self.middle;
         2.0 * off.x.abs() <= self.size[0] && 2.0 * off.y.abs() <= self.size[1]
@@ -32,13 +32,13 @@ impl TableTop {
 pub struct Scene {
     /// Friction value of the table.
     pub table_friction: f64,
-    /// Where the table ends; by default nowhere near.
+    /// Extent of the table; `None` for an unlimited one.
     pub table_top: Option<TableTop>,
-    /// How high tools press on objects, where it is known: see [`Physics::push_height`].
+    /// Height at which tools press on objects, if known: see [`Physics::push_height`].
     ///
     /// [`Physics::push_height`]: super::Physics::push_height
     pub push_height: Option<f64>,
-    /// Movable bodies; indices into this list name them everywhere.
+    /// Movable bodies; their indices in this list identify them everywhere.
     pub objects: Vec<Object>,
     /// Joints between objects.
     pub joints: Vec<Joint>,
@@ -50,7 +50,7 @@ pub struct Scene {
     /// Frictions of pairs that are not the mean of the two values.
     #[serde(default)]
     pub frictions: Vec<PairFriction>,
-    /// Regions that are to be kept out of.
+    /// Keep-out regions.
     #[serde(with = "planar_only", default, skip_serializing_if = "Vec::is_empty")]
     pub keep_out: Vec<Region>,
 }
@@ -59,7 +59,7 @@ impl Scene {
     /// Default friction value of the table and of obstacles: plain wood.
     pub const FRICTION: f64 = Obstacle::FRICTION;
 
-    /// A table of friction value [`Scene::FRICTION`] with these objects.
+    /// Creates a table of friction value [`Scene::FRICTION`] with these objects.
     pub fn new(objects: impl IntoIterator<Item = Object>) -> Self {
         let objects = objects.into_iter().collect();
         Self {
@@ -75,46 +75,47 @@ impl Scene {
         }
     }
 
-    /// The scene on a table with another friction value.
+    /// Sets the friction value of the table.
     pub fn on_table(self, friction: f64) -> Self {
         Self { table_friction: friction, ..self }
     }
 
-    /// The scene with one more joint.
+    /// Adds a joint.
     pub fn with_joint(mut self, between: [usize; 2], kind: JointKind) -> Self {
         self.joints.push(Joint::new(between, kind));
         self
     }
 
-    /// The scene with one more joint between an object and the world.
+    /// Adds a joint between an object and the world.
     pub fn with_mount(mut self, object: usize, kind: JointKind) -> Self {
         self.mounts.push(Mount { object, kind });
         self
     }
 
-    /// The scene with one more obstacle.
+    /// Adds an obstacle.
     pub fn with_obstacle(mut self, obstacle: Obstacle) -> Self {
         self.obstacles.push(obstacle);
         self
     }
 
-    /// The scene with this coefficient of friction between an object and another body.
+    /// Adds a coefficient of friction between an object and another body.
     pub fn with_friction(mut self, object: usize, with: Surface, coefficient: f64) -> Self {
         self.frictions.push(PairFriction { object, with, coefficient });
         self
     }
 
-    /// Whether some object in it is more than an upright solid on the table.
+    /// Returns `true` if some object is more than an upright solid on the table.
     pub fn in_space(&self) -> bool {
         self.objects.iter().any(Object::in_space)
     }
 
-    /// Every object at its start, at rest.
+    /// Returns the state at the start: every object at rest.
     pub fn start(&self) -> State {
         State::at_rest(self.objects.iter().map(|object| object.pose).collect())
     }
 
-    /// Whether every object moves slower than [`REST_SPEED`], at its centre and at its rim.
+    /// Returns `true` if every object moves slower than [`REST_SPEED`], at its centre and at its
+    /// rim.
     pub fn is_resting(&self, state: &State) -> bool {
         self.objects.iter().zip(&state.velocities).all(|(object, velocity)| {
             let rim = velocity.angular.abs() * object.shape.footprint().bounding_radius();
@@ -122,7 +123,7 @@ impl Scene {
         })
     }
 
-    /// The scene with these objects alone (indices in order) and the joints among them.
+    /// Keeps only these objects (indices in order) and the joints between them.
     pub fn only(&self, objects: &[usize]) -> Self {
         let place = |object: usize| objects.iter().position(|&kept| kept == object);
         let joints = self.joints.iter().filter_map(|joint| {
@@ -154,25 +155,25 @@ impl Scene {
         }
     }
 
-    /// The first object whose centre has left the table and may not.
+    /// Returns the first object whose centre has left the table although it may not fall.
     pub fn off_table(&self, state: &State) -> Option<usize> {
         let top = self.table_top?;
         let off = |k: &usize| !top.holds(self.centre(*k, state)) && !self.objects[*k].may_fall;
         self.things().map(|(k, _)| k).find(off)
     }
 
-    /// The index of the object called `name`.
+    /// Returns the index of the object called `name`.
     pub fn object(&self, name: &str) -> Option<usize> {
         self.objects.iter().position(|object| object.name == name)
     }
 
-    /// The joint that holds an object, or the thing that it is a part of, to the world.
+    /// Returns the joint that holds an object, or its compound object, to the world.
     pub fn mount(&self, object: usize) -> Option<&Mount> {
         let thing = self.thing(object);
         self.mounts.iter().find(|mount| mount.object == thing)
     }
 
-    /// The scene with its objects where they are in `state`, and joints to the world as they are then.
+    /// Moves the objects to their poses in `state` and updates the joints to the world.
     pub fn moved_to(&self, state: &State) -> Self {
         let mut scene = self.clone();
         for (object, pose) in scene.objects.iter_mut().zip(&state.poses) {
@@ -182,7 +183,7 @@ impl Scene {
             let Mount { object, .. } = *mount;
             let start = &self.objects[object].pose;
             let mut now = scene.objects[object].pose;
-            // Sights do not count turns.
+            // Observed headings do not count full turns.
             let middle = mount.kind.middle();
             now.heading = start.heading + middle + wrap_angle(now.heading - start.heading - middle);
             *mount = mount.carried(start, &now);
@@ -190,8 +191,8 @@ impl Scene {
         scene
     }
 
-    /// What something between these heights above the table must not run into, metres: what is as
-    /// high, and the regions that are not for it.
+    /// Returns the obstacles and regions with which a mover between these heights above the table
+    /// must not collide, metres: obstacles at these heights, and keep-out regions for the mover.
     pub fn fixed(&self, mover: Mover, span: [f64; 2]) -> impl Iterator<Item = Fixed<'_>> {
         let obstacles = self.obstacles.iter().filter(move |obstacle| obstacle.meets(span));
         let regions = self.keep_out.iter().filter(move |region| match mover {
@@ -201,17 +202,18 @@ impl Scene {
         obstacles.map(Fixed::from).chain(regions.map(Fixed::from))
     }
 
-    /// What is all above this height, metres: below it nothing is set down and lifted.
+    /// Returns the obstacles entirely above this height, metres, below which nothing is set down
+    /// and lifted.
     pub fn above(&self, height: f64) -> impl Iterator<Item = Fixed<'_>> {
         self.obstacles.iter().filter(move |obstacle| obstacle.z >= height).map(Fixed::from)
     }
 
-    /// Coefficient of friction of a pair: the mean of the two values.
+    /// Returns the coefficient of friction of a pair: the mean of the two values.
     pub fn pair_friction(a: f64, b: f64) -> f64 {
         0.5 * (a + b)
     }
 
-    /// Coefficient of friction between object `index` and the table.
+    /// Returns the coefficient of friction between object `index` and the table.
     pub fn support_friction(&self, index: usize) -> f64 {
         let values = [self.objects[index].friction, self.table_friction];
         pair_friction(&self.frictions, index, Surface::Table, values)

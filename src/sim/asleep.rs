@@ -1,18 +1,19 @@
-//! A body that nothing has come near yet sleeps: it costs nothing, and stays where it is to the
-//! last bit.
+//! Sleep of bodies that nothing has approached yet: they cost nothing, and keep their poses
+//! bitwise.
 //!
-//! rapier leaves out what sleeps and wakes it when something awake touches it. But it does so in
-//! the middle of a step, in which a body in 3-D has no table yet and falls by 0.17 mm. So bodies
-//! are woken here, before the step in which that could happen; and they never sleep again, as a
-//! body that is pushed slowly, or turns back, is slow without being at rest.
+//! rapier skips sleeping bodies and wakes them at contact with an awake body. But it wakes them
+//! within a step, in which a body in 3-D has no table yet and falls by 0.17 mm. Bodies are
+//! therefore woken here, before the step in which contact is possible. They never sleep again,
+//! because a body that is pushed slowly, or reverses, is slow without being at rest.
 
 use super::groups::Group;
 use crate::scene::Velocity;
 
-/// A body this near to something awake wakes, metres: rapier looks for contacts up to 2 mm away.
+/// Distance to an awake body below which a body wakes, metres; rapier detects contacts up to 2 mm
+/// away.
 const NEAR: f64 = 4e-3;
 
-/// A box around a body on the table, in the engine's coordinates: metres.
+/// A bounding box of a body on the table, in the engine's coordinates, metres.
 #[derive(Clone, Copy)]
 pub(super) struct Extent {
     low: [f64; 2],
@@ -20,7 +21,7 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    /// Around nothing yet.
+    /// The empty box.
     const EMPTY: Self = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
 
     fn grown(mut self, low: [f64; 2], high: [f64; 2]) -> Self {
@@ -39,36 +40,36 @@ impl Extent {
     }
 }
 
-/// What sleep needs of an engine's world. The two that implement it look alike, but belong to two
-/// crates with types of their own.
+/// The operations on an engine's world that sleep needs. The two implementations are alike, but use
+/// types of two crates.
 pub(super) trait Sleepable {
-    /// Names a body.
+    /// Handle of a body.
     type Handle: Copy;
 
-    /// Where a body is.
+    /// Returns the bounding box of a body.
     fn extent(&self, body: Self::Handle) -> Extent;
 
-    /// How far it goes in a step, metres, as fast as it is.
+    /// Returns the distance that a body moves in a step at its present speed, metres.
     fn stride(&self, body: Self::Handle) -> f64;
 
-    /// Whether it sleeps.
+    /// Returns `true` if a body sleeps.
     fn sleeps(&self, body: Self::Handle) -> bool;
 
-    /// Lets a body that rests sleep from the next step on.
+    /// Lets a resting body sleep from the next step on.
     fn let_sleep(&mut self, body: Self::Handle);
 
-    /// Wakes a body for good.
+    /// Wakes a body permanently.
     fn wake(&mut self, body: Self::Handle);
 }
 
-/// A slower body rests, m/s and rad/s.
+/// Speed below which a body rests, m/s and rad/s.
 const AT_REST: f64 = 1e-9;
 
-/// How long a body must rest before it sleeps, seconds: less than a step. With no time at all
-/// rapier would let moving bodies sleep, too.
+/// Resting time before a body sleeps, seconds: less than a step. With zero, rapier would also let
+/// moving bodies sleep.
 const AT_ONCE: f64 = 1e-9;
 
-/// The bodies of a world by whether they sleep.
+/// The sleeping and the awake bodies of a world.
 pub(super) struct Asleep<H> {
     asleep: Vec<Sleeper<H>>,
     awake: Vec<H>,
@@ -77,12 +78,13 @@ pub(super) struct Asleep<H> {
 struct Sleeper<H> {
     body: H,
     around: Extent,
-    /// Whether it fell asleep by now.
+    /// Whether the engine has put it to sleep by now.
     sleeps: bool,
 }
 
 impl<H: Copy> Asleep<H> {
-    /// Lets all of `groups` sleep that rest, whose `bodies` these are; the tool is awake.
+    /// Lets the resting groups of `groups` sleep; `bodies` are their handles, and the tool is
+    /// awake.
     pub fn new<W: Sleepable<Handle = H>>(
         world: &mut W,
         (groups, bodies): (&[Group], impl Iterator<Item = H>),
@@ -101,21 +103,21 @@ impl<H: Copy> Asleep<H> {
         this
     }
 
-    /// Nothing sleeps, ever.
+    /// Creates an instance in which no body ever sleeps.
     pub fn none() -> Self {
         Self { asleep: Vec::new(), awake: Vec::new() }
     }
 
-    /// Wakes what something awake is near to, or will be in this step.
+    /// Wakes the bodies near an awake body, now or within this step.
     pub fn wake_near<W: Sleepable<Handle = H>>(&mut self, world: &mut W) {
         let mut k = 0;
-        // A body that wakes also wakes those near it.
+        // A woken body also wakes its neighbours.
         while k < self.awake.len() && !self.asleep.is_empty() {
             let body = self.awake[k];
             let (extent, margin) = (world.extent(body), NEAR + world.stride(body));
             self.asleep.retain_mut(|sleeper| {
                 let sleeps = world.sleeps(sleeper.body);
-                // Bodies woken by the engine were hit by something faster than we look ahead.
+                // Bodies woken by the engine were hit by a body faster than the look-ahead.
                 let woken = sleeper.sleeps && !sleeps;
                 sleeper.sleeps = sleeps;
                 let wakes = woken || extent.is_near(&sleeper.around, margin);

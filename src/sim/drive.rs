@@ -1,8 +1,8 @@
-//! Plays a tool motion in a world of either engine, frame by frame, and records it.
+//! Playback of a tool motion in a world of either engine, frame by frame, with recording.
 //!
-//! Every frame is cut into equal steps no longer than the engine's, so that the tool travels
-//! exactly what the motion says; at the start of each frame it is put exactly where the motion
-//! says, so that rounding does not add up either.
+//! Every frame is divided into equal steps no longer than the engine's, so that the tool travels
+//! exactly as in the motion. At the start of each frame the tool is set exactly to the pose of the
+//! motion, so that rounding errors do not accumulate.
 
 use crate::geometry::Pose;
 use crate::{
@@ -17,32 +17,32 @@ use super::Simulator;
 use super::strain::{Overlap, Strain};
 use super::world::World;
 
-/// How many times finer the steps are of what is played faster than it happens.
+/// Factor by which the steps of an accelerated frame are finer.
 const FINER: f64 = 4.0;
 
-/// The most times faster than it happens that anything is played.
+/// Maximum factor by which a frame is accelerated.
 const MOST_HURRIED: f64 = 100.0;
 
-/// An object this many times faster than the tool is not carried by it.
+/// Speed relative to the tool above which an object is not carried by it.
 const CARRIED: f64 = 3.0;
 
-/// An arm that pushes: where it cannot go on it stops, and nothing is excused that rigid bodies
-/// cannot do.
+/// A pushing arm: it stops where it cannot continue, and motions impossible for rigid bodies are
+/// never excused.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Arm {
-    /// The force that it can keep up, newtons; `None` if none is too large.
+    /// Maximum lasting force, newtons; `None` for no limit.
     pub max_force: Option<f64>,
 }
 
 impl Arm {
-    /// That the arm gives up, if it does.
+    /// Returns a warning if the force exceeds the arm's limit.
     fn gives_up(&self, strain: &Strain) -> Option<Warning> {
         let (needed, limit) = (strain.force().lasting, self.max_force?);
         (needed > limit).then_some(Warning::TooMuchForce { object: None, needed, limit })
     }
 }
 
-/// Plays `job` in a world `W` with the simulator's steps; with an `arm`, until that cannot go on.
+/// Plays `job` in a world `W` with the simulator's steps; with an `arm`, until it cannot continue.
 pub(super) fn drive<W: World>(
     scene: &Scene,
     job: &Job,
@@ -65,9 +65,9 @@ pub(super) fn drive<W: World>(
     for (index, stroke) in motion.strokes.iter().enumerate() {
         let lifted = index > 0 && motion.strokes[index - 1].settle;
         if lifted && world.toppled().is_empty() {
-            // A fresh world, so that going on from a recorded rest and never having stopped are the
-            // same computation. An object on its side cannot be described by a planar state, and
-            // stays in the old world, where the tool jumps.
+            // A fresh world, so that a continuation from a recorded rest equals an uninterrupted
+            // computation. A planar state cannot describe an object on its side, so such objects
+            // stay in the old world, and the tool jumps there.
             world = W::build(scene, &world.state(), physics, motion, &stroke.from);
             recorder.strain.begin();
         }
@@ -125,15 +125,15 @@ pub(super) fn drive<W: World>(
     recorder.finish(scene, motion)
 }
 
-/// What became of a frame.
+/// The result of a frame.
 struct Played {
-    /// How much of it was played, 1 if nothing went wrong.
+    /// Share of the frame that was played; 1 without a jam.
     share: f64,
-    /// The object that jammed, which ended it.
+    /// The jam that ended the frame, if any.
     jam: Option<Overlap>,
 }
 
-/// Plays one frame in equal steps, until something jams.
+/// Plays one frame in equal steps, until an object jams.
 fn play<W: World>(
     world: &mut W,
     frame: &FrameStep,
@@ -143,10 +143,10 @@ fn play<W: World>(
     let hurry = hurry(world, frame);
     let longest = if hurry > 1.0 { longest / FINER } else { longest };
     let frame = &FrameStep { duration: frame.duration / hurry, ..*frame };
-    // The small part keeps 0.1 / (1 / 240) at twenty-four steps however it is rounded.
+    // The small offset gives 0.1 / (1 / 240) twenty-four steps under any rounding.
     let steps = (frame.duration / longest - 1e-9).ceil().max(1.0);
     let step = frame.duration / steps;
-    // A jump takes no time, so nothing can happen in it; the next frame starts where it ends.
+    // A jump has no duration, so nothing happens in it; the next frame starts at its end.
     if !(step > 0.0 && step.is_finite()) {
         return Played { share: 1.0, jam: None };
     }
@@ -167,8 +167,8 @@ fn play<W: World>(
     played
 }
 
-/// How many times faster than it happens a frame may be played, see [`World::SLOWEST`]: not while
-/// something still moves by itself.
+/// Returns the factor by which a frame may be accelerated, see [`World::SLOWEST`]: 1 while an
+/// object still moves by itself.
 fn hurry<W: World>(world: &W, frame: &FrameStep) -> f64 {
     let travel = (frame.to.position - frame.from.position).norm();
     let speed = travel / frame.duration;
@@ -181,7 +181,7 @@ fn hurry<W: World>(world: &W, frame: &FrameStep) -> f64 {
     if fastest > CARRIED * speed { 1.0 } else { (W::SLOWEST / speed).min(MOST_HURRIED) }
 }
 
-/// The warning about an object that jammed.
+/// Returns the warning about a jammed object.
 fn jammed(scene: &Scene, motion: &ToolMotion, jam: Overlap) -> Warning {
     let against = match jam.with {
         Body::Object(index) => scene.objects[index].name.clone(),
@@ -191,11 +191,11 @@ fn jammed(scene: &Scene, motion: &ToolMotion, jam: Overlap) -> Warning {
     Warning::Jammed { object: scene.objects[jam.object].name.clone(), against, depth: jam.depth }
 }
 
-/// Keeps the trajectory as it grows.
+/// A recorder of the growing trajectory.
 struct Recorder {
     record: Record,
     trajectory: Trajectory,
-    /// Frames seen, kept or not.
+    /// Number of recorded frames, kept or not.
     seen: usize,
     /// Objects that have toppled, in order.
     toppled: Vec<usize>,
@@ -218,7 +218,7 @@ impl Recorder {
         self.trajectory.warnings.extend(toppled);
         let fallen = scene.fallen(self.trajectory.outcome(), &self.toppled);
         self.trajectory.warnings.extend(fallen);
-        // What an arm stopped for has been said.
+        // Warnings that stopped an arm are already in the list.
         let harmed: Vec<Warning> = self.strain.too_hard(scene).collect();
         let warnings = &mut self.trajectory.warnings;
         warnings
@@ -232,7 +232,7 @@ impl Recorder {
         &self.trajectory.frames[self.trajectory.frames.len() - 1]
     }
 
-    /// Takes the world's state as the end of a frame; false if it is no longer finite.
+    /// Records the world's state as the end of a frame; returns `false` if it is not finite.
     fn record<W: World>(&mut self, world: &W, time: f64, stroke: usize, tool: Pose) -> bool {
         let state = world.state();
         if !state.is_finite() {
@@ -253,7 +253,7 @@ impl Recorder {
         true
     }
 
-    /// Notes what has left the table at the end and has not fallen.
+    /// Adds warnings for objects that have left the table but have not fallen.
     fn note_hanging<W: World>(&mut self, scene: &Scene, world: &W) {
         let state = &self.last().state;
         let hangs = |k: usize| scene.has_left(k, state) && world.has_fallen(k) == Some(false);

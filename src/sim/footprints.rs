@@ -12,7 +12,7 @@ pub(super) fn collider(footprint: &Footprint, friction: f64) -> ColliderBuilder 
         Footprint::Rectangle { half } => ColliderBuilder::cuboid(half.x as Real, half.y as Real),
         Footprint::Polygon(polygon) => {
             let corners = polygon.corners().iter().copied().map(vector).collect();
-            // Of three corners and more there always is one.
+            // The hull of three or more corners always exists.
             ColliderBuilder::convex_polyline(corners)
                 .unwrap_or_else(|| ColliderBuilder::ball(polygon.inner_radius() as Real))
         }
@@ -20,7 +20,7 @@ pub(super) fn collider(footprint: &Footprint, friction: f64) -> ColliderBuilder 
     shape.friction(friction as Real).friction_combine_rule(CoefficientCombineRule::Average)
 }
 
-/// The collider with its mass (kg) about the footprint's origin.
+/// Sets the mass (kg) of the collider, about the footprint's origin.
 pub(super) fn weighing(
     collider: ColliderBuilder,
     footprint: &Footprint,

@@ -1,26 +1,27 @@
-//! Which objects move as one rigid body.
+//! Groups of objects that move as one rigid body.
 //!
-//! Objects that fixed joints hold together become one body with a solid for each of them. As
-//! separate bodies a row of twelve bends: pushed at its middle at 0.21 m/s its joints gave way by
-//! 0.95 mm and 0.56 degrees each in either engine at 1/240 s, and a row of light and heavy ones
-//! in turn (1 : 10) by 4 mm and 2.3 degrees; one body does not bend at all and costs less. Every
-//! object keeps its own mass and its own friction with the table.
+//! Objects that fixed joints connect become one body with a solid for each of them, because
+//! separate bodies bend. In a row of twelve, pushed at its middle at 0.21 m/s, joints yielded by
+//! 0.95 mm and 0.56 degrees each in either engine at 1/240 s. In a row of alternately light and
+//! heavy ones (1 : 10) they yielded by 4 mm and 2.3 degrees. A single body does not bend at all and
+//! costs less. Every object keeps its own mass and its own friction with the table.
 
 use crate::geometry::{Pose, Vector, cross};
 use crate::scene::{Physics, Scene, State, Velocity};
 
-/// One rigid body, as it starts.
+/// A rigid body at its start.
 pub(super) struct Group {
     /// Indices of its objects, in order.
     pub objects: Vec<usize>,
-    /// A single object's own pose; the centre of mass, unturned, of several.
+    /// Pose of a single object; otherwise the centre of mass, with heading zero.
     pub pose: Pose,
     /// Velocity of the centre of mass.
     pub velocity: Velocity,
 }
 
 impl Group {
-    /// The bodies of a scene in `state` under `physics`, in the order of their first objects.
+    /// Returns the bodies of a scene in `state` under `physics`, in the order of their first
+    /// objects.
     pub fn of(scene: &Scene, state: &State, physics: &Physics) -> Vec<Group> {
         let members = physics.rigid_groups().members.into_iter();
         members.map(|objects| Self::at(scene, state, &physics.masses, objects)).collect()
@@ -36,7 +37,7 @@ impl Group {
         let mass: f64 = objects.iter().map(|&index| masses[index]).sum();
         let centre = sum(&|index| state.poses[index].position) / mass;
         let linear = sum(&|index| state.velocities[index].linear) / mass;
-        // The turning that has the objects' angular momentum about the centre.
+        // The angular velocity with the objects' angular momentum about the centre.
         let (mut momentum, mut inertia) = (0.0, 0.0);
         for &index in &objects {
             let arm = state.poses[index].position - centre;
@@ -58,17 +59,17 @@ pub(super) struct Member {
     pub local: Pose,
     /// The object's pose when the world was built.
     pub start: Pose,
-    /// From the body's centre to the object's, in world axes when the world was built.
+    /// Vector from the body's centre to the object's, in world axes when the world was built.
     arm: Vector,
 }
 
 impl Member {
-    /// Object `index` in `state` on its one of `groups`, whose bodies are numbered in order.
+    /// Returns object `index` in `state` as a member of its group; bodies are numbered as `groups`.
     pub fn of(groups: &[Group], state: &State, index: usize) -> Self {
-        // Every object is in one group.
+        // Every object is in exactly one group.
         let body = groups.iter().position(|group| group.objects.contains(&index)).unwrap_or(0);
         let (group, start) = (&groups[body], state.poses[index]);
-        // A single object is its body, to the bit.
+        // A single object has exactly the pose of its body.
         let (local, arm) = match group.objects[..] {
             [_] => (Pose::default(), Vector::zeros()),
             _ => (group.pose.inverse() * start, start.position - group.pose.position),
@@ -76,12 +77,13 @@ impl Member {
         Self { body, local, start, arm }
     }
 
-    /// From the body's centre to the object's after the body has turned by `turned` radians.
+    /// Returns the vector from the body's centre to the object's after a rotation of the body by
+    /// `turned` radians.
     pub fn arm(&self, turned: f64) -> Vector {
         Pose { position: Vector::zeros(), heading: turned }.vector(self.arm)
     }
 
-    /// The object's pose after its body has moved and turned.
+    /// Returns the object's pose after a translation and rotation of its body.
     pub fn pose(&self, moved: Vector, turned: f64) -> Pose {
         let swung = if turned == 0.0 { Vector::zeros() } else { self.arm(turned) - self.arm };
         Pose {
@@ -90,7 +92,7 @@ impl Member {
         }
     }
 
-    /// The object's velocity when its body has `body`'s, having turned by `turned` radians.
+    /// Returns the object's velocity for the velocity of its body, rotated by `turned` radians.
     pub fn velocity(&self, body: Velocity, turned: f64) -> Velocity {
         Velocity { linear: body.at(self.arm(turned)), ..body }
     }

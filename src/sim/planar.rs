@@ -1,9 +1,9 @@
-//! The planar engine: rapier2d seen from above, with support friction of our own.
+//! The planar engine: rapier2d seen from above, with its own law of support friction.
 //!
-//! No gravity; every object is a disc or a convex polygon that [`Support`] slows down during each
-//! step. The world is centred on the objects, because rapier2d computes in `f32`; what it
-//! reports is taken as a change against its own start, so a body at rest stays where it is to
-//! the last bit of `f64`.
+//! There is no gravity; every object is a disc or a convex polygon that [`Support`] decelerates in
+//! each step. The world is centred on the objects, because rapier2d computes in `f32`. Poses are
+//! computed from the change against rapier's own start, so a body at rest keeps its pose bitwise in
+//! `f64`.
 
 mod joints;
 
@@ -35,9 +35,9 @@ use super::world::World;
 
 /// Tool parts.
 const PART: Layer = Layer::GROUP_1;
-/// Objects tall enough for the tool's parts to meet them.
+/// Objects tall enough for contact with the tool's parts.
 const TALL: Layer = Layer::GROUP_2;
-/// Objects that the lifted tool passes over.
+/// Objects over which the lifted tool passes.
 const LOW: Layer = Layer::GROUP_3;
 /// Obstacles.
 const OBSTACLE: Layer = Layer::GROUP_4;
@@ -45,31 +45,31 @@ const OBSTACLE: Layer = Layer::GROUP_4;
 /// A scene in rapier2d.
 pub(super) struct PlanarWorld {
     world: PhysicsWorld,
-    /// Where rapier's origin lies in the world frame, metres.
+    /// Rapier's origin in the world frame, metres.
     origin: Vector,
     tool: RigidBodyHandle,
     bodies: Vec<Tracked>,
     objects: Vec<(Member, Support)>,
-    /// What the `user_data` of a collider stands for.
+    /// Body of a collider, by its `user_data`.
     labels: Vec<Body>,
     seams: Seams,
     asleep: Asleep<RigidBodyHandle>,
 }
 
-/// A body and how far it has come since the world was built.
+/// A body and its motion since the world was built.
 struct Tracked {
     handle: RigidBodyHandle,
     first_position: RapierVector,
     last_angle: f64,
     turned: f64,
     pressed: Pressed,
-    /// Its objects, by number.
+    /// Indices of its objects.
     objects: Vec<usize>,
 }
 
 impl World for PlanarWorld {
-    /// Friction falls with the speed below a share of mu g dt, which is 16 mm/s at mu 0.4: below
-    /// all of it in moving joints, and below a twentieth elsewhere.
+    /// Friction decreases with the speed below a share of mu g dt, which is 16 mm/s at mu 0.4. The
+    /// share is all of it in moving joints, and a twentieth elsewhere.
     const SLOWEST: f64 = 0.05;
 
     fn hurry(&mut self, factor: f64) {
@@ -249,7 +249,8 @@ impl PlanarWorld {
     }
 
     fn add_tool(&mut self, motion: &ToolMotion, at: &Pose) {
-        // rapier's velocity is that of the centre of mass, so all of it lies in the tool frame.
+        // rapier's velocity refers to the centre of mass, which therefore is at the tool frame's
+        // origin.
         let body = RigidBodyBuilder::kinematic_velocity_based()
             .additional_mass_properties(MassProperties::new(vector(Vector::zeros()), 1.0, 1.0))
             .pose(to_rapier(at, self.origin))
@@ -298,11 +299,11 @@ impl PlanarWorld {
     ) {
         let (object, friction) = (&scene.objects[index], physics.frictions[index]);
         let footprint = object.shape.footprint();
-        // All parts have their underside at the same height, so what stands alone decides.
+        // All parts have their underside at one height, so the object alone decides.
         let own = if object.top() > motion.lift { TALL } else { LOW };
-        // What has fallen is in nobody's way.
+        // Fallen objects collide with nothing.
         let meets = if scene.has_left(index, state) { Layer::NONE } else { Layer::ALL };
-        // What is above the table may pass over anything.
+        // A part above the table may pass over any body.
         let hooks = match object.is_raised() {
             true => ActiveHooks::FILTER_CONTACT_PAIRS,
             false => ActiveHooks::empty(),
@@ -332,7 +333,7 @@ impl PlanarWorld {
         }
     }
 
-    /// Lets contacts of the collider with this label be changed before they are solved.
+    /// Enables changes to the contacts of the collider with this label before they are solved.
     fn ask_for_contacts(&mut self, label: usize) {
         let labelled = |collider: &&mut Collider| collider.user_data == label as u128;
         let mut colliders = self.world.colliders.iter_mut().map(|(_, collider)| collider);
@@ -363,7 +364,7 @@ fn empty_world(scene: &Scene, physics: &Physics) -> PhysicsWorld {
     world
 }
 
-/// The points of a manifold that were solved, and not taken away as those of a seam.
+/// Returns the solved points of a manifold, without points removed at seams.
 fn solved(
     manifold: &ContactManifold,
 ) -> impl Iterator<Item = (&ContactManifold, &TrackedContact<ContactData>)> {

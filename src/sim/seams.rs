@@ -1,9 +1,9 @@
-//! No contacts at the seams of a tool and, seen from above, with what is passed below; and the friction
-//! of pairs that have one of their own.
+//! Contact hooks: no contacts at the seams of a tool or, in the planar engine, between bodies that
+//! pass below each other; and frictions stated for pairs.
 //!
-//! The engines look at each piece of a tool alone, so a body that slides along the tool would be
-//! caught by the corner of the next piece. Contacts where a piece cannot be touched, because
-//! another one continues its face or covers it, are taken away before they are solved.
+//! The engines handle each piece of a tool alone, so a body that slides along the tool would catch
+//! on the corner of the next piece. Contacts on covered or continued faces of a piece are removed
+//! before they are solved.
 
 use std::collections::HashSet;
 
@@ -16,29 +16,29 @@ use crate::{
     task::ToolMotion,
 };
 
-/// Normals that rise more steeply than this (sine) are those of top or underside.
+/// Sine of the slope above which a normal belongs to a top or underside.
 const STEEP: f64 = 0.5;
 
 /// Changes of contacts before they are solved, by the colliders' labels.
 #[derive(Debug, Default)]
 pub(super) struct Seams {
-    /// Where they can be touched; everywhere by default.
+    /// Touchable part of the boundary; `None` for all of it.
     rims: Vec<Option<Rim>>,
     /// Coefficients of friction of pairs.
     frictions: Vec<([u128; 2], f64)>,
-    /// What is above the table and what passes below or over it, seen from above.
+    /// Pairs of a body above the table and a body that passes below or over it, seen from above.
     passing: HashSet<[u128; 2]>,
 }
 
 impl Seams {
-    /// Lets the collider with this label be touched at its `rim` only.
+    /// Restricts contacts of the collider with this label to its `rim`.
     pub fn set(&mut self, label: usize, rim: &Rim) {
         self.rims.resize(self.rims.len().max(label + 1), None);
         self.rims[label] = Some(rim.clone());
     }
 
-    /// Lets the colliders with these `labels` rub as is stated of `pairs`, and as before for all others;
-    /// returns the numbers of those whose contacts must be asked about here.
+    /// Sets the friction of colliders with these `labels` to the frictions stated in `pairs`; other
+    /// pairs keep theirs. Returns the labels of colliders whose contacts need the hook.
     pub fn rub(&mut self, labels: &[Body], pairs: &[PairFriction]) -> Vec<usize> {
         let mut asking = Vec::new();
         self.frictions.clear();
@@ -60,8 +60,8 @@ impl Seams {
         asking
     }
 
-    /// Lets the colliders with these `labels` rub against the table, which has a label of its own, as is
-    /// stated of `pairs`; returns as [`Self::rub`].
+    /// Sets the friction of colliders with these `labels` against the table, which has a label of
+    /// its own, to the frictions stated in `pairs`. Returns labels as [`Self::rub`].
     pub fn rub_table(
         &mut self,
         labels: &[Body],
@@ -79,7 +79,8 @@ impl Seams {
         asking
     }
 
-    /// Lets all pass below what is above it, obstacles and parts of objects, where all is seen from above.
+    /// Disables contacts between bodies and the raised bodies above or below them, obstacles and
+    /// parts of objects, in a world seen from above.
     pub fn pass(&mut self, labels: &[Body], scene: &Scene, motion: &ToolMotion) {
         let span = |body: &Body| match *body {
             Body::Object(index) => scene.objects[index].span(),

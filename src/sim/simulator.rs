@@ -1,4 +1,4 @@
-//! An engine with its step, playing tool motions.
+//! The simulator: an engine with its step that plays tool motions.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use super::lever::LeverSimulator;
 use super::planar::PlanarWorld;
 use super::spatial::SpatialWorld;
 
-/// A physics engine with its settings. Plays motions; holds no state between them.
+/// A physics engine with its settings. It plays motions and holds no state between them.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -41,59 +41,59 @@ pub struct Simulator {
 }
 
 impl Simulator {
-    /// An engine with at least `rate` steps a second.
+    /// Creates an engine with at least `rate` steps a second.
     pub const fn new(engine: Engine, rate: Rate) -> Self {
         Self { engine, rate, retreats: false }
     }
 
-    /// The same, in which a tool goes [back](crate::task::ToolMotion::retreat) before it is lifted.
+    /// Lets tools [retreat](crate::task::ToolMotion::retreat) before they are lifted.
     pub const fn retreating(self) -> Self {
         Self { retreats: true, ..self }
     }
 
-    /// Whether a tool goes back before it is lifted.
+    /// Returns `true` if tools retreat before they are lifted.
     pub fn retreats(&self) -> bool {
         self.retreats
     }
 
-    /// The planar engine at its default step.
+    /// Creates the planar engine at its default step.
     pub const fn planar() -> Self {
         Self::new(Engine::Planar, Rate::DEFAULT)
     }
 
-    /// The 3-D engine at its default step.
+    /// Creates the 3-D engine at its default step.
     pub const fn spatial() -> Self {
         Self::new(Engine::Spatial, Rate::DEFAULT)
     }
 
-    /// The 3-D engine in which nothing tips, at its default step.
+    /// Creates the 3-D engine in which nothing tips, at its default step.
     pub const fn upright() -> Self {
         Self::new(Engine::Upright, Rate::DEFAULT)
     }
 
-    /// Which engine this is.
+    /// Returns the engine.
     pub fn engine(&self) -> Engine {
         self.engine
     }
 
-    /// Longest time step, seconds.
+    /// Returns the longest time step, seconds.
     pub fn step(&self) -> f64 {
         self.rate.step()
     }
 
-    /// Its spec as an effect model.
+    /// Returns its identifier as an effect model.
     pub fn spec(&self) -> ModelSpec {
         ModelKind::Simulated { engine: self.engine, rate: self.rate }.into()
     }
 
     /// Plays a job until everything rests.
     ///
-    /// The trajectory always has at least one frame; its warnings say what went wrong on the way.
+    /// The trajectory always has at least one frame; problems are reported as warnings.
     pub fn run(&self, scene: &Scene, job: &Job, record: Record) -> Trajectory {
         self.run_watched(scene, job, record, &Unwatched)
     }
 
-    /// [`Simulator::run`], which `watch` can stop after any frame; the warnings say so then.
+    /// Plays a job as [`Simulator::run`]; `watch` can stop it after any frame, with a warning.
     pub fn run_watched(
         &self,
         scene: &Scene,
@@ -107,7 +107,7 @@ impl Simulator {
         self.drive(scene, job, record, (None, watch))
     }
 
-    /// Plays jobs in turn as one trajectory, see [`in_turn`].
+    /// Plays consecutive jobs as one trajectory, see [`in_turn`].
     pub fn run_in_turn(
         &self,
         scene: &Scene,
@@ -121,8 +121,8 @@ impl Simulator {
         made.into_iter().next().unwrap_or_else(standing)
     }
 
-    /// Plays a job in the plane as an arm carries it out: it ends where the arm cannot go on, with a
-    /// warning that says why.
+    /// Plays a planar job as an arm executes it: it ends where the arm cannot continue, with a
+    /// warning that states the reason.
     pub fn run_by(&self, arm: &Arm, scene: &Scene, job: &Job, record: Record) -> Trajectory {
         self.drive(scene, job, record, (Some(arm), &Unwatched))
     }
@@ -142,7 +142,7 @@ impl Simulator {
         play(scene, job, self, record, by)
     }
 
-    /// Plays motions one after another until everything rests.
+    /// Plays consecutive motions until everything rests.
     pub fn run_plan(&self, scene: &Scene, motions: &[Motion], record: Record) -> Trajectory {
         match motions {
             [] => Trajectory::standing(self.spec(), Pose::default(), scene.start()),
@@ -159,12 +159,12 @@ impl Simulator {
         }
     }
 
-    /// Whether it can play a job: what leaves the plane is for the 3-D engine.
+    /// Returns `true` if it can play a job; only the 3-D engine can play jobs that leave the plane.
     pub fn takes(&self, job: &Job) -> bool {
         self.engine == Engine::Spatial || !job.in_space()
     }
 
-    /// Plays a job that leaves the plane, or begins out of it.
+    /// Plays a job that leaves the plane or starts out of it.
     fn in_space(&self, scene: &Scene, job: &Job, record: Record, watch: &dyn Watch) -> Trajectory {
         if !self.takes(job) || !job.motion.fits(scene) {
             return Trajectory::declined(&self.spec(), job);

@@ -1,27 +1,29 @@
-//! How friction with the table slows a body in a step.
+//! Deceleration of a body by friction with the table in a step.
 //!
-//! Friction is taken where the step ends. Taken where it begins, what is so slow that friction would
-//! stop it within a step could only be slowed in proportion to its speed; at 0.1 m/s, 1/240 s and a
-//! coefficient of 0.5 that is anything below a fifth of the tool's speed, such as the corner that a
-//! box turns about. What presses is known when the step has been made, and is taken from the last one.
+//! Friction is evaluated at the end of the step. Evaluated at the beginning, it could only slow
+//! bodies in proportion to their speed if it would stop them within a step. At 0.1 m/s, 1/240 s and
+//! a coefficient of 0.5 this applies to anything below a fifth of the tool's speed, such as the
+//! corner about which a box rotates. The applied forces are only known after the step, so the
+//! forces of the previous step are used.
 //!
-//! The prior has such equations, too ([`crate::contact`]). They are not shared: this engine judges
-//! it, and a mistake in common would be seen by neither.
+//! The analytic model has similar equations ([`crate::contact`]). They are not shared, because this
+//! engine verifies the analytic model, and a common mistake would stay hidden.
 
 use crate::geometry::{Vector, cross, perpendicular};
 use crate::scene::Drag;
 
-/// Rounds in which the velocity at the end is found.
+/// Number of iterations for the velocity at the end of the step.
 const ROUNDS: usize = 4;
 
-/// Velocity of a body's centre of mass, m/s, and its spin, rad/s; or force on it and torque.
+/// A velocity of a body's centre of mass, m/s, and its angular velocity, rad/s; or a force and a
+/// torque.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Twist {
     pub linear: Vector,
     pub angular: f64,
 }
 
-/// The resistance to a body's motion: force and torque for each m/s and rad/s of it.
+/// The resistance to a body's motion: force and torque for each m/s and rad/s.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Resistance {
     sum: f64,
@@ -30,7 +32,7 @@ pub(super) struct Resistance {
 }
 
 impl Resistance {
-    /// Adds an object that presses on the table as hard as `load` (N), its centre `arm` from the
+    /// Adds an object with the load `load` (N) on the table, whose centre is `arm` away from the
     /// body's.
     pub fn add(&mut self, load: f64, drag: &Drag, arm: Vector) {
         self.sum += load * drag.sum;
@@ -39,7 +41,7 @@ impl Resistance {
         self.second += load * second;
     }
 
-    /// Force and torque against a motion.
+    /// Returns the resisting force and torque of a motion.
     pub fn against(&self, twist: &Twist) -> Twist {
         let Twist { linear, angular } = *twist;
         Twist {
@@ -49,7 +51,7 @@ impl Resistance {
     }
 }
 
-/// A body's mass, kg, and moment of inertia about its centre of mass, kg m^2.
+/// Mass of a body, kg, and moment of inertia about its centre of mass, kg m^2.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Inertia {
     pub mass: f64,
@@ -57,7 +59,8 @@ pub(super) struct Inertia {
 }
 
 impl Inertia {
-    /// What force and torque changed a velocity so in `dt` seconds.
+    /// Returns the force and torque that change the velocity from `before` to `after` in `dt`
+    /// seconds.
     pub fn force(&self, before: &Twist, after: &Twist, dt: f64) -> Twist {
         Twist {
             linear: self.mass / dt * (after.linear - before.linear),
@@ -65,8 +68,9 @@ impl Inertia {
         }
     }
 
-    /// The friction in a step of `dt` seconds that begins at `velocity`, if all else is what
-    /// `pressed` on the body in the last one; `resistance` is that against a motion.
+    /// Returns the friction in a step of `dt` seconds that begins at `velocity`. All other forces
+    /// are assumed equal to `pressed`, the forces of the previous step; `resistance` depends on the
+    /// motion.
     pub fn friction(
         &self,
         velocity: &Twist,
@@ -83,7 +87,7 @@ impl Inertia {
         friction
     }
 
-    /// The velocity that a resistance leaves: (M + dt K) end = M velocity + dt pressed.
+    /// Returns the velocity at the end of the step: (M + dt K) end = M velocity + dt pressed.
     fn end(&self, velocity: &Twist, pressed: &Twist, dt: f64, against: &Resistance) -> Twist {
         let Resistance { sum, first, second } = *against;
         let (sum, first, second) = (self.mass + dt * sum, dt * first, self.spin + dt * second);
@@ -101,7 +105,7 @@ mod tests {
 
     const DT: f64 = 1.0 / 240.0;
 
-    /// A block of 2 kg on one point with a coefficient of friction of 0.4.
+    /// A block of 2 kg on a single point with a coefficient of friction of 0.4.
     fn point(twist: &Twist) -> Resistance {
         let mut resistance = Resistance::default();
         let sum = 1.0 / twist.linear.norm().max(1e-4);
@@ -122,7 +126,7 @@ mod tests {
             body.friction(&velocity, &pressed, DT, point).linear.x
         };
         assert!((friction(0.2, 0.0) + 8.0).abs() < 0.01, "{}", friction(0.2, 0.0));
-        // Carried along by a tool, and held by less than friction can hold.
+        // Pushed along by a tool, and held by less force than friction can supply.
         assert!((friction(0.05, 8.0) + 8.0).abs() < 1e-9);
         assert!((friction(0.0, 3.0) + 3.0).abs() < 0.1, "{}", friction(0.0, 3.0));
         let slow = 0.2 * 4.0 * DT;
@@ -136,7 +140,7 @@ mod tests {
         let drag = Drag { sum: 2.0, first: Vector::zeros(), second: 0.1 };
         resistance.add(3.0, &drag, Vector::new(0.5, 0.0));
         let twist = Twist { linear: Vector::new(0.0, 1.0), angular: -2.0 };
-        // The object's own centre stands still, so only its turning is resisted.
+        // The object's own centre stands still, so only its rotation is resisted.
         let against = resistance.against(&twist);
         assert!(against.linear.norm() < 1e-12 && (against.angular - 0.6).abs() < 1e-12);
     }

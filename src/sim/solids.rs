@@ -1,4 +1,4 @@
-//! The colliders of the 3-D engine: solids, feet and the table, and which of them meet.
+//! The colliders of the 3-D engine: solids, feet and the table, with their collision groups.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -12,35 +12,35 @@ use crate::geometry::{Shape, Vector as Planar};
 
 /// Objects, tool parts and obstacles.
 const SOLID: Layer = Layer::GROUP_1;
-/// What objects stand on.
+/// Feet of objects.
 const FEET: Layer = Layer::GROUP_2;
 /// The table, for solids and for feet.
 const TABLE_TOP: Layer = Layer::GROUP_3;
 const FLOOR: Layer = Layer::GROUP_4;
 
-/// Radius of a foot, metres. From 0.5 to 5 mm it makes no difference.
+/// Radius of a foot, metres. Radii from 0.5 to 5 mm give equal results.
 pub(super) const FOOT: f64 = 2e-3;
 
-/// How far an object's solid hangs above the table, metres.
+/// Gap between an object's solid and the table, metres.
 pub(super) const CLEAR: f64 = 5e-4;
 
-/// How deep a table that ends is, metres: nothing gets below it.
+/// Depth of a finite table, metres; nothing gets below it.
 pub(super) const TABLE_DEPTH: f64 = 0.5;
 
-/// Where a table ends: the pose of its middle and its full extents, metres.
+/// Extent of a finite table: the pose of its centre and its full extents, metres.
 pub(super) type Top = (Pose3, [f64; 2]);
 
-/// The table as solids meet it.
+/// Returns the table for solids.
 pub(super) fn table(friction: f64, top: Option<Top>) -> ColliderBuilder {
     rubbing(ground(top), friction).collision_groups(groups(TABLE_TOP, SOLID))
 }
 
-/// The table as feet meet it, whose friction says what that of the pair is.
+/// Returns the table for feet, whose friction values are the coefficients of the pairs.
 pub(super) fn floor(top: Option<Top>) -> ColliderBuilder {
     ground(top).friction(1.0).collision_groups(groups(FLOOR, FEET))
 }
 
-/// A foot at `pose` with this coefficient of friction; it meets the table alone.
+/// Returns a foot at `pose` with this coefficient of friction; it collides only with the table.
 pub(super) fn foot(pose: Pose3, coefficient: f64) -> ColliderBuilder {
     ColliderBuilder::ball(FOOT)
         .position(pose)
@@ -50,7 +50,8 @@ pub(super) fn foot(pose: Pose3, coefficient: f64) -> ColliderBuilder {
         .collision_groups(groups(FEET, FLOOR))
 }
 
-/// A solid with its middle at `pose` and its axis along z; rapier's cylinder has it along y.
+/// Returns a solid with its centre at `pose` and its axis along z; rapier's cylinder has its axis
+/// along y.
 pub(super) fn solid(shape: &Shape, pose: Pose3, friction: f64) -> ColliderBuilder {
     let collider = match *shape {
         Shape::Cylinder { radius, height } => {
@@ -67,8 +68,9 @@ pub(super) fn solid(shape: &Shape, pose: Pose3, friction: f64) -> ColliderBuilde
     rubbing(collider, friction).collision_groups(groups(SOLID, meets))
 }
 
-/// What of a shape meets the table instead of its [`solid`], with the same arguments: of a face on
-/// a half-space parry looks at four corners alone, so prisms of more corners tip into the table.
+/// Returns the colliders that touch the table in place of the shape's [`solid`], with equal
+/// arguments. For a face on a half-space parry uses only four corners, so prisms with more corners
+/// would tip into the table.
 pub(super) fn undersides(
     shape: &Shape,
     pose: Pose3,
@@ -83,7 +85,7 @@ pub(super) fn undersides(
     })
 }
 
-/// The solid of an object of this mass, kg.
+/// Sets the mass of an object's solid, kg.
 pub(super) fn weighing(collider: ColliderBuilder, shape: &Shape, mass: f64) -> ColliderBuilder {
     match shape {
         Shape::Prism { base, height } => {
@@ -101,7 +103,7 @@ pub(super) fn weighing(collider: ColliderBuilder, shape: &Shape, mass: f64) -> C
     }
 }
 
-/// Parts of a prism's base with at most four corners each; none where it has no more itself.
+/// Returns parts of a prism's base with at most four corners each; empty if the base has no more.
 fn slabs(shape: &Shape) -> Vec<Vec<Planar>> {
     match shape {
         Shape::Prism { base, .. } if base.corners().len() > 4 => cut(base.corners()),
@@ -109,7 +111,7 @@ fn slabs(shape: &Shape) -> Vec<Vec<Planar>> {
     }
 }
 
-/// A convex polygon cut into parts with at most four corners each.
+/// Divides a convex polygon into parts with at most four corners each.
 pub(super) fn cut(corners: &[Planar]) -> Vec<Vec<Planar>> {
     let (first, others) = (corners[0], &corners[1..]);
     let cut = (0..others.len() - 1).step_by(2);
@@ -120,7 +122,7 @@ pub(super) fn cut(corners: &[Planar]) -> Vec<Vec<Planar>> {
     .collect()
 }
 
-/// An upright prism about the origin.
+/// Returns an upright prism about the origin.
 pub(super) fn prism(base: &[Planar], height: f64) -> ColliderBuilder {
     let count = base.len() as u32;
     let ring = |z: f64| base.iter().map(move |corner| Vector::new(corner.x, corner.y, z));
@@ -133,12 +135,12 @@ pub(super) fn prism(base: &[Planar], height: f64) -> ColliderBuilder {
             faces.extend([[0, k + 1, k], [count, count + k, count + k + 1]]);
         }
     }
-    // Of a prism on a convex base there always is one.
+    // The hull of a prism on a convex base always exists.
     ColliderBuilder::convex_mesh(corners, &faces)
         .unwrap_or_else(|| ColliderBuilder::ball(height / 2.0))
 }
 
-/// The shape without what lies within [`CLEAR`] of the table.
+/// Returns the shape without its part within [`CLEAR`] of the table.
 pub(super) fn raised(shape: &Shape) -> Shape {
     match *shape {
         Shape::Cylinder { radius, height } => Shape::Cylinder { radius, height: height - CLEAR },
@@ -156,7 +158,7 @@ fn ground(top: Option<Top>) -> ColliderBuilder {
     }
 }
 
-/// The coefficient of a pair is the mean of the two values.
+/// Sets the friction value; the coefficient of a pair is the mean of the two values.
 pub(super) fn rubbing(collider: ColliderBuilder, friction: f64) -> ColliderBuilder {
     collider.friction(friction).friction_combine_rule(CoefficientCombineRule::Average)
 }

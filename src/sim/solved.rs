@@ -1,9 +1,9 @@
-//! What the 3-D engine's solver saw of its contacts.
+//! Contacts that the 3-D engine's solver used.
 
 use rapier3d_f64::prelude::{ContactData, ContactManifold, TrackedContact};
 
-/// The points of a manifold that were solved, and not taken away as those of a seam.
-/// Others may still carry an impulse of an earlier step.
+/// Returns the solved points of a manifold, without points removed at seams. Other points may still
+/// have an impulse of an earlier step.
 pub(super) fn solved(
     manifold: &ContactManifold,
 ) -> impl Iterator<Item = (&ContactManifold, &TrackedContact<ContactData>)> {

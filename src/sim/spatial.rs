@@ -1,10 +1,10 @@
-//! The 3-D engine: rapier3d in `f64`, gravity and table included.
+//! The 3-D engine: rapier3d in `f64`, with gravity and table.
 //!
-//! Every object stands on feet, small balls at the points of its support; on rapier's own contacts
-//! a cuboid would rest on its corners and a cylinder on four points of its rim, whatever is stated.
-//! The solid hangs a little above the table, which it meets when it tips beyond its feet. The
-//! friction model, the allowed error and the plain cylinder are choices that were measured; rapier's
-//! defaults are centimetres off.
+//! Every object stands on feet, small balls at the points of its support. On rapier's own contacts
+//! a cuboid would rest on its corners and a cylinder on four points of its rim, whatever support is
+//! stated. The solid hangs slightly above the table, which it touches when it tips beyond its feet.
+//! The friction model, the allowed error and the plain cylinder were chosen by measurements;
+//! rapier's defaults have errors of centimetres.
 
 use rapier3d_f64::prelude::{
     ActiveHooks, Collider, ColliderBuilder, ColliderHandle, MassProperties, PhysicsWorld, Pose3,
@@ -34,16 +34,16 @@ use empty::empty_world;
 use joints::{Anchored, add_joints};
 use place::{LOCAL, brink, frame_of, to_rapier, yaw};
 
-/// An object whose axis leans further than this has toppled, radians (10 degrees).
+/// Lean of an object's axis above which it has toppled, radians (10 degrees).
 pub(super) const TOPPLED: f64 = 10.0 * std::f64::consts::PI / 180.0;
 
-/// What has come so far below where it stood has left the table, metres, and is of no further interest.
+/// Distance below its start at which an object has left the table for good, metres.
 const FALLEN: f64 = 0.1;
 
 /// The `user_data` of the table, which no contact names.
 const TABLE: u128 = u128::MAX;
 
-/// A scene in rapier3d, in which objects tip or only turn about the vertical.
+/// A scene in rapier3d, in which objects can tip or only rotate about the vertical.
 pub(super) struct SpatialWorld<const TIPS: bool> {
     world: PhysicsWorld,
     /// Rapier's frame on the table, see [`frame_of`].
@@ -54,15 +54,15 @@ pub(super) struct SpatialWorld<const TIPS: bool> {
     objects: Vec<(Member, f64)>,
     /// Supports of bodies that cannot tip.
     upright: Upright,
-    /// What the `user_data` of a collider stands for.
+    /// Body of a collider, by its `user_data`.
     labels: Vec<Body>,
     seams: Seams,
     asleep: Asleep<RigidBodyHandle>,
-    /// Whether the table ends.
+    /// Whether the table is finite.
     ends: bool,
 }
 
-/// A body and how far it has come since the world was built.
+/// A body and its motion since the world was built.
 struct Tracked {
     handle: RigidBodyHandle,
     first_position: RapierVector,
@@ -163,7 +163,7 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
             let tracked = &self.bodies[member.body];
             let body = &self.world.bodies[tracked.handle];
             let moved = body.translation() - tracked.first_position;
-            // A body that leans carries its objects' centres aside.
+            // A leaning body moves its objects' centres aside.
             let lean = *body.rotation() * tracked.first_rotation.inverse();
             let leaned = lean * (RapierVector::Z * *rise);
             let moved = Vector::new(moved.x + leaned.x, moved.y + leaned.y);
@@ -247,7 +247,7 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
         self.labels.get(index).copied()
     }
 
-    /// Takes out what has fallen off the table: it stays where it is.
+    /// Disables bodies that have fallen off the table; they keep their poses.
     fn leave_fallen(&mut self) {
         for tracked in &self.bodies {
             let body = &mut self.world.bodies[tracked.handle];
@@ -260,13 +260,14 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
     }
 
     fn add_tool(&mut self, motion: &ToolMotion, at: &Pose) {
-        // rapier's velocity is that of the centre of mass, so all of it lies in the tool frame.
+        // rapier's velocity refers to the centre of mass, which therefore is at the tool frame's
+        // origin.
         let mass = MassProperties::new(RapierVector::ZERO, 1.0, RapierVector::ONE);
         let pose = to_rapier(at, &self.frame, self.lift);
         let body = RigidBodyBuilder::kinematic_velocity_based().pose(pose).can_sleep(false);
         self.tool = self.world.insert_body(body.additional_mass_properties(mass));
         for (index, part) in motion.tool.outline().iter().enumerate() {
-            // The tool frame lies at the parts' underside.
+            // The tool frame is at the parts' underside.
             let placed = to_rapier(&part.pose, &LOCAL, part.shape.height() / 2.0);
             let collider = solid(&part.shape, placed, motion.tool.friction).density(0.0);
             let collider = match &part.rim {
@@ -281,7 +282,7 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
     }
 
     fn add_body(&mut self, scene: &Scene, group: &Group) {
-        // Several objects may differ in height, so their body's frame lies on the table.
+        // Objects may differ in height, so the frame of a group is on the table.
         let height = match group.objects[..] {
             [only] => scene.objects[only].shape.height() / 2.0,
             _ => 0.0,
@@ -320,7 +321,7 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
         let points = &physics.feet[index];
         let feet = match TIPS {
             true => scene.contacts(index, points, &physics.masses),
-            // What carries nothing has none.
+            // An object without load has no feet.
             false => {
                 if object.is_raised() {
                     Feet::none()
@@ -368,7 +369,7 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
         }
     }
 
-    /// Lets contacts of the collider with this label be changed before they are solved.
+    /// Enables changes to the contacts of the collider with this label before they are solved.
     fn ask_for_contacts(&mut self, label: usize) {
         let labelled = |collider: &&mut Collider| collider.user_data == label as u128;
         let mut colliders = self.world.colliders.iter_mut().map(|(_, collider)| collider);

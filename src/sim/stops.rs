@@ -1,14 +1,15 @@
-//! Limits of joints as engines take them: about a zero from which no turn is more than half a one.
+//! Limits of joints as the engines need them: relative to a zero from which no rotation exceeds
+//! half a turn.
 
 use crate::geometry::Pose;
 use crate::scene::JointKind;
 
-/// Where an engine's joint has its zero, as seen from the first frame of a joint of this kind.
+/// Returns the zero of an engine's joint, relative to the first frame of a joint of this kind.
 pub(super) fn zero(kind: &JointKind) -> Pose {
     Pose { heading: kind.middle(), ..Pose::default() }
 }
 
-/// The limits from there, lower and upper, radians or metres.
+/// Returns the limits relative to that zero, lower and upper, radians or metres.
 pub(super) fn within(kind: &JointKind) -> Option<[f64; 2]> {
     kind.limits().map(|span| [span.low, span.high].map(|limit| limit - kind.middle()))
 }

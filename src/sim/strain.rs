@@ -1,15 +1,15 @@
-//! What rigid bodies cannot do, looked for in every time step: objects inside something that does
-//! not give way, and the force that the tool needs and that acts on what is fragile.
+//! Violations of rigidity, checked in every time step: overlaps with bodies that do not yield, the
+//! force that the tool needs, and the force on fragile objects.
 //!
-//! Tool and obstacles do not yield, so when the tool travels farther than an object has room, the
-//! engines' soft contacts let the object sink into one of them, and in the end through it, at any
-//! setting of the solver. On a real table the arm stops, or something breaks. Depth tells the two
-//! apart: over 300 solved random tasks no object came into an obstacle at all and none deeper than
-//! 0.6 mm into the tool; squeezed through gaps too narrow for them, objects sank at least 2.5 mm
-//! into a wall.
+//! Tool and obstacles do not yield. If the tool travels farther than an object has room, the
+//! engines' soft contacts let the object sink into one of them. Finally the object passes through,
+//! at any setting of the solver. On a real table the arm stops, or something breaks. The depth
+//! separates the two cases. Over 300 solved random tasks no object entered an obstacle at all, and
+//! none was deeper than 0.6 mm in the tool. Squeezed through gaps that are too narrow, objects sank
+//! at least 2.5 mm into a wall.
 //!
-//! Rounded bodies come through gaps that are narrower by less than twice that, without becoming any
-//! thinner: what is inside two obstacles that face each other is jammed, however little.
+//! Rounded bodies pass gaps that are narrower by less than twice that, without becoming any
+//! thinner. An object inside two facing obstacles is therefore jammed at any depth.
 
 use crate::geometry::Vector;
 use crate::{
@@ -19,15 +19,15 @@ use crate::{
 
 use super::world::World;
 
-/// A force lasts when it is there for this many time steps in a row: a first touch reads m v / dt,
-/// 10 N for 0.4 kg at 0.1 m/s, and is over in one or two.
+/// Number of consecutive time steps after which a force counts as lasting. A first touch reads m v
+/// / dt, 10 N for 0.4 kg at 0.1 m/s, and ends after one or two.
 const LASTING: usize = 3;
 
-/// An object that is so much inside two obstacles that face each other is jammed, metres: their
-/// gap is narrower than it by that.
+/// Sum of overlaps with two facing obstacles from which on an object is jammed, metres: their gap
+/// is narrower than the object by that.
 const SQUEEZED: f64 = 1.5e-4;
 
-/// Obstacles face each other where the cosine between the ways out of them is below this.
+/// Cosine between the outward directions of two obstacles below which they face each other.
 const FACING: f64 = -0.5;
 
 /// An object inside another body.
@@ -35,28 +35,28 @@ const FACING: f64 = -0.5;
 pub(super) struct Overlap {
     pub object: usize,
     pub with: Body,
-    /// Metres.
+    /// Depth, metres.
     pub depth: f64,
-    /// Where the object would have to go to come out, a unit vector seen from above; zero where it
-    /// would have to go up.
+    /// Direction in which the object would leave the body, a unit vector seen from above; zero for
+    /// upwards.
     pub out: Vector,
 }
 
-/// Looks at a world after every time step.
+/// A check of a world after every time step.
 #[derive(Debug, Default)]
 pub(super) struct Strain {
-    /// Overlaps from before anything moved: no fault of the motion, as long as they get no deeper.
-    /// Nothing is known before the first step.
+    /// Overlaps before any motion, which are excused as long as they do not deepen; `None` before
+    /// the first step.
     excused: Option<Vec<Overlap>>,
-    /// Whether nothing is excused.
+    /// Whether no overlap is excused.
     strict: bool,
-    /// How hard the tool presses on all objects together.
+    /// Force of the tool on all objects together.
     all: Pressed,
-    /// On what is fragile, each with the indices of its solids, its own first.
+    /// Forces on fragile objects, each with the indices of its solids, its own first.
     fragile: Vec<(Vec<usize>, Pressed)>,
 }
 
-/// How hard something is pressed.
+/// A force over time.
 #[derive(Debug, Default)]
 struct Pressed {
     /// Forces in the last steps, newest first, newtons.
@@ -76,8 +76,8 @@ impl Pressed {
 }
 
 impl Strain {
-    /// Of a motion in `scene`; a `strict` one excuses nothing: the state it begins in is one that rigid
-    /// bodies can be in.
+    /// Creates the check of a motion in `scene`. A `strict` check excuses nothing, because the
+    /// motion then begins in a state that rigid bodies can have.
     pub fn new(scene: &Scene, strict: bool) -> Self {
         let fragile = scene.things().filter(|(_, object)| object.max_force.is_some());
         let solids = |k: usize| std::iter::once(k).chain(scene.parts_of(k)).collect();
@@ -85,12 +85,12 @@ impl Strain {
         Self { strict, fragile, ..Self::default() }
     }
 
-    /// The largest forces of the tool so far.
+    /// Returns the largest forces of the tool so far.
     pub fn force(&self) -> Force {
         self.all.force
     }
 
-    /// What the tool has pressed harder than it may.
+    /// Returns warnings about objects that the tool has pressed harder than allowed.
     pub fn too_hard<'a>(&'a self, scene: &'a Scene) -> impl Iterator<Item = Warning> + 'a {
         self.fragile.iter().filter_map(|(solids, pressed)| {
             let object = scene.objects.get(*solids.first()?)?;
@@ -100,15 +100,15 @@ impl Strain {
         })
     }
 
-    /// The world is built again, from the state it had reached.
+    /// Restarts the check after the world was rebuilt from its state.
     pub fn begin(&mut self) {
         self.excused = None;
         let fragile = self.fragile.iter_mut().map(|(_, pressed)| pressed);
         fragile.chain([&mut self.all]).for_each(|pressed| pressed.recent = [0.0; LASTING]);
     }
 
-    /// Notes the forces of the step that was just made: `force` is that on the tool of the objects that its
-    /// argument holds of, newtons.
+    /// Notes the forces of the last step: `force` returns the force on the tool of the objects that
+    /// its argument selects, newtons.
     pub fn press(&mut self, force: impl Fn(&dyn Fn(usize) -> bool) -> f64) {
         self.all.note(force(&|_| true));
         for (solids, pressed) in &mut self.fragile {
@@ -116,19 +116,19 @@ impl Strain {
         }
     }
 
-    /// Looks at the step that was just made; an object that is jammed, if there is one.
+    /// Checks the last step; returns a jammed object, if there is one.
     pub fn look<W: World>(&mut self, world: &W) -> Option<Overlap> {
         self.press(|of| world.force_on_tool(of));
         let mut overlaps = Vec::new();
         world.overlaps(&mut |found| overlaps.push(found));
-        // The engines report depths from before the step: the first are those of the start.
+        // The engines report depths before the step, so the first ones belong to the start.
         let Some(excused) = &self.excused else {
             self.excused = Some(if self.strict { Vec::new() } else { overlaps });
             return None;
         };
         let deep = overlaps.iter().copied().find(|found| {
             let same = |known: &&Overlap| known.object == found.object && known.with == found.with;
-            // What is no more than a touch is no excuse.
+            // A mere touch at the start excuses nothing.
             let touch = found.with.most_overlap();
             let before = excused.iter().filter(same).map(|known| known.depth).find(|d| *d > touch);
             found.depth > before.unwrap_or(0.0) + touch
@@ -142,8 +142,8 @@ impl Strain {
     }
 }
 
-/// The object that is deepest inside two obstacles that face each other, if one is, with the sum of
-/// both depths.
+/// Returns the object that is deepest inside two facing obstacles, if any, with the sum of both
+/// depths.
 fn squeezed(overlaps: &[Overlap]) -> Option<Overlap> {
     let all = overlaps.iter().filter_map(|one| squeezed_of(overlaps, one.object));
     all.max_by(|a, b| a.depth.total_cmp(&b.depth))
@@ -158,8 +158,8 @@ fn squeezed_of(overlaps: &[Overlap], object: usize) -> Option<Overlap> {
     sums.max_by(|a, b| a.depth.total_cmp(&b.depth))
 }
 
-/// Tells `found` of bodies `a` and `b`, `depth` metres inside each other: an object
-/// and what it is in. `normal` leads from `a` to `b`, seen from above.
+/// Calls `found` with the overlap of bodies `a` and `b`, `depth` metres inside each other, for each
+/// object. `normal` points from `a` to `b`, seen from above.
 pub(super) fn overlap(
     (a, b): (Body, Body),
     depth: f64,
@@ -173,9 +173,11 @@ pub(super) fn overlap(
     }
 }
 
-/// Force (newtons) from the impulse (newton seconds) that rapier shows after a step of `dt`
-/// seconds. It adds up one more than its small steps, so a contact that holds a sliding object
-/// reads (n + 1) / n of what it is.
+/// Returns the force (newtons) for the impulse (newton seconds) that rapier reports after a step of
+/// `dt` seconds.
+///
+/// The reported impulse includes one solver iteration too many, so the contact of a sliding object
+/// reads (n + 1) / n of its true value.
 pub(super) fn force(impulse: f64, dt: f64, small_steps: usize) -> f64 {
     let n = small_steps as f64;
     impulse / dt * n / (n + 1.0)

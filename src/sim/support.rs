@@ -1,7 +1,7 @@
 //! Friction between an object's underside and the table, in the plane.
 //!
 //! Every point under the object drags with its share of the weight against its own motion
-//! (Coulomb). What is pressed leans: its load moves ahead, see [`crate::scene::Physics::lean`].
+//! (Coulomb). Under a push the load moves ahead, see [`crate::scene::Physics::lean`].
 
 use std::sync::Arc;
 
@@ -10,36 +10,36 @@ use crate::scene::{Drag, Feet, GRAVITY, MAX_FEET};
 
 use super::slowing::{Inertia, Twist};
 
-/// Points slower than this share of the speed that friction takes from a free body in a step drag
-/// in proportion to their speed, so that resting can be told from creeping. The larger it is, the
-/// more a step matters: `tests/it/simulation/steps.rs` has the ends of pushes at 1/240 and 1/3840
-/// s.
+/// Share of the speed that friction takes from a free body in a step, below which points drag in
+/// proportion to their speed. It separates resting from creeping. The larger it is, the more the
+/// result depends on the step: `tests/it/simulation/steps.rs` has the ends of pushes at 1/240 and
+/// 1/3840 s.
 const STUCK: f64 = 0.05;
 
-/// The same where objects are connected by joints that move: friction knows what presses only from
-/// the last step, and a row of twelve would creep for seconds.
+/// Value in place of [`STUCK`] for objects connected by moving joints. Friction uses the forces of
+/// the previous step, and a row of twelve would creep for seconds.
 const STUCK_IN_JOINTS: f64 = 1.0;
 
-/// The support law of one object.
+/// The support law of an object.
 #[derive(Clone, Debug)]
 pub(super) struct Support {
     feet: Arc<Feet>,
-    /// mu g, m/s^2.
+    /// Deceleration mu g, m/s^2.
     deceleration: f64,
-    /// m, kg.
+    /// Mass m, kg.
     mass: f64,
-    /// How far the load moves when the object is pressed as hard as friction resists, metres.
+    /// Shift of the load when the object is pushed against full friction, metres.
     lean: f64,
-    /// How much more than a slide friction can slow a turn: the mean square distance of the points
-    /// over that of the mass, one if less.
+    /// Ratio of the decelerations of rotations and slides: the mean square distance of the points
+    /// over the mean square distance of the mass, at least one.
     stiffest: f64,
-    /// [`STUCK`] or [`STUCK_IN_JOINTS`].
+    /// Share of the speed: [`STUCK`] or [`STUCK_IN_JOINTS`].
     stuck: f64,
 }
 
 impl Support {
-    /// For the points under an object that covers `footprint`, a coefficient of friction, a mass
-    /// (kg) and how far it leans when pressed (metres).
+    /// Creates the law from the points under an object that covers `footprint`, a coefficient of
+    /// friction, a mass (kg) and the shift of the load under full friction (metres).
     pub(super) fn new(
         feet: &Arc<Feet>,
         footprint: &Footprint,
@@ -52,14 +52,14 @@ impl Support {
         Self { feet, deceleration, mass, lean, stiffest, stuck: STUCK }
     }
 
-    /// The same among objects that are connected by joints that move.
+    /// Returns the law for objects connected by moving joints.
     pub(super) fn in_joints(self) -> Self {
         Self { stuck: STUCK_IN_JOINTS, ..self }
     }
 
-    /// How the points under an object turned by `heading` drag when it slides at `linear` (m/s) and
-    /// turns at `angular` (rad/s), in a step of `dt` seconds; [`Self::load`] is what they bear.
-    /// What presses is given as a share of the largest friction, see [`Pressed`].
+    /// Returns the drag of the points under an object at `heading` with velocity `linear` (m/s) and
+    /// `angular` (rad/s), in a step of `dt` seconds. Multiply by [`Self::load`] for forces. The
+    /// pushing force is given as a share of the largest friction, see [`Pressed`].
     pub(super) fn drag(
         &self,
         heading: f64,
@@ -75,40 +75,40 @@ impl Support {
         self.feet.drag(axis, (linear, angular), least, self.lean * pressed)
     }
 
-    /// Shares of the weight on the points, where the object is turned by `heading`.
+    /// Returns the shares of the weight on the points of an object at `heading`.
     pub(super) fn loads(&self, heading: f64, pressed: Vector) -> [f64; MAX_FEET] {
         let (sin, cos) = heading.sin_cos();
         let lean = self.lean * pressed;
         self.feet.leaning(Vector::new(cos * lean.x + sin * lean.y, cos * lean.y - sin * lean.x))
     }
 
-    /// What the points carry as a share of the object's own weight.
+    /// Returns the load on the points as a share of the object's own weight.
     pub(super) fn share(&self) -> f64 {
         self.feet.share
     }
 
-    /// Largest friction, N; none of a part above the table.
+    /// Returns the largest friction, N; zero for a part above the table.
     pub(super) fn load(&self) -> f64 {
         self.mass * self.deceleration * self.feet.share
     }
 }
 
-/// What other bodies do to one, found from how its velocity changes.
+/// Forces of other bodies on a body, estimated from its change of velocity.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pressed {
     load: f64,
-    /// Its velocity and its friction at the last step.
+    /// Velocity and friction at the last step.
     last: Option<(Twist, Twist)>,
 }
 
 impl Pressed {
-    /// Makes one more object part of the body.
+    /// Adds an object to the body.
     pub(super) fn add(&mut self, support: &Support) {
         self.load += support.load();
     }
 
-    /// What has pressed during the last `dt` seconds, after which a body of this inertia moves at
-    /// `velocity`.
+    /// Returns the force of other bodies during the last `dt` seconds on a body with this inertia,
+    /// which now moves at `velocity`.
     pub(super) fn look(&mut self, inertia: &Inertia, velocity: &Twist, dt: f64) -> Twist {
         let pressed = self.last.map_or(Twist::default(), |(before, friction)| {
             let all = inertia.force(&before, velocity, dt);
@@ -118,12 +118,12 @@ impl Pressed {
         pressed
     }
 
-    /// A force as a share of the largest friction, at most one.
+    /// Returns a force as a share of the largest friction, at most one.
     pub(super) fn share(&self, force: Vector) -> Vector {
         force / force.norm().max(self.load).max(f64::MIN_POSITIVE)
     }
 
-    /// Takes friction in the step to come.
+    /// Adds the friction of the coming step.
     pub(super) fn rub(&mut self, friction: &Twist) {
         if let Some((_, sum)) = &mut self.last {
             sum.linear += friction.linear;
@@ -131,7 +131,7 @@ impl Pressed {
         }
     }
 
-    /// Multiplies the velocity it had by `factor`.
+    /// Multiplies the previous velocity by `factor`.
     pub(super) fn hurry(&mut self, factor: f64) {
         if let Some((before, _)) = &mut self.last {
             before.linear *= factor;

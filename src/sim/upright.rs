@@ -1,7 +1,7 @@
 //! Supports of bodies that cannot tip, in the 3-D engine.
 //!
-//! rapier loads all feet of such a body alike. So their coefficients of friction stand for the load,
-//! and where it moves under a push is computed as in the plane.
+//! rapier loads all feet of such a body alike. The coefficients of friction of the feet therefore
+//! represent the load, and the shift of the load under a push is computed as in the planar engine.
 
 use rapier3d_f64::prelude::{ColliderHandle, ColliderSet};
 
@@ -12,22 +12,22 @@ use super::groups::Group;
 use super::slowing::{Inertia, Resistance, Twist};
 use super::support::{Pressed, Support};
 
-/// What one object stands on.
+/// The support of an object.
 pub(super) struct Standing {
     pub support: Support,
     pub feet: Vec<ColliderHandle>,
-    /// Its coefficient of friction with the table.
+    /// Coefficient of friction with the table.
     pub friction: f64,
 }
 
-/// What all objects stand on.
+/// The supports of all objects.
 #[derive(Default)]
 pub(super) struct Upright {
     objects: Vec<Standing>,
     bodies: Vec<Body>,
 }
 
-/// A body of one object or more.
+/// A body of one or more objects.
 struct Body {
     objects: Vec<usize>,
     masses: Vec<f64>,
@@ -42,7 +42,7 @@ impl Upright {
         self.objects.push(standing);
     }
 
-    /// Joins the objects of each group to one body; the masses of all objects in kg.
+    /// Joins the objects of each group to one body; `masses` are the masses of all objects in kg.
     pub fn join(&mut self, groups: &[Group], masses: &[f64]) {
         let body = |group: &Group| {
             let objects = group.objects.clone();
@@ -56,13 +56,13 @@ impl Upright {
         self.bodies = groups.iter().map(body).collect();
     }
 
-    /// Loads all feet as their bodies' motion asks for, in a step of `dt` seconds.
+    /// Sets the loads of all feet for the motion of their bodies, in a step of `dt` seconds.
     pub fn load(&mut self, state: &State, colliders: &mut ColliderSet, dt: f64) {
         for Body { objects, masses, feet, pressed } in &mut self.bodies {
             let weighed = objects.iter().zip(&*masses);
             let momentum: Vector =
                 weighed.map(|(&k, mass)| *mass * state.velocities[k].linear).sum();
-            // Where the load goes depends on forces alone.
+            // The shift of the load depends on forces alone.
             let inertia = Inertia { mass: masses.iter().sum(), spin: 0.0 };
             let velocity = Twist { linear: momentum / inertia.mass, angular: 0.0 };
             let force = pressed.look(&inertia, &velocity, dt).linear;

@@ -1,7 +1,7 @@
-//! Arms as the core sees them: where they hold tools, and how their joints carry plans out.
+//! Robot arms: the interface through which the core plans and checks joint motions.
 //!
-//! The core has no arm of its own. A crate that has one registers its reader with [`read_arms_with`], and
-//! from then on task and plan files may state such an arm.
+//! The core has no arm of its own. A crate that has one registers its reader with
+//! [`read_arms_with`]; task and plan files can then state such an arm.
 
 use std::any::Any;
 use std::fmt::Debug;
@@ -15,26 +15,27 @@ use super::{Plan, PushRules, Task};
 use crate::geometry::{Pose3, Vector};
 use crate::scene::{ArmFault, JointTrajectory, Robot, Scene, State, Tool};
 
-/// A trajectory of an arm's joints that carries a plan out, or the first push that none can make and the reason.
+/// The joint trajectory that carries out a plan, or the first infeasible push and the reason.
 pub type Followed = Result<JointTrajectory, (usize, ArmFault)>;
 
 /// A robot arm that holds tools over the table.
 pub trait RobotArm: Any + Debug + Send + Sync {
-    /// Returns the least and the largest distance from the base at which it holds a tool, metres.
+    /// Returns the smallest and the largest distance from the base at which it holds a tool,
+    /// metres.
     fn ring(&self) -> [f64; 2];
 
-    /// Returns the position above which its flange is when a plan begins, metres.
+    /// Returns the position below its flange at the start of a plan, metres.
     fn home(&self) -> Vector;
 
-    /// Returns `false` where it certainly cannot hold a tool at a position (metres) with its end effector
-    /// turned by `yaw` (radians): a cheap test for searches.
+    /// Returns `false` if it certainly cannot hold a tool at a position (metres) with its end
+    /// effector rotated by `yaw` (radians); a cheap test for searches.
     fn allows(&self, position: Vector, yaw: f64) -> bool;
 
-    /// Returns what is inconsistent in its description, if anything.
+    /// Returns the inconsistency in its description, if any.
     fn fault(&self) -> Option<String>;
 
-    /// Plans how its joints carry out the pushes of a plan; `states` are those of the objects before the
-    /// first push and after each, as far as they are known.
+    /// Plans the joint motion for the pushes of a plan. `states` are the known states of the
+    /// objects before the first push and after each push.
     ///
     /// # Errors
     /// The first push that no posture carries out, and the reason.
@@ -58,7 +59,7 @@ pub trait RobotArm: Any + Debug + Send + Sync {
         path: &JointTrajectory,
     ) -> Vec<(usize, ArmFault)>;
 
-    /// Returns the arm in the form in which plan files hold it.
+    /// Returns the arm in the form stored in plan files.
     fn to_json(&self) -> Json;
 }
 
@@ -80,49 +81,49 @@ impl PartialEq for dyn RobotArm {
 pub enum ArmSource<'a> {
     /// A URDF file.
     Urdf {
-        /// Its path.
+        /// Path of the file.
         path: PathBuf,
-        /// The link on which tools are mounted.
+        /// Name of the link on which tools are mounted.
         flange: &'a str,
-        /// The pose of its root in the world.
+        /// Pose of the root link in the world.
         base: Pose3,
-        /// From the flange to the tool's underside, metres.
+        /// Distance from the flange to the tool's underside, metres.
         length: f64,
-        /// Turn of the tool about the flange's z axis, radians.
+        /// Rotation of the tool about the flange's z axis, radians.
         yaw: f64,
     },
-    /// The form in which plan files hold it, see [`RobotArm::to_json`].
+    /// The form stored in plan files, see [`RobotArm::to_json`].
     Saved(Json),
 }
 
 /// The description of an arm in a file.
 #[derive(Clone, Debug)]
 pub struct StatedArm<'a> {
-    /// Its source.
+    /// Source of the description.
     pub source: ArmSource<'a>,
-    /// Joint positions at which plans begin, radians or metres; by default its own.
+    /// Joint positions at the start of plans, radians or metres; `None` for the arm's own.
     pub home: Option<Vec<f64>>,
     /// Height of the tool above the table while it pushes, metres.
     pub lift: f64,
-    /// Height at which tools travel, metres.
+    /// Height of the tool above the table between pushes, metres.
     pub travel: f64,
 }
 
-/// The reason why there is no such arm.
+/// The reason why an arm cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ArmRefusal {
     /// Description of the fault.
     pub message: String,
     /// Remedy.
     pub advice: String,
-    /// `true` if the fault is in the stated home.
+    /// Whether the fault is in the stated home.
     pub at_home: bool,
 }
 
 /// A function that reads arms.
 pub type ArmReader = fn(&StatedArm) -> Result<Arc<dyn RobotArm>, ArmRefusal>;
 
-/// One reader for the whole program: files are read in many places.
+/// The only reader of the program, global because files are read in many places.
 static READER: OnceLock<ArmReader> = OnceLock::new();
 
 /// Registers the reader of arms; only the first one counts.

@@ -1,4 +1,4 @@
-//! A task: a scene, a robot, the steps that are allowed, and goals.
+//! A task: a scene, a robot, rules for steps, and goals.
 
 use super::PushRules;
 use crate::scene::Robot;
@@ -14,55 +14,56 @@ use super::demand::MOST_CHOICES;
 use super::{Goal, LeverRules, ShownGoal};
 use crate::scene::{Plate, Scene, State, Unknowns};
 
-/// Which tools a task allows.
+/// The tools that a task allows.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ToolChoice {
     /// Every tool of the library.
     All,
-    /// These, by name.
+    /// The tools with these names.
     Named(Vec<String>),
 }
 
-/// Everything that a planner needs to know besides the tools themselves.
+/// The complete input of a planner, except for the tools themselves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Task {
-    /// From the file's name or its `name` key.
+    /// Name: the file's `name` key, otherwise the name of the file.
     pub name: String,
-    /// One line for people.
+    /// Description of one line.
     pub description: String,
-    /// The table.
+    /// Scene.
     pub scene: Scene,
-    /// What of it is only a guess.
+    /// Properties of the scene that are only guesses.
     #[serde(default)]
     pub unknown: Unknowns,
-    /// The robot.
+    /// Robot.
     pub robot: Robot,
-    /// Its arm, if that is known.
+    /// Arm of the robot, if known.
     #[serde(default, skip_serializing_if = "Option::is_none", with = "arm")]
     pub arm: Option<Arc<dyn RobotArm>>,
     /// Allowed tools.
     pub tools: ToolChoice,
-    /// Cost of using a tool, by its name; 0 where it is not named. Of equally good plans with as many pushes
-    /// the cheaper is preferred.
+    /// Cost of using a tool, by its name; 0 for other tools. The cheapest of equally good plans
+    /// with equal numbers of pushes is preferred.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub tool_costs: BTreeMap<String, f64>,
     /// Allowed pushes.
     pub pushes: PushRules,
-    /// Allowed lever-ups, if any are.
+    /// Allowed lever-ups, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub levers: Option<LeverRules>,
-    /// Goals of different objects, at least one; all count.
+    /// Goals of different objects, at least one; all must be reached.
     pub goals: Vec<Goal>,
-    /// Share of the disturbed replays that must reach the goal for a plan to count, 0 to 1.
+    /// Share of the perturbed replays that must reach the goal for a plan to count, 0 to 1.
     pub robustness: f64,
 }
 
 impl Task {
-    /// The robustness of a task that does not state one.
+    /// Default robustness of a task.
     pub const ROBUSTNESS: f64 = 0.75;
 
-    /// A task that allows every tool of the library and one push, see [`PushRules::default`].
+    /// Creates a task that allows every tool of the library and the pushes of
+    /// [`PushRules::default`].
     ///
     /// ```
     /// use pushplan::{Goal, Object, PushRules, Robot, Scene, Task};
@@ -93,7 +94,7 @@ impl Task {
         }
     }
 
-    /// The task with one goal more; demands on an object that has a goal already are added to it.
+    /// Adds a goal; demands on an object that already has a goal are added to that goal.
     ///
     /// ```
     /// use pushplan::{Goal, Object, Robot, Scene, Task};
@@ -110,26 +111,26 @@ impl Task {
         self
     }
 
-    /// The marks of all goals in pictures, with everything at its start.
+    /// Returns the marks of all goals for drawings, with every object at its start.
     pub fn shown_goals(&self) -> Vec<ShownGoal> {
         self.goals.iter().map(|goal| goal.shown(&self.scene)).collect()
     }
 
-    /// The same task with other goals in their places; those that are missing stay.
+    /// Replaces goals by `goals`, in order; further goals of the task stay.
     pub fn aiming(&self, goals: &[Goal]) -> Self {
         let mut task = self.clone();
         task.goals.iter_mut().zip(goals).for_each(|(own, goal)| *own = goal.clone());
         task
     }
 
-    /// The same with these of its goals alone, by their indices, in order; `None` for none.
+    /// Keeps only the goals with these indices, in order; `None` if no goal remains.
     pub fn only(&self, goals: &[usize]) -> Option<Self> {
         let goals: Vec<Goal> = goals.iter().filter_map(|k| self.goals.get(*k).cloned()).collect();
         (!goals.is_empty()).then(|| Self { goals, ..self.clone() })
     }
 
-    /// Whether the end effector can stand at `position` (metres), turned by `yaw` (radians), as far as that
-    /// is cheap to tell.
+    /// Returns `true` if the end effector can be at `position` (metres), rotated by `yaw`
+    /// (radians), according to cheap tests.
     pub fn stands(&self, position: Vector, yaw: f64) -> bool {
         self.robot.reaches(position)
             && self.arm.as_deref().is_none_or(|arm| arm.allows(position, yaw))
@@ -140,8 +141,8 @@ impl Task {
         self.goals.iter().any(|goal| goal.movers().contains(&object))
     }
 
-    /// Tasks of plainer goals any of which reaches all goals of this one, the nearest first; none where
-    /// no goal leaves a [choice](super::Kind::choices).
+    /// Returns tasks whose goals leave no [choice](super::Kind::choices), the nearest first; each
+    /// of them reaches all goals of this task. Empty if no goal leaves a choice.
     pub fn choices(&self, state: &State) -> Vec<Self> {
         let count = self.scene.objects.len();
         let sound = |goal: &Goal| {
@@ -157,45 +158,46 @@ impl Task {
                 let longer = |choice: &Vec<Goal>| set.iter().chain(choice).cloned().collect();
                 choices.iter().map(longer).collect::<Vec<Vec<Goal>>>()
             };
-            // Those that are left out would be left out in the end, and groups multiply.
+            // Truncation here keeps the number of sets bounded, because groups multiply it; the
+            // result is truncated anyway.
             sets = sets.iter().flat_map(with).take(MOST_CHOICES).collect();
         }
         sets.into_iter().map(|goals| Self { goals: Goal::joined(goals), ..self.clone() }).collect()
     }
 
-    /// Whether every goal is reached, see [`Goal::reached`].
+    /// Returns `true` if every goal is reached, see [`Goal::reached`].
     pub fn reached(&self, state: &State) -> bool {
         self.goals.iter().all(|goal| goal.reached(state))
     }
 
-    /// The largest [`Goal::score`]: at most 1 where every goal is reached.
+    /// Returns the largest [`Goal::score`]: at most 1 if every goal is reached.
     pub fn score(&self, state: &State) -> f64 {
-        // NaN counts as one.
+        // NaN counts as largest.
         let larger = |a: f64, b: f64| if a >= b { a } else { b };
         self.goals.iter().map(|goal| goal.score(state)).reduce(larger).unwrap_or(0.0)
     }
 
-    /// The task with one line about it for people.
+    /// Sets the description, one line.
     pub fn described(self, description: impl Into<String>) -> Self {
         Self { description: description.into(), ..self }
     }
 
-    /// The task with a choice of these tools only, by name.
+    /// Restricts the tools to these, by name.
     pub fn choosing<N: Into<String>>(self, tools: impl IntoIterator<Item = N>) -> Self {
         Self { tools: ToolChoice::Named(tools.into_iter().map(Into::into).collect()), ..self }
     }
 
-    /// The task with plans that work in this share of the disturbed replays, 0 to 1.
+    /// Sets the share of the perturbed replays in which a plan must work, 0 to 1.
     pub fn robust(self, share: f64) -> Self {
         Self { robustness: share, ..self }
     }
 
-    /// The task with this unknown about its scene.
+    /// Sets the unknown properties of the scene.
     pub fn guessing(self, unknown: Unknowns) -> Self {
         Self { unknown, ..self }
     }
 
-    /// The task with lever-ups. Whether pushes may follow them is for [`Task::pushes`] to say.
+    /// Allows lever-ups. [`Task::pushes`] states whether pushes may follow them.
     ///
     /// ```
     /// use pushplan::task::{Demand, Flipped};
@@ -209,14 +211,14 @@ impl Task {
     /// assert!(task.in_space());
     /// ```
     pub fn levering(mut self, levers: LeverRules) -> Self {
-        // Of the robot's body lever-ups know nothing yet.
+        // Lever-ups do not support the robot's body yet.
         self.scene.obstacles.retain(|obstacle| obstacle.name != Robot::BASE);
         let robot = self.robot.without_body();
         Self { levers: Some(levers), robot, ..self }
     }
 
-    /// The goal whose object is levered: the first that leaves the plane, or else the first of an object
-    /// with room for a blade.
+    /// Returns the goal whose object is levered: the first goal that leaves the plane, otherwise
+    /// the first goal of an object with room for a blade.
     pub fn levered(&self) -> &Goal {
         let has_room = |goal: &&Goal| {
             self.scene.objects.get(goal.object).is_some_and(|object| object.in_space())
@@ -225,22 +227,22 @@ impl Task {
         lifted.or_else(|| self.goals.iter().find(has_room)).unwrap_or(&self.goals[0])
     }
 
-    /// The object that is levered with all its solids.
+    /// Returns the levered object with all its solids.
     pub fn plate(&self) -> Plate {
         Plate::of(&self.scene, self.levered().object)
     }
 
-    /// The lever-ups that are allowed, or would be.
+    /// Returns the allowed lever-ups, or the default rules if none are allowed.
     pub fn lever_rules(&self) -> LeverRules {
         self.levers.clone().unwrap_or_default()
     }
 
-    /// Whether something of it leaves the plane, or may.
+    /// Returns `true` if some object is in space or may be levered.
     pub fn in_space(&self) -> bool {
         self.levers.is_some() || self.scene.in_space()
     }
 
-    /// The task with other rules for pushes.
+    /// Sets the rules for pushes.
     pub fn pushing(self, pushes: PushRules) -> Self {
         Self { pushes, ..self }
     }

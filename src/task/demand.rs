@@ -1,8 +1,8 @@
-//! Demands on where and how an object ends: one file per kind, dispatched here.
+//! Demands on the final pose of an object: one file per kind, dispatched here.
 //!
-//! A kind answers everything about itself through [`Kind`]: the offset and turn that refinement removes,
-//! the score that the search minimises, stricter and shifted copies, words and marks for reports. A new
-//! kind is a file here, a variant of [`Demand`] with its arm, and its keys: a file and a line in
+//! Each kind implements [`Kind`]: the offset and rotation that refinement removes, the score that
+//! the search minimises, stricter and shifted copies, words and marks for reports. A new kind needs
+//! a file here, a variant of [`Demand`] with its arm, and its keys: a file and a line in
 //! `asset/task/goals`.
 
 mod area;
@@ -41,62 +41,62 @@ pub use outside::Outside;
 pub use place::AtPlace;
 pub use raised::{Lift, Raised};
 
-/// Maximum number of choices among objects, because each is searched as a task of its own.
+/// Maximum number of choices among objects; each is searched as a separate task.
 pub(super) const MOST_CHOICES: usize = 12;
 
 /// A demand on the final state of a goal's object.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Demand {
-    /// Its centre lies near a point.
+    /// Centre near a point.
     Place(AtPlace),
-    /// Its centre lies in an area.
+    /// Centre in an area.
     Area(Box<InArea>),
-    /// Its centre lies outside of an area.
+    /// Centre outside of an area.
     OutOf(Box<OutOfArea>),
-    /// It points along a heading; a joint's angle is a heading too.
+    /// Heading; also the angle of a joint.
     Heading(Facing),
-    /// It is so far from another object or an obstacle.
+    /// Gap to another object or an obstacle.
     Gap(Box<Gap>),
-    /// A number of objects of a group reach their goals.
+    /// Number of objects of a group that reach their goals.
     Group(Group),
-    /// It covers a share of its own outline at a pose.
+    /// Covered share of its own outline at a pose.
     Coverage(Box<Coverage>),
-    /// It falls off the table.
+    /// Fall off the table.
     Fall(Box<Fall>),
-    /// Its centre lies outside of an obstacle, seen from above.
+    /// Centre outside of an obstacle, seen from above.
     Outside(Outside),
-    /// Its edge lies on a blade, lifted.
+    /// Edge lifted by a blade.
     Raised(Raised),
-    /// It lies upside down, or on its underside.
+    /// Upside down, or on its underside.
     Flipped(Flipped),
 }
 
-/// The final state that a demand on one object is judged by.
+/// The final state by which a demand on an object is judged.
 #[derive(Clone, Copy, Debug)]
 pub struct End<'a> {
     /// Index of the goal's object into [`Scene::objects`].
     pub object: usize,
     /// Poses at rest, in the plane or in space.
     pub state: &'a State,
-    /// The last lift of the object, if a blade lifted it.
+    /// Last lift of the object, if a blade lifted it.
     pub lift: Option<Lift>,
 }
 
 impl<'a> End<'a> {
-    /// The end of an object that no blade has lifted.
+    /// Creates the final state of an object that no blade has lifted.
     pub fn resting(object: usize, state: &'a State) -> Self {
         Self { object, state, lift: None }
     }
 
-    /// The pose of the object, seen from above.
+    /// Returns the pose of the object, seen from above.
     pub fn pose(&self) -> &Pose {
         &self.state.poses[self.object]
     }
 }
 
-/// Interface of all kinds of demands. A kind implements what applies to it; the defaults are those of a
-/// kind that asks for neither a position nor a heading and that search cannot approach.
+/// Interface of all kinds of demands. The default methods suit a kind that demands neither a
+/// position nor a heading, and that search cannot approach.
 pub trait Kind {
     /// Converts back to a [`Demand`].
     fn demand(&self) -> Demand;
@@ -107,14 +107,14 @@ pub trait Kind {
     /// Returns a phrase for reports, without the name of the object.
     fn words(&self, object: usize, scene: &Scene) -> String;
 
-    /// Returns the offset of the object from the nearest wanted position, metres in world axes, or `None`
-    /// if no position is asked for.
+    /// Returns the offset of the object from the nearest wanted position, metres in world axes, or
+    /// `None` without a demand on the position.
     fn off(&self, _end: &End) -> Option<Vector> {
         None
     }
 
-    /// Returns the turn of the object from the wanted heading, radians to the left, or `None` if no
-    /// heading is asked for.
+    /// Returns the rotation of the object from the wanted heading, radians to the left, or `None`
+    /// without a demand on the heading.
     fn turned(&self, _end: &End) -> Option<f64> {
         None
     }
@@ -124,7 +124,7 @@ pub trait Kind {
         None
     }
 
-    /// Returns the largest allowed [turn](Self::turned), radians.
+    /// Returns the largest allowed [rotation](Self::turned), radians.
     fn turn_tolerance(&self) -> Option<f64> {
         self.facing().map(|facing| facing.tolerance)
     }
@@ -138,29 +138,29 @@ pub trait Kind {
         worst.unwrap_or(if self.is_met(end) { 0.0 } else { 2.0 })
     }
 
-    /// Returns the wanted position where it is one point of the demand's own frame, the centre of an area
-    /// included, metres.
+    /// Returns the wanted position if it is a point of the demand's own frame or the centre of an
+    /// area, metres.
     fn position(&self) -> Option<Vector> {
         None
     }
 
-    /// Returns the heading that it asks for.
+    /// Returns the demanded heading, if any.
     fn facing(&self) -> Option<&Facing> {
         None
     }
 
-    /// Returns the share of the wanted outline that is covered, if one is asked for.
+    /// Returns the covered share of the wanted outline, if one is demanded.
     fn covered(&self, _end: &End) -> Option<f64> {
         None
     }
 
-    /// Returns the share of the wanted outline that must be covered.
+    /// Returns the share of the wanted outline that must be covered, if one is demanded.
     fn share(&self) -> Option<f64> {
         None
     }
 
     /// Returns a demand that is harder by these margins, metres and radians; at least half of each
-    /// tolerance is left.
+    /// tolerance remains.
     fn stricter(&self, _place: f64, _turn: f64) -> Demand {
         self.demand()
     }
@@ -170,8 +170,8 @@ pub trait Kind {
         self.demand()
     }
 
-    /// Returns the next target of refinement after a plan aimed at `aim` has missed this demand by `shift`,
-    /// metres in its own frame, and `turn`, radians.
+    /// Returns the next target of refinement after a plan with the target `aim` has missed this
+    /// demand by `shift`, metres in its own frame, and `turn`, radians.
     fn aimed(&self, aim: &Demand, shift: Vector, _turn: f64) -> Demand {
         self.shifted(aim.kind().anchor() - self.anchor() - shift)
     }
@@ -181,7 +181,7 @@ pub trait Kind {
         Vector::zeros()
     }
 
-    /// Returns the demand as seen from where `frame` stands.
+    /// Returns the demand in the frame in which `frame` is given.
     fn seen_from(&self, _frame: &Pose) -> Demand {
         self.demand()
     }
@@ -191,39 +191,41 @@ pub trait Kind {
         self.demand()
     }
 
-    /// Returns the object in whose frame it is; the world's by default.
+    /// Returns the object in whose frame it is; `None` for the world.
     fn relative(&self) -> Option<usize> {
         None
     }
 
-    /// Returns the objects of which some must be moved to satisfy it, where that is not the goal's object
-    /// alone.
+    /// Returns the objects of which some must be moved to satisfy it; empty if only the goal's
+    /// object must move.
     fn movers(&self) -> Vec<usize> {
         Vec::new()
     }
 
-    /// Returns the object that its errors are of.
+    /// Returns the object to which its errors refer.
     fn subject(&self, end: &End) -> usize {
         end.object
     }
 
-    /// Returns sets of plainer goals, the nearest first: it is satisfied if all goals of one set are. Search
-    /// pursues one set after the other. None where the demand itself is searched.
+    /// Returns sets of goals without choices, the nearest first; the demand is satisfied if all
+    /// goals of one set are. Search pursues the sets in order. Empty if the demand itself is
+    /// searched.
     fn choices(&self, _state: &State) -> Vec<Vec<Goal>> {
         Vec::new()
     }
 
-    /// Returns the other body to which it relates the object.
+    /// Returns the other body of a relation.
     fn to(&self) -> Option<Body> {
         None
     }
 
-    /// Returns `true` if it relates the object to something else: no single position is then wanted.
+    /// Returns `true` if it relates the object to another body, so that no single position is
+    /// wanted.
     fn is_relation(&self) -> bool {
         false
     }
 
-    /// Returns `true` if it is judged once everything rests.
+    /// Returns `true` if it is judged after everything has settled.
     fn is_at_rest(&self) -> bool {
         true
     }
@@ -233,15 +235,15 @@ pub trait Kind {
         false
     }
 
-    /// Returns the reason why no plan can be judged by it.
+    /// Returns the reason why no plan can be judged by it, if any.
     fn fault(&self, _object: usize, _scene: &Scene) -> Option<String> {
         None
     }
 
-    /// Returns the check by which exported scenes are judged.
+    /// Returns the check that judges exported scenes.
     fn check(&self, object: usize, scene: &Scene) -> Check;
 
-    /// Returns marks for pictures, in world coordinates with everything at its start.
+    /// Returns marks for drawings, in world coordinates with every object at its start.
     fn marks(&self, _object: usize, _scene: &Scene) -> Vec<Mark> {
         Vec::new()
     }
@@ -265,12 +267,12 @@ impl Demand {
         }
     }
 
-    /// Returns `true` if it is about a position or a heading.
+    /// Returns `true` if it demands a position or a heading.
     pub fn is_pose(&self) -> bool {
         self.kind().tolerance().is_some() || self.kind().facing().is_some()
     }
 
-    /// Returns the heading that it asks for, to be changed.
+    /// Returns the demanded heading mutably.
     pub fn facing_mut(&mut self) -> Option<&mut Facing> {
         match self {
             Self::Heading(facing) => Some(facing),
@@ -279,7 +281,7 @@ impl Demand {
         }
     }
 
-    /// Returns the same demand in the world, with everything where it is in `state`.
+    /// Returns the demand in world coordinates, with objects as in `state`.
     pub fn in_world(&self, state: &State) -> Self {
         let frame = self.kind().relative().and_then(|other| state.poses.get(other));
         frame.map_or_else(|| self.clone(), |frame| self.kind().seen_from(frame))
@@ -293,12 +295,12 @@ impl Demand {
     }
 }
 
-/// The margin that is left of a tolerance: at least half of it.
+/// Returns a tolerance reduced by a margin, but at least half of it.
 fn less(tolerance: f64, by: f64) -> f64 {
     (tolerance - by).max(0.5 * tolerance)
 }
 
-/// Serialisation of a length that may be infinite, which JSON does not have.
+/// Serialisation of a length that may be infinite; JSON has no infinite numbers.
 mod anywhere {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 

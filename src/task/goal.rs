@@ -1,4 +1,4 @@
-//! A goal: demands on the final state of one object.
+//! A goal: demands on the final state of an object.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,14 +7,14 @@ use crate::scene::{Body, Scene, State};
 
 use super::demand::{AtPlace, Check, Demand, End, Facing, ShownGoal};
 
-/// Demands on where and how one object ends; all of them count.
+/// Demands on the final state of an object; all must be satisfied.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Goal {
     /// Index into [`Scene::objects`](crate::scene::Scene::objects).
     pub object: usize,
     /// The demands, at least one.
     pub demands: Vec<Demand>,
-    /// Weight against other goals where not all of a task can be met.
+    /// Weight against other goals, used if not all goals of a task can be reached.
     #[serde(default = "unit", skip_serializing_if = "is_unit")]
     pub weight: f64,
 }
@@ -27,25 +27,26 @@ fn is_unit(weight: &f64) -> bool {
     *weight == 1.0
 }
 
-/// A position and a heading that are searched together, each of the demand that asks for it.
+/// A position and a heading that are searched together, with the demands that state them.
 #[derive(Clone, Copy, Debug)]
 pub struct Aspect<'a> {
-    /// The demand with the position.
+    /// Demand with the position.
     pub place: Option<&'a Demand>,
-    /// The demand with the heading.
+    /// Demand with the heading.
     pub turn: Option<&'a Demand>,
 }
 
 /// # Goals in code
 impl Goal {
-    /// The centre of object `object` (an index into [`Scene::objects`](crate::scene::Scene::objects)) at
-    /// (`x`, `y`), off by at most `tolerance`; all metres.
+    /// Demands the centre of object `object` (an index into
+    /// [`Scene::objects`](crate::scene::Scene::objects)) at (`x`, `y`), with an error of at most
+    /// `tolerance`; all metres.
     pub fn new(object: usize, [x, y]: [f64; 2], tolerance: f64) -> Self {
         let position = Vector::new(x, y);
         Self::of(object).with(Demand::Place(AtPlace { position, tolerance, relative: None }))
     }
 
-    /// A goal of object `object` without any demand yet.
+    /// Creates a goal of object `object` without demands.
     ///
     /// ```
     /// use pushplan::Goal;
@@ -58,13 +59,13 @@ impl Goal {
         Self { object, demands: Vec::new(), weight: 1.0 }
     }
 
-    /// The goal with one demand more.
+    /// Adds a demand.
     pub fn with(mut self, demand: Demand) -> Self {
         self.demands.push(demand);
         self
     }
 
-    /// Joins a goal to a list that has one goal for every object, each with all demands on it.
+    /// Adds the goal to a list that has one goal for every object, with all demands on it.
     pub(super) fn join(self, goals: &mut Vec<Self>) {
         match goals.iter_mut().find(|goal| goal.object == self.object) {
             Some(goal) => goal.demands.extend(self.demands),
@@ -72,7 +73,7 @@ impl Goal {
         }
     }
 
-    /// Joins goals so that there is one for every object, with all demands on it.
+    /// Merges goals so that every object has one goal with all demands on it.
     pub fn joined(goals: Vec<Self>) -> Vec<Self> {
         let mut joined = Vec::with_capacity(goals.len());
         goals.into_iter().for_each(|goal| goal.join(&mut joined));
@@ -83,18 +84,18 @@ impl Goal {
         Self { demands: self.demands.iter().map(with).collect(), ..*self }
     }
 
-    /// The goal in the world, with everything where it is in `state`.
+    /// Returns the goal in world coordinates, with objects as in `state`.
     pub fn in_world(&self, state: &State) -> Self {
         self.mapped(|demand| demand.in_world(state))
     }
 
-    /// The goal moved by `shift`, metres, of its own frame.
+    /// Moves the goal by `shift`, metres, in its own frame.
     pub fn shifted(&self, shift: Vector) -> Self {
         self.mapped(|demand| demand.kind().shifted(shift))
     }
 
-    /// A goal that is harder to reach: by these shares of tolerances (metres and radians) or, of an area,
-    /// by as much around it; at least half of each is left.
+    /// Returns a goal that is harder to reach. Tolerances shrink by these margins (metres and
+    /// radians), and areas by the same margin on every side; at least half of each remains.
     pub fn stricter(&self, place: f64, turn: f64) -> Self {
         self.mapped(|demand| demand.kind().stricter(place, turn))
     }
@@ -102,7 +103,7 @@ impl Goal {
 
 /// # Properties
 impl Goal {
-    /// The objects that it may move, and those to which it demands a gap.
+    /// Returns the objects that it may move, and the objects to which it demands a gap.
     pub fn objects(&self) -> impl Iterator<Item = usize> {
         let others = self.demands.iter().filter_map(|demand| match demand.kind().to() {
             Some(Body::Object(other)) => Some(other),
@@ -111,7 +112,7 @@ impl Goal {
         self.movers().into_iter().chain(others)
     }
 
-    /// The objects that may be moved for it, its own first.
+    /// Returns the objects that may be moved for it, its own first.
     pub fn movers(&self) -> Vec<usize> {
         let others = self.demands.iter().flat_map(|demand| demand.kind().movers());
         let mut movers = vec![self.object];
@@ -123,14 +124,15 @@ impl Goal {
         movers
     }
 
-    /// The object that its errors are of: its own, or another that it may move.
+    /// Returns the object to which its errors refer: its own, or another that it may move.
     pub fn subject(&self, state: &State) -> usize {
         let end = End::resting(self.object, state);
         let mut subjects = self.demands.iter().map(|demand| demand.kind().subject(&end));
         subjects.find(|subject| *subject != self.object).unwrap_or(self.object)
     }
 
-    /// Sets of plainer goals any of which reaches it, the nearest first, at least one.
+    /// Returns sets of goals without choices, at least one set, the nearest first; reaching one set
+    /// reaches this goal.
     pub fn choices(&self, state: &State) -> Vec<Vec<Self>> {
         let chosen: Vec<Vec<Vec<Self>>> =
             self.demands.iter().map(|demand| demand.kind().choices(state)).collect();
@@ -149,17 +151,18 @@ impl Goal {
         sets
     }
 
-    /// Returns `true` if the object must come to a place.
+    /// Returns `true` if it demands a position.
     pub fn has_place(&self) -> bool {
         self.demands.iter().any(|demand| demand.kind().tolerance().is_some())
     }
 
-    /// Returns `true` if it relates the object to something else, so that no single place is the right one.
+    /// Returns `true` if it relates the object to another body, so that no single position is
+    /// wanted.
     pub fn is_relation(&self) -> bool {
         self.demands.iter().any(|demand| demand.kind().is_relation())
     }
 
-    /// Returns `true` if all its demands are about positions and headings, which pushes bring about.
+    /// Returns `true` if all its demands are positions and headings, which pushes achieve.
     pub fn is_pose(&self) -> bool {
         self.demands.iter().all(Demand::is_pose)
     }
@@ -169,28 +172,29 @@ impl Goal {
         self.demands.iter().any(|demand| demand.kind().falls())
     }
 
-    /// The first of its wanted positions that is one point of a frame, or the centre of an area, metres.
+    /// Returns the first wanted position that is a point of a frame or the centre of an area,
+    /// metres.
     pub fn position(&self) -> Option<Vector> {
         self.demands.iter().find_map(|demand| demand.kind().position())
     }
 
-    /// The smallest tolerance of its positions, metres; infinite where the object may lie anywhere.
+    /// Returns the smallest tolerance of its positions, metres; infinite if it demands no position.
     pub fn tolerance(&self) -> f64 {
         let tolerances = self.demands.iter().filter_map(|demand| demand.kind().tolerance());
         tolerances.reduce(f64::min).unwrap_or(f64::INFINITY)
     }
 
-    /// The first heading that it asks for.
+    /// Returns the first heading that it demands.
     pub fn heading(&self) -> Option<&Facing> {
         self.demands.iter().find_map(|demand| demand.kind().facing())
     }
 
-    /// The object in whose frame its first position or heading is.
+    /// Returns the object in whose frame its first position or heading is.
     pub fn relative(&self) -> Option<usize> {
         self.demands.iter().find_map(|demand| demand.kind().relative())
     }
 
-    /// Its positions and headings in pairs, as they are searched together; at least one pair.
+    /// Returns its positions and headings in pairs for the search; at least one pair.
     pub fn aspects(&self) -> impl Iterator<Item = Aspect<'_>> {
         let mut places = self.demands.iter().filter(|demand| demand.kind().tolerance().is_some());
         let mut turns = self.demands.iter().filter(|demand| demand.kind().facing().is_some());
@@ -198,7 +202,7 @@ impl Goal {
         (0..count).map(move |_| Aspect { place: places.next(), turn: turns.next() })
     }
 
-    /// The reason why no plan can be judged by it.
+    /// Returns the reason why no plan can be judged by it, if any.
     pub fn fault(&self, scene: &Scene) -> Option<String> {
         if self.demands.is_empty() {
             return Some("the goal asks for nothing".to_owned());
@@ -210,7 +214,7 @@ impl Goal {
         self.demands.iter().find_map(|demand| demand.kind().fault(self.object, scene))
     }
 
-    /// The share of its own outline that the object must cover, where one is asked for.
+    /// Returns the demanded share of its own outline that the object must cover, if any.
     pub fn wanted_share(&self) -> Option<f64> {
         self.demands.iter().find_map(|demand| demand.kind().share())
     }
@@ -218,14 +222,14 @@ impl Goal {
 
 /// # Words, marks and checks
 impl Goal {
-    /// Names of the objects that may be moved for it.
+    /// Returns the names of the objects that may be moved for it.
     pub fn names(&self, scene: &Scene) -> String {
         let movers = self.movers().into_iter();
         let names = movers.filter_map(|k| scene.objects.get(k)).map(|object| object.name.as_str());
         names.collect::<Vec<_>>().join(", ")
     }
 
-    /// Its objects and its demands in words.
+    /// Returns its objects and its demands in words.
     pub fn line(&self, scene: &Scene) -> String {
         let names = self.names(scene);
         let names = if names.is_empty() { "object" } else { &names };
@@ -233,7 +237,7 @@ impl Goal {
         format!("{names}{colon} {}", self.words(scene))
     }
 
-    /// Its demands in words, without the name of its object.
+    /// Returns its demands in words, without the name of its object.
     pub fn words(&self, scene: &Scene) -> String {
         let (poses, others): (Vec<&Demand>, Vec<&Demand>) =
             self.demands.iter().partition(|demand| demand.is_pose());
@@ -248,14 +252,14 @@ impl Goal {
         others.into_iter().chain(poses).map(&mut phrase).collect::<Vec<_>>().join(", ")
     }
 
-    /// The check by which exported scenes are judged.
+    /// Returns the check that judges exported scenes.
     pub fn check(&self, scene: &Scene) -> Check {
         let of = self.demands.iter().map(|demand| demand.kind().check(self.object, scene));
         let of: Vec<Check> = of.collect();
         Check::AtLeast { count: of.len(), of }
     }
 
-    /// Its marks in pictures, with everything at its start.
+    /// Returns its marks for drawings, with every object at its start.
     pub fn shown(&self, scene: &Scene) -> ShownGoal {
         let start = scene.start();
         let goal = self.in_world(&start);

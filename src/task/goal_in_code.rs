@@ -1,4 +1,4 @@
-//! Goals made in code.
+//! Construction of goals in code.
 
 use crate::geometry::{Pose, Shape, Vector};
 use crate::scene::{Joint, Scene};
@@ -7,7 +7,7 @@ use super::Goal;
 use super::demand::{Area, AtPlace, Coverage, Demand, Facing, Fall, Gap, InArea, Outside};
 
 impl Goal {
-    /// The centre of object `object` anywhere in an area.
+    /// Demands the centre of object `object` in an area.
     ///
     /// ```
     /// use pushplan::{Goal, Pose, Shape, State};
@@ -22,7 +22,8 @@ impl Goal {
         Self::of(object).with(Demand::Area(Box::new(area)))
     }
 
-    /// Object `object` so far from another object or obstacle, wherever both come to.
+    /// Demands a gap between object `object` and another object or obstacle, at the final poses of
+    /// both.
     ///
     /// ```
     /// use pushplan::{Body, Gap, Goal, Object, Pose, Scene, State};
@@ -38,8 +39,8 @@ impl Goal {
         Self::of(object).with(Demand::Gap(gap))
     }
 
-    /// Object `object` so that it covers at least `share` (0 to 1) of the outline that it has at `pose`, with
-    /// all its parts; `None` where it does not exist in `scene`.
+    /// Demands that object `object` with all its parts covers at least `share` (0 to 1) of its
+    /// outline at `pose`. Returns `None` if the object does not exist in `scene`.
     ///
     /// ```
     /// use pushplan::{Goal, Object, Pose, Scene, State};
@@ -54,7 +55,8 @@ impl Goal {
         Some(Self::of(object).with(Demand::Coverage(coverage)).looking_alike(scene))
     }
 
-    /// Object `object` off the table. A scene states which objects may fall, see [`Scene::let_fall`].
+    /// Demands object `object` off the table. The scene states which objects may fall, see
+    /// [`Scene::let_fall`].
     ///
     /// ```
     /// use pushplan::scene::TableTop;
@@ -72,24 +74,24 @@ impl Goal {
         Self::of(object).with(Demand::Fall(fall))
     }
 
-    /// Object `object` outside of an obstacle, an index into [`Scene::obstacles`]; `None` where it does not
-    /// exist.
+    /// Demands object `object` outside of an obstacle, an index into [`Scene::obstacles`]; `None`
+    /// if the obstacle does not exist.
     pub fn outside(scene: &Scene, object: usize, obstacle: usize) -> Option<Self> {
         Some(Self::of(object).with(Demand::Outside(Outside::of(scene, obstacle)?)))
     }
 
-    /// The goal with a heading that may be off by at most `tolerance`, radians.
+    /// Adds a demand on the heading with an error of at most `tolerance`, radians.
     pub fn facing(self, heading: f64, tolerance: f64) -> Self {
         self.with(Demand::Heading(Facing::new(heading, tolerance)))
     }
 
-    /// The goal in the frame of another object, wherever that has come to.
+    /// Puts the goal in the frame of another object, at that object's final pose.
     pub fn relative_to(self, other: usize) -> Self {
         self.mapped(|demand| demand.kind().relative_to(other))
     }
 
-    /// The goal at which every heading counts that looks the same on an object of this `shape`, as in task
-    /// files: any quarter turn of a square, any half turn of a rectangle.
+    /// Accepts every heading at which an object of this `shape` looks the same, as in task files:
+    /// any quarter turn of a square, any half turn of a rectangle.
     ///
     /// ```
     /// use pushplan::{Goal, Pose, Shape, State};
@@ -103,8 +105,8 @@ impl Goal {
         self.alike(shape.footprint().symmetry().unwrap_or(1))
     }
 
-    /// The goal with the [symmetry](Self::looking_like) of its object as it stands in `scene`: a joined
-    /// object, or one of several solids, looks the same after a full turn alone.
+    /// Applies the [symmetry](Self::looking_like) of its object in `scene`. A joined or compound
+    /// object looks the same only after a full turn.
     pub fn looking_alike(self, scene: &Scene) -> Self {
         let joined = |joint: &Joint| joint.between.contains(&self.object);
         match scene.objects.get(self.object) {
@@ -117,15 +119,16 @@ impl Goal {
         }
     }
 
-    /// The goal with this number of headings in a full turn that count alike.
+    /// Sets the number of equivalent headings in a full turn.
     pub fn alike(mut self, count: usize) -> Self {
         let facing = self.demands.iter_mut().filter_map(Demand::facing_mut);
         facing.for_each(|facing| facing.symmetry = count);
         self
     }
 
-    /// The goal where a joint with limits holds its object in `scene`, to the world or to the object that
-    /// the goal is relative to: the heading is reached within the limits, if by the longer way.
+    /// Applies the limits of the joint that holds its object in `scene`, to the world or to the
+    /// object to which the goal is relative. The heading is then reached within the limits,
+    /// possibly by the longer way.
     ///
     /// ```
     /// use pushplan::{Goal, JointKind, Object, Pose, Scene, State, Vector};
@@ -146,13 +149,13 @@ impl Goal {
         self
     }
 
-    /// The goal without its demands on the position.
+    /// Removes the demands on the position.
     pub fn anywhere(mut self) -> Self {
         self.demands.retain(|demand| demand.kind().tolerance().is_none());
         self
     }
 
-    /// Sets the point of its demands for a place, metres.
+    /// Sets the position of its demands on the position, metres.
     pub fn set_position(&mut self, to: Vector) {
         for demand in &mut self.demands {
             let shift = demand.kind().position().map(|position| to - position);
@@ -164,7 +167,7 @@ impl Goal {
         }
     }
 
-    /// Sets the tolerance of its demands for a place, metres.
+    /// Sets the tolerance of its demands on the position, metres.
     pub fn set_tolerance(&mut self, to: f64) {
         for demand in &mut self.demands {
             if let Demand::Place(place) = demand {

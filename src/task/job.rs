@@ -1,29 +1,29 @@
-//! One rollout to compute: what an effect model takes.
+//! The input of an effect model: a single rollout.
 
 use std::sync::Arc;
 
 use super::{Motion, ToolMotion};
 use crate::scene::{Physics, Scene, Situation, State};
 
-/// One rollout to compute.
+/// A rollout to compute.
 #[derive(Clone, Debug)]
 pub struct Job {
     /// Poses and velocities at the start.
     pub start: State,
-    /// What the tool does.
+    /// Motion of the tool.
     pub motion: Motion,
-    /// Under which physical parameters.
+    /// Physical parameters.
     pub physics: Arc<Physics>,
 }
 
 impl Job {
-    /// `motion`, beginning in `situation`.
+    /// Creates the rollout of `motion` from `situation`.
     pub fn new(situation: &Situation, motion: impl Into<Motion>) -> Self {
         let Situation { start, physics, .. } = situation;
         Self { start: start.clone(), motion: motion.into(), physics: Arc::clone(physics) }
     }
 
-    /// `motion` in the scene exactly as it is stated.
+    /// Creates the rollout of `motion` in the scene exactly as stated.
     pub fn stated(scene: &Scene, motion: impl Into<Motion>) -> Self {
         Self {
             start: scene.start(),
@@ -32,12 +32,14 @@ impl Job {
         }
     }
 
-    /// `motions` in turn, the first beginning in `situation`: see [`in_turn`](crate::outcome::in_turn).
+    /// Creates the rollouts of consecutive `motions`, the first from `situation`; see
+    /// [`in_turn`](crate::outcome::in_turn).
     pub fn sequence(situation: &Situation, motions: &[ToolMotion]) -> Vec<Self> {
         motions.iter().map(|motion| Self::new(situation, motion.clone())).collect()
     }
 
-    /// Whether it leaves the plane, or begins out of it: for models in space.
+    /// Returns `true` if it leaves the plane or starts out of it, so that it needs a model in
+    /// space.
     pub fn in_space(&self) -> bool {
         self.motion.is_lever() || self.start.space.is_some()
     }

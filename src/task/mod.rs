@@ -1,8 +1,8 @@
 //! A task and the plans for it: goals, rules, steps and tool motions.
 //!
-//! A [`Task`] is a scene with a robot, rules for steps and goals; a [`Plan`] is a list of steps, a
-//! [`Motion`] is the path of a tool, a [`Job`] is a motion that begins in a situation. SI units and
-//! radians throughout. Nothing here reads files or simulates.
+//! A [`Task`] is a scene with a robot, rules for steps and goals. A [`Plan`] is a list of steps, a
+//! [`Motion`] is the path of a tool, and a [`Job`] is a motion that begins in a situation. SI units
+//! and radians throughout. This module reads no files and simulates nothing.
 
 mod arm;
 mod definition;

@@ -1,4 +1,4 @@
-//! How the tool moves: pushes as planned, strokes as executed, frames as recorded.
+//! Motions of the tool: planned pushes, executed strokes and recorded frames.
 
 use crate::scene::FRAME_TRAVEL;
 use std::sync::Arc;
@@ -10,20 +10,20 @@ use crate::geometry::{Footprint, Pose, Vector, clearance, contact_points};
 use super::LeverUp;
 use crate::scene::{Object, Part, Scene, State, TOUCHING, Tool};
 
-/// How far a tool goes back before it is lifted, metres: off what it pressed against, which would be
-/// taken along where it sticks. As far as it comes before it touches.
+/// Distance by which a tool moves back before it is lifted, metres. Without it the tool would take
+/// along an object that sticks to it. The tool is set down at the same distance before contact.
 pub const RETREAT: f64 = 0.005;
 
-/// How far the tips of a usual tool are from its frame, metres: what travels when it turns.
+/// Distance of the tips of a typical tool from its frame, metres; it converts rotations to travel.
 const TIPS: f64 = 0.1;
 
-/// Duration of a frame while the tool stands still and objects come to rest, seconds.
+/// Duration of a frame while the tool stands still and objects settle, seconds.
 pub const COAST_FRAME: f64 = 0.050;
 
-/// Give up waiting for rest after this many coasting frames (3 s).
+/// Maximum number of coasting frames while objects settle (3 s).
 pub const MAX_COAST_FRAMES: usize = 60;
 
-/// One straight push of the end effector, world frame.
+/// A straight push of the end effector, world frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Push {
     /// End-effector position at the start, metres.
@@ -37,27 +37,27 @@ pub struct Push {
 }
 
 impl Push {
-    /// Longest duration of a push that is replayed, seconds: the slowest and longest one that a task file
+    /// Maximum duration of a replayed push, seconds; the slowest and longest push that a task file
     /// allows takes 300.
     pub const LONGEST: f64 = 301.0;
 
-    /// Duration, seconds.
+    /// Returns the duration, seconds.
     pub fn duration(&self) -> f64 {
         self.length / self.speed
     }
 
-    /// Unit vector of the motion.
+    /// Returns the unit vector of the motion.
     pub fn heading(&self) -> Vector {
         Vector::new(self.direction.cos(), self.direction.sin())
     }
 
-    /// End-effector position at the end, metres.
+    /// Returns the end-effector position at the end, metres.
     pub fn end(&self) -> Vector {
         self.start + self.heading() * self.length
     }
 }
 
-/// One straight piece of a tool motion at constant speed.
+/// A straight piece of a tool motion at constant speed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stroke {
     /// Pose of the tool frame at the start.
@@ -66,46 +66,45 @@ pub struct Stroke {
     pub to: Pose,
     /// Duration, seconds.
     pub duration: f64,
-    /// Whether the tool then stands still until everything rests. The next stroke of a
-    /// settled one may begin anywhere (the tool is lifted and set down); otherwise it begins
-    /// where this one ends.
+    /// Whether the tool then stands still until everything rests. The next stroke may then begin
+    /// anywhere (the tool is lifted and set down); otherwise it begins at the end of this one.
     pub settle: bool,
 }
 
 impl Stroke {
-    /// A push with `tool`, held at `grip_yaw` (radians).
+    /// Creates a push with `tool`, held at `grip_yaw` (radians).
     pub fn push(tool: &Tool, grip_yaw: f64, push: &Push, settle: bool) -> Self {
         let pose = |position| tool.pose(Pose { position, heading: grip_yaw });
         Self { from: pose(push.start), to: pose(push.end()), duration: push.duration(), settle }
     }
 
-    /// Travel of the tool frame, metres.
+    /// Returns the travel of the tool frame, metres.
     pub fn travel(&self) -> f64 {
         (self.to.position - self.from.position).norm()
     }
 
-    /// Unit vector of the travel, if there is any.
+    /// Returns the unit vector of the travel, if there is any.
     pub fn direction(&self) -> Option<Vector> {
         let travel = self.to.position - self.from.position;
         let length = travel.norm();
         (length > 1e-9).then(|| travel / length)
     }
 
-    /// Number of equal frames that the stroke is cut into: by the travel of the frame, and of the
-    /// tips around it where the tool turns.
+    /// Returns the number of equal frames of the stroke, from the travel of the tool frame and, if
+    /// the tool rotates, of the tips around it.
     pub fn frames(&self) -> usize {
         let turn = (self.to.heading - self.from.heading).abs();
         let travel = self.travel() + TIPS * turn;
-        // The small part keeps 0.2 / 0.01 at twenty frames however it is rounded.
+        // The small offset gives 0.2 / 0.01 twenty frames under any rounding.
         ((travel / FRAME_TRAVEL - 1e-6).ceil() as usize).max(1)
     }
 
-    /// Frame `index` of the stroke.
+    /// Returns frame `index` of the stroke.
     pub fn frame(&self, index: usize) -> FrameStep {
         self.frames_from(index, 1)
     }
 
-    /// `count` frames of the stroke as one, beginning with frame `index`.
+    /// Returns `count` frames of the stroke as one, beginning with frame `index`.
     pub fn frames_from(&self, index: usize, count: usize) -> FrameStep {
         let n = self.frames() as f64;
         FrameStep {
@@ -127,18 +126,18 @@ pub struct FrameStep {
     pub duration: f64,
 }
 
-/// A tool and its strokes, one after another.
+/// A tool and its consecutive strokes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ToolMotion {
-    /// The tool that moves.
+    /// Tool.
     pub tool: Arc<Tool>,
     /// Height of the parts' underside above the table, metres.
     pub lift: f64,
-    /// In order of time.
+    /// Strokes in order of time.
     pub strokes: Vec<Stroke>,
 }
 
-/// What a tool does in one go: it slides over the table, or it levers.
+/// An uninterrupted motion of a tool: it slides over the table, or it levers.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Motion {
     /// Strokes in the plane.
@@ -150,29 +149,28 @@ pub enum Motion {
 /// A lever-up with its tool.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeverMotion {
-    /// The tool with the blade, which makes no strokes.
+    /// The tool with the blade, without strokes.
     hand: ToolMotion,
-    /// What the blade does.
+    /// Motion of the blade.
     pub lever: LeverUp,
-    /// Where the object is expected, if not where the scene has it.
+    /// Expected pose of the object; `None` for its pose in the scene.
     pub expected: Option<Pose>,
 }
 
 impl LeverMotion {
-    /// A lever-up with `tool`, of an object that is expected there rather than where the scene has
-    /// it.
+    /// Creates a lever-up with `tool`. `expected` replaces the pose of the object in the scene.
     pub fn new(tool: Arc<Tool>, lever: LeverUp, expected: Option<Pose>) -> Self {
         Self { hand: ToolMotion { tool, lift: 0.0, strokes: Vec::new() }, lever, expected }
     }
 
-    /// The tool.
+    /// Returns the tool.
     pub fn tool(&self) -> &Arc<Tool> {
         &self.hand.tool
     }
 }
 
 impl Motion {
-    /// What of it happens in the plane: of a lever-up the tool and no strokes.
+    /// Returns the planar motion; for a lever-up the tool without strokes.
     pub fn slide(&self) -> &ToolMotion {
         match self {
             Motion::Slide(motion) => motion,
@@ -180,7 +178,7 @@ impl Motion {
         }
     }
 
-    /// The same, to be changed.
+    /// Returns the planar motion mutably.
     pub fn slide_mut(&mut self) -> &mut ToolMotion {
         match self {
             Motion::Slide(motion) => motion,
@@ -188,18 +186,19 @@ impl Motion {
         }
     }
 
-    /// The tool that moves.
+    /// Returns the tool.
     pub fn tool(&self) -> &Arc<Tool> {
         &self.slide().tool
     }
 
-    /// Whether what it levers is in `scene`, and its tool has a blade; of strokes nothing is asked.
+    /// Returns `true` if the levered edge exists in `scene` and the tool has a blade; strokes
+    /// always fit.
     pub fn fits(&self, scene: &Scene) -> bool {
         let Motion::Lever(motion) = self else { return true };
         motion.lever.place.edge < scene.edges(motion.lever.plate) && motion.tool().blade().is_some()
     }
 
-    /// Whether it leaves the plane.
+    /// Returns `true` if it leaves the plane.
     pub fn is_lever(&self) -> bool {
         matches!(self, Motion::Lever(_))
     }
@@ -212,8 +211,8 @@ impl From<ToolMotion> for Motion {
 }
 
 impl ToolMotion {
-    /// The strokes of straight pushes with a constant grip yaw (radians): `placed` pushes
-    /// settle after each, `chained` ones only after the last.
+    /// Creates the strokes of straight pushes with a constant grip yaw (radians). `placed` pushes
+    /// settle after each, chained ones only after the last.
     pub fn pushes(
         tool: Arc<Tool>,
         lift: f64,
@@ -227,8 +226,9 @@ impl ToolMotion {
         Self { tool, lift, strokes }
     }
 
-    /// The stroke under way `time` seconds after the first one began, and the pose of the tool
-    /// frame then, if only the last one waits for rest; `None` for a motion without strokes.
+    /// Returns the stroke in progress `time` seconds after the first one began, and the pose of the
+    /// tool frame then. Only the last stroke may wait for rest. Returns `None` for a motion without
+    /// strokes.
     pub fn at(&self, time: f64) -> Option<(usize, Pose)> {
         let (mut begun, last) = (0.0, self.strokes.len().checked_sub(1)?);
         for (k, stroke) in self.strokes.iter().enumerate() {
@@ -241,14 +241,14 @@ impl ToolMotion {
         None
     }
 
-    /// How the tool goes back after stroke `index` before it is lifted: the way it came, by [`RETREAT`],
-    /// or all of it where something is above it, or a part of an object may be, as it was set down at the
-    /// start; `None` where it is not lifted.
+    /// Returns the motion back along stroke `index` before the tool is lifted, by [`RETREAT`]. The
+    /// whole stroke is reversed if an obstacle is above the tool or a part of an object may be,
+    /// because the tool was set down at the start. Returns `None` if the tool is not lifted.
     pub fn retreat(&self, scene: &Scene, index: usize) -> Option<Stroke> {
         let stroke = self.strokes.get(index).filter(|stroke| stroke.settle)?;
         let travel = stroke.travel();
         let below = |shape: &Footprint, pose: &Pose, top: f64| {
-            // Where objects are by now is not known here.
+            // The present poses of the objects are not known here.
             let hangs = |object: &Object| object.is_raised() && object.z >= top;
             scene.objects.iter().any(hangs)
                 || scene.above(top).any(|above| {
@@ -275,8 +275,8 @@ impl ToolMotion {
         })
     }
 
-    /// The objects that the tool is set down on at the start of stroke `index`: some part is then
-    /// deeper than [`TOUCHING`] inside each of them.
+    /// Returns the objects on which the tool is set down at the start of stroke `index`: some part
+    /// is then deeper than [`TOUCHING`] inside each of them.
     pub fn set_down_on<'a>(
         &'a self,
         scene: &'a Scene,

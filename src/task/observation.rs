@@ -1,24 +1,24 @@
-//! What is seen of a table while a tool moves on it.
+//! Observations of a table while a tool moves on it.
 
 use crate::scene::Sight;
 use serde::{Deserialize, Serialize};
 
 use super::Stroke;
 
-/// What the tool did since the observation before, and where things were seen then.
+/// The tool motion since the previous observation, and the observed poses after it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observation {
-    /// What the tool did, in order of time.
+    /// Strokes of the tool, in order of time.
     pub strokes: Vec<Stroke>,
-    /// Every object of the scene; `None` where it was not seen.
+    /// Observation of every object of the scene; `None` if it was not observed.
     pub seen: Vec<Option<Sight>>,
 }
 
-/// Errors of what is seen: standard deviations of independent normal errors.
+/// Standard deviations of independent normal observation errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Noise {
-    /// Of either coordinate of a position, metres.
+    /// Standard deviation of either coordinate of a position, metres.
     pub position: f64,
-    /// Of a heading, radians.
+    /// Standard deviation of a heading, radians.
     pub heading: f64,
 }

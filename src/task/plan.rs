@@ -1,4 +1,4 @@
-//! A plan: steps in order, each complete in itself.
+//! A plan: a sequence of steps, each complete in itself.
 
 use std::sync::Arc;
 
@@ -9,45 +9,45 @@ use crate::geometry::Pose;
 use super::{LeverMotion, LeverUp, Motion, Push, PushForm, Stroke, ToolMotion};
 use crate::scene::Tool;
 
-/// A push with the tool that makes it.
+/// A push with its tool.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PushStep {
     /// Name of the tool.
     pub tool: String,
-    /// Turn of the end effector about z against world +x, radians.
+    /// Rotation of the end effector about z against world +x, radians.
     pub grip_yaw: f64,
-    /// Whether the tool comes from above, or goes on where the last push ended.
+    /// Start of the push: from above, or at the end of the previous push.
     pub form: PushForm,
     /// Height of the tool's underside above the table, metres.
     pub lift: f64,
-    /// What the end effector does.
+    /// Motion of the end effector.
     #[serde(flatten)]
     pub push: Push,
 }
 
 impl PushStep {
-    /// Whether the tool is already in the hand after `other`.
+    /// Returns `true` if the tool is already in the hand after `other`.
     fn goes_on(&self, other: &Self) -> bool {
         let turned = self.form == PushForm::Chained && self.grip_yaw != other.grip_yaw;
         self.tool == other.tool && self.form == other.form && self.lift == other.lift && !turned
     }
 }
 
-/// A lever-up with the tool that makes it.
+/// A lever-up with its tool.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeverStep {
     /// Name of the tool.
     pub tool: String,
-    /// What the blade does.
+    /// Motion of the blade.
     #[serde(flatten)]
     pub lever: LeverUp,
-    /// Where the object is expected by then, if earlier steps have moved it: the blade goes there
-    /// without looking. Else it is where the scene has it.
+    /// Expected pose of the object after earlier steps, to which the blade goes without
+    /// observation; `None` for its pose in the scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expected: Option<Pose>,
 }
 
-/// One step of a plan.
+/// A step of a plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Step {
@@ -58,7 +58,7 @@ pub enum Step {
 }
 
 impl Step {
-    /// Name of its tool.
+    /// Returns the name of its tool.
     pub fn tool(&self) -> &str {
         match self {
             Step::Push(step) => &step.tool,
@@ -67,7 +67,7 @@ impl Step {
     }
 }
 
-/// What to do, step by step; nothing at all is a plan too.
+/// The steps of a plan, in order; a plan without steps is valid.
 ///
 /// ```
 /// use pushplan::{Plan, Push, PushForm, Step, Vector};
@@ -78,12 +78,12 @@ impl Step {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Plan {
-    /// In order.
+    /// Steps, in order.
     pub steps: Vec<Step>,
 }
 
 impl Plan {
-    /// These pushes with one tool, held in one way.
+    /// Creates pushes with one tool and one grip.
     pub fn pushing(
         tool: impl Into<String>,
         grip_yaw: f64,
@@ -96,31 +96,31 @@ impl Plan {
         Self { steps: pushes.into_iter().map(step).collect() }
     }
 
-    /// One lever-up of an object where the scene has it.
+    /// Creates a single lever-up of an object at its pose in the scene.
     pub fn levering(tool: impl Into<String>, lever: LeverUp) -> Self {
         let step = LeverStep { tool: tool.into(), lever, expected: None };
         Self { steps: vec![Step::LeverUp(step)] }
     }
 
-    /// The plan followed by another one.
+    /// Appends another plan.
     #[must_use]
     pub fn then(mut self, other: Self) -> Self {
         self.steps.extend(other.steps);
         self
     }
 
-    /// Its first `count` steps.
+    /// Returns its first `count` steps.
     #[must_use]
     pub fn first(&self, count: usize) -> Self {
         Self { steps: self.steps[..count.min(self.steps.len())].to_vec() }
     }
 
-    /// Whether there is nothing to do.
+    /// Returns `true` if it has no steps.
     pub fn is_empty(&self) -> bool {
         self.steps.is_empty()
     }
 
-    /// The steps that push.
+    /// Returns the steps that push.
     pub fn push_steps(&self) -> impl Iterator<Item = &PushStep> {
         self.steps.iter().filter_map(|step| match step {
             Step::Push(step) => Some(step),
@@ -128,7 +128,7 @@ impl Plan {
         })
     }
 
-    /// The steps that lever.
+    /// Returns the steps that lever.
     pub fn lever_steps(&self) -> impl Iterator<Item = &LeverStep> {
         self.steps.iter().filter_map(|step| match step {
             Step::Push(_) => None,
@@ -136,37 +136,37 @@ impl Plan {
         })
     }
 
-    /// All pushes, whichever tool makes them.
+    /// Returns all pushes of all tools.
     pub fn pushes(&self) -> Vec<Push> {
         self.push_steps().map(|step| step.push).collect()
     }
 
-    /// Whether it levers anything.
+    /// Returns `true` if it levers anything.
     pub fn levers(&self) -> bool {
         self.lever_steps().next().is_some()
     }
 
-    /// Name of the first tool; of a plan without steps empty.
+    /// Returns the name of the first tool; empty for a plan without steps.
     pub fn tool(&self) -> &str {
         self.steps.first().map_or("", Step::tool)
     }
 
-    /// Turn of the end effector in the first push, radians.
+    /// Returns the rotation of the end effector in the first push, radians.
     pub fn grip_yaw(&self) -> f64 {
         self.push_steps().next().map_or(0.0, |step| step.grip_yaw)
     }
 
-    /// How the first push starts.
+    /// Returns the start of the first push.
     pub fn form(&self) -> PushForm {
         self.push_steps().next().map_or(PushForm::Placed, |step| step.form)
     }
 
-    /// Height of the tool's underside above the table in the first push, metres.
+    /// Returns the height of the tool's underside above the table in the first push, metres.
     pub fn lift(&self) -> f64 {
         self.push_steps().next().map_or(0.0, |step| step.lift)
     }
 
-    /// Names of its tools, each once, in the order in which they are used.
+    /// Returns the names of its tools, each once, in the order of their use.
     pub fn tools(&self) -> Vec<&str> {
         let mut tools: Vec<&str> = Vec::new();
         for tool in self.steps.iter().map(Step::tool) {
@@ -177,15 +177,17 @@ impl Plan {
         tools
     }
 
-    /// What the tool does when all pushes of the plan are made with `tool`, the one that they name.
+    /// Returns the motion of `tool` when all pushes of the plan are made with it.
     pub fn motion(&self, tool: &Arc<Tool>) -> ToolMotion {
         let steps: Vec<&PushStep> = self.push_steps().collect();
         run(tool, &steps)
     }
 
-    /// What its tools do where nothing is levered, one motion for pushes in a row with one tool; where
-    /// nothing is done the first tool stands still. None where one of its tools is not among `tools`, or has
-    /// a blade.
+    /// Returns the motions of its tools, one for consecutive pushes with one tool. A plan without
+    /// steps gives a motion without strokes of the first tool.
+    ///
+    /// Returns `None` if the plan levers, if a tool is not among `tools`, or if a tool that pushes
+    /// has a blade.
     pub fn slides(&self, tools: &[Arc<Tool>]) -> Option<Vec<ToolMotion>> {
         if self.is_empty() {
             return Some(vec![run(tools.first()?, &[])]);
@@ -197,8 +199,9 @@ impl Plan {
         self.motions(tools)?.into_iter().map(slide).collect()
     }
 
-    /// What its tools do, one motion for each lever-up and for pushes in a row with one tool. None
-    /// where one of its tools is not among `tools`, or a lever-up has one without a blade.
+    /// Returns the motions of its tools, one for each lever-up and one for consecutive pushes with
+    /// one tool. Returns `None` if a tool is not among `tools`, or if a lever-up has a tool without
+    /// a blade.
     pub fn motions(&self, tools: &[Arc<Tool>]) -> Option<Vec<Motion>> {
         let find = |name: &str| tools.iter().find(|tool| tool.name == name);
         let (mut motions, mut left) = (Vec::new(), &self.steps[..]);
@@ -226,7 +229,7 @@ impl Plan {
     }
 }
 
-/// Pushes in a row with one tool.
+/// Returns the motion of consecutive pushes with one tool.
 fn run(tool: &Arc<Tool>, steps: &[&PushStep]) -> ToolMotion {
     let lift = steps.first().map_or(0.0, |step| step.lift);
     let stroke = |(k, step): (usize, &&PushStep)| {

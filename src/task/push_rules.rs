@@ -1,31 +1,32 @@
-//! The pushes that a plan may contain.
+//! Rules for the pushes of a plan.
 
 use serde::{Deserialize, Serialize};
 
-/// How pushes start.
+/// The way in which pushes start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PushForm {
-    /// Each push starts where it is best: the tool comes down from above, pushes and lifts.
+    /// Each push starts at its best place: the tool comes down from above, pushes and lifts.
     Placed,
-    /// All start from `home`, each goes on where the last ended, without lifting or waiting.
+    /// The first push starts from `home`, and each further push starts at the end of the previous
+    /// one, without lifting or waiting.
     Chained,
 }
 
-/// Which push directions are tried, world frame.
+/// The push directions that are tried, world frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Directions {
     /// +x, -x, +y, -y.
     Principal,
-    /// This many equal directions, from +x on.
+    /// Number of equally spaced directions, the first one +x.
     Count(usize),
-    /// These headings, radians.
+    /// Headings, radians.
     List(Vec<f64>),
 }
 
 impl Directions {
-    /// The headings, radians.
+    /// Returns the headings, radians.
     pub fn headings(&self) -> Vec<f64> {
         use std::f64::consts::{FRAC_PI_2, PI, TAU};
         match self {
@@ -36,50 +37,52 @@ impl Directions {
     }
 }
 
-/// Coarse lateral offsets that the search tries.
+/// The coarse lateral offsets that the search tries.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Offsets {
-    /// As many as the effort asks for, over the contacting face.
+    /// Number given by the effort, over the contacting face.
     Effort,
-    /// These, metres.
+    /// Offsets, metres.
     List(Vec<f64>),
 }
 
 /// The pushes that a plan may contain.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PushRules {
-    /// How pushes start.
+    /// Start of the pushes.
     pub form: PushForm,
-    /// Which way they go.
+    /// Directions of the pushes.
     pub directions: Directions,
     /// Coarse lateral offsets (placed pushes only).
     pub offsets: Offsets,
-    /// Turns of the end effector about z against world +x, radians.
+    /// Rotations of the end effector about z against world +x, radians.
     pub grip_yaws: Vec<f64>,
     /// Travel of a push, metres; refinement may shorten or lengthen a placed push by half.
     pub length: f64,
     /// Speed, m/s.
     pub speed: f64,
-    /// Largest number of pushes in a row; none are allowed where it is 0.
+    /// Maximum number of consecutive pushes; 0 allows none.
     pub max_count: usize,
-    /// Largest number of changes to another tool in a plan; any where it is `None`.
+    /// Maximum number of changes to another tool in a plan; `None` for no limit.
     pub tool_changes: Option<usize>,
     /// Height of the tool's underside above the table, metres.
     pub lift: f64,
 }
 
 impl PushRules {
-    /// Default travel of a push, metres: that of the reference benchmark.
+    /// Default travel of a push, metres, as in the reference benchmark.
     pub const LENGTH: f64 = 0.20;
-    /// Default speed of a push, m/s: that of the reference benchmark.
+    /// Default speed of a push, m/s, as in the reference benchmark.
     pub const SPEED: f64 = 0.10;
-    /// Default of the most pushes in a row: around a corner. Fewer are tried first.
+    /// Default maximum number of consecutive pushes: enough to go around a corner. Fewer are tried
+    /// first.
     pub const MAX_COUNT: usize = 3;
-    /// Default height of the tool above the table, metres: clear of it, yet below every object.
+    /// Default height of the tool above the table, metres: free of the table, yet below every
+    /// object.
     pub const LIFT: f64 = 0.002;
 
-    /// No push at all.
+    /// Returns rules that allow no push.
     pub fn none() -> Self {
         Self { max_count: 0, ..Self::default() }
     }

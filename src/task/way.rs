@@ -1,4 +1,4 @@
-//! How a lifted tool travels from one push to the next: straight, or around what is taller.
+//! Paths of a lifted tool from one push to the next: straight, or around taller bodies.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -8,42 +8,42 @@ use crate::geometry::{Footprint, Grid, Pose, Vector, clearance, swept_clearance}
 use super::{PushForm, PushStep, Task, ToolMotion};
 use crate::scene::{Fixed, Robot, Scene, Tool};
 
-/// Spacing of the grid on which ways around are looked for, metres: no gap that a hand fits through is
-/// missed.
+/// Spacing of the grid on which detours are searched, metres: smaller than any gap through which a
+/// hand fits.
 const SPACING: f64 = 0.02;
 
-/// Most cells along a side of the grid.
+/// Maximum number of cells along a side of the grid.
 const CELLS: usize = 160;
 
-/// Nearer is touching, metres: rounding.
+/// Distance below which bodies touch, metres: rounding.
 const SLACK: f64 = 1e-6;
 
-/// The way of the end effector between two places, with the tool lifted.
+/// The path of the end effector between two positions, with the tool lifted.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Way {
     /// Straight.
     Straight,
-    /// Around something, by these places, metres.
+    /// Around a body, by way of these positions, metres.
     Around {
-        /// What would be met on the straight way.
+        /// Name of the body on the straight path.
         what: String,
-        /// Where it turns.
+        /// Corners of the path.
         by: Vec<Vector>,
     },
-    /// There is none: this is in it.
+    /// No path: the named body obstructs it.
     Blocked(String),
 }
 
 impl Task {
-    /// Largest number of changes to another tool in a plan: none with an arm, of which nobody says where it
-    /// would fetch one.
+    /// Returns the maximum number of changes to another tool in a plan: 0 with an arm, because the
+    /// task does not state where an arm fetches tools.
     pub fn tool_changes(&self) -> usize {
         let stated = self.pushes.tool_changes.unwrap_or(usize::MAX);
         if self.arm.is_some() { 0 } else { stated }
     }
 
-    /// The way from where `tool` is lifted after a push to where it is set down for the next; `None` where
-    /// it is not lifted between them.
+    /// Returns the path of `tool` from the end of a push to the start of the next; `None` if it is
+    /// not lifted between them.
     pub fn way_between(
         &self,
         scene: &Scene,
@@ -60,9 +60,9 @@ impl Task {
         Some(self.way(scene, (tool, next.grip_yaw), [from, next.push.start]))
     }
 
-    /// How `tool`, held at `yaw` (radians), gets from one place of the end effector to another at
-    /// [`Robot::travel`]. Everything that ends higher is gone around: obstacles, and objects that are
-    /// kept where they are.
+    /// Returns the path of `tool`, held at `yaw` (radians), between two positions of the end
+    /// effector at [`Robot::travel`]. It avoids everything higher: obstacles, and objects that must
+    /// be kept in place.
     fn way(&self, scene: &Scene, (tool, yaw): (&Tool, f64), ends: [Vector; 2]) -> Way {
         let kept = scene.objects.iter().filter(|object| object.keep.is_some());
         let tall = kept.filter(|object| object.top() > self.robot.travel);
@@ -92,16 +92,16 @@ impl Task {
     }
 }
 
-/// What moves, and what it has to go around.
+/// The carried bodies, and the bodies that they must avoid.
 struct Room<'a> {
     robot: &'a Robot,
     tall: Vec<Fixed<'a>>,
-    /// Seen from the end effector, with the world's axes.
+    /// Carried bodies relative to the end effector, with the world's axes.
     carried: Vec<(Footprint, Pose)>,
 }
 
 impl Room<'_> {
-    /// What is met on a straight way.
+    /// Returns the name of the first body that obstructs a straight path.
     fn met(&self, [from, to]: [Vector; 2]) -> Option<&str> {
         let at = |pose: &Pose, end: Vector| Pose { position: pose.position + end, ..*pose };
         let meets = |fixed: &&Fixed| {
@@ -113,7 +113,7 @@ impl Room<'_> {
         self.tall.iter().find(meets).map(|fixed| fixed.name)
     }
 
-    /// Whether nothing is nearer than `room` metres, and the arm gets there.
+    /// Returns `true` if no body is nearer than `room` metres, and the position is within reach.
     fn is_free(&self, place: Vector, room: f64) -> bool {
         let clear = |(shape, pose): &(Footprint, Pose), fixed: &Fixed| {
             let here = Pose { position: pose.position + place, ..*pose };
@@ -123,16 +123,16 @@ impl Room<'_> {
             && self.carried.iter().all(|one| self.tall.iter().all(|fixed| clear(one, fixed)))
     }
 
-    /// Where a way around turns, if there is one: the shortest in steps on the grid, without the turns
-    /// that it does not need.
+    /// Returns the corners of a path, if there is one: the shortest in steps on the grid, without
+    /// unnecessary corners.
     fn around(&self, ends: [Vector; 2]) -> Option<Vec<Vector>> {
         let reach = self.robot.reach_max;
         let spacing = SPACING.max(2.0 * reach / (CELLS - 1) as f64);
         let count = (2.0 * reach / spacing).ceil() as usize + 1;
         let grid = Grid::new(Vector::repeat(-reach), spacing, [count, count]);
         let place = |cell: usize| grid.position(cell);
-        // Neighbours on a grid are at most 1.5 spacings apart: what keeps half of that clear between
-        // two free cells meets nothing.
+        // Neighbours on a grid are at most 1.5 spacings apart, so a clearance of half of that at
+        // two free cells keeps the path between them free.
         let free: Vec<bool> =
             (0..grid.count()).map(|cell| self.is_free(place(cell), 0.75 * spacing)).collect();
         let sees = |end: Vector, cell: usize| {
@@ -167,7 +167,7 @@ impl Room<'_> {
         Some(self.straightened(&way))
     }
 
-    /// The turns that a way needs.
+    /// Removes unnecessary corners of a path.
     fn straightened(&self, way: &[Vector]) -> Vec<Vector> {
         let (mut turns, mut here) = (Vec::new(), 0);
         while here + 1 < way.len() {
@@ -212,9 +212,9 @@ mod tests {
         assert_eq!(way(&[wall(0.2, 0.0, 0.4)]), Way::Straight);
         let Way::Around { what, by } = way(&[wall(0.5, 0.0, 0.4)]) else { panic!("no way") };
         assert!(what == "wall" && by.len() <= 3, "{by:?}");
-        // Around an end of the wall, by the hand's radius.
+        // The path leads around an end of the wall, at the distance of the hand's radius.
         assert!(by.iter().any(|at| at.y.abs() > 0.25), "{by:?}");
-        // Across all that the arm reaches, and behind it the robot itself.
+        // The wall extends over the whole reach of the arm, and the robot itself is behind it.
         assert_eq!(way(&[wall(0.5, 0.0, 2.4)]), Way::Blocked("wall".into()));
         assert_eq!(way(&[wall(0.5, 0.0, 0.4).raised(0.5)]), way(&[wall(1.0, 0.0, 0.4)]));
     }

@@ -31,7 +31,7 @@ fn what_leans_has_the_centre_of_its_load_there() {
             let loads = feet.leaning(lean);
             let centre: Vector = feet.each().zip(loads).map(|((at, _), load)| load * at).sum();
             assert!((centre - lean).norm() < 1e-12, "{shape:?} {support:?}: {centre}");
-            // At so low a speed all points weigh alike, and the load's first moment is left.
+            // At so low a speed all points have equal weights, and the load's first moment remains.
             let motion = (Vector::new(0.1, 0.03), 0.4);
             let drag = feet.drag(Vector::x(), motion, 1.0, lean);
             assert!((drag.first - lean).norm() < 1e-12, "{shape:?} {support:?}: {drag:?}");
@@ -53,7 +53,7 @@ fn fewer_feet_have_the_same_second_moments() {
         };
         let (few, all) = (second(&fewer), second(&feet));
         assert!((few - all).norm() < 1e-9 * all.norm(), "{shape:?}");
-        // Points that are stated stay, however many they are.
+        // Stated points stay, whatever their number.
         let points: Vec<Vector> = feet.each().map(|(at, _)| at).collect();
         let stated = Support::Points(points).feet(&shape);
         assert_eq!(super::few(&stated, &shape), stated);
@@ -77,7 +77,7 @@ fn harmonics_turn_with_the_object() {
     assert!((square[2] + Vector::x()).norm() < 1e-12);
 }
 
-/// Turning little while it slides, a disc under even pressure resists with a quarter of R^2.
+/// While it slides with little rotation, a disc under even pressure resists with a quarter of R^2.
 #[test]
 fn a_slide_that_hardly_turns_feels_the_second_moment_along_it() {
     for shape in SHAPES {
@@ -90,7 +90,7 @@ fn a_slide_that_hardly_turns_feels_the_second_moment_along_it() {
         let (speed, turning) = (0.1, 1e-4);
         let drag =
             feet.drag(Vector::x(), (Vector::new(speed, 0.0), turning), 1e-9, Vector::zeros());
-        // Torque: the slide pulls at the points' first moment, the turn at their second.
+        // Torque: the translation acts on the points' first moment, the rotation on their second.
         let torque = -drag.first.y * speed + drag.second * turning;
         assert!((torque / (second * turning / speed) - 1.0).abs() < 1e-3, "{shape:?}");
     }

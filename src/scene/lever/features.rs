@@ -1,4 +1,4 @@
-//! Which shape features a model of lever-ups is told.
+//! Shape features that are inputs of models of lever-ups.
 
 use std::fmt;
 
@@ -8,12 +8,13 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LeverFeatures {
-    /// Nothing of the shape.
+    /// No shape features.
     Nothing,
-    /// Counts of outline points in 10 rings and 11 wedges of the half-plane before the lever
-    /// point; they do not say how large the plate is.
+    /// Counts of outline points in 10 rings and 11 wedges of the half-plane before the lever point;
+    /// they do not contain the size of the plate.
     ShapeContext,
-    /// Up to 10 corners, counter-clockwise from the end of the levered edge, and the centre of mass.
+    /// Up to 10 corners, counter-clockwise from the end of the levered edge, and the centre of
+    /// mass.
     Corners,
     /// The ends of the support edge, and the centre of mass.
     Support,
@@ -22,19 +23,19 @@ pub enum LeverFeatures {
 }
 
 impl LeverFeatures {
-    /// Most corners that are told; of outlines with more, so many at even distances.
+    /// Maximum number of corners; outlines with more are sampled at even distances.
     pub const CORNERS: usize = 10;
 
-    /// Rings and wedges of a shape context.
+    /// Numbers of rings and wedges of a shape context.
     pub const BINS: [usize; 2] = [10, 11];
 
-    /// How many numbers say what is done: depth, pivot, angle, thickness and two frictions.
+    /// Number of action features: depth, pivot, angle, thickness and two frictions.
     pub const ACTION: usize = 6;
 
-    /// Which of these is the thickness.
+    /// Index of the thickness among the action features.
     pub const THICKNESS: usize = 3;
 
-    /// How many numbers there are.
+    /// Returns the number of shape features.
     pub fn count(self) -> usize {
         match self {
             Self::Nothing => 0,

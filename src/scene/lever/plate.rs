@@ -1,4 +1,4 @@
-//! A plate: what a blade goes under.
+//! Plates: objects in space under which a blade can go.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,7 +7,7 @@ use crate::geometry::{
 };
 use crate::scene::{Object, Scene};
 
-/// How far from a right angle a rectangle's corners may be: the sine.
+/// Tolerance of the right angles of a rectangle: sine of the deviation.
 const SQUARE: f64 = 1e-9;
 
 /// An upright convex prism, part of a plate.
@@ -15,15 +15,15 @@ const SQUARE: f64 = 1e-9;
 pub struct Slab {
     /// Corners of its outline in the plate's frame, counter-clockwise, metres.
     pub corners: Vec<Vector>,
-    /// Height of its underside above that of the plate, metres.
+    /// Height of its underside above the underside of the plate, metres.
     pub bottom: f64,
     /// Height, metres.
     pub height: f64,
 }
 
 impl Slab {
-    /// Of a cuboid the middle seen from above (metres), the heading (radians) and the extents along
-    /// and across it (metres), plate frame; of other outlines none.
+    /// Returns the centre seen from above (metres), the heading (radians) and the extents along and
+    /// across it (metres) of a cuboid, in the plate frame. Returns `None` for other outlines.
     pub fn rectangle(&self) -> Option<(Vector, f64, [f64; 2])> {
         let [a, b, c, d] = *self.corners else { return None };
         let (x, y) = (b - a, d - a);
@@ -34,7 +34,7 @@ impl Slab {
             .then(|| (0.5 * (a + c), x.y.atan2(x.x), [length, width]))
     }
 
-    /// The solid about its own centre, and its place in the plate's frame.
+    /// Returns the solid about its own centre, and its pose in the plate's frame.
     pub fn solid(&self) -> Option<(Shape, Pose)> {
         if let Some((position, heading, [x, y])) = self.rectangle() {
             return Some((Shape::Cuboid { size: [x, y, self.height] }, Pose { position, heading }));
@@ -44,9 +44,10 @@ impl Slab {
         Some((Shape::Prism { base, height: self.height }, Pose { position, heading: 0.0 }))
     }
 
-    /// The solid about the origin of the plate's frame, which is the centre of mass of all solids.
+    /// Returns the solid about the origin of the plate's frame, which is the centre of mass of all
+    /// solids.
     pub fn around_origin(&self) -> Option<Shape> {
-        // Exactly, so that the solids of what comes back are these to the bit.
+        // An exact comparison, so that a round trip returns bitwise equal solids.
         let is_centred = |corners: &[Vector; 4]| {
             let [x, y]: [f64; 2] = corners[2].into();
             *corners == [[-x, -y], [x, -y], [x, y], [-x, y]].map(|[x, y]| Vector::new(x, y))
@@ -64,7 +65,7 @@ impl Slab {
     }
 }
 
-/// Corners of a solid's outline, counter-clockwise, metres.
+/// Returns the corners of a solid's outline, counter-clockwise, metres.
 pub(super) fn outline(shape: &Shape) -> Vec<Vector> {
     match shape.footprint() {
         Footprint::Rectangle { half } => {
@@ -79,17 +80,19 @@ pub(super) fn outline(shape: &Shape) -> Vec<Vector> {
     }
 }
 
-/// Corners of a cylinder's outline: its edge is level with a blade's width to within 0.1 mm.
+/// Number of corners of a cylinder's outline; over a blade's width the edge deviates from the
+/// circle by less than 0.1 mm.
 const ROUND: usize = 24;
 
-/// An object in space: a rigid body with a flat underside, a convex plate and whatever is fixed on it.
+/// An object in space: a rigid body that consists of a convex plate with a flat underside and the
+/// solids fixed on it.
 ///
 /// Its frame lies in the plane of the underside, below the centre of mass.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Plate {
-    /// Unique within the scene.
+    /// Name, unique within the scene.
     pub name: String,
-    /// Its solids, of one density. The first is the plate itself, whose outline can be levered.
+    /// Solids, of one density. The first is the plate itself, whose outline can be levered.
     pub slabs: Vec<Slab>,
     /// Mass, kg.
     pub mass: f64,
@@ -98,14 +101,14 @@ pub struct Plate {
     /// Free height below the edge, metres. A plate whose underside is no higher above the table
     /// stands on feet of this height at its corners; a higher one lies on blocks.
     pub clearance: f64,
-    /// Where its frame is at the start, seen from above.
+    /// Pose of its frame at the start, seen from above.
     pub pose: Pose,
     /// Height of the underside above the table at the start, metres.
     pub z: f64,
 }
 
 impl Plate {
-    /// Object `index` of a scene with all its solids, as one body.
+    /// Returns object `index` of a scene with all its solids as one body.
     pub fn of(scene: &Scene, index: usize) -> Self {
         let object = &scene.objects[index];
         let part = |k: usize| {
@@ -127,9 +130,11 @@ impl Plate {
         }
     }
 
-    /// The object of its first solid, and its other solids with their places in its frame; `None` if the
-    /// first is no convex prism of at most [`MAX_CORNERS`](crate::geometry::MAX_CORNERS) corners around
-    /// the centre of mass, or another is none.
+    /// Returns the object of its first solid, and its other solids with their poses in its frame.
+    ///
+    /// Returns `None` if the first solid is not a convex prism of at most
+    /// [`MAX_CORNERS`](crate::geometry::MAX_CORNERS) corners around the centre of mass, or if
+    /// another solid is not convex.
     pub fn solids_of_object(self) -> Option<(Object, Vec<(Object, Pose)>)> {
         let volume: f64 = self.slabs.iter().map(Slab::volume).sum();
         let share = |slab: &Slab| self.mass * (slab.volume() / volume);
@@ -152,22 +157,23 @@ impl Plate {
         Some((object, parts))
     }
 
-    /// The corners of the outline that can be levered, counter-clockwise, plate frame, metres.
+    /// Returns the corners of the outline that can be levered, counter-clockwise, plate frame,
+    /// metres.
     pub fn corners(&self) -> &[Vector] {
         &self.slabs[0].corners
     }
 
-    /// Where its frame is at the start.
+    /// Returns the pose of its frame at the start.
     pub fn start(&self) -> Pose3 {
         Pose3::upright(self.pose, self.z)
     }
 
-    /// Its solids where it starts.
+    /// Returns its solids at the start.
     pub fn solids(&self) -> Vec<Solid> {
         self.solids_at(&self.start())
     }
 
-    /// Its solids with its frame in a pose.
+    /// Returns its solids when its frame is at `pose`.
     pub fn solids_at(&self, pose: &Pose3) -> Vec<Solid> {
         let solid = |slab: &Slab| {
             Solid::prism(&slab.corners, [slab.bottom, slab.bottom + slab.height], pose)
@@ -175,7 +181,7 @@ impl Plate {
         self.slabs.iter().map(solid).collect()
     }
 
-    /// Whether it stands on feet of its own.
+    /// Returns `true` if it stands on feet of its own.
     pub fn has_feet(&self) -> bool {
         self.z <= self.clearance + 1e-9
     }

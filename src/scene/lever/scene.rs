@@ -1,4 +1,4 @@
-//! A scene in space, as it is levered in.
+//! Scenes in space, for levering.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,22 +11,23 @@ use super::plate::outline;
 /// The flat end of a tool that goes under an edge: a cuboid from its tip backwards.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Blade {
-    /// Along the shaft, metres.
+    /// Length along the shaft, metres.
     pub length: f64,
-    /// Along the edge, metres.
+    /// Width along the edge, metres.
     pub width: f64,
-    /// Metres; must fit below the edge.
+    /// Thickness, metres; must fit below the edge.
     pub thickness: f64,
     /// Friction value.
     pub friction: f64,
 }
 
 impl Blade {
-    /// How far fingers reach beyond the shaft on both sides and along it, metres.
+    /// Reach of the fingers beyond the shaft on both sides and along it, metres.
     const FINGERS: f64 = 0.02;
 
-    /// What any hand needs beside the shaft to hold it behind the blade, whose centre is at `pose`: fingers
-    /// on both of its sides, no higher than the shaft, as a wrist may come from above or from behind.
+    /// Returns the space that any hand needs to hold the shaft behind the blade, whose centre is at
+    /// `pose`: fingers on both sides, no higher than the shaft. The wrist is left out, because it
+    /// may come from above or from behind.
     pub fn fingers(&self, pose: &Pose3) -> Solid {
         let mut held = *pose;
         held.position -= pose.rotation * Vector3::x() * (0.5 * self.length + Self::FINGERS);
@@ -35,12 +36,13 @@ impl Blade {
 }
 
 impl Scene {
-    /// The objects, each with all its solids as one body.
+    /// Returns the objects, each with all its solids as one body.
     pub fn plates(&self) -> impl Iterator<Item = Plate> {
         self.things().map(|(index, _)| Plate::of(self, index))
     }
 
-    /// The state at rest in which the objects are at `poses`, and all their parts where they must be.
+    /// Returns the state at rest in which the objects are at `poses`, and all their parts at the
+    /// poses that follow.
     pub fn resting_in_space(&self, poses: Vec<Pose3>) -> State {
         let parts = self.objects.iter().skip(poses.len());
         let parts = parts.map_while(|part| {
@@ -54,13 +56,15 @@ impl Scene {
         state
     }
 
-    /// Number of edges of object `index` that a blade can go under; 0 for a part or what does not exist.
+    /// Returns the number of edges of object `index` under which a blade can go; 0 for a part and
+    /// for an index out of range.
     pub fn edges(&self, index: usize) -> usize {
         let is_there = self.objects.get(index).is_some_and(|object| !object.is_part());
         if is_there { Plate::of(self, index).corners().len() } else { 0 }
     }
 
-    /// The scene of these bodies; `None` if one of them is no object, see [`Plate::solids_of_object`].
+    /// Creates the scene of these bodies; `None` if one of them cannot be an object, see
+    /// [`Plate::solids_of_object`].
     pub fn of_plates(plates: impl IntoIterator<Item = Plate>) -> Option<Self> {
         let objects =
             plates.into_iter().map(Plate::solids_of_object).collect::<Option<Vec<_>>>()?;
@@ -72,27 +76,27 @@ impl Scene {
 }
 
 impl Region {
-    /// Heights between which a region holds, metres: everything that a robot reaches.
+    /// Heights between which a region extends, metres: more than any robot reaches.
     const SPAN: [f64; 2] = [-1.0, 10.0];
 
-    /// All of space above and below the region, as bodies in space keep out of it.
+    /// Returns the space above and below the region, from which bodies in space keep out.
     pub fn column(&self) -> Solid {
         Solid::prism(&outline(&self.shape), Self::SPAN, &Pose3::upright(self.pose, 0.0))
     }
 
-    /// Returns `true` if a body in space is in it.
+    /// Returns `true` if a body in space reaches into the region.
     pub fn holds_in_space(&self, solids: &[Solid]) -> bool {
         let column = self.column();
         solids.iter().any(|solid| solid.depth(&column) > Self::SLACK)
     }
 }
 
-/// Objects with all their solids, what is fixed around them, and the blade.
+/// Objects with all their solids, the obstacles around them, and the blade.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeverScene {
-    /// What can move; a lever names one of them.
+    /// Bodies that can move; a lever names one of them.
     pub plates: Vec<Plate>,
-    /// What cannot.
+    /// Bodies that cannot move.
     pub blocks: Vec<Obstacle>,
     /// Friction value of the table.
     pub table_friction: f64,
@@ -101,12 +105,12 @@ pub struct LeverScene {
 }
 
 impl LeverScene {
-    /// A scene with a tool's blade in it; a tool without one has an empty one.
+    /// Creates the scene with a tool's blade; a tool without a blade gets an empty one.
     pub fn with(scene: &Scene, tool: &Tool) -> Self {
         Self::new(scene, tool.blade().unwrap_or_default())
     }
 
-    /// A scene with a blade in it.
+    /// Creates the scene with this blade.
     pub fn new(scene: &Scene, blade: Blade) -> Self {
         Self {
             plates: scene.plates().collect(),

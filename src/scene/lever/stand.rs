@@ -5,8 +5,9 @@ use crate::scene::{Feet, Physics, Scene, Support};
 
 use super::Plate;
 
-/// The points that object `index` stands on, in its frame, metres: the corners of what has feet, or a
-/// support that is stated; none of what lies on its underside.
+/// Returns the points on which object `index` stands, in its frame, metres: the corners of an
+/// object with feet, or its stated support. Returns `None` for an object that lies on its
+/// underside.
 pub fn stands_on(scene: &Scene, index: usize, physics: &Physics) -> Option<Vec<Vector>> {
     let plate = Plate::of(scene, index);
     let solids = || scene.parts_of(index).chain([index]);

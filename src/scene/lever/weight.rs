@@ -1,31 +1,31 @@
-//! Where a plate's mass lies: its solids have one density, and its feet weigh nothing.
+//! Mass distribution of a plate: its solids have one density, and its feet are massless.
 
 use crate::geometry::{Vector, Vector3, cross};
 
 use super::{Plate, Slab};
 
-/// Relative difference of densities that is rounding.
+/// Relative difference of densities below which they count as equal.
 const EVEN: f64 = 1e-9;
 
-/// Mass of a body and how it is spread.
+/// Mass of a body and its distribution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weight {
-    /// Kilograms.
+    /// Mass, kilograms.
     pub mass: f64,
     /// Centre of mass in the plate's frame, metres.
     pub centre: Vector3,
-    /// Inertia about the centre of mass on the plate's axes, kg m^2: `xx, yy, zz, xy, xz, yz`, the
-    /// last three as they stand in the matrix (`-m x y`).
+    /// Inertia about the centre of mass on the plate's axes, kg m^2: `xx, yy, zz, xy, xz, yz`. The
+    /// last three have the sign of the matrix entries (`-m x y`).
     pub inertia: [f64; 6],
 }
 
 impl Slab {
-    /// Volume, cubic metres.
+    /// Returns the volume, cubic metres.
     pub fn volume(&self) -> f64 {
         moments(&self.corners).0 * self.height
     }
 
-    /// Its middle, plate frame, metres.
+    /// Returns the centroid in the plate frame, metres.
     pub fn centre(&self) -> Vector3 {
         let (_, centre, _) = moments(&self.corners);
         Vector3::new(centre.x, centre.y, self.bottom + 0.5 * self.height)
@@ -33,7 +33,7 @@ impl Slab {
 }
 
 impl Plate {
-    /// Returns the distribution of its mass, all solids being of one density.
+    /// Returns the distribution of its mass when all solids have one density.
     pub fn weight(&self) -> Weight {
         let volume: f64 = self.slabs.iter().map(Slab::volume).sum();
         let density = self.mass / volume;
@@ -43,8 +43,8 @@ impl Plate {
         self.weighing(self.mass, &shares, &masses)
     }
 
-    /// Returns where its mass lies if its solids have these masses, kg: as one density has it where they
-    /// are of one.
+    /// Returns the mass distribution for these masses of the solids, kg. Masses proportional to the
+    /// volumes give exactly [`Plate::weight`].
     pub fn weight_of(&self, masses: &[f64]) -> Weight {
         let (mass, volume) =
             (masses.iter().sum::<f64>(), self.slabs.iter().map(Slab::volume).sum::<f64>());
@@ -65,7 +65,7 @@ impl Plate {
         for (slab, mass) in self.slabs.iter().zip(masses) {
             let (area, _, [xx, xy, yy]) = moments(&slab.corners);
             let away = slab.centre() - centre;
-            // Mean squares about the slab's own middle, then about the plate's.
+            // Mean squares about the slab's own centroid, then about the plate's.
             let x = xx / area + away.x * away.x;
             let y = yy / area + away.y * away.y;
             let z = slab.height * slab.height / 12.0 + away.z * away.z;
@@ -76,15 +76,15 @@ impl Plate {
         Weight { mass, centre, inertia }
     }
 
-    /// The plate of these solids, moved so that the frame lies below their centre of mass while
-    /// all stays where it is: how plates are made from outlines drawn about any origin.
+    /// Moves the frame below the centre of mass of the solids; the body itself stays. Used to
+    /// create plates from outlines drawn about any origin.
     #[must_use]
     pub fn balanced(self) -> Self {
         let centre = self.weight().centre;
         self.shifted(Vector::new(centre.x, centre.y))
     }
 
-    /// Returns the plate with its frame moved to a point of it, metres, while all stays where it is.
+    /// Moves the frame to a point of the plate, metres; the body itself stays.
     #[must_use]
     pub fn shifted(mut self, to: Vector) -> Self {
         for slab in &mut self.slabs {
@@ -95,8 +95,9 @@ impl Plate {
     }
 }
 
-/// Area (m^2), centroid (m) and second moments `xx, xy, yy` about it (m^4) of a polygon whose
-/// corners run counter-clockwise: sums over the triangles that its sides make with the first corner.
+/// Returns area (m^2), centroid (m) and second moments `xx, xy, yy` about it (m^4) of a polygon
+/// whose corners run counter-clockwise. The sums run over the triangles between its sides and the
+/// first corner.
 fn moments(corners: &[Vector]) -> (f64, Vector, [f64; 3]) {
     let origin = corners[0];
     let (mut area, mut first, mut second) = (0.0, Vector::zeros(), [0.0; 3]);

@@ -1,33 +1,33 @@
-//! What an effect model is told about a scene instead of what its job says.
+//! Assumptions of an effect model that replace values of its job.
 
-/// What a model is told about the joints.
+/// An assumption about the joints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum JointBelief {
-    /// That there are none.
+    /// No joints.
     None,
     /// The type of every joint, its geometry guessed from the poses that the scene states.
     Guessed,
-    /// That whatever touches or nearly touches is fixed together, and nothing else.
+    /// A fixed joint at every contact or near contact, and no other joints.
     Fixed,
 }
 
-/// What a model is told that its job does not say, to measure what knowing it is worth. Nothing by
-/// default.
+/// Assumptions of a model that replace values of its job, to measure the worth of knowing these
+/// values. Empty by default.
 ///
-/// Whole numbers, so that the text form is exact.
+/// Values are whole numbers, so that the text form is exact.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Assumptions {
-    /// Other joints.
+    /// Assumed joints.
     pub joints: Option<JointBelief>,
-    /// Every friction value, the table's and the tool's included, times this many percent.
+    /// Factor of every friction value, including table and tool, in percent.
     pub friction: Option<u16>,
-    /// Every object's start shifted by this many micrometres in a random direction; objects that
-    /// joints connect move together, so that the joints still hold.
+    /// Shift of every object's start in a random direction, micrometres. Objects that joints
+    /// connect move together, so that the joints still hold.
     pub start: Option<u16>,
 }
 
 impl Assumptions {
-    /// Whether nothing is assumed.
+    /// Returns `true` if nothing is assumed.
     pub fn are_none(&self) -> bool {
         *self == Self::default()
     }

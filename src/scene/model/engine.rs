@@ -6,16 +6,16 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Engine {
-    /// Top-down, with its own law of support friction: the default truth for data and search.
+    /// Planar engine with its own law of support friction: the default ground truth for data and
+    /// search.
     Planar,
-    /// Full 3-D: the independent check.
+    /// Full 3-D engine: the independent check.
     Spatial,
-    /// The 3-D engine in which nothing tips: the physics of the plane, solved by other code.
+    /// 3-D engine in which no object tips: planar physics, solved by other code.
     Upright,
 }
 
 impl Engine {
-    /// The engines of a verdict, in the order in which they are shown: predictions are compared
-    /// with the planar one.
+    /// Engines of a verdict, in display order; predictions are compared with the planar engine.
     pub const ALL: [Self; 2] = [Self::Planar, Self::Spatial];
 }

@@ -1,5 +1,5 @@
-//! Which effect model: typed values with one text form, used on the command line, by efforts, in
-//! benchmarks and in files. What the models do is in `effect`.
+//! Identifiers of effect models: typed values with one text form, used on the command line, by
+//! efforts, in benchmarks and in files. The models themselves are in `effect`.
 
 mod assumption;
 mod engine;

@@ -1,4 +1,5 @@
-//! Which effect models a planner uses: one screens the many, one decides among the few.
+//! The effect models of a planner: a screening model for many candidates, a final model for the
+//! short list.
 
 use std::fmt;
 use std::str::FromStr;
@@ -8,16 +9,18 @@ use serde::{Deserialize, Serialize};
 use super::text::split;
 use super::{ModelSpec, SpecError};
 
-/// Most objects awake in a frame that the network corrects. Where more are, correcting costs more
-/// than the prior and buys nothing: over 24 trajectories of each of the sets of `pushplan-lab evaluate
-/// --on dense sparse` its mean error is 1.11 (dense) and 0.98 (sparse) times the prior's if it
-/// corrects all, 1.00 and 0.95 with five at most, 1.00 and 0.98 with three.
+/// Maximum number of moving objects in a frame that the network corrects. With more objects, the
+/// correction costs more time than the analytic model and does not improve the prediction.
+///
+/// Measured with `pushplan-lab evaluate --on dense sparse` on 24 trajectories of each set. Relative
+/// to the analytic model, the mean error is 1.11 (dense) and 0.98 (sparse) if every frame is
+/// corrected. It is 1.00 and 0.95 with at most five objects, and 1.00 and 0.98 with three.
 pub const CORRECTED: usize = 5;
 
 /// The effect models of a planner.
 ///
 /// ```text
-/// models = [ spec ">" ] spec            what screens, if it is another, and what decides
+/// models = [ spec ">" ] spec            screening model, if it is another, and final model
 /// ```
 ///
 /// ```
@@ -31,25 +34,25 @@ pub const CORRECTED: usize = 5;
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Models {
-    /// Rolls out the many: the search, and the first rounds of refinement.
+    /// Screening model: the search, and the first rounds of refinement.
     pub screened: ModelSpec,
-    /// Rolls out the short list: the last rounds of refinement, the ranking, how far a prediction
-    /// is to be trusted, and what is predicted in the end.
+    /// Final model: the last rounds of refinement, the ranking, the trust in a prediction, and the
+    /// reported prediction.
     pub decided: ModelSpec,
 }
 
 impl Models {
-    /// The same with another model that screens.
+    /// Replaces the screening model.
     pub fn screened_by(self, screened: impl Into<ModelSpec>) -> Self {
         Self { screened: screened.into(), ..self }
     }
 
-    /// Whether one model does everything.
+    /// Returns `true` if one model is both screening and final model.
     pub fn is_one(&self) -> bool {
         self.screened == self.decided
     }
 
-    /// Both, each once.
+    /// Returns the distinct models, the final model first.
     pub fn specs(&self) -> impl Iterator<Item = &ModelSpec> {
         std::iter::once(&self.decided).chain((!self.is_one()).then_some(&self.screened))
     }

@@ -1,4 +1,4 @@
-//! What an effect model is: its kind, its settings, what it is told, and which model takes over.
+//! Identifiers of effect models: kinds, settings, assumptions and fallbacks.
 
 use std::num::{NonZeroU8, NonZeroU16};
 
@@ -6,11 +6,11 @@ use crate::scene::Engine;
 
 use super::Assumptions;
 
-/// An effect model as a user or a table names it: `prior`, `planar,step=1/120`,
+/// An effect model as users and tables name it: `prior`, `planar,step=1/120`,
 /// `prior,up-to=2|planar,step=1/120`.
 ///
 /// ```text
-/// spec = part { "|" part }             a job goes to the first part that takes it
+/// spec = part { "|" part }             a job goes to the first part that accepts it
 /// part = kind { "," key "=" value }
 /// kind = network | prior | planar | 3d | 3d-upright | still
 /// ```
@@ -18,16 +18,16 @@ use super::Assumptions;
 /// | key | of | value |
 /// | --- | --- | --- |
 /// | `weights` | `network` | a weights file instead of the shipped one; in quotes if it holds `,`, `\|` or `"` |
-/// | `steps` | `network` | propagation steps, whatever it was trained with |
+/// | `steps` | `network` | number of propagation steps, instead of the trained number |
 /// | `frame` | `network`, `prior` | the tool's travel in a frame, multiples of `10mm` |
 /// | `step` | `planar`, `3d` | the engine's time step in seconds, `1/N` |
-/// | `joints` | all | told that there are `none`, that their geometry is `guessed`, or that whatever touches is `fixed` |
-/// | `friction` | all | told this share of every friction value, `70%` |
-/// | `start` | all | told a start off by this much, `100um` |
-/// | `up-to` | all | takes no job in which the tool can set more objects in motion |
+/// | `joints` | all | assumed joints: `none`, their geometry `guessed`, or every contact `fixed` |
+/// | `friction` | all | assumed share of every friction value, `70%` |
+/// | `start` | all | assumed error of the start poses, `100um` |
+/// | `up-to` | all | maximum number of objects that the tool can set in motion in an accepted job |
 ///
-/// [`std::fmt::Display`] and [`std::str::FromStr`] are inverse except for custom models. A text that is only a path ending
-/// in `.safetensors` is short for `network,weights=` that file.
+/// [`std::fmt::Display`] and [`std::str::FromStr`] are inverse except for custom models. A text
+/// that is only a path ending in `.safetensors` is short for `network,weights=` and that file.
 ///
 /// ```
 /// use pushplan::scene::{ModelKind, ModelSpec};
@@ -45,74 +45,74 @@ pub struct ModelSpec {
     others: Vec<ModelPart>,
 }
 
-/// One model of a [`ModelSpec`].
+/// A single model of a [`ModelSpec`].
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct ModelPart {
-    /// What it is.
+    /// Kind with its settings.
     pub kind: ModelKind,
-    /// What it is told that the job does not say.
+    /// Assumptions that replace values of the job.
     pub assumptions: Assumptions,
-    /// It takes no job in which the tool can set more objects in motion than this.
+    /// Maximum number of objects that the tool can set in motion in an accepted job.
     pub up_to: Option<u16>,
 }
 
 /// The kinds of effect models with their settings.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum ModelKind {
-    /// The trained network, which corrects the prior.
+    /// The trained network, which corrects the analytic model.
     Network {
-        /// Path of the weights file; the shipped weights if not given.
+        /// Path of the weights file; `None` for the shipped weights.
         weights: Option<String>,
-        /// Propagation steps; as many as it was trained with if not given.
+        /// Number of propagation steps; `None` for the number used in training.
         steps: Option<u8>,
-        /// Frames predicted as one.
+        /// Number of frames predicted as one.
         stride: Stride,
     },
-    /// The closed-form solution of every frame alone.
+    /// The analytic model: the closed-form solution of every single frame.
     Prior {
-        /// Frames predicted as one.
+        /// Number of frames predicted as one.
         stride: Stride,
     },
     /// A physics engine.
     Simulated {
-        /// Which.
+        /// Engine.
         engine: Engine,
-        /// How finely it steps.
+        /// Time steps a second.
         rate: Rate,
     },
-    /// Nothing moves.
+    /// A model in which nothing moves.
     Still,
-    /// A model from outside of the library, by the word that stands for it; no text is read as one.
+    /// A model from outside of the library, by its word; no text is parsed to one.
     Custom(&'static str),
 }
 
-/// Frames of a moving tool ([`crate::scene::FRAME_TRAVEL`]) that are predicted as one.
+/// Number of frames of a moving tool ([`crate::scene::FRAME_TRAVEL`]) that are predicted as one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Stride(pub NonZeroU8);
 
-/// Time steps of an engine in a second, at least.
+/// Minimum number of time steps of an engine in a second.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Rate(pub NonZeroU16);
 
 impl Stride {
-    /// Every frame by itself.
+    /// Every frame is predicted alone.
     pub const ONE: Self = Self(NonZeroU8::MIN);
 
-    /// As a number of frames.
+    /// Returns the number of frames.
     pub fn frames(self) -> usize {
         usize::from(self.0.get())
     }
 }
 
 impl Rate {
-    /// Both engines' own.
+    /// The default of both engines.
     ///
-    /// At 1/240 s a 20 cm push at 0.1 m/s in the planar engine ends 0.06 mm (cylinders) and 0.2 mm
-    /// (cuboids, median) from its own fine run; the 3-D engine is about 4 mm from another good
-    /// engine on boxes.
+    /// A 20 cm push at 0.1 m/s and 1/240 s in the planar engine ends 0.06 mm (cylinders) and 0.2 mm
+    /// (cuboids, median) from a run with finer steps. The 3-D engine is about 4 mm from another
+    /// good engine on boxes.
     pub const DEFAULT: Self = Self(NonZeroU16::MIN.saturating_add(239));
 
-    /// Length of a step, seconds.
+    /// Returns the length of a step, seconds.
     pub fn step(self) -> f64 {
         1.0 / f64::from(self.0.get())
     }
@@ -121,39 +121,40 @@ impl Rate {
 impl ModelKind {
     /// The shipped network.
     pub const NETWORK: Self = Self::Network { weights: None, steps: None, stride: Stride::ONE };
-    /// The prior.
+    /// The analytic model.
     pub const PRIOR: Self = Self::Prior { stride: Stride::ONE };
-    /// The planar engine.
+    /// The planar engine at its default step.
     pub const PLANAR: Self = Self::Simulated { engine: Engine::Planar, rate: Rate::DEFAULT };
-    /// The 3-D engine.
+    /// The 3-D engine at its default step.
     pub const SPATIAL: Self = Self::Simulated { engine: Engine::Spatial, rate: Rate::DEFAULT };
     /// The 3-D engine in which nothing tips, at its default step.
     pub const UPRIGHT: Self = Self::Simulated { engine: Engine::Upright, rate: Rate::DEFAULT };
 }
 
 impl ModelSpec {
-    /// A model of this kind for every job, told nothing but the job.
+    /// Creates the identifier of a model that accepts every job, without assumptions.
     pub const fn of(kind: ModelKind) -> Self {
         let assumptions = Assumptions { joints: None, friction: None, start: None };
         Self { first: ModelPart { kind, assumptions, up_to: None }, others: Vec::new() }
     }
 
-    /// The model that is asked first.
+    /// Returns the first model, to which every job is offered.
     pub fn first(&self) -> &ModelPart {
         &self.first
     }
 
-    /// Those that are asked in turn where it takes no job.
+    /// Returns the fallback models, in order; each gets the jobs that its predecessors do not
+    /// accept.
     pub fn others(&self) -> &[ModelPart] {
         &self.others
     }
 
-    /// All of them.
+    /// Returns all models, the first one first.
     pub fn parts(&self) -> impl Iterator<Item = &ModelPart> {
         std::iter::once(&self.first).chain(&self.others)
     }
 
-    /// The same, and what none of its parts takes goes to `other`.
+    /// Adds `other` as fallback for jobs that no part accepts.
     pub fn or(mut self, other: impl Into<ModelSpec>) -> Self {
         let ModelSpec { first, others } = other.into();
         self.others.push(first);
@@ -161,13 +162,13 @@ impl ModelSpec {
         self
     }
 
-    /// The same for jobs in which the tool can set at most `objects` in motion.
+    /// Limits all parts to jobs in which the tool can set at most `objects` in motion.
     pub fn up_to(mut self, objects: u16) -> Self {
         self.each(|part| part.up_to = Some(objects));
         self
     }
 
-    /// The same, told `assumptions`.
+    /// Sets the assumptions of all parts.
     pub fn assuming(mut self, assumptions: Assumptions) -> Self {
         self.each(|part| part.assumptions = assumptions);
         self

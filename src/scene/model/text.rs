@@ -1,4 +1,4 @@
-//! The text form of a [`ModelSpec`]: written and read.
+//! The text form of a [`ModelSpec`]: writing and parsing.
 
 use std::fmt;
 use std::num::{NonZeroU8, NonZeroU16};
@@ -11,16 +11,16 @@ use crate::scene::{Engine, FRAME_TRAVEL};
 
 use super::{Assumptions, JointBelief, ModelKind, ModelPart, ModelSpec, Rate, Stride};
 
-/// Why a text does not name an effect model.
+/// The reason why a text does not name an effect model.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum SpecError {
-    /// No such kind.
+    /// Unknown kind.
     #[error(
         "`{found}` is not an effect model; use network, prior, planar, 3d, 3d-upright or still, \
          or a file that ends in .safetensors"
     )]
     Kind {
-        /// What stands in its place.
+        /// The text in place of the kind.
         found: String,
     },
     /// A setting that this kind does not have.
@@ -28,41 +28,41 @@ pub enum SpecError {
     Key {
         /// The kind.
         kind: &'static str,
-        /// What stands there.
+        /// The text in place of the setting.
         found: String,
-        /// Its settings, each with an example.
+        /// Settings of the kind, each with an example.
         takes: &'static str,
     },
     /// A setting given twice.
     #[error("`{key}` is given twice")]
     Twice {
-        /// Which.
+        /// Name of the setting.
         key: String,
     },
-    /// A value that a setting cannot have.
+    /// An invalid value of a setting.
     #[error("`{key}={found}`: expected {expected}")]
     Value {
-        /// The setting.
+        /// Name of the setting.
         key: &'static str,
-        /// What it is given.
+        /// The text in place of the value.
         found: String,
-        /// What it can be.
+        /// Valid values.
         expected: &'static str,
     },
 }
 
-/// Settings of every kind of model, for messages.
+/// Concatenates the settings of a kind of model, for messages.
 macro_rules! takes {
     ($own:literal) => {
         concat!($own, "joints=none|guessed|fixed, friction=70%, start=100um, up-to=2")
     };
 }
 
-/// Millimetres of a frame.
+/// Travel in a frame, millimetres.
 const FRAME: f64 = 1e3 * FRAME_TRAVEL;
 
 impl ModelKind {
-    /// The word that a text begins with.
+    /// Returns the word that begins the text form.
     fn word(&self) -> &'static str {
         match self {
             Self::Network { .. } => "network",
@@ -90,7 +90,7 @@ impl ModelKind {
         }
     }
 
-    /// Takes a setting of this kind; whether it has such a one.
+    /// Sets a setting of this kind; returns `false` if this kind has no such setting.
     fn set(&mut self, key: &str, value: &str) -> Result<bool, SpecError> {
         match (self, key) {
             (Self::Network { weights, .. }, "weights") => {
@@ -127,7 +127,7 @@ impl ModelKind {
 }
 
 impl ModelPart {
-    /// Takes a setting that all kinds have; whether it was one.
+    /// Sets a setting that all kinds have; returns `false` if there is no such setting.
     fn set(&mut self, key: &str, value: &str) -> Result<bool, SpecError> {
         let Assumptions { joints, friction, start } = &mut self.assumptions;
         match key {
@@ -269,7 +269,7 @@ fn parsed<T>(
     parse(value).ok_or_else(found)
 }
 
-/// The pieces between separators that are not in quotes, trimmed of blanks.
+/// Splits a text at separators outside of quotes, and trims the pieces.
 pub(super) fn split(text: &str, separator: char) -> Vec<&str> {
     let mut inside = false;
     let pieces = text.split(|c| {
@@ -279,7 +279,7 @@ pub(super) fn split(text: &str, separator: char) -> Vec<&str> {
     pieces.map(str::trim).collect()
 }
 
-/// In quotes if it could be mistaken for something else.
+/// Quotes a text if it could be mistaken for something else.
 fn quoted(text: &str) -> String {
     let plain = !text.is_empty() && text.trim() == text && !text.contains([',', '|', '>', '"']);
     if plain { text.to_owned() } else { format!("\"{}\"", text.replace('"', "\"\"")) }

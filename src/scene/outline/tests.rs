@@ -15,7 +15,7 @@ fn a_hook_written_with_turned_parts_has_two_pieces() {
     assert_eq!(names, ["handle-1+handle-2+handle-3", "bar"]);
     let Shape::Cuboid { size } = pieces[1].shape else { panic!("a cuboid") };
     assert!((size[0] - 0.08).abs() < 1e-12 && (size[1] - 0.24).abs() < 1e-12);
-    // Held at an angle it is the same tool.
+    // The tool at another angle has the same pieces.
     let askew = Pose::new(0.2, -0.1, 0.7);
     parts.iter_mut().for_each(|part| part.pose = askew * part.pose);
     for (piece, straight) in super::pieces(&parts).iter().zip(&pieces) {

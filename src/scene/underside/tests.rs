@@ -37,7 +37,7 @@ fn even_feet_under_polygons_have_the_moments_of_even_pressure() {
         }
         let ratio = feet.mean_radius / shape.mean_radius();
         assert!((1.0 - 1e-9..1.0 + off).contains(&ratio), "{shape:?} {ratio}");
-        // They lie under the object.
+        // All points lie under the object.
         for (at, _) in feet.each() {
             let mut faces = shape.faces();
             assert!(faces.all(|(corner, normal)| normal.dot(&(at - corner)) < 1e-12));

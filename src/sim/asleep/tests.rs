@@ -38,7 +38,7 @@ fn what_nothing_comes_near_stays_to_the_last_bit_and_changes_nothing() {
             assert_eq!(beside_joined.poses[k], apart.objects[k].pose, "{:?}", engine.engine());
         }
         let off = (beside.poses[0].position - alone.poses[0].position).norm();
-        // The planar engine counts in f32 from the middle of all objects.
+        // The planar engine computes in f32 from the centre of all objects.
         assert!(off < 2e-4, "{:?}: {off}", engine.engine());
     }
 }
@@ -48,10 +48,10 @@ fn what_is_pushed_into_others_wakes_one_after_the_other() {
     for engine in &ENGINES {
         let scene = Scene::new([can("a", 0.1), can("b", 0.2), can("c", 0.3)]);
         let end = pushed(engine, &scene);
-        // The finger's tip ends at 0.21 m; then comes one can after the other.
+        // The finger's tip ends at 0.21 m; the cans follow one by one.
         for (k, at) in [0.25, 0.33, 0.41].into_iter().enumerate() {
             let off = end.poses[k].position - Vector::new(at, 0.0);
-            // They slide on for v² / (2 µ g) = 1.3 mm.
+            // The cans slide v² / (2 µ g) = 1.3 mm further.
             assert!(off.norm() < 3e-3, "{:?}: {k} is off by {off:?}", engine.engine());
         }
     }
@@ -67,7 +67,7 @@ fn what_is_hit_fast_goes_as_far_as_momentum_and_friction_say() {
         let mut job = Job::stated(&scene, ToolMotion::pushes(tool, 0.002, 0.0, &[away], true));
         job.start.velocities[0].linear = Vector::new(2.0, 0.0);
         let end = engine.run(&scene, &job, Record::Outcome).outcome().clone();
-        // Equal masses that do not bounce go on at half of the speed.
+        // Equal masses that do not bounce continue at half of the speed.
         let braking = 2.0 * job.physics.support_friction(1) * GRAVITY;
         let far = (2.0 * 2.0 - braking * 0.04) / 4.0 / braking;
         let moved = end.poses[1].position.x - 0.42;

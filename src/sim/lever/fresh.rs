@@ -1,9 +1,9 @@
-//! Contacts found anew in every step.
+//! Recomputation of contacts in every step.
 //!
-//! parry carries the contact points of two solids over from step to step, as long as they turn
-//! against each other by less than a degree and slide by less than a millimetre *a step*. The points
-//! then do not end where a face ends: a plate whose edge has slid off the blade hangs 5 mm in the
-//! air before it, the longer the finer the steps turn it.
+//! parry reuses the contact points of two solids while their relative motion *in a step* is small:
+//! a rotation by less than a degree and a slide by less than a millimetre. Reused points do not end
+//! at the end of a face. A plate whose edge has slid off the blade then hangs 5 mm in the air
+//! before it, the longer the finer the steps.
 
 use rapier3d_f64::parry::query::details::{ContactManifoldsWorkspace, NormalConstraints};
 use rapier3d_f64::parry::query::{
@@ -14,13 +14,13 @@ use rapier3d_f64::parry::query::{
 use rapier3d_f64::parry::shape::Shape;
 use rapier3d_f64::prelude::{ContactData, ContactManifoldData, NarrowPhase, Pose3, Real, Vector};
 
-/// A narrow phase that carries no contact point over, but still the impulses of those that are
+/// Returns a narrow phase that reuses no contact points, but keeps the impulses of points that are
 /// found again.
 pub(super) fn fresh_contacts() -> NarrowPhase {
     NarrowPhase::with_query_dispatcher(Fresh.chain(DefaultQueryDispatcher))
 }
 
-/// Looks for contacts, and leaves everything else to others.
+/// A dispatcher for contacts only; it leaves other queries to the next dispatcher.
 struct Fresh;
 
 impl PersistentQueryDispatcher<ContactManifoldData, ContactData> for Fresh {
@@ -33,7 +33,7 @@ impl PersistentQueryDispatcher<ContactManifoldData, ContactData> for Fresh {
         manifolds: &mut Vec<Manifold<ContactManifoldData, ContactData>>,
         workspace: &mut Option<ContactManifoldsWorkspace>,
     ) -> Result<(), Unsupported> {
-        // No normal agrees with this one.
+        // No normal agrees with a zero normal.
         manifolds.iter_mut().for_each(|manifold| manifold.local_n2 = Vector::ZERO);
         let found = &DefaultQueryDispatcher;
         found.contact_manifolds(pos12, g1, g2, prediction, manifolds, workspace)

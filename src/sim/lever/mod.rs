@@ -1,9 +1,9 @@
-//! Lever-ups in rapier3d in `f64`, gravity and table included.
+//! Lever-ups in rapier3d in `f64`, with gravity and table.
 //!
-//! Plates are convex prisms cut into parts of at most four corners, because of a larger face parry
-//! looks at four corners alone; cuboids stay whole. The table is a cuboid and feet are small balls.
-//! The blade is kinematic and goes exactly where [`LeverUp::blade`](crate::task::LeverUp::blade)
-//! says. Whatever is planned or judged, is so elsewhere.
+//! Plates are convex prisms divided into parts with at most four corners, because parry uses only
+//! four corners of a larger face; cuboids stay whole. The table is a cuboid and feet are small
+//! balls. The blade is kinematic and follows [`LeverUp::blade`](crate::task::LeverUp::blade)
+//! exactly. Planning and judging are elsewhere.
 
 mod fresh;
 mod place;

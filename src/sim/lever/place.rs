@@ -1,11 +1,12 @@
-//! Poses in space to and from rapier, whose origin lies somewhere on the table.
+//! Conversion of spatial poses to and from rapier, whose origin is on the table.
 
 use rapier3d_f64::prelude::{Pose3 as RapierPose, Rotation, Vector as RapierVector};
 
 use crate::geometry::{Pose3, Vector, Vector3};
 
-/// Returns the turn, written with the sign that lies nearer to `last`: between opposite signs rapier
-/// sees a full turn within a step, which throws the plate off at tens of metres a second.
+/// Returns the quaternion of the rotation with the sign nearer to `last`. Between opposite signs
+/// rapier computes a full rotation within a step, which throws the plate off at tens of metres a
+/// second.
 pub(super) fn in_one_hemisphere(last: Rotation, next: Rotation) -> Rotation {
     if last.dot(next) < 0.0 { -next } else { next }
 }

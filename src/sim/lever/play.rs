@@ -1,5 +1,5 @@
-//! Plays motions in space one after another in one world: a lever-up's turn, wait and way back, and
-//! pushes, each until everything rests.
+//! Playback of consecutive spatial motions in one world: rotation, hold and retreat of lever-ups,
+//! and pushes, each until everything rests.
 
 use std::sync::Arc;
 
@@ -19,23 +19,23 @@ use super::super::strain::Strain;
 use super::scenery::Scenery;
 use super::world::LeverWorld;
 
-/// More force on the blade than this, beyond twice the plates' weight, is a jam, newtons. Lifting
-/// takes less than the weight; a blade that is driven into something soon takes hundreds.
+/// Force on the blade, beyond twice the plates' weight, from which on it is jammed, newtons.
+/// Lifting takes less than the weight; a blade driven into a body soon takes hundreds.
 const JAM: f64 = 30.0;
 
-/// A force lasts when it is there for so many steps in a row: touches are over in one or two.
+/// Number of consecutive steps after which a force counts as lasting; touches end after one or two.
 const LASTING: usize = 3;
 
-/// Waits no longer for rest, seconds. No plate of thousands took that long.
+/// Maximum time of waiting for rest, seconds. None of thousands of plates took that long.
 const PATIENCE: f64 = 4.0;
 
-/// Everything rests when it was slow for so long, seconds: a plate on edge is slow for a moment.
+/// Time of slow motion that counts as rest, seconds; a plate on edge is slow for a moment.
 const STILL: f64 = 0.1;
 
-/// The frames that are kept, each with the force on blade or tool during the last step, newtons.
+/// Recorded frames, each with the force on blade or tool during the last step, newtons.
 pub(super) struct Film {
     pub frames: Vec<(Frame, f64)>,
-    /// Between two frames, seconds.
+    /// Time between two frames, seconds.
     pub interval: f64,
 }
 
@@ -65,8 +65,8 @@ pub(super) fn play(
     (found, game.film.map(|film| film.frames).unwrap_or_default())
 }
 
-/// Plays motions one after another, each lever-up where it was planned; without a film the end is all that
-/// is kept.
+/// Plays consecutive motions, each lever-up at its planned place; without a film only the end is
+/// kept.
 pub(super) fn play_all(
     scenery: &Arc<Scenery>,
     motions: &[Motion],
@@ -119,7 +119,7 @@ pub(super) fn play_all(
     trajectory
 }
 
-/// What a lever-up came to.
+/// Returns the lift of a lever-up, with a warning if the plate slipped.
 fn lifted(
     plate: &Plate,
     lever: &LeverUp,
@@ -139,12 +139,12 @@ fn lifted(
     (found, slipped.then(|| Warning::Slipped { object: plate.name.clone() }))
 }
 
-/// A blade on its way.
+/// A lever-up in progress.
 struct Levering {
     lever: LeverUp,
-    /// Its object where the lever-up was planned, and the blade.
+    /// Plate as planned, and blade.
     planned: (Plate, Blade),
-    /// When it began, seconds.
+    /// Start time, seconds.
     began: f64,
 }
 
@@ -156,33 +156,33 @@ impl Levering {
     }
 }
 
-/// Motions on their way.
+/// Motions in progress.
 struct Game {
     scenery: Arc<Scenery>,
     world: LeverWorld,
     longest: f64,
     time: f64,
-    /// What levers, or levered last.
+    /// Present or last lever-up.
     levering: Option<Levering>,
-    /// What pushes now: when it began, and the stroke.
+    /// Present push: start time and stroke.
     pushing: Option<(f64, Stroke)>,
-    /// Where a tool that pushes was last.
+    /// Last pose of a pushing tool.
     tool: Pose,
-    /// Index of the stroke or lever-up that is under way.
+    /// Index of the stroke or lever-up in progress.
     stroke: usize,
-    /// What ended it all, after which nothing goes on.
+    /// Warning that ended the playback.
     trouble: Option<Warning>,
-    /// For how many steps the force has been that of a jam.
+    /// Number of consecutive steps with the force of a jam.
     strained: usize,
     most: f64,
     strain: Strain,
-    /// The last poses that were finite.
+    /// Last finite poses.
     last: Vec<Pose3>,
     film: Option<Film>,
 }
 
 impl Game {
-    /// Everything at the start; the blade of a first lever-up is there as it really is and as planned.
+    /// Creates the start, with the real blade of a first lever-up at its planned pose.
     fn new(
         scenery: &Arc<Scenery>,
         first: Option<(&LeverUp, [Blade; 2])>,
@@ -223,7 +223,7 @@ impl Game {
         game
     }
 
-    /// Takes up a blade for a lever-up that comes after other motions.
+    /// Takes up a blade for a lever-up after other motions.
     fn take_up(&mut self, blade: &Blade, lever: &LeverUp, expected: Option<Pose>) {
         let mut planned = self.scenery.planned[lever.plate].clone();
         if let Some(expected) = expected {
@@ -234,12 +234,13 @@ impl Game {
             Some(Levering { lever: *lever, planned: (planned, *blade), began: self.time });
     }
 
-    /// The state of the whole scene.
+    /// Returns the state of the whole scene.
     fn state(&self) -> State {
         self.scenery.scene.resting_in_space(self.last.clone())
     }
 
-    /// Warns of what fell, of what was pressed too hard and of what hangs over the end of the table.
+    /// Adds warnings for fallen objects, too much force, and objects that hang over the table's
+    /// edge.
     fn judge_end(&self, motions: &[Motion], trajectory: &mut Trajectory) {
         let (scene, state) = (&self.scenery.scene, self.state());
         let levered = |k: usize| {
@@ -262,8 +263,8 @@ impl Game {
         warnings.extend(hanging.map(|k| Warning::Hangs { object: name(k) }));
     }
 
-    /// Plays a lever-up: where its plate is at the end of each frame of the turn, and whether it lies
-    /// on the blade.
+    /// Plays a lever-up; returns the pose of its plate at the end of each frame of the rotation,
+    /// and whether the plate lies on the blade.
     fn lever(&mut self, lever: &LeverUp) -> (Vec<Pose3>, Vec<bool>) {
         let began = self.time;
         let mut lift = Vec::with_capacity(LEVER_FRAMES);
@@ -279,15 +280,15 @@ impl Game {
         (lift, held)
     }
 
-    /// Plays on to this time, in equal steps.
+    /// Plays until this time, in equal steps.
     fn go_on_until(&mut self, end: f64) {
         self.go_on_for(end - self.time);
     }
 
-    /// Plays on for so long, in equal steps.
+    /// Plays for `span` seconds, in equal steps.
     fn go_on_for(&mut self, span: f64) {
         let from = self.time;
-        // The small part keeps 0.1 / (1 / 240) at twenty-four steps however it is rounded.
+        // The small offset gives 0.1 / (1 / 240) twenty-four steps under any rounding.
         let steps = (span / self.longest - 1e-9).ceil().max(1.0);
         let step = span / steps;
         if !(step > 0.0 && step.is_finite()) {
@@ -302,7 +303,7 @@ impl Game {
         }
     }
 
-    /// Plays on until everything rests.
+    /// Plays until everything rests.
     fn rest(&mut self) {
         self.world.set_step(self.longest);
         let (start, mut moved) = (self.time, self.time);
@@ -319,8 +320,8 @@ impl Game {
         self.show();
     }
 
-    /// Plays pushes from rest to rest; the tool is set down for each that does not go on where the
-    /// last one ended, and lifted before the next.
+    /// Plays pushes from rest to rest. The tool is set down for each push that does not start at
+    /// the end of the previous one, and lifted before the next.
     fn push(&mut self, motion: &ToolMotion) {
         self.world.lay_aside();
         let mut down = false;
@@ -376,7 +377,7 @@ impl Game {
         }
     }
 
-    /// Keeps a frame of how things stand.
+    /// Records a frame of the present state.
     fn show(&mut self) {
         let time = self.time;
         let is_new = |film: &&mut Film| film.frames.last().is_none_or(|(last, _)| last.time < time);

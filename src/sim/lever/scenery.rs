@@ -1,4 +1,4 @@
-//! The scene that is played in space, as it really is and as its motions were planned.
+//! The scene of spatial motions, in reality and as planned.
 
 use std::sync::Arc;
 
@@ -6,20 +6,20 @@ use crate::geometry::{Pose3, Vector};
 use crate::scene::{Body, Physics, Plate, Scene, Situation, Weight, stands_on};
 use crate::task::LeverJob;
 
-/// The scene as it really is, the objects as they were seen when the motions were planned, and where the
-/// objects really are.
+/// The real scene, the objects as observed when the motions were planned, and the real poses of the
+/// objects.
 pub(super) struct Scenery {
-    /// The scene on the table. Data sets have plates that no scene can state; theirs has none.
+    /// Scene on the table. Plates of data sets cannot be stated in a scene, so theirs has none.
     pub scene: Arc<Scene>,
     pub physics: Arc<Physics>,
-    /// The objects with all their solids, with the masses and frictions that they really have.
+    /// Objects with all their solids, with their real masses and frictions.
     pub plates: Vec<Plate>,
     pub planned: Vec<Plate>,
     pub starts: Vec<Pose3>,
 }
 
 impl Scenery {
-    /// Takes a scene as it really is; the motions go where they would in `planned`.
+    /// Takes a real scene; the motions follow the poses of `planned`.
     pub fn new(really: &Situation, planned: &Scene) -> Self {
         let Situation { scene, start, physics } = really;
         let plate = |(k, _): (usize, _)| Plate {
@@ -60,14 +60,14 @@ impl Scenery {
         }
     }
 
-    /// Returns what a solid of an object is to the rules of contacts, and its friction value.
+    /// Returns the body of a solid of an object in the rules of contacts, and its friction value.
     pub fn surface(&self, plate: usize, slab: usize) -> (Body, f64) {
         let solid = self.solid(plate, slab);
         let own = self.physics.frictions.get(solid).copied();
         (Body::Object(solid), own.unwrap_or(self.plates[plate].friction))
     }
 
-    /// Returns where the mass of an object lies.
+    /// Returns the mass distribution of an object.
     pub fn weight(&self, plate: usize) -> Weight {
         let (own, masses) = (&self.plates[plate], &self.physics.masses);
         let masses: Option<Vec<f64>> =
@@ -75,7 +75,7 @@ impl Scenery {
         masses.map_or_else(|| own.weight(), |masses| own.weight_of(&masses))
     }
 
-    /// Returns the points that an object stands on, in its frame, see [`stands_on`].
+    /// Returns the points on which an object stands, in its frame, see [`stands_on`].
     pub fn stands_on(&self, plate: usize) -> Option<Vec<Vector>> {
         if plate < self.scene.objects.len() {
             return stands_on(&self.scene, plate, &self.physics);

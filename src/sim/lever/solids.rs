@@ -8,17 +8,18 @@ use crate::scene::{Blade, Slab, Weight};
 
 use super::super::solids::{CLEAR, FOOT as SUPPORT, TABLE_DEPTH, Top, cut, prism, rubbing};
 
-/// Half the width of the table, metres, and half its thickness.
+/// Half the width of the table, and half its thickness, metres.
 const TABLE: (f64, f64) = (2.0, 0.25);
 
-/// Largest radius of a foot, metres. From 0.5 to 2 mm it makes no difference.
+/// Maximum radius of a foot, metres. Radii from 0.5 to 2 mm give equal results.
 const FOOT: f64 = 1e-3;
 
-/// Outlines of more corners are cut about their middle: from a corner they give needles.
+/// Number of corners above which outlines are divided about their centre; a division from a corner
+/// would give needles.
 const MANY: usize = 12;
 
-/// The table with its top at z = 0. On a half-space parry looks at four corners of a face, which
-/// need not be those that carry.
+/// Returns the table with its top at z = 0. On a half-space parry uses only four corners of a face,
+/// which may not be the supporting ones.
 pub(super) fn table(friction: f64, top: Option<Top>) -> ColliderBuilder {
     if let Some((pose, [x, y])) = top {
         return cuboid([x, y, TABLE_DEPTH], friction).position(pose);
@@ -28,18 +29,18 @@ pub(super) fn table(friction: f64, top: Option<Top>) -> ColliderBuilder {
         .translation(Vector::new(0.0, 0.0, -depth))
 }
 
-/// The blade about its centre.
+/// Returns the blade about its centre.
 pub(super) fn blade(blade: &Blade) -> ColliderBuilder {
     cuboid([blade.length, blade.width, blade.thickness], blade.friction)
 }
 
-/// A cuboid of these extents, metres, about its centre.
+/// Returns a cuboid with these extents, metres, about its centre.
 pub(super) fn cuboid(size: [f64; 3], friction: f64) -> ColliderBuilder {
     let [x, y, z] = size.map(|extent| 0.5 * extent);
     rubbing(ColliderBuilder::cuboid(x, y, z), friction)
 }
 
-/// Mass and inertia of a plate in its frame.
+/// Returns mass and inertia of a plate in its frame.
 pub(super) fn weight(weight: &Weight) -> MassProperties {
     let [xx, yy, zz, xy, xz, yz] = weight.inertia;
     let inertia = Matrix::from_cols(
@@ -51,7 +52,7 @@ pub(super) fn weight(weight: &Weight) -> MassProperties {
     MassProperties::with_inertia_matrix(Vector::new(x, y, z), weight.mass, inertia)
 }
 
-/// The solids of a slab in the frame of its plate.
+/// Returns the solids of a slab in the frame of its plate.
 pub(super) fn slab_parts(slab: &Slab, friction: f64) -> Vec<ColliderBuilder> {
     let middle = slab.bottom + 0.5 * slab.height;
     if let Some((centre, turn, [x, y])) = slab.rectangle() {
@@ -66,7 +67,7 @@ pub(super) fn slab_parts(slab: &Slab, friction: f64) -> Vec<ColliderBuilder> {
     parts(&slab.corners).into_iter().map(part).collect()
 }
 
-/// A convex polygon cut into parts that meet in its middle.
+/// Divides a convex polygon into parts that meet in its centre.
 fn kites(corners: &[Planar]) -> Vec<Vec<Planar>> {
     let count = corners.len();
     let middle = corners.iter().sum::<Planar>() / count as f64;
@@ -77,8 +78,8 @@ fn kites(corners: &[Planar]) -> Vec<Vec<Planar>> {
     (0..count).step_by(2).map(kite).collect()
 }
 
-/// Balls on which a plate stands at these points of its frame, `height` metres below it. What lies on the
-/// table stands on a stated support all the same, see [`clear`].
+/// Returns balls on which a plate stands at these points of its frame, `height` metres below it. A
+/// plate on the table also stands on a stated support, see [`clear`].
 pub(super) fn feet(points: &[Planar], height: f64, friction: f64) -> Vec<ColliderBuilder> {
     let radius = if height > 0.0 { FOOT.min(0.5 * height) } else { SUPPORT };
     let foot = |at: &Planar| {
@@ -88,7 +89,7 @@ pub(super) fn feet(points: &[Planar], height: f64, friction: f64) -> Vec<Collide
     points.iter().map(foot).collect()
 }
 
-/// The slab without what lies just above the table.
+/// Returns the slab without its part just above the table.
 pub(super) fn clear(slab: &Slab) -> Slab {
     let Slab { corners, bottom, height } = slab.clone();
     Slab { corners, bottom: bottom + CLEAR, height: height - CLEAR }

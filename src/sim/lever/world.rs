@@ -1,4 +1,4 @@
-//! A scene in space in rapier.
+//! A spatial scene in rapier.
 
 use std::sync::Arc;
 
@@ -33,28 +33,29 @@ const TABLE: u128 = u128::MAX;
 /// Distance below its start at which an object has left the table, metres.
 const FALLEN: f64 = 0.1;
 
-/// A plate this near to the blade lies on it, metres; contacts flicker by less.
+/// Distance below which a plate lies on the blade, metres; contacts flicker by less.
 const NEAR: f64 = 5e-4;
 
 /// Contact spring: natural frequency (Hz) and damping ratio.
 ///
-/// With rapier's own (30 Hz, 5) a plate on three feet sags by 0.6 to 0.9 mm, which takes tenths of a
-/// second and other ones at every rate, so runs at 1/240 and 1/1920 s are twice as far apart. Stiffer
-/// springs throw boards that stand on edge in a drive.
+/// A plate on three feet sags by 0.6 to 0.9 mm with rapier's default (30 Hz, 5). This takes tenths
+/// of a second, and other times at every rate, so runs at 1/240 and 1/1920 s are twice as far
+/// apart. Stiffer springs throw boards that stand on edge in a drive.
 const CONTACT: (f64, f64) = (100.0, 5.0);
 
-/// Objects, obstacles, table and blade.
+/// A world with objects, obstacles, table and blade.
 pub(super) struct LeverWorld {
     world: PhysicsWorld,
     scenery: Arc<Scenery>,
-    /// Bodies that the `user_data` of colliders stand for.
+    /// Bodies of colliders, by their `user_data`.
     labels: Vec<Body>,
     seams: Seams,
-    /// Where rapier's origin lies on the table: a scene far from the world's loses no digits.
+    /// Rapier's origin on the table, so that a scene far from the world's origin loses no
+    /// precision.
     origin: Vector,
-    /// What levers, with its solid: laid aside it stays where it is and meets nothing.
+    /// Blade with its solid; laid aside, it keeps its pose and collides with nothing.
     blade: Option<(RigidBodyHandle, ColliderHandle)>,
-    /// What pushes, while it is down.
+    /// Pushing tool, while it is down.
     tool: Option<RigidBodyHandle>,
     plates: Vec<RigidBodyHandle>,
     /// Largest distance of a plate's points from its centre of mass, metres.
@@ -62,8 +63,8 @@ pub(super) struct LeverWorld {
 }
 
 impl LeverWorld {
-    /// Everything at the start about `origin`, with a blade whose centre is at a pose, if one is there from
-    /// the beginning; steps last `step` seconds.
+    /// Creates the world at the start about `origin`. `blade` is the blade that is present from the
+    /// beginning, with the pose of its centre; steps last `step` seconds.
     pub fn new(
         scenery: &Arc<Scenery>,
         origin: Vector,
@@ -100,7 +101,7 @@ impl LeverWorld {
         this
     }
 
-    /// Lets pairs rub as is stated of them.
+    /// Applies the frictions stated for pairs.
     fn rub(&mut self) {
         let pairs = &self.scenery.physics.pairs;
         if pairs.is_empty() {
@@ -126,12 +127,12 @@ impl LeverWorld {
         self.world.insert_collider(collider, body)
     }
 
-    /// Lets steps last so long from now on, seconds.
+    /// Sets the duration of later steps, seconds.
     pub fn set_step(&mut self, step: f64) {
         self.world.integration_parameters.dt = step;
     }
 
-    /// One step, in which the blade moves to this pose, if there is one.
+    /// Advances by one step, in which the blade, if present, moves to this pose.
     pub fn step(&mut self, blade: Option<&Pose3>) {
         if let (Some((handle, _)), Some(pose)) = (self.blade, blade) {
             let body = &mut self.world.bodies[handle];
@@ -145,7 +146,7 @@ impl LeverWorld {
         }
     }
 
-    /// Takes out what has fallen off the table: it stays where it is.
+    /// Disables objects that have fallen off the table; they keep their poses.
     fn leave_fallen(&mut self) {
         for (handle, start) in self.plates.iter().zip(&self.scenery.starts) {
             let body = &mut self.world.bodies[*handle];
@@ -157,12 +158,12 @@ impl LeverWorld {
         }
     }
 
-    /// Returns `true` if an object has fallen off a table that ends.
+    /// Returns `true` if an object has fallen off a finite table.
     pub fn has_fallen(&self, index: usize) -> bool {
         !self.world.bodies[self.plates[index]].is_enabled()
     }
 
-    /// Takes up a blade with its centre at `at`, in place of the one before.
+    /// Takes up a blade with its centre at `at`, in place of the previous one.
     pub fn take_up(&mut self, blade: &Blade, at: &Pose3) {
         let at = to_rapier(at, self.origin);
         let body = RigidBodyBuilder::kinematic_position_based().pose(at).can_sleep(false);
@@ -172,23 +173,24 @@ impl LeverWorld {
         self.rub();
     }
 
-    /// Lays the blade aside, where it meets nothing any more.
+    /// Lays the blade aside, where it collides with nothing.
     pub fn lay_aside(&mut self) {
         if let Some((_, solid)) = self.blade {
             self.world.colliders[solid].set_enabled(false);
         }
     }
 
-    /// Whether a blade is there and not laid aside.
+    /// Returns `true` if a blade is present and not laid aside.
     pub fn has_blade(&self) -> bool {
         self.blade.is_some_and(|(_, solid)| self.world.colliders[solid].is_enabled())
     }
 
-    /// Sets a tool down with its frame at `at`; the index of a plate that it comes down on.
+    /// Sets a tool down with its frame at `at`; returns the index of a plate below it, if any.
     pub fn set_down(&mut self, motion: &ToolMotion, at: &Pose) -> Option<usize> {
         let pose = to_rapier(&Pose3::upright(*at, motion.lift), self.origin);
         let body = RigidBodyBuilder::kinematic_velocity_based().pose(pose).can_sleep(false);
-        // rapier's velocity is that of the centre of mass, so all of it lies in the tool frame.
+        // rapier's velocity refers to the centre of mass, which therefore is at the tool frame's
+        // origin.
         let mass = MassProperties::new(RapierVector::ZERO, 1.0, RapierVector::ONE);
         let tool = self.world.insert_body(body.additional_mass_properties(mass));
         self.tool = Some(tool);
@@ -207,7 +209,7 @@ impl LeverWorld {
         self.world.bodies[tool].colliders().iter().find_map(down)
     }
 
-    /// Whether a part of a tool is deeper inside a plate than touching is.
+    /// Returns `true` if a part of a tool is deeper inside a plate than a touch.
     fn overlaps(&self, plate: RigidBodyHandle, (at, part): &(RapierPose, &Collider)) -> bool {
         self.world.bodies[plate].colliders().iter().any(|handle| {
             let own = &self.world.colliders[*handle];
@@ -216,7 +218,7 @@ impl LeverWorld {
         })
     }
 
-    /// Lets the tool that is down begin a stroke.
+    /// Begins a stroke with the tool that is down.
     pub fn drive(&mut self, stroke: &Stroke) {
         let Some(tool) = self.tool else { return };
         let velocity = (stroke.to.position - stroke.from.position) / stroke.duration;
@@ -233,17 +235,17 @@ impl LeverWorld {
         }
     }
 
-    /// The frame of a plate.
+    /// Returns the frame of a plate.
     pub fn plate(&self, index: usize) -> Pose3 {
         from_rapier(self.world.bodies[self.plates[index]].position(), self.origin)
     }
 
-    /// The frames of all plates.
+    /// Returns the frames of all plates.
     pub fn plates(&self) -> Vec<Pose3> {
         (0..self.plates.len()).map(|index| self.plate(index)).collect()
     }
 
-    /// Speed of the fastest point of any plate, m/s.
+    /// Returns the speed of the fastest point of any plate, m/s.
     pub fn speed(&self) -> f64 {
         let speed = |(handle, reach): (&RigidBodyHandle, &f64)| {
             let body = &self.world.bodies[*handle];
@@ -252,7 +254,7 @@ impl LeverWorld {
         self.plates.iter().zip(&self.reaches).map(speed).fold(0.0, f64::max)
     }
 
-    /// Whether a plate touches the blade.
+    /// Returns `true` if a plate touches the blade.
     pub fn is_held(&self, index: usize) -> bool {
         let plate = self.plates[index];
         let touches = |pair: &ContactPair| {
@@ -262,8 +264,8 @@ impl LeverWorld {
         self.on_blade().any(|(other, _, pair)| other == plate && touches(pair))
     }
 
-    /// Force on the blade, or on the tool that is down, of the plates that `of` holds of, during the last
-    /// step, newtons.
+    /// Returns the force of the plates that `of` selects on the blade or the pushing tool during
+    /// the last step, newtons.
     pub fn force_on_tool(&self, of: &dyn Fn(usize) -> bool) -> f64 {
         let is_of = |(body, ..): &(RigidBodyHandle, f64, &ContactPair)| {
             let plate = self.plates.iter().position(|plate| plate == body);
@@ -276,7 +278,7 @@ impl LeverWorld {
         blade.max(self.force(parts.filter(is_of)))
     }
 
-    /// Sum of the contact forces of the last step, newtons.
+    /// Returns the sum of the contact forces of the last step, newtons.
     fn force<'a>(
         &self,
         contacts: impl Iterator<Item = (RigidBodyHandle, f64, &'a ContactPair)>,
@@ -291,12 +293,13 @@ impl LeverWorld {
         force(impulse.length(), settings.dt, settings.num_solver_iterations)
     }
 
-    /// Contacts of the blade, see [`LeverWorld::on`].
+    /// Returns the contacts of the blade, see [`LeverWorld::on`].
     fn on_blade(&self) -> impl Iterator<Item = (RigidBodyHandle, f64, &ContactPair)> {
         self.blade.into_iter().flat_map(|(_, solid)| self.on(solid))
     }
 
-    /// Contacts of a solid: with which body, and whether their normals point into it (1) or out.
+    /// Returns the contacts of a solid: the other body, and the sign of normals that point into the
+    /// solid (1) or out of it (-1).
     fn on(
         &self,
         solid: ColliderHandle,
@@ -349,7 +352,7 @@ impl LeverWorld {
         }
     }
 
-    /// Adds all joints of the scene; the frame is rapier's on the table.
+    /// Adds all joints of the scene; `frame` is rapier's frame on the table.
     fn join(&mut self, frame: &Pose) {
         let (scene, physics) = (&self.scenery.scene, &self.scenery.physics);
         let on = |k: usize| {

@@ -11,7 +11,7 @@ use super::{PlanarWorld, to_rapier};
 impl PlanarWorld {
     pub(super) fn add_joints(&mut self, scene: &Scene, physics: &Physics) {
         let form = |kind: &JointKind| match kind {
-            // Its objects are one body.
+            // The joined objects are one body.
             JointKind::Fixed => None,
             JointKind::Revolute { .. } => {
                 Some((JointAxesMask::LOCKED_REVOLUTE_AXES, JointAxis::AngX))
@@ -30,7 +30,8 @@ impl PlanarWorld {
                     Vector::zeros(),
                 ))
                 .local_frame2(to_rapier(&(second.local * at_second), Vector::zeros()));
-            // The frames coincide where the scene states its objects, so zero is there, or before it.
+            // The frames coincide at the stated poses of the objects, so the zero is there or
+            // before it.
             if let Some(limits) = within(&joint.kind) {
                 built = built.limits(free, limits.map(|limit| limit as Real));
             }

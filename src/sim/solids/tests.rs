@@ -24,7 +24,7 @@ fn a_prism_is_cut_into_slabs_that_hold_all_of_it() {
     }
 }
 
-/// On four corners of its underside alone it would lean by tens of degrees.
+/// A prism on only four corners of its underside would lean by tens of degrees.
 #[test]
 fn a_prism_of_eight_corners_without_feet_stands_on_its_underside() {
     let shape = octagon();
@@ -42,7 +42,7 @@ fn a_prism_of_eight_corners_without_feet_stands_on_its_underside() {
         let body = &world.bodies[body];
         let up = *body.rotation() * Vector::Z;
         assert!(up.z > 0.5f64.to_radians().cos(), "{lean}: {up}");
-        // rapier lets bodies sink by a millimetre unless told otherwise.
+        // rapier lets bodies sink by a millimetre by default.
         assert!((body.translation().z - 0.03).abs() < 2e-3, "{lean}: {}", body.translation());
     }
 }

@@ -13,7 +13,7 @@ use crate::sim::stops::{within, zero};
 
 use super::place::{LOCAL, to_rapier};
 
-/// An object on its body.
+/// An object as an anchor of joints on its body.
 pub(in crate::sim) struct Anchored {
     pub body: RigidBodyHandle,
     /// The object's pose in the body's frame.
@@ -29,8 +29,8 @@ impl Anchored {
     }
 }
 
-/// Adds all joints of a scene between the bodies of its objects, and to the world. Fixed joints inside one
-/// body hold already.
+/// Adds all joints of a scene between the bodies of its objects, and to the world. Fixed joints
+/// inside a body need none.
 pub(in crate::sim) fn add_joints(
     world: &mut PhysicsWorld,
     scene: &Scene,
@@ -47,7 +47,7 @@ pub(in crate::sim) fn add_joints(
         let mut built = GenericJointBuilder::new(axes)
             .local_frame1(first.frame(at_first * zero(&joint.kind), axis))
             .local_frame2(second.frame(at_second, axis));
-        // The frames coincide where the scene states its objects, so zero is there.
+        // The frames coincide at the stated poses of the objects, which therefore are the zero.
         if let Some(limits) = within(&joint.kind) {
             built = built.limits(free, limits);
         }
@@ -56,7 +56,8 @@ pub(in crate::sim) fn add_joints(
     for mount in scene.mounts.iter().filter(|mount| mount.kind != JointKind::Fixed) {
         let (axes, free, axis) = form(&mount.kind);
         let object = &objects[mount.object];
-        // It stands on the table all the same, and rubs.
+        // The vertical direction stays free, so that the object rests on the table and has
+        // friction.
         let upwards = match mount.kind {
             JointKind::Prismatic { .. } => JointAxesMask::LIN_Z,
             _ => JointAxesMask::LIN_X,
@@ -74,7 +75,7 @@ pub(in crate::sim) fn add_joints(
     }
 }
 
-/// Returns the axes that a joint locks, the one that it leaves free, and the turn of its frame.
+/// Returns the axes that a joint locks, the free axis, and the rotation of its frame.
 fn form(kind: &JointKind) -> (JointAxesMask, JointAxis, Rotation) {
     match kind {
         JointKind::Fixed => (JointAxesMask::LOCKED_FIXED_AXES, JointAxis::LinX, Rotation::IDENTITY),
@@ -82,7 +83,7 @@ fn form(kind: &JointKind) -> (JointAxesMask, JointAxis, Rotation) {
             (JointAxesMask::LOCKED_PRISMATIC_AXES, JointAxis::LinX, Rotation::IDENTITY)
         }
         JointKind::Revolute { .. } => {
-            // rapier turns about the frame's x axis; this makes it the vertical.
+            // rapier's axis is the frame's x axis; this rotation makes it vertical.
             let upright = Rotation::from_rotation_y(-FRAC_PI_2);
             (JointAxesMask::LOCKED_REVOLUTE_AXES, JointAxis::AngX, upright)
         }

@@ -1,5 +1,5 @@
-//! Where things are to rapier: its friction acts along the axes of its frame, so that frame is the push's
-//! own. A turned scene then gives a turned answer.
+//! Poses in rapier's frame. rapier's friction acts along the axes of its frame, so the frame
+//! follows the push; a rotated scene then gives a rotated result.
 
 use rapier3d_f64::prelude::{Pose3, Rotation, Vector as RapierVector};
 
@@ -12,11 +12,12 @@ use crate::{
 use super::super::parameters::centre;
 use super::super::solids::{TABLE_DEPTH, Top};
 
-/// For what is placed in the frame of a body.
+/// The frame of poses that are given relative to a body.
 pub const LOCAL: Pose = Pose { position: Vector::new(0.0, 0.0), heading: 0.0 };
 
-/// Rapier's frame: among the objects, so that a scene far from the world's origin loses no digits, its
-/// x axis along the stroke that begins with the tool at `tool`.
+/// Returns rapier's frame: its origin is among the objects, so that a scene far from the world's
+/// origin loses no precision. Its x axis points along the stroke that begins with the tool at
+/// `tool`.
 pub fn frame_of(state: &State, motion: &ToolMotion, tool: &Pose) -> Pose {
     let begins = |stroke: &&Stroke| stroke.from == *tool;
     let stroke = motion.strokes.iter().find(begins).or(motion.strokes.first());
@@ -27,21 +28,21 @@ pub fn frame_of(state: &State, motion: &ToolMotion, tool: &Pose) -> Pose {
     }
 }
 
-/// A pose in `frame`, at a height.
+/// Returns a pose in `frame`, at a height.
 pub fn to_rapier(pose: &Pose, frame: &Pose, height: f64) -> Pose3 {
     let Pose { position, heading } = frame.inverse() * *pose;
     let translation = RapierVector::new(position.x, position.y, height);
     Pose3::from_parts(translation, Rotation::from_rotation_z(heading))
 }
 
-/// Where the table ends for what may fall off it.
+/// Returns the extent of the table for objects that may fall off it.
 pub fn brink(scene: &Scene, frame: &Pose) -> Option<Top> {
     let top = scene.brink()?;
     let middle = Pose { position: top.middle, heading: 0.0 };
     Some((to_rapier(&middle, frame, -0.5 * TABLE_DEPTH), top.size))
 }
 
-/// Turn about the vertical, radians.
+/// Returns the rotation about the vertical, radians.
 pub fn yaw(rotation: &Rotation) -> f64 {
     let (x, y, z, w) = (rotation.x, rotation.y, rotation.z, rotation.w);
     (2.0 * (w * z + x * y)).atan2(1.0 - 2.0 * (y * y + z * z))

@@ -9,34 +9,34 @@ use super::check::name;
 use super::words::{millimetres, point};
 use super::{Check, Demand, End, Kind, Mark, Quantity, less};
 
-/// Search and refinement aim at points at least this far inside, metres, or half-way to the middle of
-/// what is narrower: simulations differ by millimetres.
+/// Depth of the targets of search and refinement inside of an area, metres, but at most half-way to
+/// the middle of a narrow area. Simulations differ by millimetres.
 const INSIDE: f64 = 0.02;
 
-/// Where the centre of an object may lie.
+/// An area for the centre of an object.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Area {
-    /// Its outline is that of this solid; the height does not matter.
+    /// Solid with the area's outline; its height does not matter.
     pub shape: Shape,
-    /// Where it is, in the world or in the frame of what the goal is relative to.
+    /// Pose, in the world or in the frame to which the goal is relative.
     pub pose: Pose,
 }
 
 impl Area {
-    /// How far inside of its rim everything is that is aimed at, metres.
+    /// Returns the depth of target points inside of the rim, metres.
     pub fn depth(&self) -> f64 {
         INSIDE.min(0.5 * self.shape.footprint().inner_radius())
     }
 
-    /// Whether a point lies in it.
+    /// Returns `true` if a point is in it.
     pub fn holds(&self, point: Vector) -> bool {
         let at = Pose { position: point, heading: 0.0 };
         let dot = Footprint::Disc { radius: 0.0 };
         clearance((&dot, &at), (&self.shape.footprint(), &self.pose), 1e-3) <= 0.0
     }
 
-    /// Its corners, counter-clockwise; of a circle as many points of its rim, as tell it from a polygon
-    /// by less than a thousandth.
+    /// Returns its corners, counter-clockwise. A circle becomes a polygon that deviates by less
+    /// than a thousandth of its radius.
     pub fn corners(&self) -> Vec<Vector> {
         const ROUND: usize = 64;
         let own = match self.shape.footprint() {
@@ -54,7 +54,7 @@ impl Area {
         own.into_iter().map(|corner| self.pose.point(corner)).collect()
     }
 
-    /// The point nearest to `point` of what lies [deep enough](Self::depth) inside.
+    /// Returns the nearest point to `point` that is [deep enough](Self::depth) inside.
     pub fn nearest(&self, point: Vector) -> Vector {
         let at = Pose { position: point, heading: 0.0 };
         let dot = Footprint::Disc { radius: 0.0 };
@@ -66,7 +66,8 @@ impl Area {
         }
     }
 
-    /// The same smaller by `margin` metres on every side, or by half of what there is.
+    /// Returns the area smaller by `margin` metres on every side, or by half of its extent if that
+    /// is less.
     pub fn shrunk(self, margin: f64) -> Self {
         self.of(self.shape.footprint().shrunk(margin))
     }
@@ -88,7 +89,7 @@ impl Area {
         Self { shape, ..self }
     }
 
-    /// Returns its outline and its middle in words.
+    /// Returns its outline and its centre in words.
     pub(super) fn words(&self) -> String {
         let outline = match self.shape.footprint() {
             Footprint::Disc { radius } => format!("a circle of {}", millimetres(radius)),
@@ -101,7 +102,7 @@ impl Area {
         format!("{outline} about {}", point(self.pose.position))
     }
 
-    /// Its outline as a solid of this height, metres.
+    /// Returns its outline as a solid of this height, metres.
     pub fn flat(&self, height: f64) -> Shape {
         match self.shape {
             Shape::Cylinder { radius, .. } => Shape::Cylinder { radius, height },
@@ -110,13 +111,13 @@ impl Area {
         }
     }
 
-    /// The same moved by `shift`, metres.
+    /// Moves the area by `shift`, metres.
     pub fn shifted(self, shift: Vector) -> Self {
         let pose = Pose { position: self.pose.position + shift, ..self.pose };
         Self { pose, ..self }
     }
 
-    /// The same seen from where `frame` stands.
+    /// Returns the area in the frame in which `frame` is given.
     pub fn seen_from(self, frame: &Pose) -> Self {
         Self { pose: *frame * self.pose, ..self }
     }
@@ -127,15 +128,15 @@ impl Area {
 pub struct InArea {
     /// The area.
     pub area: Area,
-    /// Error from the points that are aimed at, deep enough inside, that still counts as success, metres.
+    /// Maximum distance from the nearest target point, [deep enough](Area::depth) inside, metres.
     pub tolerance: f64,
-    /// Index of the object in whose frame the area is; the world's by default.
+    /// Index of the object in whose frame the area is; `None` for the world.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub relative: Option<usize>,
 }
 
 impl InArea {
-    /// An area in the world.
+    /// Creates a demand with an area in the world.
     pub fn new(area: Area) -> Self {
         Self { area, tolerance: area.depth(), relative: None }
     }

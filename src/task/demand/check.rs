@@ -1,29 +1,29 @@
-//! Checks of demands, as plain data: who plays an exported scene judges it without knowing the kinds of
-//! demands.
+//! Checks of demands as plain data, so that other programs can judge an exported scene without the
+//! kinds of demands.
 
 use serde::Serialize;
 
 use crate::geometry::Vector;
 use crate::scene::Scene;
 
-/// A condition on the poses in which everything rests.
+/// A condition on the poses at rest.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Check {
-    /// A quantity lies within limits, both included.
+    /// A quantity within limits, both included.
     Within {
         /// The quantity.
         quantity: Quantity,
-        /// Its smallest value.
+        /// Smallest value.
         #[serde(skip_serializing_if = "Option::is_none")]
         low: Option<f64>,
-        /// Its largest value.
+        /// Largest value.
         #[serde(skip_serializing_if = "Option::is_none")]
         high: Option<f64>,
     },
-    /// Some of several checks hold.
+    /// A minimum number of satisfied checks.
     AtLeast {
-        /// Number of checks that hold.
+        /// Minimum number of satisfied checks.
         count: usize,
         /// The checks.
         of: Vec<Check>,
@@ -33,8 +33,8 @@ pub enum Check {
 /// Corners of convex polygons, metres.
 type Polygons = Vec<Vec<Vector>>;
 
-/// A number that poses give. Objects are named; poses are those in the world, or in the `frame` of another
-/// object.
+/// A quantity that follows from poses. Objects are identified by their names; poses are in the
+/// world, or in the `frame` of another object.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
@@ -48,7 +48,7 @@ pub enum Quantity {
         /// The point, metres.
         to: Vector,
     },
-    /// Turn from the nearest heading that looks the same, radians.
+    /// Rotation from the nearest equivalent heading, radians.
     Turn {
         /// The object.
         object: String,
@@ -57,9 +57,9 @@ pub enum Quantity {
         frame: Option<String>,
         /// The heading, radians.
         heading: f64,
-        /// Number of headings in a full turn that look the same.
+        /// Number of equivalent headings in a full turn.
         symmetry: usize,
-        /// Middle of the headings that a joint's limits allow, radians.
+        /// Middle of the headings within a joint's limits, radians.
         #[serde(skip_serializing_if = "Option::is_none")]
         middle: Option<f64>,
     },
@@ -79,13 +79,13 @@ pub enum Quantity {
         object: String,
         /// Its outlines in its own frame.
         own: Polygons,
-        /// The other object; none where the others stand in the world.
+        /// The other object; `None` if the other outlines are in the world.
         #[serde(skip_serializing_if = "Option::is_none")]
         other: Option<String>,
         /// The outlines of the other body in its frame.
         others: Polygons,
     },
-    /// Share of its outline at a pose that an object covers.
+    /// Share of an object's outline at a pose that the object covers.
     Covered {
         /// The object.
         object: String,
@@ -103,7 +103,7 @@ pub enum Quantity {
         object: String,
         /// Its centre of mass in its own frame, metres.
         centre: Vector,
-        /// The way out over each edge, x and y, and the distance of the edge along it.
+        /// Outward direction over each edge, x and y, and the distance of the edge along it.
         edges: Vec<[f64; 3]>,
         /// Part of the edge, x or y in metres.
         #[serde(skip_serializing_if = "Option::is_none")]
@@ -114,7 +114,7 @@ pub enum Quantity {
         /// The object.
         object: String,
     },
-    /// Angle between an object's upper side and straight up, radians.
+    /// Angle between an object's upper side and the vertical, radians.
     Tilt {
         /// The object.
         object: String,
@@ -122,18 +122,18 @@ pub enum Quantity {
 }
 
 impl Check {
-    /// A quantity of at least `low`.
+    /// Creates a check for a quantity of at least `low`.
     pub(super) fn from(quantity: Quantity, low: f64) -> Self {
         Self::Within { quantity, low: Some(low), high: None }
     }
 
-    /// A quantity of at most `high`.
+    /// Creates a check for a quantity of at most `high`.
     pub(super) fn up_to(quantity: Quantity, high: f64) -> Self {
         Self::Within { quantity, low: None, high: Some(high) }
     }
 }
 
-/// Returns the name of an object, which checks state.
+/// Returns the name of an object, as used in checks.
 pub(super) fn name(object: usize, scene: &Scene) -> String {
     scene.objects.get(object).map_or_else(String::new, |object| object.name.clone())
 }

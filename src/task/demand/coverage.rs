@@ -1,9 +1,10 @@
 //! Demand: an object covers a share of its own outline at a pose, as in Push-T.
 //!
-//! Search and refinement go by tolerances of place and heading of which each alone loses half of what may
-//! be missing.
+//! Search and refinement use tolerances of position and heading, each of which alone loses half of
+//! the allowed loss of coverage.
 //!
-//! Outlines are polygons. A disc is one of 64 corners, by which a share is off by less than 0.001.
+//! Outlines are polygons. A disc is approximated by 64 corners, which changes a share by less than
+//! 0.001.
 
 use std::f64::consts::{PI, TAU};
 
@@ -17,31 +18,31 @@ use super::check::name;
 use super::words::{degrees, point};
 use super::{Area, AtPlace, Check, Demand, End, Facing, Kind, Mark, Quantity, less};
 
-/// Directions in which an object is shifted to find how far it may be off.
+/// Number of directions in which an object is shifted to determine its tolerance.
 const DIRECTIONS: usize = 16;
 
-/// How often an interval is halved: to a millionth of it.
+/// Number of bisections, to a millionth of the interval.
 const HALVINGS: usize = 20;
 
-/// An outline that loses no more of itself when it is turned, whatever the turn, is round.
+/// Largest loss of coverage by any rotation of an outline that counts as round.
 const ROUND: f64 = 0.002;
 
-/// What share of an outline is to be covered.
+/// A minimum share of an outline that must be covered.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Coverage {
-    /// The smallest share of its area, 0 to 1.
+    /// Minimum share of the area, 0 to 1.
     pub share: f64,
-    /// The outline with all parts in the object's frame: convex polygons that share no area, metres.
+    /// Outline with all parts in the object's frame: convex polygons that share no area, metres.
     pieces: Vec<Vec<Vector>>,
-    /// Place of the wanted outline, with a tolerance for search.
+    /// Position of the wanted outline, with a tolerance for search.
     pub place: AtPlace,
-    /// Heading of the wanted outline, with a tolerance for search; none of what is round.
+    /// Heading of the wanted outline, with a tolerance for search; `None` for round outlines.
     pub facing: Option<Facing>,
 }
 
 impl Coverage {
-    /// The demand that object `object` with all its parts covers a share of its outline at `pose`; `None`
-    /// where it does not exist in `scene`.
+    /// Demands that object `object` with all its parts covers a share of its outline at `pose`;
+    /// `None` if the object does not exist in `scene`.
     pub fn of(scene: &Scene, object: usize, pose: Pose, share: f64) -> Option<Box<Self>> {
         let mut pieces: Vec<Vec<Vector>> = Vec::new();
         for (shape, pose) in scene.solids(object)? {
@@ -59,18 +60,18 @@ impl Coverage {
         Some(Box::new(coverage))
     }
 
-    /// Heading of the wanted outline in its own frame, radians.
+    /// Returns the heading of the wanted outline in its own frame, radians.
     pub fn heading(&self) -> f64 {
         self.facing.as_ref().map_or(0.0, |facing| facing.heading)
     }
 
-    /// The outline where the object is at `pose`: convex polygons that share no area, metres.
+    /// Returns the outline of the object at `pose`: convex polygons that share no area, metres.
     pub fn outline(&self, pose: &Pose) -> Vec<Vec<Vector>> {
         let turn = |corners: &Vec<Vector>| corners.iter().map(|at| pose.point(*at)).collect();
         self.pieces.iter().map(turn).collect()
     }
 
-    /// The share of the outline at `wanted` that the object covers at `own`.
+    /// Returns the share of the outline at `wanted` that the object covers at `own`.
     pub fn share_of(&self, own: &Pose, wanted: &Pose) -> f64 {
         let own = self.outline(&(wanted.inverse() * *own));
         let common = |piece: &Vec<Vector>| {
@@ -80,8 +81,9 @@ impl Coverage {
         self.pieces.iter().map(common).sum::<f64>() / whole
     }
 
-    /// How far the object may be shifted, metres, or turned about its position, radians, to lose half of
-    /// what may be missing; what is round may be turned as one likes.
+    /// Returns the tolerances of position, metres, and of rotation about the position, radians,
+    /// each of which alone loses half of the allowed loss. Round outlines have no tolerance of
+    /// rotation.
     fn tolerances(&self) -> (f64, Option<f64>) {
         let wanted = Pose::default();
         let enough = 0.5 * (1.0 + self.share);
@@ -130,7 +132,8 @@ impl Kind for Coverage {
         Some(self.place.tolerance)
     }
 
-    /// Returns the larger error of place and heading, but more than 1 exactly where too little is covered.
+    /// Returns the larger score of position and heading, but more than 1 exactly if too little is
+    /// covered.
     fn score(&self, end: &End) -> f64 {
         let place = self.place.score(end);
         let score = self.facing.as_ref().map_or(place, |facing| place.max(facing.score(end)));
@@ -247,7 +250,8 @@ fn percent(share: f64) -> String {
     if value.abs() < 99.5 { format!("{value:.1} %") } else { format!("{value:.0} %") }
 }
 
-/// The largest number up to which something holds, between 0 and `most`, where it no longer does.
+/// Returns by bisection the largest number up to which `holds` is true, between 0 and `most`, at
+/// which it is false.
 fn largest(most: f64, holds: impl Fn(f64) -> bool) -> f64 {
     let (mut low, mut high) = (0.0, most);
     for _ in 0..HALVINGS {
@@ -265,7 +269,7 @@ mod tests {
         task::Goal,
     };
 
-    /// The T of Push-T, its stem running up into the bar.
+    /// The T of Push-T; its stem overlaps the bar.
     fn tee() -> Scene {
         let bar = Object::cuboid("T", [0.12, 0.03, 0.03]).at(0.5, 0.0, 0.0);
         let stem = Object::cuboid("T/stem", [0.03, 0.11, 0.03]);
@@ -291,7 +295,7 @@ mod tests {
         let coverage = Coverage::of(&tee(), 0, Pose::default(), 0.95).expect("it exists");
         let area: f64 = coverage.pieces.iter().map(|piece| area_of(piece)).sum();
         assert!((area - (0.12 * 0.03 + 0.03 * 0.09)).abs() < 1e-9, "{area}");
-        // A shift along the stem leaves the bar's ends and the end of the stem.
+        // A shift along the stem uncovers the bar's ends and the end of the stem.
         let wanted = Pose::new(0.5, 0.1, -2.0);
         let covered = coverage.share_of(&(wanted * Pose::new(0.0, 0.01, 0.0)), &wanted);
         assert!((covered - (1.0 - 0.12 * 0.01 / area)).abs() < 1e-9, "{covered}");
@@ -331,7 +335,7 @@ mod tests {
         assert!(reached > 100 && missed > 100, "{reached} {missed}");
         let Facing { heading, tolerance: within, .. } = *goal.heading().expect("a T has one");
         assert_eq!(heading, 0.6);
-        // Each alone loses half of what may be missing.
+        // Each alone loses half of the allowed loss.
         for own in [Pose::new(goal.tolerance(), 0.0, 0.0), Pose::new(0.0, 0.0, within)] {
             let [Demand::Coverage(coverage)] = &goal.demands[..] else { panic!("one") };
             let covered = coverage.share_of(&own, &Pose::default());

@@ -1,4 +1,4 @@
-//! Demand: an object falls off the table, over any edge or a part of one.
+//! Demand: an object falls off the table, over any edge or a part of an edge.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,17 +11,17 @@ use crate::task::Goal;
 use super::check::name;
 use super::{Check, Demand, End, Kind, Mark, Quantity, less};
 
-/// How far beyond the edge search and refinement aim to bring centres, and from the ends of the part of it
-/// that is asked for, metres: simulations differ by millimetres.
+/// Distance of the targets of search and refinement beyond the edge and from the ends of its
+/// demanded part, metres. Simulations differ by millimetres.
 const BEYOND: f64 = 0.02;
 
-/// An edge of the table, as the robot sees it.
+/// An edge of the table, from the viewpoint of the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Edge {
     /// Ahead, +x.
     Far,
-    /// Behind what stands before the robot, -x.
+    /// Behind objects in front of the robot, -x.
     Near,
     /// +y.
     Left,
@@ -30,10 +30,10 @@ pub enum Edge {
 }
 
 impl Edge {
-    /// All of them.
+    /// Every edge.
     pub const ALL: [Self; 4] = [Self::Far, Self::Near, Self::Left, Self::Right];
 
-    /// What it is called in files.
+    /// Returns its name in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Far => "far",
@@ -43,7 +43,7 @@ impl Edge {
         }
     }
 
-    /// The way off the table over it, of length one.
+    /// Returns the direction off the table over it, a unit vector.
     pub fn outwards(self) -> Vector {
         match self {
             Self::Far => Vector::x(),
@@ -53,37 +53,38 @@ impl Edge {
         }
     }
 
-    /// The way along it, of length one: +x or +y.
+    /// Returns the direction along it, a unit vector: +x or +y.
     pub fn along(self) -> Vector {
         let out = self.outwards();
         Vector::new(out.y.abs(), out.x.abs())
     }
 }
 
-/// What an object is to fall off, and where: its centre of mass is to come beyond an edge.
+/// A demand that an object falls off the table: its centre of mass must come beyond an edge.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fall {
     /// The table.
     pub top: TableTop,
-    /// The edge; any where none is named.
+    /// The edge; `None` for any edge.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub over: Option<Edge>,
-    /// Between which places along that edge, metres of the world's x or y; anywhere where none are named.
+    /// Range along that edge, metres of the world's x or y; `None` for the whole edge.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub between: Option<Span>,
-    /// How far beyond the edge its centre has to come, metres.
+    /// Minimum distance of its centre beyond the edge, metres.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub by: f64,
     /// The centre of mass in the object's frame, metres.
     centre: Vector,
-    /// Error from the places that are aimed at that still counts as success, metres.
+    /// Maximum distance from the nearest target position, metres.
     tolerance: f64,
-    /// Offset of the centre from where it falls: a target of refinement, metres.
+    /// Offset of the centre from its place of falling, a target of refinement, metres.
     shift: Vector,
 }
 
 impl Fall {
-    /// Of object `object`; `None` where it does not exist in `scene`, or the table does not end.
+    /// Demands that object `object` falls; `None` if it does not exist in `scene`, or if the table
+    /// has no edge.
     pub fn of(scene: &Scene, object: usize, over: Option<Edge>) -> Option<Box<Self>> {
         let (top, pose) = (scene.table_top?, scene.objects.get(object)?.pose);
         let centre = pose.local_point(scene.centre(object, &scene.start()));
@@ -91,24 +92,24 @@ impl Fall {
         Some(Box::new(Self { top, over, between: None, by: 0.0, centre, tolerance, shift }))
     }
 
-    /// The same between these places along the edge alone, metres, as where a box stands below it.
+    /// Restricts the fall to this range along the edge, metres, for example above a box.
     pub fn between(self, span: Span) -> Self {
         let fall = Self { between: Some(span), ..self };
         Self { tolerance: fall.depth(), ..fall }
     }
 
-    /// The edges over which it may fall.
+    /// Returns the edges over which it may fall.
     pub fn edges(&self) -> impl Iterator<Item = Edge> + '_ {
         Edge::ALL.into_iter().filter(|edge| self.over.is_none_or(|over| over == *edge))
     }
 
-    /// Where this edge is: how far along its [way off](Edge::outwards), metres.
+    /// Returns the distance of this edge along its [outward direction](Edge::outwards), metres.
     pub fn place(&self, edge: Edge) -> f64 {
         let half = 0.5 * Vector::from(self.top.size);
         edge.outwards().dot(&self.top.middle) + edge.outwards().abs().dot(&half)
     }
 
-    /// The ends of this edge, or of the part of it that is asked for, metres.
+    /// Returns the ends of this edge, or of its demanded part, metres.
     pub fn ends(&self, edge: Edge) -> [Vector; 2] {
         let half = 0.5 * Vector::from(self.top.size);
         let (out, along) = (edge.outwards(), edge.along());
@@ -120,33 +121,33 @@ impl Fall {
         })
     }
 
-    /// The centre of mass of an object at `own`, metres.
+    /// Returns the centre of mass of an object at `own`, metres.
     pub fn centre(&self, own: &Pose) -> Vector {
         own.point(self.centre)
     }
 
-    /// How far a centre is beyond the edge that it is beyond farthest, metres, negative on the table; and
-    /// the way out there.
+    /// Returns the largest distance of a centre beyond an edge, metres, negative on the table, and
+    /// the outward direction over that edge.
     fn beyond(&self, centre: Vector) -> (f64, Vector) {
         let of = |edge: Edge| (edge.outwards().dot(&centre) - self.place(edge), edge.outwards());
         let farther = |a: (f64, Vector), b: (f64, Vector)| if b.0 > a.0 { b } else { a };
         self.edges().map(of).reduce(farther).unwrap_or((f64::NEG_INFINITY, Vector::zeros()))
     }
 
-    /// Whether an object with its centre there falls where it is to.
+    /// Returns `true` if an object with its centre at `centre` falls at a demanded place.
     fn holds(&self, centre: Vector) -> bool {
         self.beyond(centre).0 > self.by && self.aside(centre, 0.0) == Vector::zeros()
     }
 
-    /// From the nearest place that is aimed at to a centre, metres.
+    /// Returns the offset of a centre from the nearest target position, metres.
     fn missing(&self, centre: Vector) -> Vector {
         let (beyond, out) = self.beyond(centre);
         let depth = self.depth();
         (beyond - self.by - depth).min(0.0) * out + self.aside(centre, depth)
     }
 
-    /// From what is this far inside of the part of the edge that is asked for to a centre, metres along the
-    /// edge.
+    /// Returns the offset of a centre, along the edge, from the demanded part of the edge, reduced
+    /// by `inside` at both ends, metres.
     fn aside(&self, centre: Vector, inside: f64) -> Vector {
         let (Some(edge), Some(Span { low, high })) = (self.over, self.between) else {
             return Vector::zeros();
@@ -155,14 +156,14 @@ impl Fall {
         (at - at.max(low + inside).min(high - inside)) * edge.along()
     }
 
-    /// How far beyond what is asked for everything is that is aimed at, metres: of a short part of an edge
-    /// half-way to its middle.
+    /// Returns the distance of target positions beyond the demanded limits, metres; half-way to the
+    /// middle of a short part of an edge.
     pub fn depth(&self) -> f64 {
         self.between.map_or(BEYOND, |span| BEYOND.min(0.25 * span.width()))
     }
 
-    /// The same, by `margin` metres farther out and from the ends of the part of the edge; at least half of
-    /// that is left.
+    /// Returns the demand farther out and farther from the ends of the demanded part by `margin`
+    /// metres; at least half of that part remains.
     fn farther(&self, margin: f64) -> Self {
         let between = self.between.map(|span| {
             let less = margin.min(0.25 * span.width());
@@ -241,7 +242,7 @@ impl Kind for Fall {
 }
 
 impl Scene {
-    /// Lets the goal's object fall, with all its parts, if it is to.
+    /// Lets the goal's object fall, with all its parts, if the goal demands a fall.
     pub fn let_fall(&mut self, goal: &Goal) {
         if !goal.falls() {
             return;
@@ -256,12 +257,13 @@ impl Scene {
         }
     }
 
-    /// Where the table ends for what may fall off it: everything else ends a replay there.
+    /// Returns the table's extent if some object may fall off it; any other object that leaves the
+    /// table ends a replay.
     pub fn brink(&self) -> Option<TableTop> {
         self.table_top.filter(|_| self.objects.iter().any(|object| object.may_fall))
     }
 
-    /// Whether an object, or what it is a part of, may fall and has left the table.
+    /// Returns `true` if an object, or its compound object, may fall and has left the table.
     pub fn has_left(&self, object: usize, state: &State) -> bool {
         let thing = self.thing(object);
         self.objects[thing].may_fall

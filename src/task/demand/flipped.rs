@@ -11,28 +11,28 @@ use crate::scene::Scene;
 use super::check::name;
 use super::{Check, Demand, End, Kind, Quantity};
 
-/// A plate that lies on its underside leans less than this, radians (15 degrees): an edge may lie on
-/// the wall of a pocket. Single plates end within a degree of flat.
+/// Maximum tilt of a plate on its underside, radians (15 degrees): an edge may lie on the wall of a
+/// pocket. Single plates end within a degree of flat.
 const FLAT: f64 = 15.0 * std::f64::consts::PI / 180.0;
 
-/// An upside-down plate leans less than this off the vertical, radians (45 degrees): boards that are
-/// turned out of a drive lie on its wall, 147 to 170 degrees from where they were.
+/// Maximum deviation of an upside-down plate from the vertical, radians (45 degrees). Boards that
+/// are levered out of a drive lie on its wall, 147 to 170 degrees from their start.
 const UPSIDE_DOWN: f64 = 45.0 * std::f64::consts::PI / 180.0;
 
-/// How the levered plate lies when everything rests.
+/// The resting side of a levered plate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Ending {
-    /// On its underside again.
+    /// Underside again.
     Back,
     /// Upside down.
     Flipped,
-    /// Against something, or on edge.
+    /// Against another body, or on edge.
     Leaning,
 }
 
 impl Ending {
-    /// How a plate lies at rest in this pose.
+    /// Returns the side on which a plate lies at rest in this pose.
     pub fn of(rest: &Pose3) -> Self {
         let tilt = rest.tilt();
         if tilt < FLAT {
@@ -55,15 +55,16 @@ impl fmt::Display for Ending {
     }
 }
 
-/// The side on which an object must come to rest.
+/// A demand on the resting side of an object.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Flipped {
-    /// Upside down, or on its underside.
+    /// Whether it must be upside down; otherwise it must be on its underside.
     pub flipped: bool,
 }
 
 impl End<'_> {
-    /// Returns the tilt of the object, radians, and the side on which it lies: in the plane on its underside.
+    /// Returns the tilt of the object, radians, and the side on which it lies; its underside in
+    /// planar states.
     pub fn side(&self) -> (f64, Ending) {
         let space = self.state.space.as_ref().and_then(|poses| poses.get(self.object));
         space.map_or((0.0, Ending::Back), |pose| (pose.tilt(), Ending::of(pose)))

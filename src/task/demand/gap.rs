@@ -1,4 +1,4 @@
-//! Demand: a gap between two objects, seen from above: touching, beside each other, clear of each other.
+//! Demand: a gap between two bodies, seen from above: touching, side by side, or apart.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,31 +10,31 @@ use super::check::name;
 use super::words::millimetres;
 use super::{Area, Check, Demand, End, Kind, Mark, Quantity, anywhere, less};
 
-/// Search and refinement aim at gaps this far inside of what is allowed, metres, or at the middle of what
-/// is narrower: simulations differ by millimetres.
+/// Distance of target gaps of search and refinement inside of the limits, metres, but at most the
+/// middle between narrow limits. Simulations differ by millimetres.
 const INSIDE: f64 = 0.02;
 
-/// The smallest distance between the outlines of two things, which is to be within limits.
+/// A demand on the smallest distance between the outlines of two bodies.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Gap {
-    /// The other thing: an object, or an obstacle.
+    /// The other body: an object or an obstacle.
     pub to: Body,
-    /// Smallest gap, metres; at 0 they may touch.
+    /// Smallest gap, metres; at 0 the bodies may touch.
     pub min: f64,
-    /// Largest gap, metres; infinite where any is small enough.
+    /// Largest gap, metres; may be infinite.
     #[serde(with = "anywhere")]
     pub max: f64,
-    /// The solids of both, each in the frame of its own thing, an obstacle's in the world.
+    /// Solids of both bodies, each in the frame of its own body, or in the world for an obstacle.
     solids: [Vec<(Shape, Pose)>; 2],
-    /// Error from the gaps that are aimed at that still counts as success, metres.
+    /// Maximum distance from the nearest target gap, metres.
     tolerance: f64,
-    /// Offset of the object from where its gap is right: a target of refinement, metres.
+    /// Offset of the object from its place with the right gap, a target of refinement, metres.
     shift: Vector,
 }
 
 impl Gap {
-    /// Between object `object` with all its parts and what `to` is, from `min` to `max` metres; `None` where
-    /// one of them does not exist in `scene`.
+    /// Demands a gap from `min` to `max` metres between object `object` with all its parts and the
+    /// body `to`; `None` if one of them does not exist in `scene`.
     pub fn between(
         scene: &Scene,
         object: usize,
@@ -55,7 +55,7 @@ impl Gap {
         Some(Box::new(gap))
     }
 
-    /// What the other thing is called.
+    /// Returns the name of the other body.
     pub fn name<'a>(&self, scene: &'a Scene) -> &'a str {
         let name = match self.to {
             Body::Object(other) => scene.objects.get(other).map(|object| &object.name),
@@ -65,8 +65,9 @@ impl Gap {
         name.map_or("?", String::as_str)
     }
 
-    /// The gap where the goal's object is at `own` and all else as in `state`: metres, negative where they
-    /// overlap, with its ends and the direction from the other thing to the object.
+    /// Returns the gap for the goal's object at `own` and other objects as in `state`, metres,
+    /// negative for an overlap. The result includes the ends of the gap and the direction from the
+    /// other body to the object.
     pub fn nearest(&self, own: &Pose, state: &State) -> Option<ContactPoint> {
         let other = match self.to {
             Body::Object(other) => *state.poses.get(other)?,
@@ -86,32 +87,34 @@ impl Gap {
         nearest
     }
 
-    /// The outlines of all solids of the goal's object and of the other thing, each in the frame of its own
-    /// thing, an obstacle's in the world.
+    /// Returns the outlines of all solids of the goal's object and of the other body, each in the
+    /// frame of its own body, or in the world for an obstacle.
     pub fn outlines(&self) -> [impl Iterator<Item = Area> + '_; 2] {
         self.solids
             .each_ref()
             .map(|solids| solids.iter().map(|(shape, pose)| Area { shape: *shape, pose: *pose }))
     }
 
-    /// Whether a gap of this many metres is allowed; things that touch may overlap slightly in a simulation.
+    /// Returns `true` if a gap of this many metres is allowed; touching bodies may overlap slightly
+    /// in a simulation.
     pub fn holds(&self, gap: f64) -> bool {
         self.beyond(gap, 0.0) == 0.0
     }
 
-    /// How far inside of its limits everything is that is aimed at, metres.
+    /// Returns the distance of target gaps inside of the limits, metres.
     pub fn depth(&self) -> f64 {
         INSIDE.min(0.5 * (self.max - self.min))
     }
 
-    /// How much larger a gap is than what lies so deep inside of the limits, metres; negative where it is
-    /// smaller.
+    /// Returns the excess of a gap over the nearest one that is `depth` inside of the limits,
+    /// metres; negative for smaller gaps.
     fn beyond(&self, gap: f64, depth: f64) -> f64 {
         let low = if self.min > 0.0 { self.min + depth } else { f64::NEG_INFINITY };
         gap - gap.max(low).min(self.max - depth)
     }
 
-    /// The same with limits that are tighter by `margin` metres, or by a quarter of what is between them.
+    /// Tightens the limits by `margin` metres, or by a quarter of the range between them if that is
+    /// less.
     fn tighter(&self, margin: f64) -> Self {
         let margin = margin.min(0.25 * (self.max - self.min));
         let min = if self.min > 0.0 { self.min + margin } else { 0.0 };
@@ -204,7 +207,7 @@ impl Kind for Gap {
 }
 
 impl Scene {
-    /// The solids of a thing, in its frame; `None` where it does not exist.
+    /// Returns the solids of an object with its parts, in its frame; `None` if it does not exist.
     pub(super) fn solids(&self, object: usize) -> Option<Vec<(Shape, Pose)>> {
         let own = (self.objects.get(object)?.shape, Pose::default());
         let parts = self.parts_of(object).map(|k| &self.objects[k]);
@@ -248,8 +251,8 @@ mod tests {
         assert!(Gap::between(&scene, 0, Body::Part(0), [0.0, 0.1]).is_none());
     }
 
-    /// Moved by what is missing, the mug comes to where it is aimed at, deep enough inside of the limits: in
-    /// a few steps, as other parts may be nearest on the way.
+    /// Moved against its offset, the mug reaches the demanded gap, deep enough inside of the
+    /// limits. This takes a few steps, because other parts may become the nearest.
     #[test]
     fn what_is_missing_leads_to_where_the_gap_is_right() {
         let scene = scene();

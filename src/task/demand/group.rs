@@ -1,4 +1,4 @@
-//! Demand: at least so many objects of a group reach their goals, whichever they are.
+//! Demand: a minimum number of any objects of a group reach their goals.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,33 +8,33 @@ use crate::task::Goal;
 
 use super::{Check, Demand, End, Kind, MOST_CHOICES, Mark};
 
-/// Maximum number of objects of a group: all sets of them that are large enough are listed.
+/// Maximum number of objects of a group, because all sufficiently large sets of them are listed.
 const MOST: usize = 16;
 
-/// A number of goals of different objects, any of which are to be reached.
+/// A demand that a minimum number of goals of different objects are reached.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Group {
-    /// A goal for each object, all with the same demands.
+    /// Goals, one for each object, all with the same demands.
     pub members: Vec<Goal>,
-    /// Smallest number of them to be reached.
+    /// Minimum number of reached goals.
     pub at_least: usize,
 }
 
 impl Group {
-    /// The goal to reach at least so many of these; `None` where there are none.
+    /// Demands that at least `at_least` members reach their goals; `None` without members.
     pub fn of(members: Vec<Goal>, at_least: usize) -> Option<Goal> {
         let first = members.first()?;
         let goal = Goal { weight: first.weight, ..Goal::of(first.object) };
         Some(goal.with(Demand::Group(Self { members, at_least })))
     }
 
-    /// Score of a member; one that is no number comes last.
+    /// Returns the score of a member.
     fn member_score(member: &Goal, end: &End) -> f64 {
         member.score_after(end.state, end.lift.filter(|lift| lift.object == member.object))
     }
 
-    /// The member that is farthest from its goal among those that are nearest to theirs, as many as must
-    /// reach them.
+    /// Returns the farthest from its goal among the nearest members, as many as must reach their
+    /// goals.
     fn farthest(&self, end: &End) -> Option<(&Goal, f64)> {
         let score = |member| (member, Self::member_score(member, end));
         let mut ranked: Vec<(&Goal, f64)> = self.members.iter().map(score).collect();
@@ -124,8 +124,8 @@ impl Kind for Group {
         self.farthest(end).map_or(end.object, |(member, _)| member.object)
     }
 
-    /// Returns all sets of as many members as must reach their goals, those first whose scores have the
-    /// smallest sum.
+    /// Returns all sets of as many members as must reach their goals, the smallest sum of scores
+    /// first.
     fn choices(&self, state: &State) -> Vec<Vec<Goal>> {
         let score = |member: &Goal| Self::member_score(member, &End::resting(member.object, state));
         let scores: Vec<f64> = self.members.iter().map(score).collect();

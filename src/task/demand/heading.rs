@@ -1,7 +1,7 @@
 //! Demand: an object points along a heading.
 //!
-//! Headings at which the object looks the same count alike. Where a joint with limits holds the object,
-//! the turn is measured along the way that the limits leave, which may be the longer one.
+//! Headings at which the object looks the same are equivalent. If a joint with limits holds the
+//! object, the rotation is measured within the limits, possibly along the longer way.
 
 use std::f64::consts::PI;
 
@@ -19,34 +19,33 @@ use super::{Check, Demand, End, Kind, Mark, Quantity, less};
 pub struct Facing {
     /// Wanted heading, radians.
     pub heading: f64,
-    /// Largest turn from it that still counts as success, radians.
+    /// Maximum rotation from it, radians.
     pub tolerance: f64,
-    /// Middle of the headings that a joint with limits allows, radians: headings are told from those a full
-    /// turn away by being nearest to it.
+    /// Middle of the headings within a joint's limits, radians; headings are unwrapped to the
+    /// nearest one to it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub limit_middle: Option<f64>,
-    /// Number of equal turns in a full turn after each of which the object looks the same, where all those
-    /// headings count; 1 where one counts.
+    /// Number of equivalent headings in a full turn; 1 if only the heading itself counts.
     pub symmetry: usize,
-    /// Index of the object in whose frame the heading is; the world's by default.
+    /// Index of the object in whose frame the heading is; `None` for the world.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub relative: Option<usize>,
 }
 
 impl Facing {
-    /// A heading and its tolerance, radians.
+    /// Creates a demand on a heading with a tolerance, radians.
     pub fn new(heading: f64, tolerance: f64) -> Self {
         Self { heading, tolerance, limit_middle: None, symmetry: 1, relative: None }
     }
 
-    /// Returns `turn` without the turns after which the object looks the same, radians.
+    /// Reduces a rotation to the nearest equivalent heading, radians.
     pub fn least_turn(&self, turn: f64) -> f64 {
         let alike = self.symmetry as f64;
         wrap_angle(turn * alike) / alike
     }
 
-    /// Takes the limits of the joint that holds `object` in `scene` into account, to the world or to the
-    /// object that the heading is relative to.
+    /// Applies the limits of the joint that holds `object` in `scene`, to the world or to the
+    /// object to which the heading is relative.
     pub(in crate::task) fn limit(&mut self, object: usize, scene: &Scene) {
         let middle = |span: Span| 0.5 * (span.low + span.high);
         let start = |object: usize| scene.objects.get(object).map(|object| object.pose.heading);
@@ -58,7 +57,7 @@ impl Facing {
                 turns.map(|span| of(object) + middle(span))
             }
             Some(other) => scene.joints.iter().find_map(|joint| {
-                // Joints count the turn of the second object against the first.
+                // Joints measure the rotation of the second object against the first.
                 let sign = match joint.between {
                     [first, second] if [first, second] == [other, object] => 1.0,
                     [first, second] if [first, second] == [object, other] => -1.0,
@@ -112,7 +111,7 @@ impl Kind for Facing {
         let own = frame.map_or_else(|| self.clone(), |frame| self.in_frame(frame));
         let turn = own.least_turn(end.pose().heading - own.heading);
         let Some(middle) = own.limit_middle else { return Some(turn) };
-        // The way that the limits leave.
+        // The rotation within the limits.
         let from_middle = own.heading + turn - middle;
         Some(turn + (wrap_angle(from_middle) - from_middle))
     }

@@ -1,4 +1,5 @@
-//! Marks of goals in pictures, as plain data: exporters draw them without knowing the kinds of demands.
+//! Marks of goals in drawings as plain data, so that exporters can draw them without the kinds of
+//! demands.
 
 use crate::geometry::Vector;
 
@@ -29,11 +30,11 @@ pub enum Mark {
     Headings {
         /// The wanted heading.
         heading: f64,
-        /// The largest turn from it.
+        /// The largest rotation from it.
         tolerance: f64,
-        /// The middle of what a joint's limits allow.
+        /// The middle of the headings within a joint's limits.
         limit_middle: Option<f64>,
-        /// The number of headings that count alike.
+        /// The number of equivalent headings.
         symmetry: usize,
     },
     /// A distance that must come within limits.
@@ -49,7 +50,7 @@ pub enum Mark {
 pub struct ShownGoal {
     /// Indices of the objects that the goal may move, its own first.
     pub objects: Vec<usize>,
-    /// Middle of the marks: a wanted position, or that of the object at the start, metres.
+    /// Centre of the marks: a wanted position, or the position of the object at the start, metres.
     pub centre: Vector,
     /// The marks.
     pub marks: Vec<Mark>,

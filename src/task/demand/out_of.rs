@@ -8,7 +8,8 @@ use crate::scene::Scene;
 use super::check::name;
 use super::{Area, Check, Demand, End, Kind, Mark, Quantity, less};
 
-/// Distance from the rim at which search and refinement aim, metres: simulations differ by millimetres.
+/// Distance of the targets of search and refinement from the rim, metres. Simulations differ by
+/// millimetres.
 const BEYOND: f64 = 0.02;
 
 /// An area that the centre of an object must leave, or stay out of.
@@ -16,15 +17,15 @@ const BEYOND: f64 = 0.02;
 pub struct OutOfArea {
     /// The area.
     pub area: Area,
-    /// Error from the points that are aimed at, far enough outside, that still counts as success, metres.
+    /// Maximum distance from the nearest target point, far enough outside, metres.
     pub tolerance: f64,
-    /// Index of the object in whose frame the area is; the world's by default.
+    /// Index of the object in whose frame the area is; `None` for the world.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub relative: Option<usize>,
 }
 
 impl OutOfArea {
-    /// An area in the world.
+    /// Creates a demand with an area in the world.
     pub fn new(area: Area) -> Self {
         Self { area, tolerance: BEYOND, relative: None }
     }

@@ -8,7 +8,7 @@ use crate::scene::Scene;
 use super::check::name;
 use super::{Area, Check, Demand, End, Kind, Mark, Quantity};
 
-/// Depth by which a centre that is still inside counts as missed once more, metres.
+/// Depth inside of the obstacle that adds 1 to the score, metres.
 const STEP: f64 = 0.01;
 
 /// An obstacle that an object must leave, such as a drive or a tray.
@@ -16,20 +16,21 @@ const STEP: f64 = 0.01;
 pub struct Outside {
     /// Name of the obstacle.
     pub name: String,
-    /// Its full extents, metres.
+    /// Full extents, metres.
     pub size: [f64; 3],
-    /// Its pose.
+    /// Pose of the obstacle.
     pub pose: Pose,
 }
 
 impl Outside {
-    /// The demand to leave an obstacle, an index into [`Scene::obstacles`]; `None` if it does not exist.
+    /// Creates the demand to leave an obstacle, an index into [`Scene::obstacles`]; `None` if the
+    /// obstacle does not exist.
     pub fn of(scene: &Scene, obstacle: usize) -> Option<Self> {
         let obstacle = scene.obstacles.get(obstacle)?;
         Some(Self { name: obstacle.name.clone(), size: obstacle.size, pose: obstacle.pose })
     }
 
-    /// Its outline on the table.
+    /// Returns its outline on the table.
     pub fn area(&self) -> Area {
         Area { shape: Shape::Cuboid { size: self.size }, pose: self.pose }
     }

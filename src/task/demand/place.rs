@@ -14,9 +14,9 @@ use super::{Check, Demand, End, Kind, Mark, Quantity, less};
 pub struct AtPlace {
     /// Wanted position of the centre, metres.
     pub position: Vector,
-    /// Largest distance that still counts as success, metres.
+    /// Maximum distance from it, metres.
     pub tolerance: f64,
-    /// Index of the object in whose frame the position is; the world's by default.
+    /// Index of the object in whose frame the position is; `None` for the world.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub relative: Option<usize>,
 }

@@ -1,4 +1,4 @@
-//! Demand: the edge of an object lies on a blade at the end of its turn, lifted.
+//! Demand: at the end of a lever-up's rotation, the edge of an object lies on the blade, lifted.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,26 +8,26 @@ use super::check::name;
 use super::words::millimetres;
 use super::{Check, Demand, End, Kind, Mark, Quantity};
 
-/// Height by which an edge that is not yet high enough counts as missed once more, metres.
+/// Missing height of an edge that adds 1 to the score, metres.
 const STEP: f64 = 0.01;
 
-/// The state of an object at the end of a lever-up's turn.
+/// The state of an object at the end of a lever-up's rotation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lift {
-    /// Index of the object that is levered.
+    /// Index of the levered object.
     pub object: usize,
-    /// Height of its edge at the lever point above that before, metres.
+    /// Height of its edge at the lever point above its height before the lever-up, metres.
     pub raised: f64,
     /// Whether it lies on the blade.
     pub held: bool,
-    /// Its tilt, radians.
+    /// Tilt of the object, radians.
     pub tilt: f64,
 }
 
 /// A height to which a blade lifts an edge.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Raised {
-    /// Height above that at the start, metres.
+    /// Height above the edge's height at the start, metres.
     pub height: f64,
 }
 

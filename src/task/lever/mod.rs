@@ -1,4 +1,4 @@
-//! Lever-ups: a blade goes under the edge of a plate and turns about a horizontal axis.
+//! Lever-ups: a blade goes under the edge of a plate and rotates about a horizontal axis.
 
 mod action;
 mod rules;

@@ -4,13 +4,13 @@ use serde::{Deserialize, Serialize};
 
 use super::LeverUp;
 
-/// Where the axis lies that a blade is turned about.
+/// Position of the axis about which a blade rotates.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Pivot {
-    /// At the support line, so that the object's tilt is the blade's turn.
+    /// Axis on the support line, so that the object's tilt equals the blade's rotation.
     Auto,
-    /// At this signed distance from the edge, inward, metres: see [`LeverUp::pivot`].
+    /// Axis at this signed distance from the edge, inward, metres: see [`LeverUp::pivot`].
     At(f64),
 }
 
@@ -19,24 +19,26 @@ pub enum Pivot {
 pub struct LeverRules {
     /// Smallest and largest depth of the tip behind the edge, metres.
     pub depth: [f64; 2],
-    /// Smallest and largest turn, radians.
+    /// Smallest and largest rotation, radians.
     pub angle: [f64; 2],
-    /// Where the axis may lie.
+    /// Allowed positions of the axis.
     pub pivots: Vec<Pivot>,
     /// Speed of the tip, m/s.
     pub speed: f64,
-    /// How long the blade then stands still, seconds.
+    /// Time for which the blade then stands still, seconds.
     pub hold: f64,
-    /// How far it is then drawn back, metres; it comes from as far away.
+    /// Distance by which the blade is then drawn back, metres; it approaches from the same
+    /// distance.
     pub retreat: f64,
 }
 
 impl LeverRules {
-    /// Usual depths, metres; slips become frequent below.
+    /// Default depths, metres; slips become frequent below.
     pub const DEPTH: [f64; 2] = [0.008, 0.02];
-    /// Usual turns, degrees: beyond a right angle a blade pushes over what a wall holds upright.
+    /// Default rotations, degrees; beyond a right angle a blade pushes over an object that a wall
+    /// holds upright.
     pub const ANGLE_DEG: [f64; 2] = [30.0, 150.0];
-    /// How near to a corner a blade is still set, metres.
+    /// Minimum distance of a blade from a corner, metres.
     pub const CORNER: f64 = 0.012;
     /// A long arc that suits plates of the size of a hand, metres.
     pub const LIFT: f64 = 0.16;

@@ -1,43 +1,43 @@
-//! What a plate tips over when it is levered somewhere.
+//! The side over which a levered plate tips.
 
 use crate::geometry::{SupportEdge, Vector, support_edge};
 
 use super::{LeverJob, Place, lever_frame};
 use crate::scene::Plate;
 
-/// Corners that are no farther inward than others by more than this are as high, metres.
+/// Largest difference of inward distances of corners that count as equally high, metres.
 const LEVEL: f64 = 1e-9;
 
 impl Plate {
-    /// A place on its outline, plate frame, metres.
+    /// Returns a place on its outline, plate frame, metres.
     pub fn point(&self, place: Place) -> Vector {
         let corners = self.corners();
         let from = corners[place.edge];
         from + (corners[(place.edge + 1) % corners.len()] - from) * place.fraction
     }
 
-    /// The side of its outline that it tips over when it is levered at `place`; none if the
-    /// outline has no area. The frame lies below the centre of mass, so that is at its origin.
+    /// Returns the side of its outline over which it tips when it is levered at `place`; `None` if
+    /// the outline has no area. The centre of mass is above the frame's origin.
     pub fn support(&self, place: Place) -> Option<SupportEdge> {
         support_edge(self.corners(), self.point(place), Vector::zeros())
     }
 
-    /// The distance of the support's line from `place`, metres: with the blade's axis there,
-    /// [`LeverUp::pivot`](super::LeverUp::pivot), blade and edge rise on arcs of one radius, so
-    /// the plate hardly slides on the blade and tilts by the angle that the blade turns.
+    /// Returns the distance of the support's line from `place`, metres. With the blade's axis
+    /// there, [`LeverUp::pivot`](super::LeverUp::pivot), blade and edge rise on arcs of one radius.
+    /// The plate then hardly slides on the blade, and its tilt equals the rotation of the blade.
     pub fn auto_pivot(&self, place: Place) -> Option<f64> {
         self.support(place).map(|support| support.distance).filter(|distance| *distance > 0.0)
     }
 }
 
 impl LeverJob {
-    /// The side whose corners are lowest while the plate is up: side from this corner to the next; none if
-    /// the outline has no area.
+    /// Returns the side whose corners are lowest while the plate is up, by the index of its first
+    /// corner; `None` if the outline has no area.
     ///
-    /// Seen from either side of the blade's width the ray through the centre of mass mostly leaves by the
-    /// same side, on which the plate then stands. If not, the weight lies above the corner between two
-    /// sides, and the plate stands on that and on the whole width of the blade: it tips along the levered
-    /// edge, and of the two neighbours the one that is farther inward is lower.
+    /// The rays from both ends of the blade's width through the centre of mass usually leave by one
+    /// side, on which the plate then stands. Otherwise the weight is above the corner between two
+    /// sides, and the plate stands on that corner and on the whole width of the blade. It then tips
+    /// along the levered edge, and of the two neighbouring corners the one farther inward is lower.
     pub fn support(&self) -> Option<usize> {
         let plate = &self.scene.plates[self.lever.plate];
         let (corners, count) = (plate.corners(), plate.corners().len());
@@ -52,12 +52,13 @@ impl LeverJob {
         if left == right {
             return Some(left);
         }
-        // The ray from the left passes through the side that comes first, counter-clockwise.
+        // The ray from the left passes through the earlier side, counter-clockwise.
         let [one, other] = [inward(left), inward(right + 1)];
         if (left + 1) % count == right && (one - other).abs() > LEVEL {
             return Some(if one > other { left } else { right });
         }
-        // Both are the ends of the levered edge, of a triangle, or the blade is wider than a whole side.
+        // Remaining cases: both are the ends of the levered edge of a triangle, or the blade is
+        // wider than a whole side.
         plate.support(self.lever.place).map(|support| support.edge)
     }
 }
@@ -73,7 +74,7 @@ mod tests {
         task::LeverUp,
     };
 
-    /// A kite whose far corner is opposite to where it is levered, a little aside of the ray.
+    /// A kite whose far corner is opposite to the lever point, slightly aside of the ray.
     fn job(width: f64, aside: f64) -> LeverJob {
         let corners = [[-0.08, -0.05], [0.05, -0.06], [0.09, aside], [0.03, 0.07], [-0.08, 0.05]];
         let plate = Plate {
@@ -107,14 +108,16 @@ mod tests {
 
     #[test]
     fn a_corner_opposite_the_blade_carries_the_plate_with_the_whole_width() {
-        // Levered in the middle of x = -0.08, the centre of mass at the origin: the ray runs along x.
+        // Levered in the middle of x = -0.08, with the centre of mass at the origin: the ray runs
+        // along x.
         for aside in [-0.001, 0.001] {
             let narrow = job(1e-4, aside).support();
             assert_eq!(narrow, Some(if aside > 0.0 { 1 } else { 2 }));
-            // The corner at x = 0.05 is farther from the blade than that at 0.03, so lower.
+            // The corner at x = 0.05 is farther from the blade than the corner at 0.03, so it is
+            // lower.
             assert_eq!(job(0.006, aside).support(), Some(1));
         }
-        // Far enough aside it is as without a width.
+        // Far enough aside, the result is the result without a width.
         assert_eq!(job(0.006, -0.01).support(), Some(2));
     }
 }

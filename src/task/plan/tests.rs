@@ -41,7 +41,7 @@ fn pushes_in_a_row_with_one_tool_are_one_motion() {
         .then(pushing(1, 0.5));
     let motions = plan.motions(&tools).expect("its tools");
     let strokes: Vec<usize> = motions.iter().map(|m| m.slide().strokes.len()).collect();
-    // The hand turns between pushes, and the tool stays in it.
+    // The hand rotates between pushes and keeps the tool.
     assert_eq!(strokes, [2, 0, 2]);
     assert!(motions[1].is_lever() && !motions[0].is_lever());
     assert_eq!(plan.tools(), ["bar", "blade"]);
