@@ -132,20 +132,19 @@ impl<H: Copy> Asleep<H> {
     }
 }
 
-impl Sleepable for rapier2d::prelude::PhysicsWorld {
-    type Handle = rapier2d::prelude::RigidBodyHandle;
+impl Sleepable for rapier2d_f64::prelude::PhysicsWorld {
+    type Handle = rapier2d_f64::prelude::RigidBodyHandle;
 
     fn extent(&self, body: Self::Handle) -> Extent {
         let colliders = self.bodies[body].colliders().iter();
         colliders.fold(Extent::EMPTY, |extent, collider| {
             let around = self.colliders[*collider].compute_aabb();
-            let of = |x: f32, y: f32| [f64::from(x), f64::from(y)];
-            extent.grown(of(around.mins.x, around.mins.y), of(around.maxs.x, around.maxs.y))
+            extent.grown([around.mins.x, around.mins.y], [around.maxs.x, around.maxs.y])
         })
     }
 
     fn stride(&self, body: Self::Handle) -> f64 {
-        f64::from(self.bodies[body].linvel().length() * self.integration_parameters.dt)
+        self.bodies[body].linvel().length() * self.integration_parameters.dt
     }
 
     fn sleeps(&self, body: Self::Handle) -> bool {
@@ -154,9 +153,9 @@ impl Sleepable for rapier2d::prelude::PhysicsWorld {
 
     fn let_sleep(&mut self, body: Self::Handle) {
         let activation = self.bodies[body].activation_mut();
-        activation.normalized_linear_threshold = AT_REST as f32;
-        activation.angular_threshold = AT_REST as f32;
-        activation.time_until_sleep = AT_ONCE as f32;
+        activation.normalized_linear_threshold = AT_REST;
+        activation.angular_threshold = AT_REST;
+        activation.time_until_sleep = AT_ONCE;
     }
 
     fn wake(&mut self, body: Self::Handle) {

@@ -1,16 +1,15 @@
 //! The planar engine: rapier2d seen from above, with its own law of support friction.
 //!
 //! There is no gravity; every object is a disc or a convex polygon that [`Support`] decelerates in
-//! each step. The world is centred on the objects, because rapier2d computes in `f32`. Poses are
-//! computed from the change against rapier's own start, so a body at rest keeps its pose bitwise in
-//! `f64`.
+//! each step. The world is centred on the objects. Poses are computed from the change against
+//! rapier's own start, so a body at rest keeps its pose bitwise.
 
 mod joints;
 
-use rapier2d::prelude::{
+use rapier2d_f64::prelude::{
     ActiveHooks, Collider, ColliderBuilder, ColliderHandle, ContactData, ContactManifold,
     Group as Layer, InteractionGroups, InteractionTestMode, MassProperties, PhysicsWorld,
-    Pose2 as RapierPose, Real, RigidBody, RigidBodyBuilder, RigidBodyHandle, SpringCoefficients,
+    Pose2 as RapierPose, RigidBody, RigidBodyBuilder, RigidBodyHandle, SpringCoefficients,
     TrackedContact, Vector as RapierVector,
 };
 
@@ -83,8 +82,8 @@ impl World for PlanarWorld {
             tracked.pressed.hurry(factor);
             let body = &mut self.world.bodies[tracked.handle];
             let (linear, angular) = (body.linvel(), body.angvel());
-            body.set_linvel(linear * factor as Real, true);
-            body.set_angvel(angular * factor as Real, true);
+            body.set_linvel(linear * factor, true);
+            body.set_angvel(angular * factor, true);
         }
     }
 
@@ -127,16 +126,16 @@ impl World for PlanarWorld {
         let pose = to_rapier(&frame.from, self.origin);
         let velocity = (frame.to.position - frame.from.position) / frame.duration;
         let turning = (frame.to.heading - frame.from.heading) / frame.duration;
-        self.world.integration_parameters.dt = step as Real;
+        self.world.integration_parameters.dt = step;
         let tool = &mut self.world.bodies[self.tool];
         tool.set_position(pose, true);
         tool.set_linvel(vector(velocity), true);
-        tool.set_angvel(turning as Real, true);
+        tool.set_angvel(turning, true);
     }
 
     fn step(&mut self) {
         self.asleep.wake_near(&mut self.world);
-        let dt = f64::from(self.world.integration_parameters.dt);
+        let dt = self.world.integration_parameters.dt;
         for tracked in &mut self.bodies {
             if self.world.bodies[tracked.handle].is_sleeping() {
                 continue;
@@ -165,11 +164,11 @@ impl World for PlanarWorld {
             body.reset_forces(true);
             body.reset_torques(true);
             body.add_force(vector(friction.linear), true);
-            body.add_torque(friction.angular as Real, true);
+            body.add_torque(friction.angular, true);
         }
         self.world.step_with_events(&self.seams, &());
         for tracked in &mut self.bodies {
-            let angle = f64::from(self.world.bodies[tracked.handle].rotation().angle());
+            let angle = self.world.bodies[tracked.handle].rotation().angle();
             tracked.turned += wrap_angle(angle - tracked.last_angle);
             tracked.last_angle = angle;
         }
@@ -192,10 +191,11 @@ impl World for PlanarWorld {
 
     fn touches(&self, found: &mut dyn FnMut(usize, Body)) {
         for pair in self.world.narrow_phase.contact_pairs() {
-            let touching =
-                pair.manifolds.iter().flat_map(solved).any(|(_, point)| {
-                    point.data.impulse > 0.0 || point.dist <= ALLOWED_ERROR as Real
-                });
+            let touching = pair
+                .manifolds
+                .iter()
+                .flat_map(solved)
+                .any(|(_, point)| point.data.impulse > 0.0 || point.dist <= ALLOWED_ERROR);
             if touching {
                 let (a, b) = (self.label(pair.collider1), self.label(pair.collider2));
                 for (object, with) in [(a, b), (b, a)] {
@@ -214,7 +214,7 @@ impl World for PlanarWorld {
     fn overlaps(&self, found: &mut dyn FnMut(Overlap)) {
         for pair in self.world.narrow_phase.contact_pairs() {
             let points = pair.manifolds.iter().flat_map(solved);
-            let depths = points.map(|(manifold, point)| (-f64::from(point.dist), manifold));
+            let depths = points.map(|(manifold, point)| (-point.dist, manifold));
             let deepest = depths.max_by(|a, b| a.0.total_cmp(&b.0));
             if let Some((depth, manifold)) = deepest.filter(|(depth, _)| *depth > 0.0) {
                 let between = (self.label(pair.collider1), self.label(pair.collider2));
@@ -276,7 +276,7 @@ impl PlanarWorld {
         let body = RigidBodyBuilder::dynamic()
             .pose(to_rapier(&group.pose, self.origin))
             .linvel(vector(group.velocity.linear))
-            .angvel(group.velocity.angular as Real)
+            .angvel(group.velocity.angular)
             .can_sleep(false);
         let handle = self.world.insert_body(body);
         self.bodies.push(Tracked {
@@ -353,14 +353,14 @@ impl PlanarWorld {
 fn empty_world(scene: &Scene, physics: &Physics) -> PhysicsWorld {
     let mut world = PhysicsWorld { gravity: RapierVector::ZERO, ..PhysicsWorld::default() };
     let settings = &mut world.integration_parameters;
-    settings.normalized_allowed_linear_error = ALLOWED_ERROR as Real;
+    settings.normalized_allowed_linear_error = ALLOWED_ERROR;
     let articulated = is_articulated(scene, physics);
     if articulated {
         settings.num_solver_iterations = ARTICULATED_ITERATIONS;
     }
     let stiff = articulated || needs_stiff_contacts(physics);
     let (frequency, damping) = if stiff { STIFF_CONTACT } else { PLANAR_CONTACT };
-    settings.contact_softness = SpringCoefficients::new(frequency as Real, damping as Real);
+    settings.contact_softness = SpringCoefficients::new(frequency, damping);
     world
 }
 
@@ -383,5 +383,5 @@ fn velocity(body: &RigidBody) -> Twist {
 }
 
 fn to_rapier(pose: &Pose, origin: Vector) -> RapierPose {
-    RapierPose::new(vector(pose.position - origin), wrap_angle(pose.heading) as Real)
+    RapierPose::new(vector(pose.position - origin), wrap_angle(pose.heading))
 }

@@ -7,7 +7,7 @@
 
 use std::collections::HashSet;
 
-use rapier2d::prelude as planar;
+use rapier2d_f64::prelude as planar;
 use rapier3d_f64::prelude as spatial;
 
 use crate::geometry::{Rim, Vector};
@@ -135,7 +135,7 @@ impl planar::PhysicsHooks for Seams {
         let [first, second] = [context.collider1, context.collider2].map(label);
         let (manifold, contacts) = (context.manifold, &mut *context.solver_contacts);
         if let Some(friction) = self.friction(first, second) {
-            contacts.iter_mut().for_each(|contact| contact.friction = friction as planar::Real);
+            contacts.iter_mut().for_each(|contact| contact.friction = friction);
         }
         let vector = |v: planar::Vector| Vector::new(v.x.into(), v.y.into());
         if let Some(rim) = self.rim(first) {

@@ -122,7 +122,7 @@ const DOORS: [(&str, &str); 31] = [
     ("pushplan_learn", "lab/bench lab/cli lab/image lab/parts"),
     ("pushplan_lab", ""),
     ("serde_yaml", "asset"),
-    ("rapier2d", "sim"),
+    ("rapier2d_f64", "sim"),
     ("rapier3d_f64", "sim"),
     ("nalgebra", "geometry arm kernel contact act/fit act/belief plan import lab/bench"),
     ("roxmltree", "arm import"),

@@ -5,5 +5,4 @@ mod advice;
 mod imports;
 mod kinds;
 mod meshes;
-mod recordings;
 mod round_trip;

@@ -7,6 +7,8 @@ use serde_json::json;
 
 use pushplan::asset::{self, Fault, Faults, Kind, PlanFile, SCHEMA_VERSION, TrajectoryFile};
 use pushplan::{outcome::Trajectory, scene::ModelSpec};
+#[cfg(feature = "mcap")]
+use pushplan_export::mcap;
 use pushplan_export::{
     ExportError, LEVER_SCRIPT, REPLAY_SCRIPT, joint_table, joint_trajectory, mjcf,
 };
@@ -27,7 +29,8 @@ lever-ups <out>/lever.py does.
 mcap writes <out>/<plan>.mcap: how tool and objects move, as foxglove.SceneUpdate (/scene) and
 foxglove.FrameTransforms (/tf) that viewers such as Foxglove and Rerun play, the same as plain numbers
 (/state, metres and radians), all in JSON, and the plan as an attachment. A plan is carried out by
---model; a trajectory file (`pushplan predict --trajectories`) is written as it is.
+--model; a trajectory file (`pushplan predict --trajectories`) is written as it is. Wheels and released
+binaries write mcap; a build of your own needs `--features mcap`.
 
 trajectory writes <out>/<plan>.joints.json, the message trajectory_msgs/JointTrajectory of ROS, and
 <out>/<plan>.joints.csv: times in seconds, positions and velocities in radians, of a task whose robot has
@@ -71,6 +74,12 @@ impl Format {
 }
 
 pub fn run(args: &ExportArgs, session: &Session) -> Result<u8, CliError> {
+    if args.format == Format::Mcap && !cfg!(feature = "mcap") {
+        return Err(CliError::usage(
+            "this build writes no MCAP",
+            "build it with `--features mcap`, or use a wheel or binary of a release",
+        ));
+    }
     let (mut opened, mut faults) = (Vec::new(), Vec::new());
     for path in &args.plans {
         match open(path) {
@@ -104,7 +113,7 @@ pub fn run(args: &ExportArgs, session: &Session) -> Result<u8, CliError> {
                     Some(trajectory) => trajectory,
                     None => carried_out(&plan, &args.model, session)?,
                 };
-                pushplan_export::mcap(&plan, &trajectory).map_err(refused)?
+                mcap(&plan, &trajectory).map_err(refused)?
             }
         };
         if args.format == Format::Trajectory {
@@ -195,4 +204,10 @@ fn name(path: &Path, format: Format) -> String {
     let stem = [".plan", ".trajectory"].iter().find_map(|kind| stem.strip_suffix(kind));
     let stem = stem.unwrap_or_else(|| name.strip_suffix(".json").unwrap_or(&name));
     format!("{stem}.{}", format.ending())
+}
+
+/// Stands for the writer in a build without it, which refuses the format before anything is read.
+#[cfg(not(feature = "mcap"))]
+fn mcap(_: &PlanFile, _: &Trajectory) -> Result<Vec<u8>, ExportError> {
+    Err(ExportError::Mcap("this build writes no MCAP".to_owned()))
 }

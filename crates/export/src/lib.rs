@@ -1,5 +1,5 @@
-//! Export of plans: MJCF for MuJoCo, an engine that shares no code with ours, and MCAP, recordings
-//! for robotics viewers.
+//! Export of plans: MJCF for MuJoCo, an engine that shares no code with ours, and MCAP
+//! (feature `mcap`), recordings for robotics viewers.
 //!
 //! A plan becomes one self-contained file with its pushes and goal ([`mjcf()`]). One script for all
 //! such files executes the plan and judges it by our rules ([`REPLAY_SCRIPT`], or [`LEVER_SCRIPT`]
@@ -13,9 +13,11 @@
 mod arm;
 mod error;
 mod forest;
+#[cfg(feature = "mcap")]
 mod foxglove;
 mod hinges;
 mod joints;
+#[cfg(feature = "mcap")]
 mod mcap;
 mod mesh;
 mod mjcf;
@@ -29,6 +31,7 @@ mod tool;
 mod wanted;
 mod xml;
 
+#[cfg(feature = "mcap")]
 pub use self::mcap::mcap;
 pub use error::ExportError;
 pub use joints::{joint_table, joint_trajectory};

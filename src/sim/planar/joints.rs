@@ -1,6 +1,6 @@
 //! Joints in the planar engine, between objects and to the world.
 
-use rapier2d::prelude::{GenericJointBuilder, JointAxesMask, JointAxis, Real, RigidBodyBuilder};
+use rapier2d_f64::prelude::{GenericJointBuilder, JointAxesMask, JointAxis, RigidBodyBuilder};
 
 use crate::geometry::Vector;
 use crate::scene::{JointKind, Physics, Scene};
@@ -33,7 +33,7 @@ impl PlanarWorld {
             // The frames coincide at the stated poses of the objects, so the zero is there or
             // before it.
             if let Some(limits) = within(&joint.kind) {
-                built = built.limits(free, limits.map(|limit| limit as Real));
+                built = built.limits(free, limits);
             }
             let [first, second] = [first, second].map(|member| self.bodies[member.body].handle);
             self.world.insert_impulse_joint(first, second, built);
@@ -46,7 +46,7 @@ impl PlanarWorld {
                 .local_frame1(to_rapier(&(world * zero(&mount.kind)), self.origin))
                 .local_frame2(to_rapier(&(member.local * own), Vector::zeros()));
             if let Some(limits) = within(&mount.kind) {
-                built = built.limits(free, limits.map(|limit| limit as Real));
+                built = built.limits(free, limits);
             }
             let fixed = self.world.insert_body(RigidBodyBuilder::fixed());
             self.world.insert_impulse_joint(fixed, self.bodies[member.body].handle, built);

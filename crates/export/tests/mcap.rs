@@ -16,8 +16,7 @@ use serde_json::Value as Json;
 fn a_recording_holds_every_frame_and_the_whole_plan_and_is_always_the_same() {
     let library = ToolLibrary::embedded().unwrap();
     let tool = Arc::clone(library.get("stick").unwrap());
-    let task = Task::load(format!("{}/tasks/pull-back-behind-wall.yaml", crate::ROOT));
-    let task = task.unwrap();
+    let task = Task::example("pull-back-behind-wall").unwrap();
     let push = Push { start: Vector::new(0.3, 0.0), direction: 0.1, length: 0.1, speed: 0.1 };
     let form = PushForm::Placed;
     let plan = Plan::pushing(&tool.name, 0.0, form, 0.002, [push]);
