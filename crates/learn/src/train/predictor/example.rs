@@ -1,6 +1,8 @@
 //! Single frames of episodes as training examples with perturbed inputs.
 
-use pushplan::internals::contact::{Bodies, FrameProblem, FrameSolver, ListIndex, Motion, hold};
+use pushplan::internals::contact::{
+    Bodies, FrameProblem, FrameSolver, ListIndex, Motion, project_joints,
+};
 use pushplan::internals::geometry::{Pose, Vector};
 use pushplan::internals::graph::{Batch, Correction, Node};
 use pushplan::internals::network::{Buffers, Forward};
@@ -184,7 +186,7 @@ impl<'a> Examples<'a> {
                 let bodies = if unknown { guessed(episode) } else { bodies(episode) };
                 if !random.random_bool(noise.clean) {
                     disturb(&mut state, noise, &mut random);
-                    hold(&bodies, &mut state, |_| true);
+                    project_joints(&bodies, &mut state, |_| true);
                 }
                 // A guessed support requires another correction than the true one.
                 let wanted = (!unknown).then_some(&*place.wanted);

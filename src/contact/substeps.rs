@@ -11,7 +11,7 @@ use crate::{
 use pushplan_kernel::Motion;
 
 use super::{
-    coast::coast,
+    free_sliding::coast,
     points::{Contact, Scenery, find_again},
     prior::Prior,
 };
@@ -23,7 +23,7 @@ const MARGIN: f64 = 1e-3;
 
 /// Reusable memory of the substeps.
 #[derive(Clone, Debug, Default)]
-pub(super) struct March {
+pub(super) struct Substeps {
     pub prior: Prior,
     state: State,
     coasts: Vec<Motion>,
@@ -35,7 +35,7 @@ pub(super) struct March {
     last: Vec<Contact>,
 }
 
-impl March {
+impl Substeps {
     /// Computes the `motions` of all objects in the frame by `pieces` substeps.
     ///
     /// Only pairs with one of the frame's `known` contacts can touch. No other pair can enter,

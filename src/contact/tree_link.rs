@@ -10,7 +10,7 @@ use super::{
 
 /// A tie, and the response of the child group.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Limb {
+pub(super) struct TreeLink {
     pub tie: usize,
     pub parent: usize,
     pub child: usize,
@@ -33,8 +33,8 @@ pub(super) struct Limb {
     pub left: Vector2<f64>,
 }
 
-impl Limb {
-    /// Creates a limb for the tie with this index, without weights.
+impl TreeLink {
+    /// Creates a link for the tie with this index, without weights.
     #[inline]
     pub fn new(tie: usize, [parent, child]: [usize; 2], turned: bool) -> Self {
         let (rows, none) = ([Vector3::zeros(); 2], Matrix3::zeros());

@@ -3,11 +3,11 @@
 //! The equations are linear for known states of all contacts (sticking, sliding or open), and their
 //! solution determines the states. Alternating the two is Newton's method on a semismooth equation
 //! (Alart and Curnier 1991, doi:10.1016/0045-7825(91)90022-X), and in the plane it nearly always
-//! ends after one or two rounds. Otherwise [`super::approach`] is used.
+//! ends after one or two rounds. Otherwise [`super::iterative`] is used.
 
 use nalgebra::{Vector2, Vector3};
 use pushplan_kernel::{
-    Tally,
+    SolverStats,
     settings::{ROUNDS, TOGETHER},
 };
 
@@ -70,7 +70,7 @@ impl ActiveSet {
         constraints: &mut [Constraint],
         ties: &mut [Tie],
         joints: &mut Eliminated,
-        tally: &mut Tally,
+        tally: &mut SolverStats,
     ) -> bool {
         constraints.iter_mut().for_each(|constraint| constraint.trial = Vector2::zeros());
         joints.release(unknowns, ties);
@@ -154,7 +154,7 @@ impl ActiveSet {
         count: usize,
         constraints: &[Constraint],
         joints: &Eliminated,
-        tally: &mut Tally,
+        tally: &mut SolverStats,
     ) -> bool {
         let Self { rows, order, blocks, felt, matrix, .. } = self;
         blocks.find(count, rows.iter().map(|row| row.groups), joints);

@@ -1,4 +1,4 @@
-//! Iterative contact forces of a frame at fixed weights, for jams in which [`super::active`] finds
+//! Iterative contact forces of a frame at fixed weights, for jams in which [`super::active_set`] finds
 //! no solution.
 //!
 //! Accelerated projected Jacobi steps, with each body's mass divided among its constraints (Tonge,
@@ -19,11 +19,11 @@ const SETTLED: f64 = 5e-6;
 
 /// Reusable memory of the iteration.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Approach {
+pub(super) struct IterativeSolver {
     active: Vec<f64>,
 }
 
-impl Approach {
+impl IterativeSolver {
     /// Computes forces and twists, starting from the forces of the constraints.
     pub fn run(
         &mut self,

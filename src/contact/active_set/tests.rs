@@ -1,11 +1,11 @@
 //! The active-set method against the iterative method, and against the contact laws.
 
 use super::*;
-use pushplan_kernel::{Tally, settings::ROUNDS};
+use pushplan_kernel::{SolverStats, settings::ROUNDS};
 
 use nalgebra::Matrix3;
 
-use crate::contact::{approach::Approach, constraint::Law, twist::along};
+use crate::contact::{constraint::Law, iterative::IterativeSolver, twist::along};
 use crate::geometry::{Vector, perpendicular};
 
 /// Pseudo-random numbers from -1 to 1.
@@ -70,9 +70,9 @@ fn solved(seed: u64, jointed: bool) -> Option<(Vec<Unknown>, Vec<Constraint>)> {
     found.then_some((unknowns, constraints))
 }
 
-fn tried(seed: u64, jointed: bool) -> (bool, Vec<Unknown>, Vec<Constraint>, Tally) {
+fn tried(seed: u64, jointed: bool) -> (bool, Vec<Unknown>, Vec<Constraint>, SolverStats) {
     let (mut unknowns, mut constraints, mut ties) = frame(seed, jointed);
-    let (mut active, mut tally) = (ActiveSet::default(), Tally::default());
+    let (mut active, mut tally) = (ActiveSet::default(), SolverStats::default());
     let mut joints = joints(&unknowns, &mut constraints, &ties);
     let found = active.solve(&mut unknowns, &mut constraints, &mut ties, &mut joints, &mut tally);
     (found, unknowns, constraints, tally)
@@ -96,10 +96,10 @@ fn the_set_is_what_the_iteration_approaches() {
         let Some((exact, _)) = solved(seed, jointed) else { continue };
         found += 1;
         let (mut unknowns, mut constraints, mut ties) = frame(seed, jointed);
-        let mut approach = Approach::default();
+        let mut iterative = IterativeSolver::default();
         let mut joints = joints(&unknowns, &mut constraints, &ties);
         for _ in 0..200 {
-            approach.run(&mut unknowns, &mut constraints, &mut ties, &mut joints);
+            iterative.run(&mut unknowns, &mut constraints, &mut ties, &mut joints);
         }
         for (a, b) in exact.iter().zip(&unknowns) {
             let off = a.twist - b.twist;

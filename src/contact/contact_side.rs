@@ -7,7 +7,7 @@ use super::{bodies::Partner, points::Contact};
 
 /// A contact from the view of one of its two bodies, the receiver.
 #[derive(Clone, Copy, Debug)]
-pub struct Sight<'a> {
+pub struct ContactSide<'a> {
     /// Index of the receiving object.
     pub receiver: usize,
     /// The other body.
@@ -22,9 +22,9 @@ pub struct Sight<'a> {
 
 impl Contact {
     /// Returns the views of both bodies; `None` for a body that cannot move.
-    pub fn sights(&self) -> [Option<Sight<'_>>; 2] {
+    pub fn sides(&self) -> [Option<ContactSide<'_>>; 2] {
         let [arm, other_arm] = [self.arm, self.other_arm];
-        let first = Sight {
+        let first = ContactSide {
             receiver: self.object,
             sender: self.with,
             normal: self.normal,
@@ -32,7 +32,7 @@ impl Contact {
             contact: self,
         };
         let second = match self.with {
-            Partner::Object(receiver) => Some(Sight {
+            Partner::Object(receiver) => Some(ContactSide {
                 receiver,
                 sender: Partner::Object(self.object),
                 normal: -self.normal,
@@ -45,7 +45,7 @@ impl Contact {
     }
 }
 
-impl Sight<'_> {
+impl ContactSide<'_> {
     /// Returns the displacement of the sender's point when objects move by `motions`, metres.
     pub fn sent(&self, motions: &[Motion]) -> Vector {
         match self.sender {

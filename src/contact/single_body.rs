@@ -1,8 +1,8 @@
 //! Frames of a single unjointed object with at most two contacts, solved side by side by
 //! [`pushplan_kernel`]. The motions equal the results of [`super::prior`] to the last bit.
 
-use pushplan_kernel::Tally;
-use pushplan_kernel::{Effort, LoneContact, LoneFrame, MANY, MOST, batch, solve};
+use pushplan_kernel::SolverStats;
+use pushplan_kernel::{Effort, MANY, MOST, SingleBodyContact, SingleBodyFrame, batch, solve};
 
 use crate::geometry::Footprint;
 
@@ -22,7 +22,7 @@ pub(super) struct Waiting {
 }
 
 /// Returns `true` for a frame that the kernel can solve.
-pub(super) fn is_lone(scenery: &Scenery, contacts: &[Contact]) -> bool {
+pub(super) fn is_single_body(scenery: &Scenery, contacts: &[Contact]) -> bool {
     let bodies = scenery.bodies;
     bodies.objects.len() == 1 && bodies.mounts.is_empty() && contacts.len() <= MOST
 }
@@ -32,7 +32,7 @@ pub(super) fn solve_each(
     problems: &[Option<FrameProblem>],
     frames: &mut [Frame],
     mut waiting: &[Waiting],
-    tally: &mut Tally,
+    tally: &mut SolverStats,
 ) {
     while !waiting.is_empty() {
         let (now, later) = waiting.split_at(waiting.len().min(batch(waiting.len())));
@@ -46,7 +46,7 @@ fn solve_together(
     problems: &[Option<FrameProblem>],
     frames: &mut [Frame],
     waiting: &[Waiting],
-    tally: &mut Tally,
+    tally: &mut SolverStats,
 ) {
     let mut solutions = [None; MANY];
     {
@@ -58,12 +58,12 @@ fn solve_together(
         solve(&lanes[..waiting.len()], &mut solutions, tally);
     }
     for (solution, &Waiting { place, .. }) in solutions.iter().zip(waiting) {
-        frames[place].lone = *solution;
+        frames[place].single = *solution;
     }
 }
 
 /// Returns the kernel's input for a frame.
-fn numbers<'a>(scenery: Scenery<'a>, contacts: &[Contact]) -> LoneFrame<'a> {
+fn numbers<'a>(scenery: Scenery<'a>, contacts: &[Contact]) -> SingleBodyFrame<'a> {
     let Scenery { bodies, state, step, coasts, turns, .. } = scenery;
     let (body, coast, velocity) = (&bodies.objects[0], &coasts[0], &state.velocities[0]);
     let travel = (step.to.position - step.from.position).norm();
@@ -74,7 +74,7 @@ fn numbers<'a>(scenery: Scenery<'a>, contacts: &[Contact]) -> LoneFrame<'a> {
             Partner::Part(index) => radius(&bodies.parts[index].footprint),
             _ => None,
         };
-        *met = Some(LoneContact {
+        *met = Some(SingleBodyContact {
             normal: contact.normal,
             arm: contact.arm,
             given: contact.given,
@@ -85,7 +85,7 @@ fn numbers<'a>(scenery: Scenery<'a>, contacts: &[Contact]) -> LoneFrame<'a> {
             follows: contact.follows,
         });
     }
-    LoneFrame {
+    SingleBodyFrame {
         feet: bodies.feet(0),
         position: state.poses[0].position,
         axis: turns[0].axis(),

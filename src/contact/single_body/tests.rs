@@ -1,9 +1,9 @@
 //! Frames in lanes against the same frames one by one and against the general equations, to the
 //! bit.
 
-use pushplan_kernel::{LoneSolution, MANY, Motion, Tally};
+use pushplan_kernel::{MANY, Motion, SingleBodySolution, SolverStats};
 
-use super::{Waiting, is_lone, solve_each, solve_together};
+use super::{Waiting, is_single_body, solve_each, solve_together};
 
 use crate::{
     contact::{
@@ -95,8 +95,8 @@ impl Drawn {
 }
 
 /// Returns all bits of a frame's solution.
-fn bits(solution: &LoneSolution) -> Vec<u64> {
-    let LoneSolution { motion, normal, pressed, effort, .. } = solution;
+fn bits(solution: &SingleBodySolution) -> Vec<u64> {
+    let SingleBodySolution { motion, normal, pressed, effort, .. } = solution;
     let motion = motion.iter().flat_map(|motion| {
         let Motion { shift, turn, velocity, spin } = *motion;
         [shift.x, shift.y, turn, velocity.x, velocity.y, spin]
@@ -108,14 +108,15 @@ fn bits(solution: &LoneSolution) -> Vec<u64> {
     all.map(f64::to_bits).collect()
 }
 
-/// Returns the frames of these seeds that have a lone object in contact.
+/// Returns the frames of these seeds that have a single object in contact.
 fn woken(drawn: &[Drawn]) -> (Vec<Option<FrameProblem<'_>>>, Vec<Frame>) {
     drawn
         .iter()
         .filter_map(|drawn| {
             let (problem, mut frame) = (drawn.problem(), Frame::default());
-            let lone = frame.wake(problem) && is_lone(&frame.scenery(problem), &frame.contacts);
-            lone.then_some((Some(problem), frame))
+            let single =
+                frame.wake(problem) && is_single_body(&frame.scenery(problem), &frame.contacts);
+            single.then_some((Some(problem), frame))
         })
         .unzip()
 }
@@ -125,14 +126,14 @@ fn solved(
     problems: &[Option<FrameProblem>],
     frames: &mut [Frame],
     order: &[usize],
-) -> (Vec<Option<Vec<u64>>>, Tally) {
-    let mut tally = Tally::default();
+) -> (Vec<Option<Vec<u64>>>, SolverStats) {
+    let mut tally = SolverStats::default();
     let waiting = order.iter().map(|&place| Waiting { contacts: 0, effort: [0; 3], place });
     let waiting: Vec<Waiting> = waiting.collect();
     for waiting in waiting.chunks(together) {
         solve_together(problems, frames, waiting, &mut tally);
     }
-    (frames.iter().map(|frame| frame.lone.as_ref().map(bits)).collect(), tally)
+    (frames.iter().map(|frame| frame.single.as_ref().map(bits)).collect(), tally)
 }
 
 #[test]
@@ -161,14 +162,14 @@ fn a_frame_is_the_same_bits_beside_any_others() {
             assert_eq!(took, together.1);
         }
     }
-    let mut tally = Tally::default();
+    let mut tally = SolverStats::default();
     for few in 1..=2 * MANY + 3 {
         let mut waiting: Vec<Waiting> =
             (0..few).map(|k| Waiting { contacts: k % 2, effort: [0; 3], place: 5 * k }).collect();
         waiting.sort_unstable();
         solve_each(&problems, &mut frames, &waiting, &mut tally);
         for Waiting { place, .. } in waiting {
-            assert_eq!(frames[place].lone.as_ref().map(bits), alone[place]);
+            assert_eq!(frames[place].single.as_ref().map(bits), alone[place]);
         }
     }
 }
@@ -185,20 +186,20 @@ fn a_frame_is_that_of_the_general_equations_to_the_bit() {
     for (frame, problem) in frames.iter().zip(problems.iter().flatten()) {
         let scenery = frame.scenery(*problem);
         prior.solve(scenery, problem.axis, &frame.contacts);
-        let Some(lone) = &frame.lone else {
+        let Some(single) = &frame.single else {
             lost += 1;
             continue;
         };
-        let motion = lone.motion.unwrap_or(scenery.coasts[0]);
+        let motion = single.motion.unwrap_or(scenery.coasts[0]);
         assert_eq!(format!("{motion:?}"), format!("{:?}", prior.motions[0]));
-        *if lone.motion.is_some() { &mut held } else { &mut coasting } += 1;
+        *if single.motion.is_some() { &mut held } else { &mut coasting } += 1;
         for (k, constraint) in prior.system.constraints.iter().enumerate() {
             let force = constraint.force;
-            assert_eq!(lone.normal[k].to_bits(), force.x.to_bits());
+            assert_eq!(single.normal[k].to_bits(), force.x.to_bits());
             let pressed = constraint.to[0] * force.x + constraint.to[1] * force.y;
-            assert_eq!(lone.pressed[k], pressed);
+            assert_eq!(single.pressed[k], pressed);
             let unknown = &prior.system.unknowns[0];
-            assert_eq!(lone.moved(&pressed), unknown.inverse * pressed);
+            assert_eq!(single.moved(&pressed), unknown.inverse * pressed);
             *match constraint.status {
                 Status::Open => &mut open,
                 Status::Sticks => &mut sticking,

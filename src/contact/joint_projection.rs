@@ -36,7 +36,7 @@ struct Group {
 
 /// Projects poses and velocities of jointed objects onto their joints, in every mechanism with an
 /// object that `moved`.
-pub fn hold(bodies: &Bodies, state: &mut State, moved: impl Fn(usize) -> bool) {
+pub fn project_joints(bodies: &Bodies, state: &mut State, moved: impl Fn(usize) -> bool) {
     if bodies.joints.is_empty() && bodies.mounts.is_empty() {
         return;
     }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// Counts of the work on many frames' equations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Tally {
+pub struct SolverStats {
     /// Number of systems solved: two for each piece of a frame, for displacements and for
     /// velocities.
     pub systems: u64,
@@ -25,9 +25,9 @@ pub struct Tally {
     pub operations: u64,
 }
 
-impl Tally {
+impl SolverStats {
     /// Adds the counts of `other`.
-    pub fn add(&mut self, other: &Tally) {
+    pub fn add(&mut self, other: &SolverStats) {
         self.systems += other.systems;
         self.constraints += other.constraints;
         self.updates += other.updates;

@@ -8,16 +8,16 @@ use nalgebra::Vector3;
 
 use super::unknown::Unknown;
 
-/// Gain of a group in a frame: a displacement of its centre, metres, and a rotation, radians.
+/// Speed gain of a group in a frame: a displacement of its centre, metres, and a rotation, radians.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Gain {
+pub(super) struct WarmStart {
     /// Displacement beyond the displacement at the initial speed.
     pub moved: Vector3<f64>,
     /// Displacement at the final speed beyond the actual displacement.
     pub ended: Vector3<f64>,
 }
 
-impl Gain {
+impl WarmStart {
     /// Returns the gain of a group from its displacement `began` at the initial speed, its actual
     /// displacement `moved`, and its displacement `ended` at the final speed.
     ///

@@ -7,8 +7,8 @@ use nalgebra::Vector3;
 use pulp::x86::{V3, V4};
 
 use crate::{
-    Vector, feet::Feet, forces::MOST, frames::Frames, solution::LoneSolution, tally::Tally,
-    touching::Follows,
+    Vector, feet::Feet, forces::MOST, frames::Frames, solution::SingleBodySolution,
+    stats::SolverStats, touching::Follows,
 };
 
 /// Number of frames side by side. An AVX2 vector holds as many numbers. With eight frames, which
@@ -27,7 +27,7 @@ const FEW: usize = 3;
 
 /// A frame of one object in at most [`MOST`] contacts. World axes, SI units.
 #[derive(Clone, Copy, Debug)]
-pub struct LoneFrame<'a> {
+pub struct SingleBodyFrame<'a> {
     /// Points that the object stands on.
     pub feet: &'a Feet,
     /// Centre as the frame begins.
@@ -55,12 +55,12 @@ pub struct LoneFrame<'a> {
     /// Radius, if the object is a disc.
     pub radius: Option<f64>,
     /// Contacts of the object; `None` for absent ones.
-    pub contacts: [Option<LoneContact>; MOST],
+    pub contacts: [Option<SingleBodyContact>; MOST],
 }
 
 /// A contact with a body whose motion is given. World axes, metres, as the frame begins.
 #[derive(Clone, Copy, Debug)]
-pub struct LoneContact {
+pub struct SingleBodyContact {
     /// Unit vector into the object.
     pub normal: Vector,
     /// Vector from the object's centre to the point on it.
@@ -79,9 +79,9 @@ pub struct LoneContact {
     pub follows: Follows,
 }
 
-impl LoneFrame<'_> {
+impl SingleBodyFrame<'_> {
     #[inline(always)]
-    pub(crate) fn contacts(&self) -> impl Iterator<Item = &LoneContact> {
+    pub(crate) fn contacts(&self) -> impl Iterator<Item = &SingleBodyContact> {
         self.contacts.iter().flatten()
     }
 }
@@ -133,9 +133,9 @@ pub fn batch(waiting: usize) -> usize {
 ///
 /// The bits of a solution do not depend on the frames beside it.
 pub fn solve(
-    frames: &[Option<LoneFrame>],
-    solutions: &mut [Option<LoneSolution>],
-    tally: &mut Tally,
+    frames: &[Option<SingleBodyFrame>],
+    solutions: &mut [Option<SingleBodySolution>],
+    tally: &mut SolverStats,
 ) {
     let count = frames.len().min(solutions.len());
     let (frames, solutions) = (&frames[..count], &mut solutions[..count]);
@@ -167,10 +167,10 @@ pub fn solve(
 
 /// Solves N frames at a time by `solve`.
 fn in_lanes<const N: usize>(
-    frames: &[Option<LoneFrame>],
-    solutions: &mut [Option<LoneSolution>],
-    tally: &mut Tally,
-    solve: impl Fn(&Frames<N>, &mut Tally) -> [Option<LoneSolution>; N],
+    frames: &[Option<SingleBodyFrame>],
+    solutions: &mut [Option<SingleBodySolution>],
+    tally: &mut SolverStats,
+    solve: impl Fn(&Frames<N>, &mut SolverStats) -> [Option<SingleBodySolution>; N],
 ) {
     for (frames, solutions) in frames.chunks(N).zip(solutions.chunks_mut(N)) {
         let mut lanes = Frames::<N>::default();

@@ -24,12 +24,12 @@ const STILL: f64 = 0.1;
 
 /// A time stepper with reusable buffers.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Marcher {
+pub(super) struct TimeSteps {
     solver: Solver,
     contacts: Vec<Contact>,
 }
 
-impl Marcher {
+impl TimeSteps {
     pub fn march(&mut self, setup: &Setup, settings: &PriorSettings) -> LeverTrajectory {
         let mut way = self.begin(setup, settings);
         let (mut lift, mut held) = (Vec::new(), Vec::new());
@@ -90,7 +90,7 @@ impl Marcher {
 
 /// A lever-up in progress.
 struct Way<'a> {
-    marcher: &'a mut Marcher,
+    marcher: &'a mut TimeSteps,
     setup: &'a Setup,
     settings: &'a PriorSettings,
     body: Body,

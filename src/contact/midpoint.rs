@@ -20,7 +20,7 @@ use super::{
 
 /// Contact geometry at an instant of a frame. World axes, metres.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Midway {
+pub(super) struct Midpoint {
     /// Unit normal, from the other body into the object.
     pub normal: Vector,
     /// Vector from the centre of the object's group to the contact point.
@@ -31,13 +31,13 @@ pub(super) struct Midway {
 
 /// Returns the geometry of `contact` after a `share` of the frame's motion.
 #[inline]
-pub(super) fn midway(
+pub(super) fn midpoint(
     bodies: &Bodies,
     state: &State,
     contact: &Contact,
     unknowns: &[Unknown],
     share: f64,
-) -> Midway {
+) -> Midpoint {
     let side = |object: usize, arm: Vector| {
         let position = state.poses[object].position;
         let moves = Moves::With(&unknowns[bodies.groups.of[object].0]);
@@ -81,7 +81,7 @@ pub(super) fn midway(
         Follows::Second => (first.point(-normal), first.point(-normal)),
         _ => (first.point(-normal), second.point(normal)),
     };
-    Midway { normal, arm: p - first.moves.centre(), other_arm: q - second.moves.centre() }
+    Midpoint { normal, arm: p - first.moves.centre(), other_arm: q - second.moves.centre() }
 }
 
 /// Motion of one of the two bodies.
