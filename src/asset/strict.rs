@@ -1,6 +1,6 @@
 //! Strict check of a tree against the specification of a file, and the ledger of faults.
 
-use super::fault::{Fault, Faults, Place, did_you_mean, one_of};
+use super::diagnostic::{Fault, Faults, Place, did_you_mean, one_of};
 use super::node::{Content, Node};
 use super::reader::locate;
 use super::spec::{Key, Range, Value};

@@ -6,7 +6,7 @@ use crate::geometry::{Pose, Shape};
 use crate::scene::{Part, Tool, ToolError};
 
 use super::blade::{BLADE_TOOL, blade_tool_of, is_blade_tool};
-use super::fault::{Fault, Faults, did_you_mean};
+use super::diagnostic::{Fault, Faults, did_you_mean};
 
 use super::node::Node;
 use super::shapes::{self, SHAPE, shape};

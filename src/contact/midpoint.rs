@@ -56,7 +56,7 @@ pub(super) fn midpoint(
             };
             let radius = if let Footprint::Disc { radius } = footprint { *radius } else { 0.0 };
             let turn = Turn::by(share * contact.given_turn);
-            let moves = Moves::Given { about: point, by: share * contact.given, turn };
+            let moves = Moves::Prescribed { about: point, by: share * contact.given, turn };
             Side::new(footprint, moves, point, point - radius * normal)
         }
     };
@@ -89,7 +89,7 @@ pub(super) fn midpoint(
 enum Moves<'a> {
     With(&'a Unknown),
     /// Prescribed motion: a point of the body, its displacement, and the rotation.
-    Given {
+    Prescribed {
         about: Vector,
         by: Vector,
         turn: Turn,
@@ -101,7 +101,7 @@ impl Moves<'_> {
     fn turn(&self) -> Turn {
         match self {
             Self::With(unknown) => unknown.turn,
-            Self::Given { turn, .. } => *turn,
+            Self::Prescribed { turn, .. } => *turn,
         }
     }
 
@@ -110,7 +110,7 @@ impl Moves<'_> {
     fn moved(&self, point: Vector) -> Vector {
         match self {
             Self::With(unknown) => unknown.moved(point),
-            Self::Given { about, by, turn } => about + by + turn.of(point - about),
+            Self::Prescribed { about, by, turn } => about + by + turn.of(point - about),
         }
     }
 
@@ -119,7 +119,7 @@ impl Moves<'_> {
     fn centre(&self) -> Vector {
         match self {
             Self::With(unknown) => unknown.moved(unknown.centre),
-            Self::Given { about, by, .. } => about + by,
+            Self::Prescribed { about, by, .. } => about + by,
         }
     }
 }

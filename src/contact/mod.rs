@@ -39,7 +39,7 @@ mod warm_start;
 
 pub use pushplan_kernel::{Motion, SolverStats};
 
-pub use bodies::{Bodies, Given, Groups, Jointed, Mounted, Movable, Partner};
+pub use bodies::{Bodies, Groups, Jointed, Mounted, Movable, Partner, PrescribedBody};
 pub use contact_side::ContactSide;
 pub use forces::FrameForces;
 pub use frame::{Frame, FrameProblem, FrameSolution, Touch};

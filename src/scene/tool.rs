@@ -8,7 +8,7 @@ use thiserror::Error;
 use crate::geometry::{Pose, Shape, clearance};
 
 use super::outline::{Piece, pieces};
-use super::planar::planar_only;
+use super::serde_planar::planar_only;
 use super::{Blade, DisjointSets, Part};
 
 /// Largest gap of parts that are joined rigidly, metres.

@@ -10,9 +10,9 @@ use crate::{
     task::{Job, Motion},
 };
 
-use super::drive::{Arm, drive};
 use super::lever::LeverSimulator;
 use super::planar::PlanarWorld;
+use super::playback::{Arm, playback};
 use super::spatial::SpatialWorld;
 
 /// A physics engine with its settings. It plays motions and holds no state between them.
@@ -104,7 +104,7 @@ impl Simulator {
         if job.in_space() {
             return self.in_space(scene, job, record, watch);
         }
-        self.drive(scene, job, record, (None, watch))
+        self.playback(scene, job, record, (None, watch))
     }
 
     /// Plays consecutive jobs as one trajectory, see [`in_turn`].
@@ -124,10 +124,10 @@ impl Simulator {
     /// Plays a planar job as an arm executes it: it ends where the arm cannot continue, with a
     /// warning that states the reason.
     pub fn run_by(&self, arm: &Arm, scene: &Scene, job: &Job, record: Record) -> Trajectory {
-        self.drive(scene, job, record, (Some(arm), &Unwatched))
+        self.playback(scene, job, record, (Some(arm), &Unwatched))
     }
 
-    fn drive(
+    fn playback(
         &self,
         scene: &Scene,
         job: &Job,
@@ -135,9 +135,9 @@ impl Simulator {
         by: (Option<&Arm>, &dyn Watch),
     ) -> Trajectory {
         let play = match self.engine {
-            Engine::Planar => drive::<PlanarWorld>,
-            Engine::Spatial => drive::<SpatialWorld<true>>,
-            Engine::Upright => drive::<SpatialWorld<false>>,
+            Engine::Planar => playback::<PlanarWorld>,
+            Engine::Spatial => playback::<SpatialWorld<true>>,
+            Engine::Upright => playback::<SpatialWorld<false>>,
         };
         play(scene, job, self, record, by)
     }

@@ -5,9 +5,9 @@
 //! the plane are replayed in 3-D only. This module is independent of how plans are found.
 
 mod arm;
-mod clear;
-mod disturbance;
+mod perturbation;
 mod rules;
+mod sequential_test;
 mod space;
 mod verifier;
 

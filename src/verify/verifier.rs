@@ -15,9 +15,9 @@ use crate::{
 };
 
 use super::arm::arm_faults;
-use super::clear;
-use super::disturbance::{disturbed, lifted, wary};
+use super::perturbation::{disturbed, lifted, wary};
 use super::rules::{broken_rules, unplayable};
+use super::sequential_test;
 use super::space;
 
 /// Processor time of a 2-D time step for each object, seconds: 1 us measured with one object and
@@ -84,7 +84,7 @@ impl<'a> Verifier<'a> {
 
     /// Adds perturbed replays until the sequential test decides whether the required share reaches
     /// the goal, or until each engine has made 64. One decision in a hundred is wrong on average,
-    /// see `clear`.
+    /// see `sequential_test`.
     pub fn until_clear(self) -> Self {
         Self { until_clear: true, ..self }
     }
@@ -195,8 +195,8 @@ impl<'a> Verifier<'a> {
         let asked = (task, situation, &scene, &motions[..]);
         // The 2-D engine comes first. If the plan fails there, the slower engine is skipped.
         self.add_disturbed(&self.planar, asked, &mut planar);
-        let refused =
-            never(&planar, task) || clear::answer(&planar, task.robustness) == Some(false);
+        let refused = never(&planar, task)
+            || sequential_test::answer(&planar, task.robustness) == Some(false);
         if !(refused || self.in_plane) {
             self.add_disturbed(&self.spatial, asked, &mut spatial);
         }
@@ -216,12 +216,14 @@ impl<'a> Verifier<'a> {
             let done = own.len();
             let is_clear = || {
                 let failed = self.giving_up && never(own, asked.0);
-                failed || clear::answer(own, asked.0.robustness).is_some()
+                failed || sequential_test::answer(own, asked.0.robustness).is_some()
             };
             let goes_on = self.until_clear && least > 0 && !self.watch.cancelled();
             let wanted = match done < least {
                 true => least,
-                false if goes_on && !is_clear() => (done + clear::LOOK).min(clear::MOST),
+                false if goes_on && !is_clear() => {
+                    (done + sequential_test::LOOK).min(sequential_test::MOST)
+                }
                 false => done,
             };
             if done >= wanted {

@@ -9,7 +9,7 @@ use pushplan::solve::{Effort, Planner};
 use pushplan::watch::{Unwatched, Watch};
 use pushplan::{
     outcome::Warning,
-    scene::{Engine, JointKind, Physics, Sight, Support, Unknowns},
+    scene::{Engine, JointKind, ObservedPose, Physics, Support, Unknowns},
     task::{Noise, Task, ToolMotion, Truth},
 };
 use pushplan_act::act::{
@@ -198,7 +198,7 @@ fn what_is_seen_late_seldom_swapped_or_wrong_is_ridden_out() {
     assert_eq!(trace.end, Some(End::Reached));
     assert!(notes(&trace.steps).contains(&Note::Swapped { between: [0, 1] }));
 
-    let far = Sight { position: Vector::new(5.0, 5.0), heading: Some(0.0) };
+    let far = ObservedPose { position: Vector::new(5.0, 5.0), heading: Some(0.0) };
     let (ended, trace) = spoilt(&task, Vec::new(), |_, looks| looks[3].seen[0] = Some(far));
     ended.expect("left out");
     assert_eq!(trace.end, Some(End::Reached));

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use pushplan::{
     asset::{ToolLibrary, load_task},
-    effect::{EffectModel, EffectModels, Network, Outside, Prior, Routed, Simulated},
+    effect::{EffectModel, EffectModels, Fallback, Network, OutOfRange, Prior, Simulated},
     outcome::{Record, Trajectory, Warning},
     scene::{Joint, JointKind, ModelKind, Object, Obstacle, Quantity, Scene},
     sim::Simulator,
@@ -22,8 +22,8 @@ fn network() -> Network {
     Network::new(EffectModels::weights().expect("the shipped weights"))
 }
 
-fn routed(outside: Outside) -> Routed {
-    Routed::new(Arc::new(network())).outside(outside)
+fn routed(out_of_range: OutOfRange) -> Fallback {
+    Fallback::new(Arc::new(network())).out_of_range(out_of_range)
 }
 
 /// Returns a box of this mass in front of the tool.
@@ -38,8 +38,8 @@ fn job(scene: &Scene) -> Job {
     Job::stated(scene, motion)
 }
 
-fn run(outside: Outside, scene: &Scene) -> Trajectory {
-    routed(outside).rollout(scene, &[job(scene)], Record::Frames).remove(0)
+fn run(out_of_range: OutOfRange, scene: &Scene) -> Trajectory {
+    routed(out_of_range).rollout(scene, &[job(scene)], Record::Frames).remove(0)
 }
 
 #[test]
@@ -47,8 +47,8 @@ fn inside_its_range_the_network_predicts_whatever_is_asked_for() {
     let scene = scene(0.5);
     let plain = network().rollout(&scene, &[job(&scene)], Record::Frames).remove(0);
     assert!(plain.warnings.is_empty(), "{:?}", plain.warnings);
-    for outside in [Outside::Simulate, Outside::Warn, Outside::Refuse] {
-        assert_eq!(run(outside, &scene), plain, "{outside}");
+    for out_of_range in [OutOfRange::Simulate, OutOfRange::Warn, OutOfRange::Refuse] {
+        assert_eq!(run(out_of_range, &scene), plain, "{out_of_range}");
     }
 }
 
@@ -58,19 +58,19 @@ fn outside_of_it_simulation_takes_its_place_or_nothing_does() {
     let motion = job(&scene).motion;
     let planar =
         Simulator::planar().run(&scene, &Job::stated(&scene, motion.clone()), Record::Frames);
-    assert_eq!(run(Outside::Simulate, &scene).frames, planar.frames);
-    let guarded = routed(Outside::Simulate);
+    assert_eq!(run(OutOfRange::Simulate, &scene).frames, planar.frames);
+    let guarded = routed(OutOfRange::Simulate);
     let said = guarded.trust(&scene, &job(&scene)).warnings();
     assert!(said.iter().all(|w| matches!(w, Warning::Simulated { .. })) && !said.is_empty());
     assert!(said[0].to_string().contains("simulated in the plane instead"), "{}", said[0]);
 
-    let refused = run(Outside::Refuse, &scene);
+    let refused = run(OutOfRange::Refuse, &scene);
     assert_eq!(refused.outcome(), &scene.start());
     assert!(refused.warnings.contains(&Warning::Refused));
     assert!(refused.warnings.iter().any(Warning::forbids_success));
 
     let plain = network().rollout(&scene, &[job(&scene)], Record::Frames).remove(0);
-    assert_eq!(run(Outside::Warn, &scene), plain);
+    assert_eq!(run(OutOfRange::Warn, &scene), plain);
 }
 
 #[test]
@@ -100,7 +100,7 @@ fn jobs_keep_their_order_when_some_are_simulated() {
             job
         })
         .collect();
-    let rolled = routed(Outside::Simulate).rollout(&scene, &jobs, Record::Frames);
+    let rolled = routed(OutOfRange::Simulate).rollout(&scene, &jobs, Record::Frames);
     for (k, (job, trajectory)) in jobs.iter().zip(&rolled).enumerate() {
         let duration = trajectory.frames[job.motion.slide().strokes[0].frames()].time;
         assert!((duration - fast(k)).abs() < 1e-9, "{k}: {duration}");
@@ -152,16 +152,16 @@ fn a_box_crushed_against_a_wall_is_said_to_jam_and_is_simulated_when_asked() {
         z: 0.0,
         friction: 0.4,
     });
-    let found = run(Outside::Warn, &scene).warnings;
+    let found = run(OutOfRange::Warn, &scene).warnings;
     let depth = found.iter().find_map(|warning| match warning {
         Warning::Jammed { depth, .. } => Some(*depth),
         _ => None,
     });
     // The tool ends 10 cm further; box and wall leave it 2 cm.
     assert!(depth.is_some_and(|depth| depth > 0.01 && depth < 0.1), "{found:?}");
-    let instead = run(Outside::Simulate, &scene);
+    let instead = run(OutOfRange::Simulate, &scene);
     assert!(instead.warnings.iter().any(|w| matches!(w, Warning::Simulated { .. })));
-    let refused = run(Outside::Refuse, &scene);
+    let refused = run(OutOfRange::Refuse, &scene);
     assert!(refused.warnings.contains(&Warning::Refused));
 }
 
@@ -170,7 +170,7 @@ fn a_tool_set_down_on_an_object_is_said() {
     let mut scene = scene(0.5);
     scene.objects[0].pose = Pose::new(0.02, 0.0, 0.0);
     let name = scene.objects[0].name.clone();
-    let found = run(Outside::Warn, &scene).warnings;
+    let found = run(OutOfRange::Warn, &scene).warnings;
     assert!(found.contains(&Warning::SetDownOn { object: name, stroke: 0 }), "{found:?}");
 }
 
@@ -180,26 +180,26 @@ fn a_planner_refuses_warns_with_a_number_or_simulates() {
     let path = Path::new(ROOT).join("tasks/pull-back.yaml");
     let mut task: Task = load_task(&path, &library).expect("a shipped task");
     task.scene.objects[0].mass = 500.0;
-    let planner = |outside| {
+    let planner = |out_of_range| {
         let model = EffectModels::build(&ModelKind::NETWORK.into()).expect("the shipped weights");
-        Planner::builder(model).effort(Effort::Draft).outside(outside).build()
+        Planner::builder(model).effort(Effort::Draft).out_of_range(out_of_range).build()
     };
-    match planner(Outside::Refuse).solve(&task, &library) {
+    match planner(OutOfRange::Refuse).solve(&task, &library) {
         Err(SolveError::Refused { warnings, .. }) => {
             assert_eq!(warnings.len(), 1, "said once, not with every tool: {warnings:?}");
         }
         other => panic!("{other:?}"),
     }
-    let warned = planner(Outside::Warn).solve(&task, &library).expect("a sound task");
+    let warned = planner(OutOfRange::Warn).solve(&task, &library).expect("a sound task");
     assert!(warned.warnings.iter().any(|w| matches!(w, Warning::OutsideRange { .. })));
     // If the prediction agrees with the simulation, there is no further warning.
     assert!(!warned.warnings.iter().any(|w| matches!(w, Warning::Differs { .. })));
     let path = Path::new(ROOT).join("tasks/crowd.yaml");
     let mut crowd = load_task(&path, &library).expect("a shipped task");
     crowd.pushes.speed = 0.9;
-    let fast = planner(Outside::Warn).solve(&crowd, &library).expect("a sound task");
+    let fast = planner(OutOfRange::Warn).solve(&crowd, &library).expect("a sound task");
     assert!(fast.warnings.iter().any(|w| matches!(w, Warning::Differs { .. })), "{fast:?}");
-    let simulated = planner(Outside::Simulate).solve(&task, &library).expect("a sound task");
+    let simulated = planner(OutOfRange::Simulate).solve(&task, &library).expect("a sound task");
     assert!(simulated.warnings.iter().any(|w| matches!(w, Warning::Simulated { .. })));
     let planar =
         Planner::builder(Simulated::new(Simulator::planar())).effort(Effort::Draft).build();

@@ -11,10 +11,9 @@ use pushplan_report::{PoseRow, RECORDED, recorded_document, recordings_document}
 
 use super::{
     error::CliError,
-    exit_code,
-    follow::Following,
-    model, output,
+    exit_code, model, output,
     predict::PredictArgs,
+    progress::TerminalProgress,
     recordings::{RecordingSet, load_recordings},
     session::Session,
 };
@@ -46,7 +45,7 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     }
     let mut reports = Vec::new();
     for (title, range) in groups {
-        let following = Following::bar(session, &title);
+        let following = TerminalProgress::bar(session, &title);
         let (trials, names) = (&trials[range.clone()], names[range].to_vec());
         reports.push(session.compute(|| {
             let errors = TrialErrors::of(title, trials, &models, &following);
@@ -94,13 +93,14 @@ fn models(
     fit: Option<&TableFit>,
 ) -> Result<Vec<Box<dyn EffectModel>>, CliError> {
     let asked = args.spec();
-    let mut models: Vec<Box<dyn EffectModel>> = vec![Box::new(args.outside.fitted(&asked, fit)?)];
+    let mut models: Vec<Box<dyn EffectModel>> =
+        vec![Box::new(args.out_of_range.fitted(&asked, fit)?)];
     if args.alone {
         return Ok(models);
     }
     if recordings.iter().any(|recording| !recording.scene.joints.is_empty()) {
         for spec in assumed(&asked) {
-            models.push(Box::new(args.outside.fitted(&spec, fit)?));
+            models.push(Box::new(args.out_of_range.fitted(&spec, fit)?));
         }
     }
     for spec in recorded_baselines(&asked) {

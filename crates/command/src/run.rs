@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use pushplan::asset::{ToolLibrary, load_world};
-use pushplan::effect::{EffectModels, Outside};
+use pushplan::effect::{EffectModels, OutOfRange};
 use pushplan::solve::{Effort, Planner};
 use pushplan::{
     scene::Models,
@@ -20,16 +20,16 @@ use pushplan_report::{Recipe, Setting, run_document, run_page, table_fit_section
 use super::{
     error::CliError,
     exit_code,
-    follow::Following,
     form::Form,
     interrupt,
-    model::{self, OutsideArgs, TableArgs},
+    model::{self, OutOfRangeArgs, TableArgs},
     output::{self, ResultArgs},
+    progress::TerminalProgress,
     regulator::RegulatorArgs,
     session::Session,
     solve::{share, solve_error},
     task_argument::TaskArgs,
-    words::{EFFORTS, PROBES, words},
+    value_enums::{EFFORTS, PROBES, possible_values},
 };
 
 /// Carry out a task in a world that is only partly known: push, look, learn, plan again
@@ -57,7 +57,7 @@ pub struct RunArgs {
     #[arg(long, value_name = "FILE|SEED")]
     world: String,
     /// How hard to try with every plan
-    #[arg(long, value_parser = words(&EFFORTS), default_value = "draft")]
+    #[arg(long, value_parser = possible_values(&EFFORTS), default_value = "draft")]
     effort: Effort,
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
     model: Option<Models>,
@@ -70,7 +70,7 @@ pub struct RunArgs {
     #[command(flatten)]
     regulator: RegulatorArgs,
     #[command(flatten)]
-    outside: OutsideArgs,
+    out_of_range: OutOfRangeArgs,
     /// Most pushes before giving up
     #[arg(long, value_name = "N", default_value_t = 12,
           value_parser = clap::value_parser!(u16).range(1..=1000))]
@@ -87,7 +87,7 @@ pub struct RunArgs {
           value_parser = clap::value_parser!(u16).range(0..=1000))]
     probes: u16,
     /// How these are chosen
-    #[arg(long, value_parser = words(&PROBES), value_name = "RULE", default_value = "task")]
+    #[arg(long, value_parser = possible_values(&PROBES), value_name = "RULE", default_value = "task")]
     rule: ProbeRule,
     /// Seed of samples and plans
     #[arg(long, value_name = "N", default_value_t = 0)]
@@ -125,7 +125,7 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
     let planner = Planner::fitted(&models, fit.as_ref())?
         .effort(args.effort)
         .seed(args.seed)
-        .outside(args.outside.outside())
+        .out_of_range(args.out_of_range.out_of_range())
         .build();
     output::prepare(&args.results.out)?;
     let path = args.results.out.join(format!("{}.run.json", task.name));
@@ -144,8 +144,11 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
         return Err(CliError::usage(format!("{models} has no network that could learn"), advice));
     }
     let regulator = args.regulator.load()?;
-    let mut planned_by =
-        format!("{models}, effort {}, outside {}", args.effort, args.outside.outside());
+    let mut planned_by = format!(
+        "{models}, effort {}, out-of-range {}",
+        args.effort,
+        args.out_of_range.out_of_range()
+    );
     if let Some((_, digest)) = &regulator {
         planned_by += &format!(", regulator {digest}");
     }
@@ -157,7 +160,7 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
         runner = runner.regulated(regulator);
     }
     interrupt::watch();
-    let following = Following::bar(session, "pushes");
+    let following = TerminalProgress::bar(session, "pushes");
     // The lock is held until the results are written, because another run could overwrite them.
     let _alone = FolderLock::take(&args.results.out, &following)?;
     let begun = Trace::new(task, settings, planned_by, Some(truth.clone()));
@@ -168,7 +171,7 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
     following.finish()?;
     ran.map_err(|error| act_error(error, &path))?;
     for note in trace.all_notes() {
-        session.warn(&note.words(&trace.task.scene));
+        session.warn(&note.possible_values(&trace.task.scene));
     }
     let mut document = run_document(&trace);
     let mut written = vec![path];
@@ -197,11 +200,11 @@ fn recipe(args: &RunArgs) -> Recipe {
         let own = table.iter().find(|(_, rule, _)| *rule == args.rule);
         own.map_or(String::new(), |(word, ..)| (*word).to_owned())
     };
-    let outside = args.outside.outside();
+    let out_of_range = args.out_of_range.out_of_range();
     let usual = RunSettings::default();
     let given = [
         (args.effort != Effort::Draft, "--effort", args.effort.to_string()),
-        (outside != Outside::Warn, "--outside", outside.to_string()),
+        (out_of_range != OutOfRange::Warn, "--out-of-range", out_of_range.to_string()),
         (usize::from(args.pushes) != usual.pushes, "--pushes", args.pushes.to_string()),
         (usize::from(args.samples) != usual.samples, "--samples", args.samples.to_string()),
         (args.enough != usual.enough, "--enough", args.enough.to_string()),

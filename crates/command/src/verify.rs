@@ -14,12 +14,12 @@ use pushplan_report::{PageView, Recipe, replay_warnings, verdict_document};
 use super::{
     error::CliError,
     exit_code,
-    follow::Following,
     form::Form,
     output, page,
+    progress::TerminalProgress,
     session::Session,
     solve::{share, time_limit},
-    words::{VIEWS, words},
+    value_enums::{VIEWS, possible_values},
 };
 
 /// Estimated duration above which replays are announced, seconds.
@@ -57,7 +57,7 @@ pub struct VerifyArgs {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// What the page shows
-    #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d", requires = "out")]
+    #[arg(long, value_parser = possible_values(&VIEWS), value_name = "VIEW", default_value = "2d", requires = "out")]
     page: PageView,
     #[command(flatten)]
     form: Form,
@@ -69,7 +69,7 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     file.task.robustness = args.robustness.unwrap_or(file.task.robustness);
     let settings = VerifySettings { disturbed: args.disturbed as usize, seed: args.seed };
     let situation = Situation::stated(&file.task.scene);
-    let following = Following::spinner(session, "replaying");
+    let following = TerminalProgress::spinner(session, "replaying");
     let until = Until::new(&following, args.time_limit);
     let verifier =
         Verifier::new(settings).watched(&until).until_clear().moving(file.joints.as_ref());

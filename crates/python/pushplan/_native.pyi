@@ -51,7 +51,7 @@ __version__: str
 _Path = str | os.PathLike[str]
 _Floats = npt.NDArray[np.float64]
 _Effort = Literal["draft", "standard", "thorough"]
-_Outside = Literal["warn", "simulate", "refuse"]
+_OutOfRange = Literal["warn", "simulate", "refuse"]
 _Status = Literal["solved", "fragile", "partial", "no_plan", "failed_verification"]
 
 @final
@@ -469,7 +469,7 @@ def run(
     *,
     effort: _Effort = "draft",
     model: str | None = None,
-    outside: _Outside = "warn",
+    out_of_range: _OutOfRange = "warn",
     seed: int = 0,
     pushes: int = 12,
     samples: int = 16,
@@ -486,7 +486,7 @@ def solve(
     *,
     effort: _Effort = "standard",
     model: str | None = None,
-    outside: _Outside = "warn",
+    out_of_range: _OutOfRange = "warn",
     seed: int = 0,
     disturbed: int | None = None,
     robustness: float | None = None,
@@ -500,7 +500,7 @@ def solve_all(
     *,
     effort: _Effort = "standard",
     model: str | None = None,
-    outside: _Outside = "warn",
+    out_of_range: _OutOfRange = "warn",
     seed: int = 0,
     disturbed: int | None = None,
     robustness: float | None = None,
@@ -519,7 +519,7 @@ def design(
     threads: int = 0,
 ) -> Design: ...
 def predict(
-    plan: Plan, model: str = "network", *, outside: _Outside = "warn", threads: int = 0
+    plan: Plan, model: str = "network", *, out_of_range: _OutOfRange = "warn", threads: int = 0
 ) -> Trajectory: ...
 def verify(
     plan: Plan,
@@ -538,7 +538,7 @@ def rollout(
     grip_yaw: npt.ArrayLike | None = None,
     start: npt.ArrayLike | None = None,
     model: str = "network",
-    outside: _Outside = "warn",
+    out_of_range: _OutOfRange = "warn",
     record: Literal["frames", "outcome"] = "frames",
     tools: ToolLibrary | None = None,
     threads: int = 0,

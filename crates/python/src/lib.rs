@@ -8,6 +8,7 @@
 
 use pyo3::prelude::*;
 
+mod arguments;
 mod arrays;
 mod belief;
 mod command;
@@ -30,7 +31,6 @@ mod task;
 mod tool;
 mod trajectory;
 mod verdict;
-mod words;
 mod work;
 
 #[pymodule]

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use numpy::PyArray2;
-use pushplan::scene::Sight;
+use pushplan::scene::ObservedPose;
 use pushplan::{Noise, Tool, ToolMotion, Vector};
 use pushplan_act::act::{ActError, End, Look, SimulatedWorld, World, WorldError};
 use pushplan_act::{RunSettings, Runner, Trace, hidden};
@@ -20,7 +20,7 @@ use crate::solve::{Asked, stated};
 use crate::table_fit::PyTableFit;
 use crate::task::PyTask;
 use crate::tool::{PyTool, PyToolLibrary, given};
-use crate::{errors, json, page, words, work};
+use crate::{arguments, errors, json, page, work};
 
 /// What a world is asked to do: the tool is set down where the first stroke begins, moves along all
 /// strokes, waits until everything rests and is lifted.
@@ -188,7 +188,7 @@ impl PyRun {
 /// what is known of the table; the network goes on learning from the pushes of the run. With
 /// `regulator` the belief regulator corrects what the filter over joints finds.
 #[pyfunction]
-#[pyo3(signature = (task, world, tools = None, *, effort = "draft", model = None, outside = "warn",
+#[pyo3(signature = (task, world, tools = None, *, effort = "draft", model = None, out_of_range = "warn",
                     seed = 0, pushes = 12, samples = 16, enough = 0.8, probes = 3, noise = None,
                     fit = None, regulator = true, threads = 0))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
@@ -199,7 +199,7 @@ pub fn run(
     tools: Option<Py<PyToolLibrary>>,
     effort: &str,
     model: Option<&str>,
-    outside: &str,
+    out_of_range: &str,
     seed: u64,
     pushes: usize,
     samples: usize,
@@ -212,7 +212,8 @@ pub fn run(
 ) -> PyResult<PyRun> {
     let fit = fit.as_ref().map(|fit| &fit.get().0);
     let (disturbed, time_limit) = (None, None);
-    let planner = Asked { effort, model, outside, seed, disturbed, time_limit, fit }.planner(py)?;
+    let planner =
+        Asked { effort, model, out_of_range, seed, disturbed, time_limit, fit }.planner(py)?;
     let library = given(py, tools.as_ref())?;
     let mut runner = Runner::new(&planner, &library)
         .learning(fit.cloned())
@@ -246,10 +247,11 @@ pub fn run(
             return Err(PyTypeError::new_err(message));
         }
     };
-    let planned_by = format!("{}, effort {effort}, outside {outside}", model.unwrap_or("default"));
+    let planned_by =
+        format!("{}, effort {effort}, out-of-range {out_of_range}", model.unwrap_or("default"));
     let stated = stated(Arc::clone(&task.task), fit);
     let mut trace = Trace::new(stated.as_ref().clone(), settings, planned_by, None);
-    let threads = words::threads(threads)?;
+    let threads = arguments::threads(threads)?;
     let ran = work::run(py, threads, |cancel| {
         runner.run(&mut trace, &mut place, &mut |_| Ok(()), cancel)
     })?;
@@ -344,7 +346,7 @@ impl World for Place {
 }
 
 /// Converts an array `[objects, 3]` to observations.
-fn sights(array: &Bound<'_, PyAny>) -> PyResult<Vec<Option<Sight>>> {
+fn sights(array: &Bound<'_, PyAny>) -> PyResult<Vec<Option<ObservedPose>>> {
     let numbers: Numbers<'_> = array.extract()?;
     let numbers = numbers.as_array();
     if numbers.ndim() != 2 || numbers.shape()[1] != 3 {
@@ -355,7 +357,7 @@ fn sights(array: &Bound<'_, PyAny>) -> PyResult<Vec<Option<Sight>>> {
         let [x, y, heading] = [0, 1, 2].map(|column| numbers[[k, column]]);
         let heading = heading.is_finite().then_some(heading);
         let seen = x.is_finite() && y.is_finite();
-        seen.then_some(Sight { position: Vector::new(x, y), heading })
+        seen.then_some(ObservedPose { position: Vector::new(x, y), heading })
     };
     Ok((0..numbers.shape()[0]).map(sight).collect())
 }

@@ -15,7 +15,7 @@ use pyo3::types::PyAny;
 use serde_json::json;
 
 use crate::trajectory::PyTrajectory;
-use crate::{arrays, json, page, words};
+use crate::{arguments, arrays, json, page};
 
 /// Whether a plan works when it is replayed in both engines, as written and disturbed.
 #[pyclass(name = "Verdict", module = "pushplan", frozen)]
@@ -133,7 +133,7 @@ impl PyReplay {
     /// `"planar"` or `"3d"`.
     #[getter]
     fn engine(&self) -> &'static str {
-        words::engine(self.evidence.engine)
+        arguments::engine(self.evidence.engine)
     }
 
     /// Number of the disturbance, from 1 and the same in both engines; `None` as written.

@@ -92,7 +92,7 @@ def test_a_model_can_be_told_to_refuse(task: pushplan.Task) -> None:
     fast = pushplan.Task.of({**keys, "pushes": {"speed": 1.0}})
     assert pushplan.solve(fast, model="network", effort="draft").warnings
     with pytest.raises(pushplan.RefusedError) as refused:
-        pushplan.solve(fast, model="network", outside="refuse")
+        pushplan.solve(fast, model="network", out_of_range="refuse")
     assert any("speed" in warning for warning in refused.value.warnings)
 
 

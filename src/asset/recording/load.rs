@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::asset::fault::Faults;
+use crate::asset::diagnostic::Faults;
 use crate::asset::node::{Content, Node};
 use crate::asset::shapes::shape;
 use crate::asset::strict::{Ledger, check};

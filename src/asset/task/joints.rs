@@ -9,7 +9,7 @@ use crate::asset::spec::{ANGLE_LIMIT, Key, POSITION, Range, SHIFT_LIMIT, Value, 
 use crate::asset::strict::Ledger;
 use crate::asset::take::{angle_of, name_of, vector};
 use crate::geometry::{Footprint, Pose, Vector, clearance};
-use crate::scene::{DisjointSets, Joint, JointKind, Mount, Object, Span};
+use crate::scene::{DisjointSets, Joint, JointKind, Object, Span, WorldJoint};
 
 use super::bodies::{body, known_object};
 use super::mounts;
@@ -100,10 +100,10 @@ pub(in crate::asset) fn joint(node: &Node, objects: &[Object]) -> Option<Joint> 
 }
 
 /// Returns the joint to the world; `None` if a required value is missing or faulty.
-pub(super) fn mount(joint: &Node, object: &Node, objects: &[Object]) -> Option<Mount> {
+pub(super) fn mount(joint: &Node, object: &Node, objects: &[Object]) -> Option<WorldJoint> {
     let name = object.text()?;
     let object = objects.iter().position(|object| object.name == name)?;
-    Some(Mount { object, kind: kind_of(joint)? })
+    Some(WorldJoint { object, kind: kind_of(joint)? })
 }
 
 /// Returns the kind of a joint; `None` if a required value is missing or faulty.

@@ -37,22 +37,22 @@ impl fmt::Display for Warning {
         match self {
             Warning::OutsideRange { .. } | Warning::Declined { .. } => write!(
                 f,
-                "{}; predictions may be wrong, `--outside simulate` simulates instead",
+                "{}; predictions may be wrong, `--out-of-range simulate` simulates instead",
                 self.fact()
             ),
             Warning::Pressed { .. } => write!(
                 f,
-                "{}; its motion is then unpredictable, `--outside simulate` simulates instead",
+                "{}; its motion is then unpredictable, `--out-of-range simulate` simulates instead",
                 self.fact()
             ),
             Warning::Doubtful { .. } => write!(
                 f,
-                "{}, says the model itself; `--outside simulate` simulates instead",
+                "{}, says the model itself; `--out-of-range simulate` simulates instead",
                 self.fact()
             ),
             Warning::Overlap { .. } | Warning::LooseJoint { .. } => write!(
                 f,
-                "{}, which cannot happen on a table; `--outside simulate` simulates instead",
+                "{}, which cannot happen on a table; `--out-of-range simulate` simulates instead",
                 self.fact()
             ),
             Warning::Differs { object, distance } => write!(
@@ -66,7 +66,7 @@ impl fmt::Display for Warning {
             }
             Warning::Refused => write!(
                 f,
-                "no prediction was made; `--outside simulate` simulates instead, `--outside warn` \
+                "no prediction was made; `--out-of-range simulate` simulates instead, `--out-of-range warn` \
                  predicts all the same"
             ),
             Warning::Guessed { unknown } => write!(
@@ -163,7 +163,11 @@ impl fmt::Display for Warning {
                 "{object} toppled; its pose on the table means little; push lower or slower"
             ),
             Warning::NotFinite => {
-                write!(f, "{} and was stopped; `--outside simulate` simulates instead", self.fact())
+                write!(
+                    f,
+                    "{} and was stopped; `--out-of-range simulate` simulates instead",
+                    self.fact()
+                )
             }
         }
     }

@@ -10,7 +10,7 @@ use pushplan::solve::{Planner, SolveError};
 use pushplan::watch::Watch;
 use pushplan::{
     outcome::{Record, Trajectory},
-    scene::{Scene, Sight, Situation, State, TableFit, Tool},
+    scene::{ObservedPose, Scene, Situation, State, TableFit, Tool},
     task::{Goal, Job, Observation, Plan, Push, PushForm},
 };
 
@@ -164,7 +164,7 @@ impl<'a> Runner<'a> {
             }
         }
         let poses = seen.iter().zip(&stated.poses).map(|(sight, stated)| match sight {
-            Some(Sight { position, heading }) => Pose {
+            Some(ObservedPose { position, heading }) => Pose {
                 position: *position,
                 heading: heading.map_or(stated.heading, |heading| near(heading, stated.heading)),
             },

@@ -13,19 +13,19 @@ use pushplan::{
 };
 
 use super::{
-    chance::LOGISTIC,
+    distributions::LOGISTIC,
     group::{Push, has_unseen_headings, is_lifted},
+    importance::Stretch,
     joints::{carried, likeliest, of_types},
-    look::{Looked, Told},
     masses::Masses,
     pair::{JointType, PairBelief},
+    pair_likelihood::{Looked, Told},
     particles::Particles,
     regulation::{BeliefRegulator, Regulation},
+    regulator_features::{Circumstances, Draft, RegulatorFeatures, Together, features},
     relative::{relative, spread},
     settings::BeliefSettings,
-    testimony::{Circumstances, Draft, Testimony, Together, features},
-    track::{ARM, Track},
-    weighing::Stretch,
+    state_filter::{ARM, StateFilter},
 };
 
 /// Number of observations per window. Shorter windows are dominated by noise; in longer ones errors
@@ -45,7 +45,7 @@ pub struct Belief {
     pub(super) settings: BeliefSettings,
     /// Pairs as the filter estimates them.
     pub(super) pairs: Vec<PairBelief>,
-    pub(super) track: Track,
+    pub(super) track: StateFilter,
     /// Known joints, at the poses stated in the scene.
     pub(super) known: Vec<Joint>,
     pub(super) particles: Particles,
@@ -84,7 +84,7 @@ impl Belief {
         let known = scene.seams().collect();
         let scene = Scene { joints: Vec::new(), ..scene.clone() };
         let particles = Particles::new(scene.objects.len(), Unknowns::NONE, 0);
-        let track = Track::new(scene.start(), settings.noise);
+        let track = StateFilter::new(scene.start(), settings.noise);
         let doubt = gap_deviation(settings.noise);
         let pairs = pairs_within(&scene, JOINABLE + BEYOND * doubt)
             .into_iter()
@@ -125,7 +125,7 @@ impl Belief {
 
     /// Returns the features of all windows recorded by a [listening](BeliefRegulator::listening)
     /// regulator.
-    pub fn heard(&self) -> &[Testimony] {
+    pub fn heard(&self) -> &[RegulatorFeatures] {
         self.regulation.as_ref().map_or(&[], |regulation| &regulation.heard)
     }
 

@@ -23,7 +23,7 @@ use super::{
     filter::{Belief, follows, joint_of, weigh},
     joints::of_types,
     pair::{JointType, PairBelief},
-    testimony::Together,
+    regulator_features::Together,
 };
 
 /// Maximum number of windows that are replayed.

@@ -15,7 +15,7 @@ use pushplan::{
 
 use crate::regulator::{Memory, Regulator, RegulatorWeights};
 
-use super::testimony::{Draft, EVIDENCE, Testimony};
+use super::regulator_features::{Draft, EVIDENCE, RegulatorFeatures};
 
 /// Error of creating a regulator.
 #[derive(Debug, Error)]
@@ -98,7 +98,7 @@ pub(super) struct Regulation {
     /// Probabilities of [`JointType::ALL`] for every pair; `None` if not corrected.
     pub shares: Vec<Option<[f64; 4]>>,
     /// Recorded windows of a listening regulator, and first versions of repeated pushes.
-    pub heard: Vec<Testimony>,
+    pub heard: Vec<RegulatorFeatures>,
     pub drafts: Vec<Draft>,
 }
 
@@ -145,7 +145,7 @@ impl Regulation {
             features.extend(effects.iter().map(|x| if evidence.is_some() { *x } else { 0.0 }));
         }
         let Some(cell) = &self.by.cell else {
-            self.heard.push(Testimony { features, told, filtered });
+            self.heard.push(RegulatorFeatures { features, told, filtered });
             return;
         };
         let objects = scene.objects.len();

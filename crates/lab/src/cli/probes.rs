@@ -10,7 +10,7 @@ use pushplan_command::bench::suite::{Cases, Measure, Run, Suite, only};
 use pushplan_command::error::CliError;
 use pushplan_command::model;
 use pushplan_command::session::Session;
-use pushplan_command::words::{PROBES, words};
+use pushplan_command::value_enums::{PROBES, possible_values};
 use pushplan_report::Document;
 use serde_json::json;
 
@@ -31,7 +31,7 @@ Examples:
 {}", keep::HELP))]
 pub struct ProbesArgs {
     /// How pushes are chosen; several may be given [default: all but task, which needs one]
-    #[arg(long, num_args = 1.., value_parser = words(&PROBES), value_name = "RULE")]
+    #[arg(long, num_args = 1.., value_parser = possible_values(&PROBES), value_name = "RULE")]
     rule: Vec<ProbeRule>,
     /// Number of objects in a scene
     #[arg(long, value_name = "N", default_value_t = 6,

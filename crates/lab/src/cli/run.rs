@@ -9,7 +9,7 @@ use pushplan_command::bench::keep::KeepArgs;
 use pushplan_command::bench::suite::{Cases, Measure, Run, Suite};
 use pushplan_command::error::CliError;
 use pushplan_command::session::Session;
-use pushplan_command::words::{EFFORTS, ENGINES, PROBES, words};
+use pushplan_command::value_enums::{EFFORTS, ENGINES, PROBES, possible_values};
 use pushplan_report::Document;
 use serde_json::json;
 
@@ -34,10 +34,10 @@ pub struct RunArgs {
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     count: u32,
     /// How hard to try with every plan
-    #[arg(long, value_parser = words(&EFFORTS), default_value = "draft")]
+    #[arg(long, value_parser = possible_values(&EFFORTS), default_value = "draft")]
     effort: Effort,
     /// Engine of the worlds
-    #[arg(long, value_parser = words(&ENGINES), default_value = "planar")]
+    #[arg(long, value_parser = possible_values(&ENGINES), default_value = "planar")]
     engine: Engine,
     /// Tolerance of the goals as a share of the usual 2 cm
     #[arg(long, value_name = "SHARE", default_value_t = 1.0, value_parser = tolerance)]
@@ -51,7 +51,7 @@ pub struct RunArgs {
           value_parser = clap::value_parser!(u16).range(0..=1000))]
     probes: u16,
     /// How these are chosen
-    #[arg(long, value_parser = words(&PROBES), value_name = "RULE", default_value = "task")]
+    #[arg(long, value_parser = possible_values(&PROBES), value_name = "RULE", default_value = "task")]
     rule: ProbeRule,
 }
 

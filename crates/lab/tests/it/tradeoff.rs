@@ -3,7 +3,7 @@
 use pushplan::watch::Watch;
 use pushplan::{
     asset::ToolLibrary,
-    effect::{EffectModel, EffectModels, Job, Routed},
+    effect::{EffectModel, EffectModels, Fallback, Job},
     outcome::Record,
     scene::{ModelSpec, Models},
     solve::{Effort, Settings},
@@ -15,7 +15,7 @@ use pushplan_lab::bench::{
 };
 use pushplan_lab::report::tradeoff_document;
 
-fn model(spec: &str) -> Routed {
+fn model(spec: &str) -> Fallback {
     EffectModels::build(&spec.parse().unwrap()).unwrap()
 }
 

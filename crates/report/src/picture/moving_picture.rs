@@ -15,13 +15,13 @@ use pushplan::{
 
 use super::{
     bodies,
+    captions::Captions,
     extent::Extent,
     joints::{self, Symbol},
     legend::{self, Sample},
     moving_tool, palette,
     scene_picture::Source,
     stage::{SEEN, Stage, clockwise, shift, turn},
-    story::Story,
     strokes,
     timeline::Timeline,
     view::View,
@@ -73,9 +73,9 @@ impl MovingPicture<'_> {
         stage.svg.open_clipped("plot", view.corner, view.size);
         self.plot(&mut stage);
         stage.svg.close();
-        let story = self.story();
-        story.progress(&mut stage);
-        story.captions(&mut stage, at(below + 28.0));
+        let captions = self.captions();
+        captions.progress(&mut stage);
+        captions.captions(&mut stage, at(below + 28.0));
         legend::draw(&mut stage.svg, &entries, at(below + STRIP), wide);
         stage.finish()
     }
@@ -112,7 +112,7 @@ impl MovingPicture<'_> {
         for goal in &self.task.shown_goals() {
             bodies::goal(&mut stage.svg, &view, goal);
         }
-        self.story().reached(stage);
+        self.captions().reached(stage);
         stage.open_layer();
         moving_tool::tools(stage, &strokes::all(self.motions));
         for (k, object) in self.task.scene.things() {
@@ -186,9 +186,9 @@ impl MovingPicture<'_> {
         }
     }
 
-    fn story(&self) -> Story<'_> {
+    fn captions(&self) -> Captions<'_> {
         let Self { task, motions, trajectory, .. } = *self;
-        Story { task, strokes: strokes::all(motions), trajectory }
+        Captions { task, strokes: strokes::all(motions), trajectory }
     }
 
     /// Returns the frames that can be drawn.

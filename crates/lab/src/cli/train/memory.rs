@@ -6,13 +6,13 @@ use clap::Args;
 use pushplan::internals::scene::LeverFeatures;
 use pushplan_command::error::CliError;
 use pushplan_command::session::Session;
-use pushplan_command::words::words;
+use pushplan_command::value_enums::possible_values;
 use pushplan_learn::cli::train::{distinct, opened, take, weights};
 use pushplan_learn::dataset::{LeverDataset, LeverEpisode, LeverPart};
 use pushplan_learn::train::{Descent, LeverSettings, train_lever};
 
 use super::RunArgs;
-use crate::cli::words::{LEVER_FEATURES, Told};
+use crate::cli::value_enums::{LEVER_FEATURES, Told};
 use crate::image::{ImageSettings, train_image};
 
 /// A long short-term memory that is told the whole at once
@@ -47,7 +47,7 @@ pub struct MemoryArgs {
     #[arg(long)]
     cut: bool,
     /// What the network is told of the shape
-    #[arg(long, value_parser = words(&LEVER_FEATURES), default_value = "support")]
+    #[arg(long, value_parser = possible_values(&LEVER_FEATURES), default_value = "support")]
     features: Told,
     /// Leave out plates of this many corners
     #[arg(long, value_name = "CORNERS")]

@@ -2,7 +2,7 @@
 
 use candle_core::{Device, Result, Tensor};
 use pushplan::internals::network::Statistics;
-use pushplan_act::belief::{JointType, Testimony};
+use pushplan_act::belief::{JointType, RegulatorFeatures};
 use pushplan_act::regulator::{LEAST, TYPES};
 
 use crate::dataset::Lesson;
@@ -20,7 +20,7 @@ const CHANGES: f64 = 1e-6;
 const BOUND: f32 = 10.0;
 
 /// Lesson with its windows for training.
-pub(super) type Heard<'a> = (&'a Lesson, Vec<&'a Testimony>);
+pub(super) type Heard<'a> = (&'a Lesson, Vec<&'a RegulatorFeatures>);
 
 /// Inputs of the loss apart from the network's outputs.
 pub(super) struct Examples {

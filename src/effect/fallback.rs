@@ -20,7 +20,7 @@ use super::{EffectModel, Quantiles, Simulated, Trust};
 /// (see [`Warning::questions_model`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Outside {
+pub enum OutOfRange {
     /// Simulate in 2-D instead, at the cost of the engine for these jobs.
     Simulate,
     /// Predict, and add a warning.
@@ -30,12 +30,12 @@ pub enum Outside {
     Refuse,
 }
 
-impl fmt::Display for Outside {
+impl fmt::Display for OutOfRange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Outside::Simulate => "simulate",
-            Outside::Warn => "warn",
-            Outside::Refuse => "refuse",
+            OutOfRange::Simulate => "simulate",
+            OutOfRange::Warn => "warn",
+            OutOfRange::Refuse => "refuse",
         })
     }
 }
@@ -47,10 +47,10 @@ const SAME: f64 = 1e-3;
 /// Models in order of preference: a job is given to the first that accepts it, otherwise to the
 /// last.
 #[derive(Clone)]
-pub struct Routed {
+pub struct Fallback {
     models: Vec<Arc<dyn EffectModel>>,
     spec: ModelSpec,
-    outside: Outside,
+    out_of_range: OutOfRange,
     planar: Simulated,
 }
 
@@ -61,12 +61,12 @@ struct Route {
     warnings: Vec<Warning>,
 }
 
-impl Routed {
+impl Fallback {
     /// Uses `model` for all jobs.
     pub fn new(model: Arc<dyn EffectModel>) -> Self {
         let spec = model.spec().clone();
         let planar = Simulated::new(Simulator::planar());
-        Self { models: vec![model], spec, outside: Outside::default(), planar }
+        Self { models: vec![model], spec, out_of_range: OutOfRange::default(), planar }
     }
 
     /// Adds `other` for jobs that no model so far accepts.
@@ -76,9 +76,9 @@ impl Routed {
         self
     }
 
-    /// Sets the policy for jobs outside a model's ranges; [`Outside::Warn`] by default.
-    pub fn outside(self, outside: Outside) -> Self {
-        Self { outside, ..self }
+    /// Sets the policy for jobs outside a model's ranges; [`OutOfRange::Warn`] by default.
+    pub fn out_of_range(self, out_of_range: OutOfRange) -> Self {
+        Self { out_of_range, ..self }
     }
 
     fn route(&self, scene: &Scene, job: &Job) -> Route {
@@ -111,14 +111,14 @@ impl Routed {
     }
 }
 
-impl EffectModel for Routed {
+impl EffectModel for Fallback {
     fn spec(&self) -> &ModelSpec {
         &self.spec
     }
 
     fn trust(&self, scene: &Scene, job: &Job) -> Trust {
         let Route { error, warnings, .. } = self.route(scene, job);
-        if self.outside != Outside::Simulate || warnings.is_empty() {
+        if self.out_of_range != OutOfRange::Simulate || warnings.is_empty() {
             return Trust::Mine { error, warnings };
         }
         let error = self.planar.trust(scene, job).error();
@@ -131,7 +131,7 @@ impl EffectModel for Routed {
 
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
         let work = (scene, jobs, record);
-        if self.outside == Outside::Warn {
+        if self.out_of_range == OutOfRange::Warn {
             if let [only] = &self.models[..] {
                 return only.rollout(scene, jobs, record);
             }
@@ -159,7 +159,7 @@ impl EffectModel for Routed {
         };
         let doubts: Vec<Option<Warning>> = places.iter().map(doubt).collect();
         let out = |k: usize| !inside(k) || doubts[k].is_some();
-        if self.outside == Outside::Simulate {
+        if self.out_of_range == OutOfRange::Simulate {
             Self::fill(&self.planar, work, out, &mut places);
             for (place, doubt) in places.iter_mut().zip(doubts) {
                 let doubt = doubt.map(simulated);
@@ -174,7 +174,7 @@ impl EffectModel for Routed {
     }
 }
 
-impl Routed {
+impl Fallback {
     /// Returns a refusal: the start alone, with the warnings against a prediction.
     fn refused(&self, job: &Job, route: &Route, doubtful: Option<Trajectory>) -> Trajectory {
         let tool = job.motion.slide().strokes.first().map(|stroke| stroke.from).unwrap_or_default();

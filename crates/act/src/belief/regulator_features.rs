@@ -11,7 +11,7 @@ pub const EVIDENCE: usize = 51;
 
 /// Features of all pairs in one window.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Testimony {
+pub struct RegulatorFeatures {
     /// Features [P, F]: [`EVIDENCE`] numbers, then the propagation effects; zeros for uninformative
     /// pairs.
     pub features: Vec<f32>,
@@ -27,7 +27,7 @@ pub struct Draft {
     /// Number of final windows before the push.
     pub after: usize,
     /// Windows of the push.
-    pub windows: Vec<Testimony>,
+    pub windows: Vec<RegulatorFeatures>,
 }
 
 /// Result of the joint inference for a pair.

@@ -10,8 +10,8 @@ use crate::geometry::{Pose, Vector};
 use super::feet::fewer;
 use super::raised::{bearings, by_mass};
 use super::{
-    Feet, Joint, JointKind, Object, PairFriction, Physics, Scene, Sight, State, Support, Surface,
-    Whole,
+    Feet, Joint, JointKind, Object, ObservedPose, PairFriction, Physics, Scene, State, Support,
+    Surface, Whole,
 };
 
 impl Scene {
@@ -122,14 +122,17 @@ impl Scene {
 
     /// Returns the observations of all solids for these observations of the first solids; the poses
     /// of parts follow from them.
-    pub fn sights_with_parts(&self, mut seen: Vec<Option<Sight>>) -> Vec<Option<Sight>> {
+    pub fn sights_with_parts(
+        &self,
+        mut seen: Vec<Option<ObservedPose>>,
+    ) -> Vec<Option<ObservedPose>> {
         let parts = self.objects.iter().skip(seen.len()).map_while(|object| object.whole);
         let of = |part: Whole| {
-            let Sight { position, heading } = seen[part.object]?;
+            let ObservedPose { position, heading } = seen[part.object]?;
             let pose = Pose { position, heading: heading? } * part.place;
-            Some(Sight::new(&pose, true))
+            Some(ObservedPose::new(&pose, true))
         };
-        let parts: Vec<Option<Sight>> = parts.map(of).collect();
+        let parts: Vec<Option<ObservedPose>> = parts.map(of).collect();
         seen.extend(parts);
         seen
     }

@@ -1,6 +1,6 @@
-//! Tests of `routed`.
+//! Tests of `fallback`.
 
-use crate::effect::{Prior, UpTo};
+use crate::effect::{CrowdLimit, Prior};
 use crate::geometry::{Pose, Vector};
 use crate::{
     scene::{Object, Part, Quantity, Tool},
@@ -37,8 +37,8 @@ fn pushes_into_a_crowd_are_simulated_and_those_beside_it_are_not() {
     let [own, engine] = [roll(&prior), roll(&Simulated::new(planar))];
     assert!(own != engine);
     let to = |most: u16| {
-        let few = Arc::new(UpTo::new(prior.clone(), most));
-        Routed::new(few).or(Arc::new(Simulated::new(planar)))
+        let few = Arc::new(CrowdLimit::new(prior.clone(), most));
+        Fallback::new(few).or(Arc::new(Simulated::new(planar)))
     };
     let model = to(2);
     assert_eq!(model.spec().to_string(), "prior,up-to=2|planar");
@@ -55,7 +55,7 @@ fn pushes_into_a_crowd_are_simulated_and_those_beside_it_are_not() {
 #[test]
 fn routing_asks_for_the_start_of_the_job_and_not_of_the_scene() {
     let (scene, jobs) = row();
-    let model = Routed::new(Arc::new(UpTo::new(Prior::default(), 2)))
+    let model = Fallback::new(Arc::new(CrowdLimit::new(Prior::default(), 2)))
         .or(Arc::new(Simulated::new(Simulator::planar())));
     // Without the row the push reaches only one can.
     let mut job = jobs[0].clone();
@@ -71,17 +71,18 @@ fn routing_asks_for_the_start_of_the_job_and_not_of_the_scene() {
 #[test]
 fn what_no_model_takes_is_said_simulated_or_refused() {
     let (scene, jobs) = row();
-    let alone = |outside| {
-        let model = UpTo::new(Prior::default(), 2);
+    let alone = |out_of_range| {
+        let model = CrowdLimit::new(Prior::default(), 2);
         assert_eq!(model.trust(&scene, &jobs[0]), Trust::NotMine);
-        Routed::new(Arc::new(model)).outside(outside)
+        Fallback::new(Arc::new(model)).out_of_range(out_of_range)
     };
     let declined = |warning: &Warning| matches!(warning, Warning::Declined { .. });
-    assert!(alone(Outside::Warn).trust(&scene, &jobs[0]).warnings().iter().all(declined));
-    let roll = |outside| alone(outside).rollout(&scene, &jobs[..1], Record::Outcome).remove(0);
-    assert_eq!(roll(Outside::Warn).by.to_string(), "prior");
-    assert_eq!(roll(Outside::Simulate).by.to_string(), "planar");
-    assert_eq!(roll(Outside::Refuse).outcome(), &jobs[0].start);
+    assert!(alone(OutOfRange::Warn).trust(&scene, &jobs[0]).warnings().iter().all(declined));
+    let roll =
+        |out_of_range| alone(out_of_range).rollout(&scene, &jobs[..1], Record::Outcome).remove(0);
+    assert_eq!(roll(OutOfRange::Warn).by.to_string(), "prior");
+    assert_eq!(roll(OutOfRange::Simulate).by.to_string(), "planar");
+    assert_eq!(roll(OutOfRange::Refuse).outcome(), &jobs[0].start);
 }
 
 #[test]

@@ -20,7 +20,7 @@ const SLACK: f64 = 1e-6;
 
 /// The path of the end effector between two positions, with the tool lifted.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Way {
+pub enum TravelPath {
     /// Straight.
     Straight,
     /// Around a body, by way of these positions, metres.
@@ -44,12 +44,12 @@ impl Task {
 
     /// Returns the path of `tool` from the end of a push to the start of the next; `None` if it is
     /// not lifted between them.
-    pub fn way_between(
+    pub fn path_between(
         &self,
         scene: &Scene,
         tool: &Tool,
         [before, next]: [&PushStep; 2],
-    ) -> Option<Way> {
+    ) -> Option<TravelPath> {
         if next.form != PushForm::Placed {
             return None;
         }
@@ -57,13 +57,18 @@ impl Task {
         let made = ToolMotion::pushes(Arc::new(tool.clone()), lift, yaw, &[before.push], true);
         let back = made.retreat(scene, 0);
         let from = back.map_or(before.push.end(), |back| (back.to * tool.grip).position);
-        Some(self.way(scene, (tool, next.grip_yaw), [from, next.push.start]))
+        Some(self.travel_path(scene, (tool, next.grip_yaw), [from, next.push.start]))
     }
 
     /// Returns the path of `tool`, held at `yaw` (radians), between two positions of the end
     /// effector at [`Robot::travel`]. It avoids everything higher: obstacles, and objects that must
     /// be kept in place.
-    fn way(&self, scene: &Scene, (tool, yaw): (&Tool, f64), ends: [Vector; 2]) -> Way {
+    fn travel_path(
+        &self,
+        scene: &Scene,
+        (tool, yaw): (&Tool, f64),
+        ends: [Vector; 2],
+    ) -> TravelPath {
         let kept = scene.objects.iter().filter(|object| object.keep.is_some());
         let tall = kept.filter(|object| object.top() > self.robot.travel);
         let tall = tall.map(|object| Fixed {
@@ -83,11 +88,11 @@ impl Task {
         let hand = self.robot.carried(tool, 0.0).into_iter().flatten();
         let hand = hand.map(|carried| (carried.footprint, frame * carried.pose));
         room.carried = parts.chain(hand).collect();
-        let Some(what) = room.met(ends) else { return Way::Straight };
+        let Some(what) = room.met(ends) else { return TravelPath::Straight };
         let what = what.to_owned();
         match room.around(ends) {
-            Some(by) => Way::Around { what, by },
-            None => Way::Blocked(what),
+            Some(by) => TravelPath::Around { what, by },
+            None => TravelPath::Blocked(what),
         }
     }
 }
@@ -156,28 +161,28 @@ impl Room<'_> {
                 }
             }
         };
-        let mut way = vec![ends[1], place(last)];
+        let mut path = vec![ends[1], place(last)];
         let mut cell = last;
         while let Some(earlier) = before[cell].filter(|earlier| *earlier != cell) {
             cell = earlier;
-            way.push(place(cell));
+            path.push(place(cell));
         }
-        way.push(ends[0]);
-        way.reverse();
-        Some(self.straightened(&way))
+        path.push(ends[0]);
+        path.reverse();
+        Some(self.straightened(&path))
     }
 
     /// Removes unnecessary corners of a path.
-    fn straightened(&self, way: &[Vector]) -> Vec<Vector> {
+    fn straightened(&self, path: &[Vector]) -> Vec<Vector> {
         let (mut turns, mut here) = (Vec::new(), 0);
-        while here + 1 < way.len() {
+        while here + 1 < path.len() {
             let sees = |next: &usize| {
                 let within = (1..8)
-                    .all(|k| self.robot.reaches(way[here].lerp(&way[*next], f64::from(k) / 8.0)));
-                within && self.met([way[here], way[*next]]).is_none()
+                    .all(|k| self.robot.reaches(path[here].lerp(&path[*next], f64::from(k) / 8.0)));
+                within && self.met([path[here], path[*next]]).is_none()
             };
-            here = (here + 2..way.len()).rev().find(sees).unwrap_or(here + 1);
-            turns.extend(way.get(here).filter(|_| here + 1 < way.len()));
+            here = (here + 2..path.len()).rev().find(sees).unwrap_or(here + 1);
+            turns.extend(path.get(here).filter(|_| here + 1 < path.len()));
         }
         turns
     }
@@ -202,20 +207,22 @@ mod tests {
         let wall = |height: f64, y: f64, width: f64| {
             Obstacle::new("wall", [0.02, width, height], Pose::new(0.6, y, 0.0))
         };
-        let way = |walls: &[Obstacle]| {
+        let path = |walls: &[Obstacle]| {
             let mut scene = Scene::new([can.clone()]);
             scene.obstacles = walls.to_vec();
             let goal = Goal::new(0, [0.7, 0.1], 0.02);
             let task = Task::new("t", scene, Robot::reaching(0.2, 1.0), goal);
-            task.way(&task.scene, (&tool, 0.0), [0.45, 0.8].map(|x| Vector::new(x, 0.0)))
+            task.travel_path(&task.scene, (&tool, 0.0), [0.45, 0.8].map(|x| Vector::new(x, 0.0)))
         };
-        assert_eq!(way(&[wall(0.2, 0.0, 0.4)]), Way::Straight);
-        let Way::Around { what, by } = way(&[wall(0.5, 0.0, 0.4)]) else { panic!("no way") };
+        assert_eq!(path(&[wall(0.2, 0.0, 0.4)]), TravelPath::Straight);
+        let TravelPath::Around { what, by } = path(&[wall(0.5, 0.0, 0.4)]) else {
+            panic!("no path")
+        };
         assert!(what == "wall" && by.len() <= 3, "{by:?}");
         // The path leads around an end of the wall, at the distance of the hand's radius.
         assert!(by.iter().any(|at| at.y.abs() > 0.25), "{by:?}");
         // The wall extends over the whole reach of the arm, and the robot itself is behind it.
-        assert_eq!(way(&[wall(0.5, 0.0, 2.4)]), Way::Blocked("wall".into()));
-        assert_eq!(way(&[wall(0.5, 0.0, 0.4).raised(0.5)]), way(&[wall(1.0, 0.0, 0.4)]));
+        assert_eq!(path(&[wall(0.5, 0.0, 2.4)]), TravelPath::Blocked("wall".into()));
+        assert_eq!(path(&[wall(0.5, 0.0, 0.4).raised(0.5)]), path(&[wall(1.0, 0.0, 0.4)]));
     }
 }

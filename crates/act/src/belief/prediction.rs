@@ -15,7 +15,7 @@ use pushplan::{
 };
 
 use super::{
-    chance::generator,
+    distributions::generator,
     filter::Belief,
     joints::of_types,
     median::{geometric_median, weighted_median},

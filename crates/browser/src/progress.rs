@@ -20,9 +20,9 @@ extern "C" {
 }
 
 /// Progress observer that reports to the page.
-pub struct Following;
+pub struct WorkerProgress;
 
-impl Watch for Following {
+impl Watch for WorkerProgress {
     fn stage(&self, what: &str) {
         told(what, 0.0, 0.0);
     }

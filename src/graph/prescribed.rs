@@ -14,7 +14,7 @@ use crate::{
 
 /// A tool or an obstacle in a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Given {
+pub struct PrescribedNode {
     /// Whether the body is the tool, not an obstacle.
     pub tool: bool,
     /// Middle of the covered area, between its ends along and across the tool's motion; world,
@@ -28,7 +28,7 @@ pub struct Given {
     pub turn: f64,
 }
 
-impl Given {
+impl PrescribedNode {
     /// Returns the tool in a frame.
     pub fn tool(frame: &FrameSolution<'_>) -> Self {
         let FrameStep { from, to, .. } = *frame.step;

@@ -16,10 +16,10 @@ use super::{
     filter::{Belief, joint_of},
     joints::with,
     pair::{JointType, PairBelief},
+    regulator_features::Judged,
     relative::{relative, spread},
     rolled::Rolled,
-    testimony::Judged,
-    track::{ARM, Track},
+    state_filter::{ARM, StateFilter},
     window::{Doubt, Instant, drift, evidence, whitened},
 };
 
@@ -88,8 +88,8 @@ impl Belief {
                 false => [None; 4],
             };
             let judged = tells(pair).then(|| self.judge(pair, &places, &instants, &doubts));
-            let ends =
-                by_type.map(|rolled| pair.between.map(|k| Track::unseen_end(k, rolled, window)));
+            let ends = by_type
+                .map(|rolled| pair.between.map(|k| StateFilter::unseen_end(k, rolled, window)));
             Told { judged, instants, ends, doubts }
         };
         let told = self.pairs.iter().enumerate().map(tell).collect();
@@ -113,7 +113,7 @@ impl Belief {
             let instants = JointType::ALL.map(|_| instants.clone());
             let doubts = self.doubts(pair, &instants, &moved);
             let judged = Some(self.judge(pair, &[0.0; 4], &instants, &doubts));
-            let ends = pair.between.map(|k| Track::unseen_end(k, &base, window));
+            let ends = pair.between.map(|k| StateFilter::unseen_end(k, &base, window));
             Told { judged, instants, ends: [ends; 4], doubts }
         };
         let told = self.pairs.iter().map(tell).collect();

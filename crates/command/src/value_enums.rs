@@ -1,8 +1,8 @@
-//! Words of the command line for values, each with its line in `--help`.
+//! Names of values on the command line, each with its line in `--help`.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-use pushplan::effect::Outside;
+use pushplan::effect::OutOfRange;
 use pushplan::scene::Engine;
 use pushplan::solve::Effort;
 use pushplan_act::act::ProbeRule;
@@ -10,7 +10,7 @@ use pushplan_bench::Layout;
 use pushplan_report::PageView;
 
 /// Words, their values and their descriptions.
-pub type Words<T> = [(&'static str, T, &'static str)];
+pub type ValueTable<T> = [(&'static str, T, &'static str)];
 
 /// Levels of effort.
 pub static EFFORTS: [(&str, Effort, &str); 3] = [
@@ -24,10 +24,10 @@ pub static EFFORTS: [(&str, Effort, &str); 3] = [
 ];
 
 /// Policies outside of a model's range.
-pub static OUTSIDE: [(&str, Outside, &str); 3] = [
-    ("simulate", Outside::Simulate, "Simulate in the plane instead"),
-    ("warn", Outside::Warn, "Predict and warn"),
-    ("refuse", Outside::Refuse, "Give no prediction; exit code 6"),
+pub static OUT_OF_RANGE: [(&str, OutOfRange, &str); 3] = [
+    ("simulate", OutOfRange::Simulate, "Simulate in the plane instead"),
+    ("warn", OutOfRange::Warn, "Predict and warn"),
+    ("refuse", OutOfRange::Refuse, "Give no prediction; exit code 6"),
 ];
 
 /// Views of the table on a page.
@@ -63,7 +63,7 @@ pub static LAYOUTS: [(&str, Layout, &str); 2] = [
 ];
 
 /// Returns a parser of the words of a table.
-pub fn words<T>(table: &'static Words<T>) -> impl TypedValueParser<Value = T>
+pub fn possible_values<T>(table: &'static ValueTable<T>) -> impl TypedValueParser<Value = T>
 where
     T: Clone + Send + Sync + 'static,
 {

@@ -44,7 +44,7 @@ pub(super) struct Overlap {
 
 /// A check of a world after every time step.
 #[derive(Debug, Default)]
-pub(super) struct Strain {
+pub(super) struct Violations {
     /// Overlaps before any motion, which are excused as long as they do not deepen; `None` before
     /// the first step.
     excused: Option<Vec<Overlap>>,
@@ -75,7 +75,7 @@ impl Pressed {
     }
 }
 
-impl Strain {
+impl Violations {
     /// Creates the check of a motion in `scene`. A `strict` check excuses nothing, because the
     /// motion then begins in a state that rigid bodies can have.
     pub fn new(scene: &Scene, strict: bool) -> Self {

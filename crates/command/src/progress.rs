@@ -13,7 +13,7 @@ use super::{
 };
 
 /// Progress bar or spinner of a job.
-pub struct Following<'a> {
+pub struct TerminalProgress<'a> {
     session: &'a Session,
     bar: ProgressBar,
     /// Whether the counted units belong to a stage.
@@ -24,7 +24,7 @@ pub struct Following<'a> {
     trouble: Mutex<Option<CliError>>,
 }
 
-impl<'a> Following<'a> {
+impl<'a> TerminalProgress<'a> {
     /// Returns a bar for many equal units of `what`.
     pub fn bar(session: &'a Session, what: &str) -> Self {
         Self::with(session, session.bar(what), false)
@@ -67,7 +67,7 @@ impl<'a> Following<'a> {
     }
 }
 
-impl Watch for Following<'_> {
+impl Watch for TerminalProgress<'_> {
     fn stage(&self, what: &str) {
         if self.staged {
             count(&self.bar, false);

@@ -14,13 +14,13 @@ use super::{palette, stage::Stage, strokes::Made, timeline::LIFT};
 const CAPTION: Font = Font::new(14.0, palette::INK).bold();
 
 /// Content of the captions.
-pub struct Story<'a> {
+pub struct Captions<'a> {
     pub task: &'a Task,
     pub strokes: Vec<Made<'a>>,
     pub trajectory: &'a Trajectory,
 }
 
-impl Story<'_> {
+impl Captions<'_> {
     /// Draws the progress bar along the lower edge of the plot.
     pub fn progress(&self, stage: &mut Stage) {
         let corner = stage.view.corner + Vector::new(0.0, stage.view.size.y);

@@ -4,17 +4,18 @@ use std::sync::Arc;
 
 use pushplan::{
     scene::Tool,
-    task::{Plan, PushStep, Task, Way},
+    task::{Plan, PushStep, Task, TravelPath},
 };
 
 use super::plan_text::point;
 
 /// Returns a line for each detour between two pushes.
-pub(super) fn ways(task: &Task, plan: &Plan, tools: &[Arc<Tool>]) -> Vec<String> {
+pub(super) fn detours(task: &Task, plan: &Plan, tools: &[Arc<Tool>]) -> Vec<String> {
     let Some(tool) = tools.first().filter(|_| !plan.levers()) else { return Vec::new() };
     let pushes: Vec<_> = plan.push_steps().collect();
     let around = |(k, pair): (usize, &[&PushStep])| {
-        let Way::Around { what, by } = task.way_between(&task.scene, tool, [pair[0], pair[1]])?
+        let TravelPath::Around { what, by } =
+            task.path_between(&task.scene, tool, [pair[0], pair[1]])?
         else {
             return None;
         };

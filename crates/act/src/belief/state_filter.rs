@@ -4,12 +4,12 @@ use nalgebra::{Matrix2, Vector2};
 
 use pushplan::{
     geometry::{Pose, Vector, contact_points, wrap_angle},
-    scene::{Scene, Sight, State},
+    scene::{ObservedPose, Scene, State},
     task::{Noise, Observation},
 };
 
 use super::{
-    chance::{generator, normal},
+    distributions::{generator, normal},
     rolled::Rolled,
     window::UNEVEN,
 };
@@ -29,14 +29,14 @@ pub(super) const ARM: f64 = 0.04;
 
 /// Estimated poses and velocities of all objects.
 #[derive(Clone, Debug)]
-pub(super) struct Track {
+pub(super) struct StateFilter {
     noise: Noise,
     pub state: State,
     /// Variance of every object's position (per coordinate) and heading.
     pub variance: Vec<[f64; 2]>,
 }
 
-impl Track {
+impl StateFilter {
     /// Creates the estimate for objects observed at rest in `state`.
     pub fn new(state: State, noise: Noise) -> Self {
         let variance = [noise.position.powi(2), noise.heading.powi(2)];
@@ -66,7 +66,7 @@ impl Track {
     ///
     /// The heading is unwrapped to be near the rolled-out one. An unobserved heading is the
     /// rolled-out one, without variance.
-    pub fn sight(&self, sight: Option<Sight>, rolled: &Pose) -> Option<(Pose, [f64; 2])> {
+    pub fn sight(&self, sight: Option<ObservedPose>, rolled: &Pose) -> Option<(Pose, [f64; 2])> {
         let sight = sight?;
         let (heading, variance) = match sight.heading {
             Some(heading) => {

@@ -12,13 +12,13 @@ use super::{EffectModel, Trust};
 /// A model for motions that reach few objects, because the cost of its contacts grows faster with
 /// their number than an engine's.
 #[derive(Clone, Debug)]
-pub struct UpTo<M> {
+pub struct CrowdLimit<M> {
     model: M,
     most: u16,
     spec: ModelSpec,
 }
 
-impl<M: EffectModel> UpTo<M> {
+impl<M: EffectModel> CrowdLimit<M> {
     /// Limits `model` to motions that can set at most `most` objects in motion.
     pub fn new(model: M, most: u16) -> Self {
         let spec = model.spec().clone().up_to(most);
@@ -31,7 +31,7 @@ impl<M: EffectModel> UpTo<M> {
     }
 }
 
-impl<M: EffectModel> EffectModel for UpTo<M> {
+impl<M: EffectModel> EffectModel for CrowdLimit<M> {
     fn spec(&self) -> &ModelSpec {
         &self.spec
     }

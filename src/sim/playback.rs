@@ -14,7 +14,7 @@ use crate::{
 use crate::watch::Watch;
 
 use super::Simulator;
-use super::strain::{Overlap, Strain};
+use super::violations::{Overlap, Violations};
 use super::world::World;
 
 /// Factor by which the steps of an accelerated frame are finer.
@@ -36,14 +36,14 @@ pub struct Arm {
 
 impl Arm {
     /// Returns a warning if the force exceeds the arm's limit.
-    fn gives_up(&self, strain: &Strain) -> Option<Warning> {
-        let (needed, limit) = (strain.force().lasting, self.max_force?);
+    fn gives_up(&self, violations: &Violations) -> Option<Warning> {
+        let (needed, limit) = (violations.force().lasting, self.max_force?);
         (needed > limit).then_some(Warning::TooMuchForce { object: None, needed, limit })
     }
 }
 
 /// Plays `job` in a world `W` with the simulator's steps; with an `arm`, until it cannot continue.
-pub(super) fn drive<W: World>(
+pub(super) fn playback<W: World>(
     scene: &Scene,
     job: &Job,
     simulator: &Simulator,
@@ -55,7 +55,7 @@ pub(super) fn drive<W: World>(
     let step = simulator.step();
     let tool = motion.strokes.first().map_or(Pose::default(), |stroke| stroke.from);
     let mut recorder = Recorder::new(simulator.spec(), record, start, tool);
-    recorder.strain = Strain::new(scene, arm.is_some());
+    recorder.violations = Violations::new(scene, arm.is_some());
     if !start.is_finite() {
         recorder.trajectory.warnings.push(Warning::NotFinite);
         return recorder.finish(scene, motion);
@@ -69,7 +69,7 @@ pub(super) fn drive<W: World>(
             // computation. A planar state cannot describe an object on its side, so such objects
             // stay in the old world, and the tool jumps there.
             world = W::build(scene, &world.state(), physics, motion, &stroke.from);
-            recorder.strain.begin();
+            recorder.violations.begin();
         }
         if index == 0 || lifted {
             let below = motion.set_down_on(scene, &recorder.last().state, index);
@@ -91,7 +91,8 @@ pub(super) fn drive<W: World>(
             let strays = scene.strays(&recorder.last().state, 0.0);
             let jam = played.jam.map(|jam| jammed(scene, motion, jam));
             let weak = arm.and_then(|arm| {
-                arm.gives_up(&recorder.strain).or_else(|| recorder.strain.too_hard(scene).next())
+                arm.gives_up(&recorder.violations)
+                    .or_else(|| recorder.violations.too_hard(scene).next())
             });
             let stopped = || watch.cancelled().then_some(Warning::Stopped);
             let ends = jam.or(strays).or(weak).or_else(stopped);
@@ -158,7 +159,7 @@ fn play<W: World>(
         if recorder.record == Record::Frames {
             recorder.note_contacts(world);
         }
-        if let Some(jam) = recorder.strain.look(world) {
+        if let Some(jam) = recorder.violations.look(world) {
             played = Played { share: k as f64 / steps, jam: Some(jam) };
             break;
         }
@@ -199,13 +200,13 @@ struct Recorder {
     seen: usize,
     /// Objects that have toppled, in order.
     toppled: Vec<usize>,
-    strain: Strain,
+    violations: Violations,
 }
 
 impl Recorder {
     fn new(by: ModelSpec, record: Record, start: &State, tool: Pose) -> Self {
         let trajectory = Trajectory::standing(by, tool, start.clone());
-        Self { record, trajectory, seen: 1, toppled: Vec::new(), strain: Strain::default() }
+        Self { record, trajectory, seen: 1, toppled: Vec::new(), violations: Violations::default() }
     }
 
     fn finish(mut self, scene: &Scene, motion: &ToolMotion) -> Trajectory {
@@ -219,11 +220,11 @@ impl Recorder {
         let fallen = scene.fallen(self.trajectory.outcome(), &self.toppled);
         self.trajectory.warnings.extend(fallen);
         // Warnings that stopped an arm are already in the list.
-        let harmed: Vec<Warning> = self.strain.too_hard(scene).collect();
+        let harmed: Vec<Warning> = self.violations.too_hard(scene).collect();
         let warnings = &mut self.trajectory.warnings;
         warnings
             .extend(harmed.into_iter().filter(|one| !warnings.contains(one)).collect::<Vec<_>>());
-        self.trajectory.force = Some(self.strain.force());
+        self.trajectory.force = Some(self.violations.force());
         self.trajectory.tell_parts(scene, &motion.tool);
         self.trajectory
     }

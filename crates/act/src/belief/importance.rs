@@ -15,7 +15,7 @@ use super::{
     joints::{carried, likeliest},
     masses::Replay,
     rolled::Rolled,
-    track::{ARM, Track},
+    state_filter::{ARM, StateFilter},
 };
 
 /// Maximum number of observations per rollout.
@@ -49,7 +49,7 @@ const STARTS: usize = 16;
 #[derive(Clone, Debug)]
 pub(super) struct Stretch {
     /// Estimated poses at that time.
-    before: Track,
+    before: StateFilter,
     seen: Vec<Observation>,
 }
 
@@ -139,7 +139,7 @@ impl Belief {
 }
 
 /// Returns the log-density of the observations given a rollout.
-fn likelihood(before: &Track, rolled: &Rolled, seen: &[Observation]) -> f64 {
+fn likelihood(before: &StateFilter, rolled: &Rolled, seen: &[Observation]) -> f64 {
     let mut log = 0.0;
     for instant in 1..=INSTANTS.min(seen.len()) {
         let k = seen.len() * instant / INSTANTS.min(seen.len()) - 1;
@@ -151,7 +151,7 @@ fn likelihood(before: &Track, rolled: &Rolled, seen: &[Observation]) -> f64 {
     TEMPERING * log
 }
 
-fn of_object(before: &Track, object: usize, state: &State, now: &Observation) -> f64 {
+fn of_object(before: &StateFilter, object: usize, state: &State, now: &Observation) -> f64 {
     let (start, rolled) = (&before.state.poses[object], &state.poses[object]);
     let Some((pose, variance)) = before.sight(now.seen[object], rolled) else { return 0.0 };
     let motion =

@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use std::time::Duration;
 
-use pushplan::effect::{EffectModels, Outside, Routed};
+use pushplan::effect::{EffectModels, Fallback, OutOfRange};
 use pushplan::scene::{Engine, TableFit};
 use pushplan::{Effort, ModelSpec, Models, PlanStatus};
 use pyo3::exceptions::PyValueError;
@@ -28,8 +28,8 @@ pub fn status(status: PlanStatus) -> &'static str {
 }
 
 /// Returns the action for predictions outside a model's validity range.
-pub fn outside(word: &str) -> PyResult<Outside> {
-    one_of("outside", word, &[Outside::Warn, Outside::Simulate, Outside::Refuse])
+pub fn out_of_range(word: &str) -> PyResult<OutOfRange> {
+    one_of("out_of_range", word, &[OutOfRange::Warn, OutOfRange::Simulate, OutOfRange::Refuse])
 }
 
 fn one_of<T: Display + Copy>(what: &str, word: &str, all: &[T]) -> PyResult<T> {
@@ -51,19 +51,19 @@ pub fn models(py: Python<'_>, text: &str) -> PyResult<Models> {
 }
 
 /// Returns the effect model with this name.
-pub fn model(py: Python<'_>, text: &str, outside: Outside) -> PyResult<Routed> {
-    fitted(py, &spec(py, text)?, outside, None)
+pub fn model(py: Python<'_>, text: &str, out_of_range: OutOfRange) -> PyResult<Fallback> {
+    fitted(py, &spec(py, text)?, out_of_range, None)
 }
 
 /// Returns the effect model, adapted to a table fit if given.
 pub fn fitted(
     py: Python<'_>,
     spec: &ModelSpec,
-    outside: Outside,
+    out_of_range: OutOfRange,
     fit: Option<&TableFit>,
-) -> PyResult<Routed> {
+) -> PyResult<Fallback> {
     let model = EffectModels::fitted(spec, fit);
-    Ok(model.map_err(|error| errors::model(py, &error))?.outside(outside))
+    Ok(model.map_err(|error| errors::model(py, &error))?.out_of_range(out_of_range))
 }
 
 /// Converts a time limit in seconds.

@@ -8,14 +8,14 @@ use super::{JointKind, Object, Span};
 
 /// A revolute or prismatic joint between an object and the world.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Mount {
+pub struct WorldJoint {
     /// Index into [`Scene::objects`](super::Scene::objects).
     pub object: usize,
     /// Motion that it allows; angles and lengths count from the start of the object.
     pub kind: JointKind,
 }
 
-impl Mount {
+impl WorldJoint {
     /// Returns the joint's frame in the world and relative to the object. A revolute joint rotates
     /// about the frame's origin; a prismatic joint slides along its x axis.
     pub fn frames(&self, objects: &[Object]) -> [Pose; 2] {
@@ -91,15 +91,17 @@ mod tests {
     fn a_door_keeps_its_hinge_and_its_limits_wherever_it_starts_from() {
         let limits = Some(Span::new(0.0, 1.5));
         let at = Vector::new(0.4, 0.1);
-        let door = Mount { object: 0, kind: JointKind::Revolute { at, limits } };
+        let door = WorldJoint { object: 0, kind: JointKind::Revolute { at, limits } };
         let start = Pose::new(0.6, 0.1, 0.3);
         let open = door.pose(&start, 1.0);
         assert!((open.position - at).norm() - 0.2 < 1e-12 && open.heading == 1.3);
         assert!((door.come(&start, &open) - 1.0).abs() < 1e-12);
         let left = door.carried(&start, &open).limits().expect("limits");
         assert!((left.low + 1.0).abs() < 1e-12 && (left.high - 0.5).abs() < 1e-12);
-        let drawer =
-            Mount { object: 0, kind: JointKind::Prismatic { axis: Vector::x(), limits: None } };
+        let drawer = WorldJoint {
+            object: 0,
+            kind: JointKind::Prismatic { axis: Vector::x(), limits: None },
+        };
         assert_eq!(drawer.come(&start, &drawer.pose(&start, 0.25)), 0.25);
     }
 }

@@ -9,8 +9,8 @@ use nalgebra::Vector3;
 use pushplan::{geometry::Vector, scene::Span};
 
 use super::{
-    chance::LOGISTIC,
     density::{log_sum, student_of_one},
+    distributions::LOGISTIC,
     fit::Fit,
     pair::JointType,
     window::{Doubt, Instant, UNEVEN},
@@ -39,7 +39,7 @@ pub const NO_STOP: [f64; 2] = [3.0, 10.0];
 
 /// Estimated limits on both sides of the initial joint position.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Stops([Side; 2]);
+pub(super) struct JointLimits([Side; 2]);
 
 /// Side of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,7 +60,7 @@ struct Travel {
     doubt: f64,
 }
 
-impl Stops {
+impl JointLimits {
     /// Creates the prior.
     pub fn new() -> Self {
         Self([Side { reach: 0.0, variance: 0.0, odds: prior() }; 2])
