@@ -104,6 +104,8 @@ pub mod outcome;
 #[doc(hidden)]
 pub mod plan;
 #[doc(hidden)]
+pub mod progress;
+#[doc(hidden)]
 pub mod recording;
 #[doc(hidden)]
 pub mod rollout;
@@ -119,8 +121,6 @@ pub mod solve;
 pub mod task;
 #[doc(hidden)]
 pub mod verify;
-#[doc(hidden)]
-pub mod watch;
 
 pub use asset::ToolLibrary;
 pub use effect::{EffectModel, Simulated, Trust};

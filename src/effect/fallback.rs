@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use crate::progress::NoProgress;
 use crate::sim::Simulator;
-use crate::watch::Unwatched;
 use crate::{
     outcome::{Record, Trajectory, Warning},
     scene::{ModelSpec, Scene, State},
@@ -191,7 +191,7 @@ impl Fallback {
 /// in turn, for the object with the largest difference. It shows the effect of leaving the model's
 /// ranges.
 pub fn consequence(scene: &Scene, jobs: &[Job], predicted: &State) -> Option<Warning> {
-    let run = Simulator::planar().run_in_turn(scene, jobs, Record::Outcome, &Unwatched);
+    let run = Simulator::planar().run_in_turn(scene, jobs, Record::Outcome, &NoProgress);
     let simulated = run.outcome();
     let apart = |k: usize| (simulated.poses[k].position - predicted.poses[k].position).norm();
     let far = (0..scene.objects.len()).max_by(|&a, &b| apart(a).total_cmp(&apart(b)))?;

@@ -11,7 +11,7 @@ use crate::{
     task::{COAST_FRAME, FrameStep, Job, MAX_COAST_FRAMES, ToolMotion},
 };
 
-use crate::watch::Watch;
+use crate::progress::Progress;
 
 use super::Simulator;
 use super::violations::{Overlap, Violations};
@@ -48,7 +48,7 @@ pub(super) fn playback<W: World>(
     job: &Job,
     simulator: &Simulator,
     record: Record,
-    (arm, watch): (Option<&Arm>, &dyn Watch),
+    (arm, progress): (Option<&Arm>, &dyn Progress),
 ) -> Trajectory {
     let Job { start, motion, physics } = job;
     let motion = motion.slide();
@@ -94,7 +94,7 @@ pub(super) fn playback<W: World>(
                 arm.gives_up(&recorder.violations)
                     .or_else(|| recorder.violations.too_hard(scene).next())
             });
-            let stopped = || watch.cancelled().then_some(Warning::Stopped);
+            let stopped = || progress.cancelled().then_some(Warning::Stopped);
             let ends = jam.or(strays).or(weak).or_else(stopped);
             let goes_on = recorded && ends.is_none();
             recorder.trajectory.warnings.extend(ends);

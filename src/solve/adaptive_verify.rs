@@ -33,7 +33,7 @@ impl<'a> Verification<'a> {
     /// perturbations.
     pub fn new(query: Query<'a>, perturbed: usize) -> Self {
         let settings = VerifySettings { disturbed: perturbed, seed: query.planner.seed() };
-        let verifier = Verifier::new(settings).watched(query.watch);
+        let verifier = Verifier::new(settings).with_progress(query.progress);
         Self { query, verifier, verified: 0, perturbed: 0, promising: None }
     }
 
@@ -44,7 +44,7 @@ impl<'a> Verification<'a> {
             *promising = true;
             return;
         }
-        let Query { task, situation, watch, .. } = self.query;
+        let Query { task, situation, progress, .. } = self.query;
         let verdicts: Vec<Verdict> = indices
             .par_iter()
             .map(|&k| {
@@ -68,7 +68,7 @@ impl<'a> Verification<'a> {
         working.sort_by(|a, b| a.0.before(&b.0, cost(a.1).cmp(&cost(b.1))));
         for (_, k) in working.into_iter().take(PERTURBED_AT_ONCE) {
             self.perturbed += 1;
-            if self.perturb(&mut attempts.list[k]) == Class::Safe || watch.cancelled() {
+            if self.perturb(&mut attempts.list[k]) == Class::Safe || progress.cancelled() {
                 break;
             }
         }
@@ -85,7 +85,7 @@ impl<'a> Verification<'a> {
             && wanted
             && grade.class >= least
             && attempts.list[k].replays != Replays::Settled
-            && !self.query.watch.cancelled()
+            && !self.query.progress.cancelled()
         {
             let verifier = self.verifier.clone().until_clear();
             let seeking = least > Class::Fragile;

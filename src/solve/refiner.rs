@@ -54,7 +54,7 @@ impl<'a> Refiner<'a> {
             candidates,
             RefineSettings { rounds: settings.refine_rounds.saturating_sub(last), ..all },
             &mut self.statistics,
-            query.watch,
+            query.progress,
         );
         if self.deciding.is_none() {
             return screened;
@@ -96,7 +96,7 @@ impl<'a> Refiner<'a> {
                 ..all
             },
             &mut self.statistics,
-            query.watch,
+            query.progress,
         )
     }
 }

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::geometry::Pose;
+use crate::progress::{NoProgress, Progress};
 use crate::sim::{LeverSimulator, Simulator};
-use crate::watch::{Unwatched, Watch};
 use crate::{
     outcome::{Disturbance, Evidence, Outcome, Record, Trajectory, Verdict, Warning, never_on},
     scene::{Engine, JointTrajectory, Scene, Situation, Tool},
@@ -47,7 +47,7 @@ pub struct Verifier<'a> {
     settings: VerifySettings,
     planar: Simulator,
     spatial: Simulator,
-    watch: &'a dyn Watch,
+    progress: &'a dyn Progress,
     /// Whether replays are added until the verdict is clear.
     until_clear: bool,
     /// Whether replays end once a plan has never worked with one of the support models.
@@ -63,12 +63,12 @@ impl<'a> Verifier<'a> {
     pub fn new(settings: VerifySettings) -> Self {
         let [planar, spatial] =
             [Simulator::planar(), Simulator::spatial()].map(Simulator::retreating);
-        let watch = &Unwatched;
+        let progress = &NoProgress;
         Self {
             settings,
             planar,
             spatial,
-            watch,
+            progress,
             until_clear: false,
             giving_up: false,
             in_plane: false,
@@ -76,10 +76,10 @@ impl<'a> Verifier<'a> {
         }
     }
 
-    /// Sets a watch that can stop the replays. Stopped replays carry [`Warning::Stopped`], and the
+    /// Sets a progress observer that can stop the replays. Stopped replays carry [`Warning::Stopped`], and the
     /// plan does not pass.
-    pub fn watched(self, watch: &'a dyn Watch) -> Self {
-        Self { watch, ..self }
+    pub fn with_progress(self, progress: &'a dyn Progress) -> Self {
+        Self { progress, ..self }
     }
 
     /// Adds perturbed replays until the sequential test decides whether the required share reaches
@@ -172,7 +172,7 @@ impl<'a> Verifier<'a> {
             let replays: Vec<Evidence> = (0..self.settings.disturbed)
                 .into_par_iter()
                 .map(|draw| {
-                    if self.watch.cancelled() {
+                    if self.progress.cancelled() {
                         let disturbance = Disturbance::Disturbed { draw: draw + 1 };
                         return stopped(&self.spatial, task, situation, disturbance);
                     }
@@ -218,7 +218,7 @@ impl<'a> Verifier<'a> {
                 let failed = self.giving_up && never(own, asked.0);
                 failed || sequential_test::answer(own, asked.0.robustness).is_some()
             };
-            let goes_on = self.until_clear && least > 0 && !self.watch.cancelled();
+            let goes_on = self.until_clear && least > 0 && !self.progress.cancelled();
             let wanted = match done < least {
                 true => least,
                 false if goes_on && !is_clear() => {
@@ -244,7 +244,7 @@ impl<'a> Verifier<'a> {
             .into_par_iter()
             .map(|draw| {
                 let disturbance = Disturbance::Disturbed { draw: draw + 1 };
-                if self.watch.cancelled() {
+                if self.progress.cancelled() {
                     return stopped(engine, task, situation, disturbance);
                 }
                 let jobs = disturbed(situation, motions, self.settings.seed, draw);
@@ -283,7 +283,7 @@ impl<'a> Verifier<'a> {
         });
         let really = really.as_ref().unwrap_or(situation);
         let record = if draw.is_none() { Record::Frames } else { Record::Outcome };
-        let watched = (record, self.watch);
+        let watched = (record, self.progress);
         let trajectory = LeverSimulator::default().run_all(really, scene, &motions, watched);
         // The obstacles have been displaced as well.
         let scene = Scene { obstacles: really.scene.obstacles.clone(), ..scene.clone() };
@@ -305,7 +305,7 @@ impl<'a> Verifier<'a> {
     ) -> Evidence {
         let nominal = disturbance == Disturbance::Nominal;
         let record = if nominal { Record::Frames } else { Record::Outcome };
-        let trajectory = engine.run_in_turn(scene, jobs, record, self.watch);
+        let trajectory = engine.run_in_turn(scene, jobs, record, self.progress);
         evidence(engine, task, scene, trajectory, disturbance)
     }
 }

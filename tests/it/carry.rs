@@ -2,7 +2,7 @@
 //! across pushes.
 
 use pushplan::asset::ToolLibrary;
-use pushplan::watch::Unwatched;
+use pushplan::progress::NoProgress;
 use pushplan::{Effort, PlanStatus, Planner, Pose, Shape};
 use pushplan::{
     scene::{Part, Tool},
@@ -90,7 +90,7 @@ fn run(task: &Task) -> Trace {
     let mut trace = Trace::new(task.clone(), settings, "draft".into(), Some(truth.clone()));
     let mut world = SimulatedWorld::new(truth);
     let runner = Runner::new(&planner, &library);
-    runner.run(&mut trace, &mut world, &mut |_| Ok(()), &Unwatched).unwrap();
+    runner.run(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress).unwrap();
     assert_eq!(trace.end == Some(End::Reached), task.goals[0].reached(world.state()));
     trace
 }
@@ -125,6 +125,6 @@ fn where_no_way_leads_nothing_is_approached() {
     let task = task(&shut);
     let planner = Planner::for_effort(Effort::Draft).unwrap().build();
     let situation = pushplan::scene::Situation::stated(&task.scene);
-    let found = planner.approach(&situation, &task, &library(), 1, &Unwatched).unwrap();
+    let found = planner.approach(&situation, &task, &library(), 1, &NoProgress).unwrap();
     assert!(found.is_none());
 }

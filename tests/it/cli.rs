@@ -6,7 +6,7 @@ use std::process::Stdio;
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
-use pushplan::watch::Unwatched;
+use pushplan::progress::NoProgress;
 use pushplan_bench::store::FolderLock;
 
 use crate::ROOT;
@@ -290,7 +290,7 @@ fn results_of_one_kind_or_task_do_not_write_over_those_of_another() {
     assert_eq!(run(&["check", &trace]).status.code(), Some(3));
 
     // Two simultaneous runs are also refused.
-    let _lock = FolderLock::take(Path::new(&out), &Unwatched).expect("a free folder");
+    let _lock = FolderLock::take(Path::new(&out), &NoProgress).expect("a free folder");
     let busy = run(&["run", "tasks/pull-back.yaml", "--world", "1", "--out", &out]);
     assert!(
         busy.status.code() == Some(1) && stderr(&busy).contains("process"),

@@ -7,10 +7,10 @@ use std::sync::Arc;
 use pushplan::ToolLibrary;
 use pushplan::asset::{PlanFile, load_task};
 use pushplan::geometry::{Shape, Vector};
+use pushplan::progress::NoProgress;
 use pushplan::sim::LeverSimulator;
 use pushplan::solve::{Effort, PlanStatus, Planner};
 use pushplan::verify::{Verifier, VerifySettings};
-use pushplan::watch::Unwatched;
 use pushplan::{
     outcome::{PushFault, Reason, Record, Trajectory, Verdict, Warning},
     scene::{Engine, GRAVITY, Situation, Tool},
@@ -103,7 +103,7 @@ fn a_push_carries_the_plate_as_far_as_the_tool_goes() {
     let really = Situation::stated(&task.scene);
     let run = |plan: &Plan| -> Trajectory {
         let motions = plan.motions(&tools()).expect("its tools");
-        let watched = (Record::Outcome, &Unwatched as _);
+        let watched = (Record::Outcome, &NoProgress as _);
         LeverSimulator::FINE.run_all(&really, &task.scene, &motions, watched)
     };
     let rest = |found: &Trajectory| found.outcome().space.as_ref().expect("in space")[0];

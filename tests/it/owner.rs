@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use pushplan::asset::ToolLibrary;
 use pushplan::geometry::{Pose, Vector, wrap_angle};
+use pushplan::progress::NoProgress;
 use pushplan::sim::Simulator;
 use pushplan::solve::{Cause, Effort, PlanStatus, Planner, RankedPlan, Solution};
 use pushplan::verify::{Verifier, VerifySettings};
-use pushplan::watch::Unwatched;
 use pushplan::{
     outcome::{PushFault, Record, Verdict, Warning},
     scene::{Object, Scene, Situation, Tool},
@@ -77,7 +77,7 @@ fn run(task: &Task, truth: impl FnOnce(&mut Truth)) -> (Trace, SimulatedWorld) {
     let mut trace = Trace::new(task.clone(), settings, "draft".into(), None);
     let library = library();
     let runner = Runner::new(&planner, &library);
-    runner.run(&mut trace, &mut world, &mut |_| Ok(()), &Unwatched).expect("a run");
+    runner.run(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress).expect("a run");
     (trace, world)
 }
 
@@ -348,7 +348,7 @@ fn what_stands_in_the_way_of_a_plan_is_named() {
         assert_eq!(found.status, PlanStatus::NoPlan, "{text}");
         let first = solution_document(&task, &found).title;
         let cause = found.cause.expect("a cause");
-        let why = planner().why(&task, &library(), &Unwatched).expect("a sound task");
+        let why = planner().why(&task, &library(), &NoProgress).expect("a sound task");
         assert_eq!(why.as_ref(), Some(&cause));
         assert!(first.starts_with(&format!("task: no plan: {cause}")), "{first}");
         // A plan must be clearly nearer to the goal than doing nothing.
@@ -371,7 +371,7 @@ fn what_stands_in_the_way_of_a_plan_is_named() {
     let Cause::Far { allowed: 0.95, needed } = cause(&away) else { panic!("it is far away") };
     assert!((1.0..1.7).contains(&needed), "{needed}");
     assert_eq!(cause(PEN), Cause::Tool { needed: "finger".into() });
-    assert_eq!(planner().why(&task(FAR), &library(), &Unwatched).expect("a sound task"), None);
+    assert_eq!(planner().why(&task(FAR), &library(), &NoProgress).expect("a sound task"), None);
 }
 
 #[test]

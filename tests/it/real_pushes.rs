@@ -2,9 +2,9 @@
 //! recordings, and the pushes identify the support.
 
 use pushplan::effect::{EffectModel, Prior, Simulated};
+use pushplan::progress::NoProgress;
 use pushplan::scene::Support;
 use pushplan::sim::Simulator;
-use pushplan::watch::Unwatched;
 use pushplan_act::fit::{FitSettings, fit};
 use pushplan_act::judge::Trial;
 
@@ -36,7 +36,7 @@ fn told_its_true_support_a_model_is_near_and_told_another_it_is_not_nearer() {
 fn ten_pushes_tell_where_the_plate_stands() {
     for (name, spread) in [("inner", 0.4), ("outer", 0.8)] {
         let trials: Vec<Trial> = pushes(name).iter().map(Trial::of_recording).collect();
-        let found = fit(&Prior::default(), &trials, &FitSettings::default(), &Unwatched);
+        let found = fit(&Prior::default(), &trials, &FitSettings::default(), &NoProgress);
         let found = found.expect("the plate moves");
         let off = (found.spread.mean - spread).abs();
         assert!(found.spread.told && off < 0.08, "{name}: {:?}", found.spread);

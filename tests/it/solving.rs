@@ -7,9 +7,9 @@ use std::sync::{Arc, Mutex};
 use pushplan::asset::{ToolLibrary, load_task};
 use pushplan::effect::{EffectModel, Job, Quantiles, Simulated, Trust};
 use pushplan::geometry::Vector;
+use pushplan::progress::Progress;
 use pushplan::sim::Simulator;
 use pushplan::solve::{Effort, PlanStatus, Planner, Settings, Solution};
-use pushplan::watch::Watch;
 use pushplan::{
     outcome::{Frame, Record, Trajectory},
     scene::{Engine, Joint, JointKind, ModelKind, ModelSpec, Models, Scene, Situation},
@@ -260,7 +260,7 @@ struct Told {
     answers: Mutex<Vec<String>>,
 }
 
-impl Watch for Told {
+impl Progress for Told {
     fn stage(&self, what: &str) {
         self.stages.lock().unwrap().push(what.to_owned());
     }
@@ -269,7 +269,7 @@ impl Watch for Told {
         self.answers.lock().unwrap().push(answer.to_owned());
     }
 
-    fn progress(&self, done: u64, total: u64) {
+    fn update(&self, done: u64, total: u64) {
         assert!(done <= total, "{done} of {total}");
     }
 }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use pushplan::effect::{EffectModel, EffectModels, Job, ModelError, Network, Prior};
 use pushplan::geometry::{Pose, Shape, Vector};
 use pushplan::network::Head;
-use pushplan::watch::Unwatched;
+use pushplan::progress::NoProgress;
 use pushplan::{
     outcome::Record,
     scene::{Object, Part, Scene, Support, Surface, TableFit, Tool},
@@ -56,7 +56,7 @@ fn change(half: usize) -> Head {
 
 fn learnt(network: &Network, trials: &[Trial]) -> TableFit {
     let settings = FitSettings { values: 5, ..FitSettings::default() };
-    let found = fit(&Prior::default(), trials, &settings, &Unwatched).expect("something moves");
+    let found = fit(&Prior::default(), trials, &settings, &NoProgress).expect("something moves");
     // The true support and friction are given.
     let found = pushplan_act::fit::Fit {
         friction: pushplan_act::fit::Estimate { told: false, ..found.friction },

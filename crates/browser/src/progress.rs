@@ -1,14 +1,14 @@
 //! Progress reports of a worker that plans. The page cancels a worker by terminating it, because a
 //! planning worker receives no messages.
 
-use pushplan::watch::Watch;
+use pushplan::progress::Progress;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 #[wasm_bindgen]
 extern "C" {
     /// Reports the present stage and the finished share of its work.
-    #[wasm_bindgen(js_name = pushplanTold)]
-    fn told(stage: &str, done: f64, total: f64);
+    #[wasm_bindgen(js_name = pushplanProgress)]
+    fn report(stage: &str, done: f64, total: f64);
 
     /// Reports the best plan so far.
     #[wasm_bindgen(js_name = pushplanSoFar)]
@@ -22,13 +22,13 @@ extern "C" {
 /// Progress observer that reports to the page.
 pub struct WorkerProgress;
 
-impl Watch for WorkerProgress {
+impl Progress for WorkerProgress {
     fn stage(&self, what: &str) {
-        told(what, 0.0, 0.0);
+        report(what, 0.0, 0.0);
     }
 
-    fn progress(&self, done: u64, total: u64) {
-        told("", done as f64, total as f64);
+    fn update(&self, done: u64, total: u64) {
+        report("", done as f64, total as f64);
     }
 
     fn so_far(&self, answer: &str) {

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use pushplan::progress::Count;
 use pushplan::recording::Recording;
 use pushplan::scene::{ModelSpec, Span};
-use pushplan::watch::Count;
 use pushplan_act::belief::{Belief, BeliefSettings};
 use pushplan_report::{PageView, Recipe, Setting, belief_document, recording_page};
 

@@ -4,7 +4,7 @@ use std::sync::Mutex;
 
 use indicatif::ProgressBar;
 
-use pushplan::watch::Watch;
+use pushplan::progress::Progress;
 
 use super::{
     error::CliError,
@@ -67,7 +67,7 @@ impl<'a> TerminalProgress<'a> {
     }
 }
 
-impl Watch for TerminalProgress<'_> {
+impl Progress for TerminalProgress<'_> {
     fn stage(&self, what: &str) {
         if self.staged {
             count(&self.bar, false);
@@ -79,7 +79,7 @@ impl Watch for TerminalProgress<'_> {
         self.say(|[_, so_far]| *so_far = format!("so far {answer}"));
     }
 
-    fn progress(&self, done: u64, total: u64) {
+    fn update(&self, done: u64, total: u64) {
         if self.staged {
             count(&self.bar, total > 0);
         }

@@ -6,9 +6,9 @@ use std::time::Duration;
 use clap::Args;
 
 use pushplan::asset::PlanFile;
+use pushplan::progress::Until;
 use pushplan::scene::Situation;
 use pushplan::verify::{Verifier, VerifySettings};
-use pushplan::watch::Until;
 use pushplan_report::{PageView, Recipe, replay_warnings, verdict_document};
 
 use super::{
@@ -72,7 +72,7 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     let following = TerminalProgress::spinner(session, "replaying");
     let until = Until::new(&following, args.time_limit);
     let verifier =
-        Verifier::new(settings).watched(&until).until_clear().moving(file.joints.as_ref());
+        Verifier::new(settings).with_progress(&until).until_clear().moving(file.joints.as_ref());
     let seconds = verifier.seconds(&file.task.scene, &file.plan) / session.threads() as f64;
     if seconds > LONG {
         session.warn(&format!(

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use numpy::{PyArray1, PyArray2, PyArray3};
+use pushplan::progress::Progress;
 use pushplan::recording::Recording;
-use pushplan::watch::Watch;
 use pushplan::{
     scene::{Span, Velocity},
     task::Noise,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use numpy::ndarray::Axis;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArray4};
 use pushplan::effect::EffectModel;
-use pushplan::watch::{Cancel, Watch};
+use pushplan::progress::{Cancel, Progress};
 use pushplan::{Job, Outcome, Push, Record, Task, ToolMotion, Trajectory, Vector};
 use pushplan::{outcome::Warning, scene::Situation, task::PushForm};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};

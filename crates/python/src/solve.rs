@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use pushplan::asset::PlanFile;
 use pushplan::effect::{EffectModel, Fallback};
+use pushplan::progress::{Cancel, Until};
 use pushplan::verify::VerifySettings;
-use pushplan::watch::{Cancel, Until};
 use pushplan::{
     Job, Planner, Pose, Record, Simulator, Solution, SolveError, Task, ToolLibrary, Trajectory,
     Verifier,
@@ -245,8 +245,10 @@ pub fn verify(
     let verdict = work::run(py, arguments::threads(threads)?, |cancel| {
         let until = Until::new(cancel, limit);
         let situation = Situation::stated(&file.task.scene);
-        let verifier =
-            Verifier::new(settings).watched(&until).until_clear().moving(file.joints.as_ref());
+        let verifier = Verifier::new(settings)
+            .with_progress(&until)
+            .until_clear()
+            .moving(file.joints.as_ref());
         verifier.verify(&file.task, &situation, &file.tools, &file.plan)
     })?;
     Ok(PyVerdict { file, verdict })

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use pushplan::TableFit;
 use pushplan::effect::{EffectModels, Network, Prior};
-use pushplan::watch::Unwatched;
+use pushplan::progress::NoProgress;
 use pushplan_act::fit::{Basis, FitSettings, HeadSettings, learn};
 use pushplan_act::judge::Trial;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
@@ -109,7 +109,7 @@ pub fn fit(
         recordings.iter().map(|one| Trial::of_recording(&one.get().0)).collect();
     let learnt = work::run(py, arguments::threads(threads)?, |_| {
         let settings = FitSettings::default();
-        let found = pushplan_act::fit::fit(&Prior::default(), &trials, &settings, &Unwatched)?;
+        let found = pushplan_act::fit::fit(&Prior::default(), &trials, &settings, &NoProgress)?;
         Some(learn(&network, &trials, &Basis::from(&found), &HeadSettings::default()))
     })?;
     match learnt {

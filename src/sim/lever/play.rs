@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use crate::geometry::{Pose, Pose3, Vector};
-use crate::watch::Watch;
+use crate::progress::Progress;
 use crate::{
     outcome::{
         Ending, Frame, LEVER_FRAMES, LeverTrajectory, LeverWarning, Lift, Trajectory, Warning,
@@ -72,7 +72,7 @@ pub(super) fn play_all(
     motions: &[Motion],
     longest: f64,
     film: Option<Film>,
-    (mut trajectory, watch): (Trajectory, &dyn Watch),
+    (mut trajectory, progress): (Trajectory, &dyn Progress),
 ) -> Trajectory {
     let first = motions.first().and_then(|motion| match motion {
         Motion::Lever(motion) => {
@@ -85,7 +85,7 @@ pub(super) fn play_all(
         if game.trouble.is_some() {
             break;
         }
-        if watch.cancelled() {
+        if progress.cancelled() {
             game.trouble = Some(Warning::Stopped);
             break;
         }

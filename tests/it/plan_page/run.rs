@@ -2,7 +2,7 @@
 
 use pushplan::asset::ToolLibrary;
 use pushplan::geometry::Pose;
-use pushplan::watch::Unwatched;
+use pushplan::progress::NoProgress;
 use pushplan::{Effort, Planner};
 use pushplan::{outcome::Trajectory, scene::State, task::Goal};
 use pushplan_act::act::{
@@ -145,7 +145,7 @@ fn run(name: &str, seed: u64) -> Trace {
     let mut trace = Trace::new(task, settings, "draft".into(), Some(truth.clone()));
     let mut world = SimulatedWorld::new(truth);
     let runner = Runner::new(&planner, &library);
-    runner.run(&mut trace, &mut world, &mut |_| Ok(()), &Unwatched).expect("a run");
+    runner.run(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress).expect("a run");
     assert!(trace.steps.iter().all(|step: &Step| step.pushes > 0));
     trace
 }

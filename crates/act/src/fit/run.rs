@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::judge::{Comparison, Trial, mean, percentile};
 use pushplan::effect::EffectModel;
-use pushplan::watch::{Count, Watch};
+use pushplan::progress::{Count, Progress};
 use pushplan::{
     outcome::Record,
     scene::{ModelSpec, Span, Support, Surface},
@@ -128,7 +128,7 @@ impl Fit {
 
 /// Fits a common spread and pusher friction to recordings.
 ///
-/// `watch` receives the number of finished recordings, first for the rough grid and then for the
+/// `progress` receives the number of finished recordings, first for the rough grid and then for the
 /// fine one. Masses and the table's friction are as stated because they do not affect slow pushes.
 /// Returns `None` if no object moves.
 ///
@@ -143,7 +143,7 @@ pub fn fit(
     model: &dyn EffectModel,
     trials: &[Trial],
     settings: &FitSettings,
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> Option<Fit> {
     let FitSettings { values, law, .. } = *settings;
     let moves: Vec<Vec<bool>> = trials.iter().map(|trial| moving(model, trial)).collect();
@@ -160,8 +160,8 @@ pub fn fit(
     }
     let widths = Widths::of(settings.noise, mean(&motions));
     let look = |what: &str, told: Vec<(Option<Support>, f64)>| -> Vec<Vec<Ended>> {
-        watch.stage(what);
-        let count = Count::new(watch, 0, trials.len());
+        progress.stage(what);
+        let count = Count::new(progress, 0, trials.len());
         let by_trial: Vec<Vec<Vec<Ended>>> = trials
             .par_iter()
             .zip(&moves)

@@ -5,9 +5,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use pushplan::internals::effect::EffectModel;
+use pushplan::internals::progress::Count;
 use pushplan::internals::recording::Recording;
 use pushplan::internals::scene::ModelSpec;
-use pushplan::internals::watch::Count;
 use pushplan_command::error::CliError;
 use pushplan_command::form::Form;
 use pushplan_command::model;

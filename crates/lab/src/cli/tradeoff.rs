@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use pushplan::internals::watch::Watch;
+use pushplan::internals::progress::Progress;
 use pushplan_bench::store::{RunManifest, Seconds, Shard, Store};
 use pushplan_command::action::LibraryArgs;
 use pushplan_command::bench::weights_digest;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use pushplan::internals::network::{Parameters, Statistics};
-use pushplan::internals::watch::Watch;
+use pushplan::internals::progress::Progress;
 use pushplan_bench::store::FolderLock;
 use pushplan_learn::dataset::LeverEpisode;
 use pushplan_learn::train::{
@@ -45,12 +45,12 @@ pub fn train_image(
     episodes: &[LeverEpisode],
     held_out: &[LeverEpisode],
     folder: &FolderLock,
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> Result<Option<PathBuf>, TrainError> {
     let examples = Seen::all(settings, episodes);
     let code = if settings.features == ImageFeatures::ImageCode {
         let judged = Seen::all(settings, held_out);
-        let Some(code) = code(settings, (&examples, &judged), folder, watch)? else {
+        let Some(code) = code(settings, (&examples, &judged), folder, progress)? else {
             return Ok(None);
         };
         code
@@ -58,7 +58,7 @@ pub fn train_image(
         Parameters::default()
     };
     let held_out = settings.memory.judged_on(held_out);
-    Trainer::open(Task { settings, examples, code, held_out }, folder)?.run(watch)
+    Trainer::open(Task { settings, examples, code, held_out }, folder)?.run(progress)
 }
 
 struct Task<'a> {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use candle_core::{Device, Result, Tensor};
 use pushplan::internals::network::{Forward, Normaliser, Parameters};
-use pushplan::internals::watch::Watch;
+use pushplan::internals::progress::Progress;
 use pushplan_bench::store::FolderLock;
 use pushplan_learn::dataset::LeverEpisode;
 use pushplan_learn::network::{Inputs, Predictor};
@@ -29,11 +29,11 @@ pub fn train_parts(
     episodes: &[LeverEpisode],
     held_out: &[LeverEpisode],
     folder: &FolderLock,
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> std::result::Result<Option<PathBuf>, TrainError> {
     let examples = Examples::new(episodes, settings.prior);
     let held_out = held_out.iter().filter(|episode| episode.is_sound()).cloned().collect();
-    Trainer::open(Task { settings, examples, held_out }, folder)?.run(watch)
+    Trainer::open(Task { settings, examples, held_out }, folder)?.run(progress)
 }
 
 struct Task<'a> {

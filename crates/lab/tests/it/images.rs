@@ -10,7 +10,7 @@ use pushplan::effect::LeverInputs;
 use pushplan::network::{
     Card, LEVER_ENDS, LeverCard, LeverSizes, LeverTold, Parameters, Statistics, WeightsError,
 };
-use pushplan::watch::{Unwatched, Watch};
+use pushplan::progress::{NoProgress, Progress};
 use pushplan::{
     outcome::LEVER_FRAMES,
     scene::{LeverFeatures, LeverScene},
@@ -35,7 +35,7 @@ use crate::until::Until;
 
 fn episodes(preset: LeverPreset, seed: u64, count: u64) -> Vec<LeverEpisode> {
     let config = LeverConfig { seed, episodes: count, preset };
-    LeverDataset::in_memory(&config, &Unwatched).expect("lever-ups").episodes().to_vec()
+    LeverDataset::in_memory(&config, &NoProgress).expect("lever-ups").episodes().to_vec()
 }
 
 /// Returns random weights, large enough to matter.
@@ -182,16 +182,16 @@ fn training_resumes_to_the_same_bits() {
         (with(ImageFeatures::ContextImage, true), "LSTM, shape context CNN, fed back"),
     ];
     for (settings, name) in of {
-        let train = |folder: &Path, watch: &dyn Watch| {
-            let lock = FolderLock::take(folder, &Unwatched).expect("a lock");
-            train_image(&settings, &data, &held_out, &lock, watch).expect("training")
+        let train = |folder: &Path, progress: &dyn Progress| {
+            let lock = FolderLock::take(folder, &NoProgress).expect("a lock");
+            train_image(&settings, &data, &held_out, &lock, progress).expect("training")
         };
         let [whole, parts] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
-        let best = train(whole.path(), &Unwatched).expect("weights");
+        let best = train(whole.path(), &NoProgress).expect("weights");
         // The autoencoder counts its own steps.
         train(parts.path(), &Until::new(40));
         train(parts.path(), &Until::new(20));
-        train(parts.path(), &Unwatched);
+        train(parts.path(), &NoProgress);
         let checkpoint = |folder: &tempfile::TempDir| {
             fs::read(folder.path().join("checkpoint.safetensors")).expect("a checkpoint")
         };

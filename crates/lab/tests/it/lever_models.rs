@@ -5,8 +5,8 @@ use std::sync::Arc;
 use pushplan::effect::{LeverInputs, LeverNetwork, LeverPrior};
 use pushplan::geometry::{Pose, Pose3, Vector};
 use pushplan::network::{LeverCard, LeverWeights, Parameters, Statistics, lever_layout};
+use pushplan::progress::NoProgress;
 use pushplan::sim::LeverSimulator;
-use pushplan::watch::Unwatched;
 use pushplan::{
     scene::{LeverFeatures, LeverScene},
     task::{LeverJob, Place},
@@ -21,7 +21,7 @@ use rand_pcg::Pcg64;
 
 fn episodes(preset: LeverPreset, seed: u64, count: u64) -> LeverDataset {
     let config = LeverConfig { seed, episodes: count, preset };
-    LeverDataset::in_memory(&config, &Unwatched).expect("lever-ups")
+    LeverDataset::in_memory(&config, &NoProgress).expect("lever-ups")
 }
 
 /// Returns random weights, large enough to matter.

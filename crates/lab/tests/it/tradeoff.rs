@@ -1,6 +1,6 @@
 //! Speed against accuracy: coarser levels keep the interface of the finer ones.
 
-use pushplan::watch::Watch;
+use pushplan::progress::Progress;
 use pushplan::{
     asset::ToolLibrary,
     effect::{EffectModel, EffectModels, Fallback, Job},
@@ -68,7 +68,7 @@ fn tiny<'a>(library: &'a ToolLibrary, again: &str) -> TradeOff<'a> {
 #[test]
 fn every_level_is_measured_and_an_interrupted_run_goes_on() {
     struct Quiet;
-    impl Watch for Quiet {}
+    impl Progress for Quiet {}
     let library = ToolLibrary::embedded().unwrap();
     let folder = tempfile::TempDir::new().unwrap();
     let file = folder.path().join("again.safetensors").display().to_string();

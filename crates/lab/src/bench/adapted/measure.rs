@@ -7,7 +7,7 @@ use pushplan::internals::geometry::wrap_angle;
 use pushplan::internals::network::WeightsError;
 use pushplan::internals::scene::TableFit;
 use pushplan::internals::seeded::generator;
-use pushplan::watch::Unwatched;
+use pushplan::progress::NoProgress;
 use pushplan_act::fit::{Basis, FitSettings, HeadSettings, Sensitivity, fit, learn};
 use pushplan_act::judge::{Comparison, Trial};
 use rand::seq::SliceRandom;
@@ -91,7 +91,7 @@ pub fn measure_split(
     let prior = Prior::default();
     let learnt: Vec<Trial> = split.learnt.iter().map(|&k| trials[k].clone()).collect();
     let settings = FitSettings { values: VALUES, ..FitSettings::default() };
-    let Some(found) = fit(&prior, &learnt, &settings, &Unwatched) else { return Ok(None) };
+    let Some(found) = fit(&prior, &learnt, &settings, &NoProgress) else { return Ok(None) };
     let table = learn(network, &learnt, &Basis::from(&found), &HeadSettings::default())?;
     let Ok(adapted) = network.clone().fitted(&table) else { return Ok(None) };
     let push = |&recording: &usize| {

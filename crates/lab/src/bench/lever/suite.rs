@@ -6,10 +6,10 @@ use serde::{Deserialize, Serialize};
 
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::geometry::Pose;
+use pushplan::internals::progress::NoProgress;
 use pushplan::internals::sim::LeverSimulator;
 use pushplan::internals::solve::{LeverStatistics, PlanStatus, Planner, SolveError};
 use pushplan::internals::verify::{Verifier, VerifySettings};
-use pushplan::internals::watch::Unwatched;
 use pushplan::internals::{
     outcome::{Outcome, Record},
     scene::{LeverScene, Obstacle, Robot, Scene, Situation, Tool},
@@ -107,7 +107,7 @@ impl LeverSuite {
         let LeverJob { scene, lever } = self.drawn(index);
         let tool = Arc::new(Tool::with_blade(TOOL, scene.blade));
         let random = [Motion::Lever(LeverMotion::new(tool, lever, None))];
-        let watched = (Record::Outcome, &Unwatched as _);
+        let watched = (Record::Outcome, &NoProgress as _);
         let scene = table(&scene);
         let really = Situation::stated(&scene);
         let moved = LeverSimulator::FINE.run_all(&really, &scene, &random, watched);

@@ -1,7 +1,7 @@
 //! Drawn pushes and trajectories, measured part by part: stored, resumed and split into shards.
 
 use pushplan::internals::effect::EffectModel;
-use pushplan::internals::watch::Unwatched;
+use pushplan::internals::progress::NoProgress;
 use pushplan_bench::store::{Measured, RunManifest, Seconds, Shard, Store};
 use pushplan_command::bench::{tools_digest, weights_digest};
 use pushplan_command::error::CliError;
@@ -58,7 +58,7 @@ impl Parts<'_> {
         for part in store.finished() {
             self.show(&mut shown, part.record.clone(), session)?;
         }
-        store.run::<CliError>(&Unwatched, |index| {
+        store.run::<CliError>(&NoProgress, |index| {
             let record = match &parts[index] {
                 Part::Tools(kind) => Evaluated::Tools(self.tools(*kind, session)?),
                 Part::Crowd(set) => Evaluated::Crowd(self.crowds.set(set, session)?),

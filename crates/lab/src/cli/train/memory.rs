@@ -74,11 +74,11 @@ pub fn run(args: &MemoryArgs, session: &Session) -> Result<u8, CliError> {
     match args.features {
         Told::Numbers(features) => {
             let settings = LeverSettings { features, ..settings };
-            weights(session, |watch| train_lever(&settings, &known, &asked, &folder, watch))
+            weights(session, |progress| train_lever(&settings, &known, &asked, &folder, progress))
         }
         Told::Image(features) => {
             let settings = ImageSettings { features, memory: settings };
-            weights(session, |watch| train_image(&settings, &known, &asked, &folder, watch))
+            weights(session, |progress| train_image(&settings, &known, &asked, &folder, progress))
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
-use pushplan::internals::watch::Watch;
+use pushplan::internals::progress::Progress;
 use pushplan_bench::store::FolderLock;
 use pushplan_command::error::CliError;
 use pushplan_command::progress::TerminalProgress;
@@ -79,7 +79,7 @@ pub fn data<D: Send>(
 /// If training fails or is interrupted.
 pub fn weights(
     session: &Session,
-    train: impl FnOnce(&dyn Watch) -> Result<Option<PathBuf>, TrainError> + Send,
+    train: impl FnOnce(&dyn Progress) -> Result<Option<PathBuf>, TrainError> + Send,
 ) -> Result<u8, CliError> {
     let following = TerminalProgress::bar(session, "steps");
     let best = session.compute(|| train(&following));

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use pushplan::internals::network::Config;
-use pushplan::internals::watch::Watch;
+use pushplan::internals::progress::Progress;
 use pushplan_bench::store::Shard;
 use pushplan_command::error::CliError;
 use pushplan_command::output;
@@ -112,8 +112,8 @@ pub fn run(args: &PredictorArgs, session: &Session) -> Result<u8, CliError> {
     let folder = take(&args.folder, session)?;
     let made = |name: &str, config: DatasetConfig| {
         let folder = args.folder.join(name);
-        data(session, name, |watch| {
-            generate(&config, Shard::WHOLE, &folder, watch)?;
+        data(session, name, |progress| {
+            generate(&config, Shard::WHOLE, &folder, progress)?;
             Dataset::open(&folder)
         })
     };
@@ -206,9 +206,9 @@ impl PredictorArgs {
     }
 }
 
-impl Watch for Followed<'_> {
-    fn progress(&self, done: u64, total: u64) {
-        self.following.progress(done, total);
+impl Progress for Followed<'_> {
+    fn update(&self, done: u64, total: u64) {
+        self.following.update(done, total);
     }
 
     fn line(&self, text: &str) {

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use pushplan::internals::network::{Parameters, Statistics};
+use pushplan::internals::progress::Progress;
 use pushplan::internals::seeded::generator;
-use pushplan::internals::watch::Watch;
 use pushplan_act::regulator::{Regulator, RegulatorCard, RegulatorWeights, fresh_regulator};
 use pushplan_bench::store::FolderLock;
 use rand::Rng;
@@ -29,11 +29,11 @@ pub fn train_regulator(
     lessons: &[Lesson],
     held_out: &[Lesson],
     folder: &FolderLock,
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> Result<Option<PathBuf>, TrainError> {
     // Lessons without informative windows are skipped.
     let lessons = lessons.iter().filter(|lesson| !lesson.windows.is_empty()).collect();
-    Trainer::open(Task { settings, lessons, held_out }, folder)?.run(watch)
+    Trainer::open(Task { settings, lessons, held_out }, folder)?.run(progress)
 }
 
 struct Task<'a> {

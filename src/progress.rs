@@ -11,14 +11,14 @@ pub use web_time::Instant;
 ///
 /// Every long job reports to this trait: solving, benchmarks, data, training. Its methods are
 /// called from many threads; each has an empty default.
-pub trait Watch: Sync {
+pub trait Progress: Sync {
     /// Reports the current activity, such as a stage of solving or a task of a benchmark.
     fn stage(&self, what: &str) {
         let _ = what;
     }
 
     /// Reports that `done` of `total` units of the stage are finished.
-    fn progress(&self, done: u64, total: u64) {
+    fn update(&self, done: u64, total: u64) {
         let _ = (done, total);
     }
 
@@ -45,15 +45,15 @@ pub trait Watch: Sync {
 
 /// An observer that ignores reports and never cancels.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Unwatched;
+pub struct NoProgress;
 
-impl Watch for Unwatched {}
+impl Progress for NoProgress {}
 
 /// An observer that forwards cancellation only, because reports of many parallel jobs would be
 /// noise.
-pub struct Quiet<'a>(pub &'a dyn Watch);
+pub struct Quiet<'a>(pub &'a dyn Progress);
 
-impl Watch for Quiet<'_> {
+impl Progress for Quiet<'_> {
     fn cancelled(&self) -> bool {
         self.0.cancelled()
     }
@@ -61,29 +61,29 @@ impl Watch for Quiet<'_> {
 
 /// A thread-safe counter of the finished units of a stage.
 pub struct Count<'a> {
-    watch: &'a dyn Watch,
+    progress: &'a dyn Progress,
     done: AtomicU64,
     total: u64,
 }
 
 impl<'a> Count<'a> {
-    /// Reports to `watch` that `done` of `total` units are finished, and then every further unit.
-    pub fn new(watch: &'a dyn Watch, done: usize, total: usize) -> Self {
+    /// Reports to `progress` that `done` of `total` units are finished, and then every further unit.
+    pub fn new(progress: &'a dyn Progress, done: usize, total: usize) -> Self {
         let (done, total) = (done as u64, total as u64);
-        watch.progress(done, total);
-        Self { watch, done: AtomicU64::new(done), total }
+        progress.update(done, total);
+        Self { progress, done: AtomicU64::new(done), total }
     }
 
     /// Counts one more finished unit.
     pub fn one(&self) {
-        self.watch.progress(self.done.fetch_add(1, Ordering::Relaxed) + 1, self.total);
+        self.progress.update(self.done.fetch_add(1, Ordering::Relaxed) + 1, self.total);
     }
 }
 
 /// A cancellation handle: a job that watches it stops when any clone is cancelled.
 ///
 /// ```
-/// use pushplan::watch::{Cancel, Watch};
+/// use pushplan::progress::{Cancel, Progress};
 ///
 /// let cancel = Cancel::default();
 /// let handle = cancel.clone();
@@ -100,7 +100,7 @@ impl Cancel {
     }
 }
 
-impl Watch for Cancel {
+impl Progress for Cancel {
     fn cancelled(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
@@ -108,40 +108,40 @@ impl Watch for Cancel {
 
 /// An observer that forwards to another one and cancels at a deadline.
 pub struct Until<'a> {
-    watch: &'a dyn Watch,
+    progress: &'a dyn Progress,
     end: Option<Instant>,
 }
 
 impl<'a> Until<'a> {
-    /// Forwards to `watch` for at most `limit` from now.
-    pub fn new(watch: &'a dyn Watch, limit: Option<Duration>) -> Self {
+    /// Forwards to `progress` for at most `limit` from now.
+    pub fn new(progress: &'a dyn Progress, limit: Option<Duration>) -> Self {
         // A limit beyond the range of the clock is no limit.
-        Self { watch, end: limit.and_then(|limit| Instant::now().checked_add(limit)) }
+        Self { progress, end: limit.and_then(|limit| Instant::now().checked_add(limit)) }
     }
 }
 
-impl Watch for Until<'_> {
+impl Progress for Until<'_> {
     fn stage(&self, what: &str) {
-        self.watch.stage(what);
+        self.progress.stage(what);
     }
 
-    fn progress(&self, done: u64, total: u64) {
-        self.watch.progress(done, total);
+    fn update(&self, done: u64, total: u64) {
+        self.progress.update(done, total);
     }
 
     fn so_far(&self, answer: &str) {
-        self.watch.so_far(answer);
+        self.progress.so_far(answer);
     }
 
     fn line(&self, text: &str) {
-        self.watch.line(text);
+        self.progress.line(text);
     }
 
     fn note(&self, message: &str) {
-        self.watch.note(message);
+        self.progress.note(message);
     }
 
     fn cancelled(&self) -> bool {
-        self.watch.cancelled() || self.end.is_some_and(|end| Instant::now() >= end)
+        self.progress.cancelled() || self.end.is_some_and(|end| Instant::now() >= end)
     }
 }
