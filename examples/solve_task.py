@@ -46,7 +46,7 @@ def main(folder: Path) -> None:
     print(solution)
     best = solution.best
     assert solution.solved and best is not None
-    verdict = pushplan.verify(best, disturbed=32)
+    verdict = pushplan.verify(best, replays=32)
     print(f"{verdict.robustness:.0%} of disturbed replays reach the goal")
     folder.mkdir(exist_ok=True)
     best.save(folder / f"{task.name}.plan.json")

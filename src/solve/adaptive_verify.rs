@@ -32,7 +32,7 @@ impl<'a> Verification<'a> {
     /// Creates the verification with counts of zero. Every plan has `perturbed` replays with
     /// perturbations.
     pub fn new(query: Query<'a>, perturbed: usize) -> Self {
-        let settings = VerifySettings { disturbed: perturbed, seed: query.planner.seed() };
+        let settings = VerifySettings { replays: perturbed, seed: query.planner.seed() };
         let verifier = Verifier::new(settings).with_progress(query.progress);
         Self { query, verifier, verified: 0, perturbed: 0, promising: None }
     }
@@ -80,7 +80,7 @@ impl<'a> Verification<'a> {
     /// often than estimated, another plan may become the best. While fragile plans are not
     /// accepted, a plan that fails with one support model is dropped early.
     pub fn settle(&self, attempts: &mut Attempts, least: Class) {
-        let wanted = self.query.planner.settings().disturbed > 0;
+        let wanted = self.query.planner.settings().replays > 0;
         while let Some((grade, k)) = attempts.best
             && wanted
             && grade.class >= least
@@ -103,7 +103,7 @@ impl<'a> Verification<'a> {
         let (situation, tools, plan) = (self.query.situation, &attempt.tools, &attempt.plan);
         let nominal = self.verifier.nominal(task, situation, tools, plan);
         match nominal.passed {
-            true => self.verifier.disturb(task, situation, tools, plan, nominal),
+            true => self.verifier.perturb(task, situation, tools, plan, nominal),
             false => nominal,
         }
     }
@@ -126,7 +126,7 @@ impl<'a> Verification<'a> {
         let Query { task, situation, .. } = self.query;
         attempt.replays = replays;
         let Some(verdict) = attempt.verdict.take() else { return Class::Fails };
-        let verdict = verifier.disturb(task, situation, &attempt.tools, &attempt.plan, verdict);
+        let verdict = verifier.perturb(task, situation, &attempt.tools, &attempt.plan, verdict);
         let class = Grade::of(&verdict).class;
         attempt.verdict = Some(verdict);
         class

@@ -40,13 +40,13 @@ pub(super) struct Candidates {
 impl<'a> Blackboard<'a> {
     /// Creates the state before the search for pushes.
     pub fn for_pushes(query: Query<'a>, search: Search<'a>) -> Self {
-        let perturbed = query.planner.settings().disturbed;
+        let perturbed = query.planner.settings().replays;
         Self { search: Some(search), ..Self::new(query, perturbed) }
     }
 
     /// Creates the state before the search for lever-ups.
     pub fn for_levers(query: Query<'a>) -> Self {
-        let perturbed = query.planner.settings().levers.disturbed;
+        let perturbed = query.planner.settings().levers.replays;
         Self { levers: Some(LeverStatistics::default()), ..Self::new(query, perturbed) }
     }
 

@@ -47,7 +47,7 @@ pub(super) fn meet_some_goals(
         let mut robustness = None;
         for best in &mut solution.plans {
             robustness = best.verdict.as_ref().and_then(|verdict| verdict.robustness);
-            let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+            let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
             let (tools, plan) = (&best.tools, &best.plan);
             best.verdict = Some(verifier.nominal(task, &situation, tools, plan));
             best.outcome = Outcome::judge(&situation.scene, task, &best.predicted);

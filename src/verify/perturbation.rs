@@ -30,7 +30,7 @@ const HAIR: f64 = 1e-3;
 
 /// Returns the jobs of `motions` in order under one draw of perturbations, uniform within their
 /// ranges. The result is deterministic for a seed and a draw.
-pub(super) fn disturbed(
+pub(super) fn perturbed(
     situation: &Situation,
     motions: &[ToolMotion],
     seed: u64,
@@ -48,7 +48,7 @@ pub(super) fn disturbed(
         let group: Vec<usize> = (0..groups.len()).filter(|&k| groups[k] == first).collect();
         // An object joined to the world stays where its joint holds it.
         if group.iter().all(|&k| situation.scene.mount(k).is_none()) {
-            disturb(&mut situation.start.poses, &group, first, shift, turn);
+            perturb(&mut situation.start.poses, &group, first, shift, turn);
         }
     }
     let physics = Arc::make_mut(&mut situation.physics);
@@ -70,7 +70,7 @@ pub(super) fn disturbed(
 
 /// Shifts a group and rotates it about its object `first`, limited so that no object moves by more
 /// than [`SHIFT`] through the rotation.
-fn disturb(poses: &mut [Pose], group: &[usize], first: usize, shift: Vector, turn: f64) {
+fn perturb(poses: &mut [Pose], group: &[usize], first: usize, shift: Vector, turn: f64) {
     let about = poses[first].position;
     let reach = group.iter().map(|&k| (poses[k].position - about).norm()).fold(0.0, f64::max);
     let turn = if reach * TURN > SHIFT { turn * SHIFT / (reach * TURN) } else { turn };
@@ -129,7 +129,7 @@ mod tests {
         for draw in 0..20 {
             let motion =
                 ToolMotion { tool: Arc::new(tool.clone()), lift: 0.0, strokes: Vec::new() };
-            let start = disturbed(&situation, &[motion], 1, draw).remove(0).start;
+            let start = perturbed(&situation, &[motion], 1, draw).remove(0).start;
             let relative = |poses: &[Pose], k: usize| poses[1].inverse() * poses[k];
             let stated: Vec<Pose> = scene.objects.iter().map(|object| object.pose).collect();
             for k in [3, 4] {

@@ -9,13 +9,13 @@ use crate::geometry::Pose;
 use crate::progress::{NoProgress, Progress};
 use crate::sim::{LeverSimulator, Simulator};
 use crate::{
-    outcome::{Disturbance, Evidence, Outcome, Record, Trajectory, Verdict, Warning, never_on},
+    outcome::{Evidence, Outcome, Perturbation, Record, Trajectory, Verdict, Warning, never_on},
     scene::{Engine, JointTrajectory, Scene, Situation, Tool},
     task::{Job, Plan, Task, ToolMotion},
 };
 
 use super::arm::arm_faults;
-use super::perturbation::{disturbed, lifted, wary};
+use super::perturbation::{lifted, perturbed, wary};
 use super::rules::{broken_rules, unplayable};
 use super::sequential_test;
 use super::space;
@@ -36,7 +36,7 @@ const ORDINARY_ARM: f64 = 150.0;
 pub struct VerifySettings {
     /// Minimum number of perturbed replays in each engine before a decision. Plans that clearly
     /// fail in 2-D have no perturbed replays in 3-D.
-    pub disturbed: usize,
+    pub replays: usize,
     /// Seed of the perturbations.
     pub seed: u64,
 }
@@ -116,7 +116,7 @@ impl<'a> Verifier<'a> {
         let moving: f64 = pushing.chain(levering).sum();
         let each = [(&self.planar, PLANAR_STEP), (&self.spatial, SPATIAL_STEP)];
         let replay: f64 = each.iter().map(|(engine, cost)| moving / engine.step() * cost).sum();
-        replay * scene.objects.len() as f64 * (self.settings.disturbed + 1) as f64
+        replay * scene.objects.len() as f64 * (self.settings.replays + 1) as f64
     }
 
     /// Makes the nominal replays in both engines, or only in 3-D for plans that leave the plane.
@@ -143,7 +143,7 @@ impl<'a> Verifier<'a> {
         let jobs = Job::sequence(situation, &motions);
         let mut evidence: Vec<Evidence> = [&self.spatial, &self.planar]
             .into_par_iter()
-            .map(|engine| self.replay(engine, task, scene, &jobs, Disturbance::Nominal))
+            .map(|engine| self.replay(engine, task, scene, &jobs, Perturbation::Nominal))
             .collect();
         // The 2-D engine comes first, because people compare predictions with it.
         evidence.reverse();
@@ -156,7 +156,7 @@ impl<'a> Verifier<'a> {
 
     /// Adds the perturbed replays to a verdict of [`Verifier::nominal`]. Replays that the verdict
     /// already holds are not repeated.
-    pub fn disturb(
+    pub fn perturb(
         &self,
         task: &Task,
         situation: &Situation,
@@ -169,12 +169,12 @@ impl<'a> Verifier<'a> {
             return Verdict::judge(forbidden, evidence, task.robustness);
         }
         if in_space(task, plan) {
-            let replays: Vec<Evidence> = (0..self.settings.disturbed)
+            let replays: Vec<Evidence> = (0..self.settings.replays)
                 .into_par_iter()
                 .map(|draw| {
                     if self.progress.cancelled() {
-                        let disturbance = Disturbance::Disturbed { draw: draw + 1 };
-                        return stopped(&self.spatial, task, situation, disturbance);
+                        let perturbation = Perturbation::Perturbed { draw: draw + 1 };
+                        return stopped(&self.spatial, task, situation, perturbation);
                     }
                     self.replay_in_space(task, situation, (tools, plan), Some(draw))
                 })
@@ -189,29 +189,29 @@ impl<'a> Verifier<'a> {
         let motions: Vec<ToolMotion> =
             motions.into_iter().map(|motion| lifted(&scene, motion)).collect();
         let (nominal, replays): (Vec<Evidence>, Vec<Evidence>) =
-            evidence.into_iter().partition(|one| one.disturbance == Disturbance::Nominal);
+            evidence.into_iter().partition(|one| one.perturbation == Perturbation::Nominal);
         let (mut planar, mut spatial): (Vec<Evidence>, Vec<Evidence>) =
             replays.into_iter().partition(|one| one.engine == Engine::Planar);
         let asked = (task, situation, &scene, &motions[..]);
         // The 2-D engine comes first. If the plan fails there, the slower engine is skipped.
-        self.add_disturbed(&self.planar, asked, &mut planar);
+        self.add_perturbed(&self.planar, asked, &mut planar);
         let refused = never(&planar, task)
             || sequential_test::answer(&planar, task.robustness) == Some(false);
         if !(refused || self.in_plane) {
-            self.add_disturbed(&self.spatial, asked, &mut spatial);
+            self.add_perturbed(&self.spatial, asked, &mut spatial);
         }
         let evidence = nominal.into_iter().chain(planar).chain(spatial).collect();
         Verdict::judge(forbidden, evidence, task.robustness)
     }
 
     /// Adds perturbed replays in one engine until they suffice.
-    fn add_disturbed(
+    fn add_perturbed(
         &self,
         engine: &Simulator,
         asked: (&Task, &Situation, &Scene, &[ToolMotion]),
         own: &mut Vec<Evidence>,
     ) {
-        let least = self.settings.disturbed;
+        let least = self.settings.replays;
         loop {
             let done = own.len();
             let is_clear = || {
@@ -229,12 +229,12 @@ impl<'a> Verifier<'a> {
             if done >= wanted {
                 return;
             }
-            own.extend(self.disturbed(engine, asked, done..wanted));
+            own.extend(self.perturbed(engine, asked, done..wanted));
         }
     }
 
     /// Makes the perturbed replays of these draws in an engine.
-    fn disturbed(
+    fn perturbed(
         &self,
         engine: &Simulator,
         (task, situation, scene, motions): (&Task, &Situation, &Scene, &[ToolMotion]),
@@ -243,12 +243,12 @@ impl<'a> Verifier<'a> {
         draws
             .into_par_iter()
             .map(|draw| {
-                let disturbance = Disturbance::Disturbed { draw: draw + 1 };
+                let perturbation = Perturbation::Perturbed { draw: draw + 1 };
                 if self.progress.cancelled() {
-                    return stopped(engine, task, situation, disturbance);
+                    return stopped(engine, task, situation, perturbation);
                 }
-                let jobs = disturbed(situation, motions, self.settings.seed, draw);
-                self.replay(engine, task, scene, &jobs, disturbance)
+                let jobs = perturbed(situation, motions, self.settings.seed, draw);
+                self.replay(engine, task, scene, &jobs, perturbation)
             })
             .collect()
     }
@@ -262,7 +262,7 @@ impl<'a> Verifier<'a> {
         plan: &Plan,
     ) -> Verdict {
         let nominal = self.nominal(task, situation, tools, plan);
-        self.disturb(task, situation, tools, plan, nominal)
+        self.perturb(task, situation, tools, plan, nominal)
     }
 
     /// Replays a plan in 3-D, as written or perturbed by this draw.
@@ -279,7 +279,7 @@ impl<'a> Verifier<'a> {
         let mut motions = plan.motions(tools).unwrap_or_default();
         let really = draw.map(|draw| {
             let wary = Situation { scene: Arc::new(wary(task, scene)), ..situation.clone() };
-            space::disturbed(&wary, &mut motions, about, (self.settings.seed, draw))
+            space::perturbed(&wary, &mut motions, about, (self.settings.seed, draw))
         });
         let really = really.as_ref().unwrap_or(situation);
         let record = if draw.is_none() { Record::Frames } else { Record::Outcome };
@@ -287,11 +287,11 @@ impl<'a> Verifier<'a> {
         let trajectory = LeverSimulator::default().run_all(really, scene, &motions, watched);
         // The obstacles have been displaced as well.
         let scene = Scene { obstacles: really.scene.obstacles.clone(), ..scene.clone() };
-        let disturbance = match draw {
-            None => Disturbance::Nominal,
-            Some(draw) => Disturbance::Disturbed { draw: draw + 1 },
+        let perturbation = match draw {
+            None => Perturbation::Nominal,
+            Some(draw) => Perturbation::Perturbed { draw: draw + 1 },
         };
-        evidence(&self.spatial, task, &scene, trajectory, disturbance)
+        evidence(&self.spatial, task, &scene, trajectory, perturbation)
     }
 
     /// Replays jobs in order; a job without pushes leaves everything in place.
@@ -301,12 +301,12 @@ impl<'a> Verifier<'a> {
         task: &Task,
         scene: &Scene,
         jobs: &[Job],
-        disturbance: Disturbance,
+        perturbation: Perturbation,
     ) -> Evidence {
-        let nominal = disturbance == Disturbance::Nominal;
+        let nominal = perturbation == Perturbation::Nominal;
         let record = if nominal { Record::Frames } else { Record::Outcome };
         let trajectory = engine.run_in_turn(scene, jobs, record, self.progress);
-        evidence(engine, task, scene, trajectory, disturbance)
+        evidence(engine, task, scene, trajectory, perturbation)
     }
 }
 
@@ -326,9 +326,9 @@ fn evidence(
     task: &Task,
     scene: &Scene,
     mut trajectory: Trajectory,
-    disturbance: Disturbance,
+    perturbation: Perturbation,
 ) -> Evidence {
-    let nominal = disturbance == Disturbance::Nominal;
+    let nominal = perturbation == Perturbation::Nominal;
     if let (Some(force), Some(limit)) = (trajectory.force, task.robot.max_force)
         && force.lasting > limit
     {
@@ -351,7 +351,7 @@ fn evidence(
     trajectory.warnings.retain(told);
     Evidence {
         engine: engine.engine(),
-        disturbance,
+        perturbation,
         outcome: Outcome::judge(scene, task, &trajectory),
         warnings: trajectory.warnings.clone(),
         force: trajectory.force,
@@ -365,14 +365,14 @@ fn stopped(
     engine: &Simulator,
     task: &Task,
     situation: &Situation,
-    disturbance: Disturbance,
+    perturbation: Perturbation,
 ) -> Evidence {
     let start = situation.start.clone();
     let mut trajectory = Trajectory::standing(engine.spec(), Pose::default(), start);
     trajectory.warnings.push(Warning::Stopped);
     Evidence {
         engine: engine.engine(),
-        disturbance,
+        perturbation,
         outcome: Outcome::judge(&situation.scene, task, &trajectory),
         warnings: trajectory.warnings,
         force: None,

@@ -86,7 +86,7 @@ fn task(text: &str) -> Task {
 fn run(task: &Task) -> Trace {
     let (library, planner) = (library(), Planner::for_effort(Effort::Draft).unwrap().build());
     let truth = hidden(task, &library, 1).unwrap();
-    let settings = RunSettings { noise: truth.noise, pushes: 16, ..RunSettings::default() };
+    let settings = RunSettings { noise: truth.noise, max_pushes: 16, ..RunSettings::default() };
     let mut trace = Trace::new(task.clone(), settings, "draft".into(), Some(truth.clone()));
     let mut world = SimulatedWorld::new(truth);
     let runner = Runner::new(&planner, &library);

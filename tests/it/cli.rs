@@ -234,7 +234,7 @@ fn a_solved_task_leaves_a_plan_that_verifies_and_the_same_files_for_any_number_o
     let plan = plan.to_str().expect("UTF-8");
     let page = folder.path().join("verified");
     let out = page.to_str().expect("UTF-8");
-    let output = run(&["verify", plan, "--disturbed", "2", "--out", out]);
+    let output = run(&["verify", plan, "--replays", "2", "--out", out]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert_eq!(files(&page), ["pull-back.verify.html"]);
 

@@ -83,7 +83,7 @@ fn pushed(x: f64, gap: f64, length: f64) -> Plan {
 
 fn verify(task: &Task, plan: &Plan) -> Verdict {
     let situation = Situation::stated(&task.scene);
-    let verifier = Verifier::new(VerifySettings { disturbed: 4, seed: 0 });
+    let verifier = Verifier::new(VerifySettings { replays: 4, seed: 0 });
     verifier.verify(task, &situation, &tools(), plan)
 }
 
@@ -169,7 +169,7 @@ fn a_plan_pushes_levers_and_pushes_again() {
     // Pushed 8 cm away, levered up slightly at its expected position, and pushed to its goal.
     let Step::LeverUp(mut levering) = plan(0.0, 0.1).steps.remove(0) else { panic!("a lever-up") };
     let first = pushed(0.5, 0.02, 0.10);
-    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
     let situation = Situation::stated(&task().scene);
     let moved = verifier.nominal(&task(), &situation, &tools(), &first);
     let nominal = moved.nominal(Engine::Spatial).expect("a replay");

@@ -108,7 +108,7 @@ fn the_friction_of_a_pair_counts() {
     let best = solution.best().expect("a plan");
     let end = |task: &Task| {
         let situation = Situation::stated(&task.scene);
-        let settings = pushplan::verify::VerifySettings { disturbed: 0, seed: 0 };
+        let settings = pushplan::verify::VerifySettings { replays: 0, seed: 0 };
         let verifier = pushplan::verify::Verifier::new(settings);
         let verdict = verifier.verify(task, &situation, &best.tools, &best.plan);
         verdict.evidence[0].outcome.state.space.clone().expect("in space")[0]
@@ -162,7 +162,7 @@ fn a_plate_must_not_fall_off_the_table_and_a_can_may() {
     top.size = [0.2, 0.16];
     top.middle = narrow.scene.objects[0].pose.position - 0.6 * out;
     let verdict =
-        pushplan::verify::Verifier::new(pushplan::verify::VerifySettings { disturbed: 0, seed: 0 })
+        pushplan::verify::Verifier::new(pushplan::verify::VerifySettings { replays: 0, seed: 0 })
             .verify(&narrow, &Situation::stated(&narrow.scene), &found.tools, &found.plan);
     let off = Warning::OffTable { object: "plate".to_owned() };
     assert!(

@@ -72,7 +72,7 @@ fn run(task: &Task, truth: impl FnOnce(&mut Truth)) -> (Trace, SimulatedWorld) {
     let planner = Planner::for_effort(Effort::Draft).expect("its models").build();
     let mut real = Truth::stated(&task.scene, 1);
     truth(&mut real);
-    let settings = RunSettings { pushes: 4, samples: 4, ..RunSettings::default() };
+    let settings = RunSettings { max_pushes: 4, samples: 4, ..RunSettings::default() };
     let mut world = SimulatedWorld::new(real).pushed_with(task.robot.max_force);
     let mut trace = Trace::new(task.clone(), settings, "draft".into(), None);
     let library = library();
@@ -172,7 +172,7 @@ fn forbidden(task: &Task, form: PushForm, lift: f64, pushes: &[([f64; 2], f64, f
         speed: 0.1,
     };
     let plan = Plan::pushing(&tool.name, 0.0, form, lift, pushes.iter().map(push));
-    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
     verifier.nominal(task, &Situation::stated(&task.scene), &[tool], &plan)
 }
 
@@ -392,7 +392,7 @@ fn what_is_solved_is_not_fragile_when_it_is_verified() {
         let found = planner.solve(&task, &library()).expect("a sound task");
         let best = found.best().expect("a plan");
         let situation = Situation::stated(&task.scene);
-        let verifier = Verifier::new(VerifySettings { disturbed: 8, seed: 0 }).until_clear();
+        let verifier = Verifier::new(VerifySettings { replays: 8, seed: 0 }).until_clear();
         let verdict = verifier.verify(&task, &situation, &best.tools, &best.plan);
         assert_eq!(verdict.passed, found.status == PlanStatus::Solved, "{name}");
         assert_eq!(Some(&verdict.robustness), best.verdict.as_ref().map(|own| &own.robustness));

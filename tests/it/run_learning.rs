@@ -62,7 +62,7 @@ fn pushes_that_the_arm_cannot_begin_teach_nothing() {
     let mut truth = Truth::stated(&task.scene, 1);
     truth.scene.objects[0].mass = 500.0;
     let mut world = SimulatedWorld::new(truth).pushed_with(Some(1.0));
-    let settings = RunSettings { pushes: 2, samples: 2, ..RunSettings::default() };
+    let settings = RunSettings { max_pushes: 2, samples: 2, ..RunSettings::default() };
     let mut trace = Trace::new(task, settings, "draft".into(), None);
     runner.run(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress).expect("a run");
     assert!(!trace.steps.is_empty() && trace.steps.iter().all(|step| step.stop.is_some()));

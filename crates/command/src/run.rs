@@ -48,7 +48,7 @@ was predicted, what happened, what was believed meanwhile. Pictures: <task>.run.
 
 Examples:
   pushplan run --example hidden-hinge --world 1
-  pushplan run my-task.yaml --world my-world.yaml --pushes 20 --out runs --resume"
+  pushplan run my-task.yaml --world my-world.yaml --max-pushes 20 --out runs --resume"
 )]
 pub struct RunArgs {
     #[command(flatten)]
@@ -74,21 +74,21 @@ pub struct RunArgs {
     /// Most pushes before giving up
     #[arg(long, value_name = "N", default_value_t = 12,
           value_parser = clap::value_parser!(u16).range(1..=1000))]
-    pushes: u16,
+    max_pushes: u16,
     /// Samples of the belief under which plans are judged
     #[arg(long, value_name = "N", default_value_t = 16,
           value_parser = clap::value_parser!(u16).range(1..=1000))]
     samples: u16,
     /// Share of the samples in which a plan must reach the goal, 0 to 1
     #[arg(long, value_name = "SHARE", default_value_t = 0.8, value_parser = share)]
-    enough: f64,
+    min_success: f64,
     /// Most pushes that are made only to learn something
     #[arg(long, value_name = "N", default_value_t = 3,
           value_parser = clap::value_parser!(u16).range(0..=1000))]
-    probes: u16,
+    max_probes: u16,
     /// How these are chosen
     #[arg(long, value_parser = possible_values(&PROBES), value_name = "RULE", default_value = "task")]
-    rule: ProbeRule,
+    probe_rule: ProbeRule,
     /// Seed of samples and plans
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
@@ -130,11 +130,11 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
     output::prepare(&args.results.out)?;
     let path = args.results.out.join(format!("{}.run.json", task.name));
     let settings = RunSettings {
-        pushes: args.pushes.into(),
+        max_pushes: args.max_pushes.into(),
         samples: args.samples.into(),
-        enough: args.enough,
-        probes: args.probes.into(),
-        rule: args.rule,
+        min_success: args.min_success,
+        max_probes: args.max_probes.into(),
+        probe_rule: args.probe_rule,
         noise: truth.noise,
         seed: args.seed,
         ..RunSettings::default()
@@ -171,7 +171,7 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
     following.finish()?;
     ran.map_err(|error| act_error(error, &path))?;
     for note in trace.all_notes() {
-        session.warn(&note.possible_values(&trace.task.scene));
+        session.warn(&note.words(&trace.task.scene));
     }
     let mut document = run_document(&trace);
     let mut written = vec![path];
@@ -197,28 +197,49 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
 /// Returns the recipe that repeats the run, with the non-default settings.
 fn recipe(args: &RunArgs) -> Recipe {
     let word = |table: &[(&str, ProbeRule, &str)]| {
-        let own = table.iter().find(|(_, rule, _)| *rule == args.rule);
+        let own = table.iter().find(|(_, rule, _)| *rule == args.probe_rule);
         own.map_or(String::new(), |(word, ..)| (*word).to_owned())
     };
     let out_of_range = args.out_of_range.out_of_range();
     let usual = RunSettings::default();
     let given = [
-        (args.effort != Effort::Draft, "--effort", args.effort.to_string()),
-        (out_of_range != OutOfRange::Warn, "--out-of-range", out_of_range.to_string()),
-        (usize::from(args.pushes) != usual.pushes, "--pushes", args.pushes.to_string()),
-        (usize::from(args.samples) != usual.samples, "--samples", args.samples.to_string()),
-        (args.enough != usual.enough, "--enough", args.enough.to_string()),
-        (usize::from(args.probes) != usual.probes, "--probes", args.probes.to_string()),
-        (args.rule != usual.rule, "--rule", word(&PROBES)),
-        (args.seed != usual.seed, "--seed", args.seed.to_string()),
+        (args.effort != Effort::Draft, "--effort", Some("effort"), args.effort.to_string()),
+        (
+            out_of_range != OutOfRange::Warn,
+            "--out-of-range",
+            Some("out_of_range"),
+            out_of_range.to_string(),
+        ),
+        (
+            usize::from(args.max_pushes) != usual.max_pushes,
+            "--max-pushes",
+            Some("max_pushes"),
+            args.max_pushes.to_string(),
+        ),
+        (
+            usize::from(args.samples) != usual.samples,
+            "--samples",
+            Some("samples"),
+            args.samples.to_string(),
+        ),
+        (
+            args.min_success != usual.min_success,
+            "--min-success",
+            Some("min_success"),
+            args.min_success.to_string(),
+        ),
+        (
+            usize::from(args.max_probes) != usual.max_probes,
+            "--max-probes",
+            Some("max_probes"),
+            args.max_probes.to_string(),
+        ),
+        (args.probe_rule != usual.probe_rule, "--probe-rule", None, word(&PROBES)),
+        (args.seed != usual.seed, "--seed", Some("seed"), args.seed.to_string()),
     ];
     let given = given.into_iter().filter(|(unusual, ..)| *unusual);
     let files = [args.table.setting(), args.regulator.setting()];
-    let settings = given.map(|(_, option, value)| Setting {
-        option,
-        keyword: Some(option.trim_start_matches('-')).filter(|keyword| *keyword != "rule"),
-        value,
-    });
+    let settings = given.map(|(_, option, keyword, value)| Setting { option, keyword, value });
     let settings: Vec<Setting> = settings.chain(files.into_iter().flatten()).collect();
     args.results.library.origin(args.task.source(), args.model.clone()).run(&args.world, &settings)
 }

@@ -57,7 +57,7 @@ pub struct SolveArgs {
     /// it is not clear whether enough of them reach the goal, and none in 3-D if too few clearly do in
     /// the plane [default: 4, 8 or 16 by effort]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=10_000))]
-    pub disturbed: Option<u16>,
+    pub replays: Option<u16>,
     /// Share of the disturbed replays that must reach the goal, 0 to 1 [default: what the task
     /// says, 0.75 if nothing]
     #[arg(long, value_name = "SHARE", value_parser = share)]
@@ -86,7 +86,7 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     let models = args.model.clone().unwrap_or_else(|| effort.models());
     let planner = Planner::fitted(&models, fit.as_ref())?;
     output::prepare(&args.results.out)?;
-    let settings = match args.disturbed {
+    let settings = match args.replays {
         Some(count) => effort.settings().replaying(count.into()),
         None => effort.settings(),
     };

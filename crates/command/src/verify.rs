@@ -33,7 +33,7 @@ the goal in both simulations, and so does the share of disturbed ones that the t
 the disturbed ones fail. 5: it does not work.
 
 Example:
-  pushplan verify plans/pull-back.plan.json --disturbed 64"
+  pushplan verify plans/pull-back.plan.json --replays 64"
 )]
 pub struct VerifyArgs {
     /// The plan file; it holds the task and the tool as well
@@ -42,7 +42,7 @@ pub struct VerifyArgs {
     /// whether enough of them reach the goal, and none in 3-D if too few clearly do in the plane
     #[arg(long, value_name = "N", default_value_t = 8,
           value_parser = clap::value_parser!(u32).range(0..=100_000))]
-    disturbed: u32,
+    replays: u32,
     /// Share of the disturbed replays that must reach the goal, 0 to 1 [default: what the task
     /// says]
     #[arg(long, value_name = "SHARE", value_parser = share)]
@@ -67,7 +67,7 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     args.out.as_deref().map(output::prepare).transpose()?;
     let mut file = PlanFile::load(&args.plan)?;
     file.task.robustness = args.robustness.unwrap_or(file.task.robustness);
-    let settings = VerifySettings { disturbed: args.disturbed as usize, seed: args.seed };
+    let settings = VerifySettings { replays: args.replays as usize, seed: args.seed };
     let situation = Situation::stated(&file.task.scene);
     let following = TerminalProgress::spinner(session, "replaying");
     let until = Until::new(&following, args.time_limit);
@@ -77,7 +77,7 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     if seconds > LONG {
         session.warn(&format!(
             "replaying this plan takes about {seconds:.0} s; Ctrl-C or `--time-limit` stops it, \
-             `--disturbed 0` makes it shorter"
+             `--replays 0` makes it shorter"
         ));
     }
     let verdict =

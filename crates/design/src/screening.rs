@@ -27,7 +27,7 @@ const SETTINGS: Settings = Settings {
     short_list: 0,
     verified_at_once: 1,
     verify_batches: 0,
-    disturbed: 0,
+    replays: 0,
     levers: LeverSettings::DRAFT,
 };
 

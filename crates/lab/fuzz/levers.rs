@@ -37,7 +37,7 @@ pub fn task(task: Task) {
         doubts: 0,
         verified_at_once: 1,
         verify_batches: 0,
-        disturbed: 0,
+        replays: 0,
         followed: 0,
     };
     let Ok(tools) = task.blades(&library) else { return };
@@ -65,7 +65,7 @@ pub fn plan(file: PlanFile) {
     let span: f64 = pushing.chain(levering).sum();
     let small = file.task.scene.objects.len() + file.task.scene.obstacles.len() < CROWD;
     if span < LONGEST && small {
-        let verifier = Verifier::new(VerifySettings { disturbed: 1, seed: 1 });
+        let verifier = Verifier::new(VerifySettings { replays: 1, seed: 1 });
         let situation = Situation::stated(&file.task.scene);
         let verdict = verifier.verify(&file.task, &situation, &file.tools, &file.plan);
         assert!(verdict.evidence.iter().all(|evidence| evidence.outcome.error().is_finite()));

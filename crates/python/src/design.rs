@@ -97,8 +97,8 @@ pub fn design(
         let message = format!("`parts` is from 1 to {most}, and `candidates` from 1 to 1000000");
         return Err(PyValueError::new_err(message));
     }
-    let (model, disturbed, time_limit, fit) = (None, None, None, None);
-    let asked = Asked { effort, model, out_of_range: "warn", seed, disturbed, time_limit, fit };
+    let (model, replays, time_limit, fit) = (None, None, None, None);
+    let asked = Asked { effort, model, out_of_range: "warn", seed, replays, time_limit, fit };
     let planner = asked.planner(py)?;
     let library = given(py, tools.as_ref())?;
     let settings = DesignSettings { parts, ..DesignSettings::looking_at(candidates) };

@@ -302,7 +302,7 @@ impl PyPlan {
     /// Replays the unperturbed plan in both engines.
     fn replayed(&self) -> Verdict {
         let PlanFile { task, tools, plan, .. } = &self.file;
-        let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+        let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
         verifier.nominal(task, &Situation::stated(&task.scene), tools, plan)
     }
 

@@ -182,15 +182,15 @@ impl PyRun {
 /// as that of `look`. Where it has a method `change_tool(tool)` that is called before another tool is
 /// needed. What they raise ends the run.
 ///
-/// `pushes` is the most that are made, `probes` the most of these only to learn something; plans are
+/// `max_pushes` is the most that are made, `max_probes` the most of these only to learn something; plans are
 /// judged under `samples` samples and carried out without doubt if they reach the goal in the share
-/// `enough` of them. `noise` is the standard deviation of what is seen, metres and radians. `fit` is
+/// `min_success` of them. `noise` is the standard deviation of what is seen, metres and radians. `fit` is
 /// what is known of the table; the network goes on learning from the pushes of the run. With
 /// `regulator` the belief regulator corrects what the filter over joints finds.
 #[pyfunction]
 #[pyo3(signature = (task, world, tools = None, *, effort = "draft", model = None, out_of_range = "warn",
-                    seed = 0, pushes = 12, samples = 16, enough = 0.8, probes = 3, noise = None,
-                    fit = None, regulator = true, threads = 0))]
+                    seed = 0, max_pushes = 12, samples = 16, min_success = 0.8,
+                    max_probes = 3, noise = None, fit = None, regulator = true, threads = 0))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn run(
     py: Python<'_>,
@@ -201,19 +201,19 @@ pub fn run(
     model: Option<&str>,
     out_of_range: &str,
     seed: u64,
-    pushes: usize,
+    max_pushes: usize,
     samples: usize,
-    enough: f64,
-    probes: usize,
+    min_success: f64,
+    max_probes: usize,
     noise: Option<(f64, f64)>,
     fit: Option<Py<PyTableFit>>,
     regulator: bool,
     threads: usize,
 ) -> PyResult<PyRun> {
     let fit = fit.as_ref().map(|fit| &fit.get().0);
-    let (disturbed, time_limit) = (None, None);
+    let (replays, time_limit) = (None, None);
     let planner =
-        Asked { effort, model, out_of_range, seed, disturbed, time_limit, fit }.planner(py)?;
+        Asked { effort, model, out_of_range, seed, replays, time_limit, fit }.planner(py)?;
     let library = given(py, tools.as_ref())?;
     let mut runner = Runner::new(&planner, &library)
         .learning(fit.cloned())
@@ -221,8 +221,9 @@ pub fn run(
     if regulator {
         runner = runner.regulated(shipped_regulator()?);
     }
-    if !(0.0..=1.0).contains(&enough) || !(1..=1000).contains(&samples) || pushes > 1000 {
-        let message = "`enough` is a share from 0 to 1, `samples` 1 to 1000, `pushes` at most 1000";
+    if !(0.0..=1.0).contains(&min_success) || !(1..=1000).contains(&samples) || max_pushes > 1000 {
+        let message =
+            "`min_success` is a share from 0 to 1, `samples` 1 to 1000, `max_pushes` at most 1000";
         return Err(PyValueError::new_err(message));
     }
     let defaults = RunSettings::default();
@@ -231,7 +232,8 @@ pub fn run(
         Some(_) => return Err(PyValueError::new_err("`noise` is two numbers above 0")),
         None => defaults.noise,
     };
-    let settings = RunSettings { pushes, samples, enough, probes, noise, seed, ..defaults };
+    let settings =
+        RunSettings { max_pushes, samples, min_success, max_probes, noise, seed, ..defaults };
     let mut place = match world.extract::<u64>() {
         Ok(number) => {
             let truth = hidden(&task.task, &library, number);

@@ -32,7 +32,7 @@ use crate::{arguments, errors, work};
 /// `tools` are those to choose from, by default the ones that come with the package; `effort` is
 /// "draft", "standard" or "thorough"; `model` predicts effects, or two with ">" between them do, the
 /// first screening and the second deciding, by default those of the effort; `out_of_range` says what to do where it should not be trusted: "warn", "simulate" or "refuse";
-/// `seed` is that of refinement's samples and of the disturbances; `disturbed` is the number of
+/// `seed` is that of refinement's samples and of the disturbances; `replays` is the number of
 /// disturbed replays of the winning plan in each engine, by default that of the effort; `robustness` is the share of the
 /// disturbed replays that must reach the goal, by default the task's; `time_limit` is in seconds, and
 /// the best plan so far is returned then; `fit` is what pushes recorded on this table taught the
@@ -40,7 +40,7 @@ use crate::{arguments, errors, work};
 /// core, and changes no result.
 #[pyfunction]
 #[pyo3(signature = (task, tools = None, *, effort = "standard", model = None, out_of_range = "warn",
-                    seed = 0, disturbed = None, robustness = None, time_limit = None, fit = None,
+                    seed = 0, replays = None, robustness = None, time_limit = None, fit = None,
                     threads = 0))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn solve(
@@ -51,14 +51,14 @@ pub fn solve(
     model: Option<&str>,
     out_of_range: &str,
     seed: u64,
-    disturbed: Option<usize>,
+    replays: Option<usize>,
     robustness: Option<f64>,
     time_limit: Option<f64>,
     fit: Option<Py<PyTableFit>>,
     threads: usize,
 ) -> PyResult<PySolution> {
     let fit = fit.as_ref().map(|fit| &fit.get().0);
-    let asked = Asked { effort, model, out_of_range, seed, disturbed, time_limit, fit };
+    let asked = Asked { effort, model, out_of_range, seed, replays, time_limit, fit };
     let planner = asked.planner(py)?;
     let library = given(py, tools.as_ref())?;
     let stated = stated(task.robust(robustness)?, fit);
@@ -79,7 +79,7 @@ pub fn stated(task: Arc<Task>, fit: Option<&TableFit>) -> Arc<Task> {
 /// first task that cannot be tried.
 #[pyfunction]
 #[pyo3(signature = (tasks, tools = None, *, effort = "standard", model = None, out_of_range = "warn",
-                    seed = 0, disturbed = None, robustness = None, time_limit = None, fit = None,
+                    seed = 0, replays = None, robustness = None, time_limit = None, fit = None,
                     threads = 0))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn solve_all(
@@ -90,14 +90,14 @@ pub fn solve_all(
     model: Option<&str>,
     out_of_range: &str,
     seed: u64,
-    disturbed: Option<usize>,
+    replays: Option<usize>,
     robustness: Option<f64>,
     time_limit: Option<f64>,
     fit: Option<Py<PyTableFit>>,
     threads: usize,
 ) -> PyResult<Vec<PySolution>> {
     let fit = fit.as_ref().map(|fit| &fit.get().0);
-    let asked = Asked { effort, model, out_of_range, seed, disturbed, time_limit, fit };
+    let asked = Asked { effort, model, out_of_range, seed, replays, time_limit, fit };
     let planner = asked.planner(py)?;
     let library = given(py, tools.as_ref())?;
     let stated: PyResult<Vec<Arc<Task>>> =
@@ -126,7 +126,7 @@ pub struct Asked<'a> {
     pub model: Option<&'a str>,
     pub out_of_range: &'a str,
     pub seed: u64,
-    pub disturbed: Option<usize>,
+    pub replays: Option<usize>,
     pub time_limit: Option<f64>,
     pub fit: Option<&'a TableFit>,
 }
@@ -141,7 +141,7 @@ impl Asked<'_> {
         let planner =
             Planner::fitted(&models, self.fit).map_err(|error| errors::model(py, &error))?;
         let out_of_range = arguments::out_of_range(self.out_of_range)?;
-        let settings = match self.disturbed {
+        let settings = match self.replays {
             Some(count) => effort.settings().replaying(count),
             None => effort.settings(),
         };
@@ -216,31 +216,31 @@ pub fn predicted(model: &Fallback, file: &PlanFile) -> Trajectory {
     trajectory
 }
 
-/// Replays a plan in both engines, as written and `disturbed` times in each with starts and
+/// Replays a plan in both engines, as written and `replays` times in each with starts and
 /// frictions slightly off.
 ///
 /// `robustness` is the share of the disturbed replays that must reach the goal, by default the
 /// task's; `time_limit` is in seconds, and replays that are not over then do not pass.
 #[pyfunction]
-#[pyo3(signature = (plan, *, disturbed = 8, seed = 0, robustness = None, time_limit = None,
+#[pyo3(signature = (plan, *, replays = 8, seed = 0, robustness = None, time_limit = None,
                     threads = 0))]
 pub fn verify(
     py: Python<'_>,
     plan: &PyPlan,
-    disturbed: usize,
+    replays: usize,
     seed: u64,
     robustness: Option<f64>,
     time_limit: Option<f64>,
     threads: usize,
 ) -> PyResult<PyVerdict> {
-    if disturbed > 100_000 {
-        let message = "`disturbed` is at most 100000";
+    if replays > 100_000 {
+        let message = "`replays` is at most 100000";
         return Err(pyo3::exceptions::PyValueError::new_err(message));
     }
     let mut file = plan.file.clone();
     let task = PyTask { task: Arc::new(file.task.clone()), source: None };
     file.task = Task::clone(&*task.robust(robustness)?);
-    let settings = VerifySettings { disturbed, seed };
+    let settings = VerifySettings { replays, seed };
     let limit = arguments::limit(time_limit)?;
     let verdict = work::run(py, arguments::threads(threads)?, |cancel| {
         let until = Until::new(cancel, limit);

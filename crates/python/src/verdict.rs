@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use numpy::PyArray2;
 use pushplan::asset::PlanFile;
-use pushplan::outcome::{Disturbance, Evidence, Warning};
+use pushplan::outcome::{Evidence, Perturbation, Warning};
 use pushplan::{Task, Verdict};
 use pushplan_report::{
     Origin, PageView, TaskSource, replay_warnings, verdict_document, verdict_page,
@@ -139,9 +139,9 @@ impl PyReplay {
     /// Number of the disturbance, from 1 and the same in both engines; `None` as written.
     #[getter]
     fn draw(&self) -> Option<usize> {
-        match self.evidence.disturbance {
-            Disturbance::Nominal => None,
-            Disturbance::Disturbed { draw } => Some(draw),
+        match self.evidence.perturbation {
+            Perturbation::Nominal => None,
+            Perturbation::Perturbed { draw } => Some(draw),
         }
     }
 

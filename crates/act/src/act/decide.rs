@@ -71,7 +71,7 @@ impl Runner<'_> {
         if let Some((plan, tool)) = steps.last().and_then(|last| rest(task, &samples.now, last)) {
             let plans = [(plan, vec![Arc::clone(&tool)])];
             let chance = Chance::of(&samples.reach(model, task, &plans)[0]);
-            if chance.share >= settings.enough {
+            if chance.share >= settings.min_success {
                 let [(plan, _)] = plans;
                 return Ok(Decision::Do { why: Why::Rest, plan, tool, chance });
             }
@@ -90,7 +90,7 @@ impl Runner<'_> {
             return Ok(Decision::Done);
         };
         let sure = |judged: &Judged| {
-            judged.best().is_some_and(|(_, chance)| chance.share >= settings.enough)
+            judged.best().is_some_and(|(_, chance)| chance.share >= settings.min_success)
         };
         // If no plan works in enough samples, plans are added for samples in which none works.
         let mut tried = Vec::new();
@@ -106,7 +106,7 @@ impl Runner<'_> {
             }
             tried.push(sample);
         }
-        if !sure(&judged) && probes(steps) < settings.probes && pays(&judged.reach) {
+        if !sure(&judged) && probes(steps) < settings.max_probes && pays(&judged.reach) {
             let tools = task.tools(self.library).map_err(SolveError::from)?;
             let known = (tools.as_slice(), judged.reach.as_slice());
             let index = steps.len() as u64;
@@ -127,7 +127,7 @@ impl Runner<'_> {
             return Ok(decision);
         }
         let Some(((plan, tools), chance)) = best else { return Ok(Decision::Nothing) };
-        let why = if chance.share >= settings.enough { Why::Plan } else { Why::Best };
+        let why = if chance.share >= settings.min_success { Why::Plan } else { Why::Best };
         let helps = chance.share > 0.0 || chance.score < (1.0 - NEARER) * nothing;
         let (plan, tool) = (plan.clone(), Arc::clone(&tools[0]));
         Ok(if helps { Decision::Do { why, plan, tool, chance } } else { Decision::Nothing })

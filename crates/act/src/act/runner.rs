@@ -119,14 +119,14 @@ impl<'a> Runner<'a> {
             match decision {
                 Decision::Done => trace.end = Some(End::Reached),
                 Decision::Nothing => trace.end = Some(End::NoPush),
-                Decision::Do { .. } if trace.steps.len() >= trace.settings.pushes => {
+                Decision::Do { .. } if trace.steps.len() >= trace.settings.max_pushes => {
                     trace.end = Some(End::UsedUp);
                 }
                 Decision::Do { why, plan, tool, chance } => {
                     let step = now.step(trace, &mut belief, world, (why, plan, tool, chance))?;
                     trace.steps.push(step);
                     learnt = self.learnt(trace, &start)?;
-                    progress.update(trace.steps.len() as u64, trace.settings.pushes as u64);
+                    progress.update(trace.steps.len() as u64, trace.settings.max_pushes as u64);
                 }
             }
             keep(trace)?;

@@ -120,7 +120,7 @@ impl Suite for ToolsArgs {
         let models = self.model.clone().unwrap_or_else(|| effort.models());
         let planner = Planner::with_models(&models)?
             // Perturbed replays measure the robustness of a plan without affecting its choice.
-            .settings(Settings { disturbed: 0, ..effort.settings() })
+            .settings(Settings { replays: 0, ..effort.settings() })
             .seed(self.seed)
             .out_of_range(self.out_of_range.out_of_range())
             .build();

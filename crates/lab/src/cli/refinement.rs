@@ -47,7 +47,7 @@ impl Suite for RefinementArgs {
         let library = self.common.library.load()?;
         let effort = self.effort;
         let models = self.common.models(effort);
-        let budget = Settings { disturbed: 0, ..effort.settings() };
+        let budget = Settings { replays: 0, ..effort.settings() };
         let planner = |settings| -> Result<Planner, CliError> {
             Ok(self.common.planner(effort)?.settings(settings).build())
         };

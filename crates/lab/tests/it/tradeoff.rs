@@ -143,10 +143,10 @@ fn every_effort_is_a_measured_level_that_no_other_makes_needless() {
             let first = |spec: &ModelSpec| ModelSpec::of(spec.first().kind.clone());
             let models = Models { screened: first(&screened), decided: first(&decided) };
             assert_eq!(models, level.models(), "{effort}");
-            let Settings { disturbed, levers, .. } = level.settings;
-            let pushing = Settings { disturbed, levers, ..effort.settings() };
+            let Settings { replays, levers, .. } = level.settings;
+            let pushing = Settings { replays, levers, ..effort.settings() };
             assert_eq!(pushing, level.settings, "{effort}");
-            assert!(effort.settings().disturbed >= disturbed, "{effort}");
+            assert!(effort.settings().replays >= replays, "{effort}");
             row
         })
         .collect();

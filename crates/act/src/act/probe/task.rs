@@ -63,7 +63,7 @@ pub(in crate::act) fn probe(
         motion: plan.motion(tool),
     };
     let probes: Vec<Probe> = found.iter().map(motion).collect();
-    let by = (settings.rule, settings.noise);
+    let by = (settings.probe_rule, settings.noise);
     let chosen = choose(model, by, (belief, samples), &probes, reach)?;
     let (_, plan, tool) = found.swap_remove(chosen);
     Some((plan, tool))

@@ -98,7 +98,7 @@ impl LeverSuite {
         let verdict = best.and_then(|best| best.verdict.as_ref());
         let works = verdict.is_some_and(|verdict| verdict.works());
         // The planner's own perturbations have seed 0.
-        let settings = VerifySettings { disturbed: FURTHER, seed: 1 + index as u64 };
+        let settings = VerifySettings { replays: FURTHER, seed: 1 + index as u64 };
         let further = best.filter(|_| works).and_then(|best| {
             let situation = Situation::stated(&task.scene);
             let verifier = Verifier::new(settings);

@@ -131,7 +131,7 @@ fn task_table(cells: &[TaskCell]) -> Table {
         ("verdict", Align::Left),
     ]);
     for cell in cells {
-        let status = cell.status.map(|status| possible_values(&format!("{status:?}")));
+        let status = cell.status.map(|status| words(&format!("{status:?}")));
         table.row([
             cell.name.to_owned(),
             status.unwrap_or_else(|| "refused".to_owned()),

@@ -185,7 +185,7 @@ impl<'a> Examples<'a> {
                     && episode.scene.objects.iter().any(|o| o.support != Support::Even);
                 let bodies = if unknown { guessed(episode) } else { bodies(episode) };
                 if !random.random_bool(noise.clean) {
-                    disturb(&mut state, noise, &mut random);
+                    perturb(&mut state, noise, &mut random);
                     project_joints(&bodies, &mut state, |_| true);
                 }
                 // A guessed support requires another correction than the true one.
@@ -357,7 +357,7 @@ impl Transition {
     }
 }
 
-fn disturb(state: &mut State, noise: &Noise, random: &mut Pcg64) {
+fn perturb(state: &mut State, noise: &Noise, random: &mut Pcg64) {
     let size = noise.shift * Noise::SMALLEST.powf(random.random::<f64>());
     for (pose, velocity) in state.poses.iter_mut().zip(&mut state.velocities) {
         let mut draw = |scale: f64| random.random_range(-scale..=scale);
