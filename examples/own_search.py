@@ -45,7 +45,7 @@ def main() -> None:
     plan = pushplan.Plan.of(TASK, "paddle", [push], grip_yaw=0.0)
     verdict = pushplan.verify(plan, replays=8)
     print(verdict)
-    assert verdict.works
+    assert verdict.nominal_ok
 
 
 if __name__ == "__main__":

@@ -40,8 +40,8 @@ HOOK: ToolFile = {
 
 
 def main(folder: Path) -> None:
-    task = pushplan.Task.of(TASK)
-    tools = pushplan.ToolLibrary.shipped().with_tool(pushplan.Tool.of(HOOK))
+    task = pushplan.Task.from_dict(TASK)
+    tools = pushplan.ToolLibrary.shipped().with_tool(pushplan.Tool.from_dict(HOOK))
     solution = pushplan.solve(task, tools)
     print(solution)
     best = solution.best

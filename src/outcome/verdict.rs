@@ -128,7 +128,7 @@ impl Verdict {
     }
 
     /// Returns `true` if the plan works as written, even if too seldom when perturbed.
-    pub fn works(&self) -> bool {
+    pub fn nominal_ok(&self) -> bool {
         matches!(self.reason, None | Some(Reason::Fragile { .. } | Reason::NeverOn { .. }))
     }
 

@@ -82,7 +82,7 @@ impl Margins {
     }
 
     /// Returns the first violated rule.
-    pub fn broken(&self) -> Option<Infeasible> {
+    pub fn violation(&self) -> Option<Infeasible> {
         let reasons = [
             Infeasible::Reach,
             Infeasible::Reach,

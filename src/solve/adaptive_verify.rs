@@ -58,7 +58,7 @@ impl<'a> Verification<'a> {
             if verdict.was_stopped() {
                 continue;
             }
-            if verdict.works() {
+            if verdict.nominal_ok() {
                 working.push((Grade::of(&verdict), k));
             }
             attempts.list[k].verdict = Some(verdict);

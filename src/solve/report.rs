@@ -63,7 +63,7 @@ pub(super) fn solution(mut board: Blackboard, began: Instant) -> Solution {
 /// Orders plans of pushes: the best plan, then passed, untried and failed ones. If none passed,
 /// verified plans come before untried ones.
 fn ranked_pushes(board: &mut Blackboard, status: PlanStatus) -> Vec<Attempt> {
-    let best = board.attempts.best.filter(|_| board.attempts.works()).map(|(_, k)| k);
+    let best = board.attempts.best.filter(|_| board.attempts.nominal_ok()).map(|(_, k)| k);
     let rank = |index: usize, attempt: &Attempt| match (&attempt.verdict, status) {
         _ if Some(index) == best => 0,
         (Some(verdict), PlanStatus::Solved) => {

@@ -12,5 +12,5 @@ mod space;
 mod verifier;
 
 pub use arm::joints;
-pub use rules::broken_rules;
+pub use rules::rule_violations;
 pub use verifier::{Verifier, VerifySettings};

@@ -16,7 +16,7 @@ use crate::{
 
 use super::arm::arm_faults;
 use super::perturbation::{lifted, perturbed, wary};
-use super::rules::{broken_rules, unplayable};
+use super::rules::{rule_violations, unplayable};
 use super::sequential_test;
 use super::space;
 
@@ -134,7 +134,7 @@ impl<'a> Verifier<'a> {
         if let Some(fault) = unplayable(scene, tools, plan) {
             return Verdict::judge(vec![fault], Vec::new(), task.robustness);
         }
-        let mut forbidden = broken_rules(task, scene, tools, plan);
+        let mut forbidden = rule_violations(task, scene, tools, plan);
         if in_space(task, plan) {
             let evidence = self.replay_in_space(task, situation, (tools, plan), None);
             return Verdict::judge(forbidden, vec![evidence], task.robustness);

@@ -5,7 +5,7 @@ use pushplan::outcome::{LeverFault, Warning};
 use pushplan::scene::{Engine, Situation};
 use pushplan::solve::{PlanStatus, Solution};
 use pushplan::task::Task;
-use pushplan::verify::broken_rules;
+use pushplan::verify::rule_violations;
 use pushplan_export::mjcf;
 
 use crate::judged::{file, is_reached_in_mujoco, solved};
@@ -144,7 +144,7 @@ fn nothing_lands_in_a_region_that_is_kept_out_of() {
     closed.scene.keep_out = task.scene.keep_out[..1].to_vec();
     let wall = &mut closed.scene.keep_out[0];
     (wall.tool, wall.pose) = (true, pushplan::Pose::new(0.5, 0.0, 0.0));
-    let broken = broken_rules(&closed, &closed.scene, &found.tools, &found.plan);
+    let broken = rule_violations(&closed, &closed.scene, &found.tools, &found.plan);
     let meets = LeverFault::Meets { body: "left".to_owned() };
     assert_eq!(broken, [Warning::CannotLever { step: 0, fault: meets }], "{lever:?}");
 }

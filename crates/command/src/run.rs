@@ -189,8 +189,8 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
     args.form.show(session, &document)?;
     Ok(match trace.end {
         Some(End::Reached) => exit_code::DONE,
-        Some(End::UsedUp) => exit_code::FAILED_VERIFICATION,
-        Some(End::NoPush) | None => exit_code::NO_PLAN,
+        Some(End::BudgetExhausted) => exit_code::FAILED_VERIFICATION,
+        Some(End::NoImprovingPush) | None => exit_code::NO_PLAN,
     })
 }
 

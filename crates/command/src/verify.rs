@@ -96,7 +96,7 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     }
     args.form.show(session, &document)?;
     written.transpose()?;
-    Ok(match (verdict.passed, verdict.works()) {
+    Ok(match (verdict.passed, verdict.nominal_ok()) {
         (true, _) => exit_code::DONE,
         (false, true) => exit_code::FRAGILE,
         (false, false) => exit_code::FAILED_VERIFICATION,

@@ -42,7 +42,7 @@ impl PyRecording {
     /// Builds a recording from a mapping with the keys of a recording file; arrays are taken as
     /// lists.
     #[staticmethod]
-    fn of(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
+    fn from_dict(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
         Text::of(mapping)?.read(py, "recording", Recording::parse).map(Self)
     }
 

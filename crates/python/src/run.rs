@@ -76,14 +76,14 @@ pub struct PyRun(Trace);
 
 #[pymethods]
 impl PyRun {
-    /// `"reached"`, as far as can be seen; `"used_up"`: all pushes are made; `"no_push"`: none brings
+    /// `"reached"`, as far as can be seen; `"budget_exhausted"`: all pushes are made; `"no_improving_push"`: none brings
     /// the object nearer.
     #[getter]
     fn end(&self) -> &'static str {
         match self.0.end {
             Some(End::Reached) => "reached",
-            Some(End::UsedUp) => "used_up",
-            Some(End::NoPush) | None => "no_push",
+            Some(End::BudgetExhausted) => "budget_exhausted",
+            Some(End::NoImprovingPush) | None => "no_improving_push",
         }
     }
 

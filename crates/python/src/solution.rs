@@ -43,7 +43,7 @@ impl PySolution {
 
     /// Whether its time limit stopped it before the search was over: the plans are the best so far.
     #[getter]
-    fn stopped(&self) -> bool {
+    fn timed_out(&self) -> bool {
         self.solution.stopped
     }
 

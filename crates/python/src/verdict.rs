@@ -36,8 +36,8 @@ impl PyVerdict {
 
     /// Whether it works as written, though perhaps too seldom under disturbances.
     #[getter]
-    fn works(&self) -> bool {
-        self.verdict.works()
+    fn nominal_ok(&self) -> bool {
+        self.verdict.nominal_ok()
     }
 
     /// Share of the disturbed replays that reach the goal, 0 to 1, in the engine in which fewer do;

@@ -83,13 +83,13 @@ def test_efforts_differ_and_unknown_words_are_refused(task: pushplan.Task) -> No
 def test_a_time_limit_returns_the_best_so_far(root: Path) -> None:
     task = pushplan.Task.load(root / "tasks/narrow-gap.yaml")
     solution = pushplan.solve(task, effort="thorough", time_limit=0.05)
-    assert solution.stopped and not solution.solved
+    assert solution.timed_out and not solution.solved
 
 
 def test_a_model_can_be_told_to_refuse(task: pushplan.Task) -> None:
     keys = task.to_dict()
     # Far faster than any push on which the model was measured.
-    fast = pushplan.Task.of({**keys, "pushes": {"speed": 1.0}})
+    fast = pushplan.Task.from_dict({**keys, "pushes": {"speed": 1.0}})
     assert pushplan.solve(fast, model="network", effort="draft").warnings
     with pytest.raises(pushplan.RefusedError) as refused:
         pushplan.solve(fast, model="network", out_of_range="refuse")
@@ -180,7 +180,7 @@ def test_a_forked_process_has_threads_of_its_own(task: pushplan.Task) -> None:
 
 
 def test_a_lever_up_is_solved_verified_and_written_like_a_push(tmp_path: Path) -> None:
-    task = pushplan.Task.of(
+    task = pushplan.Task.from_dict(
         {
             "name": "turn",
             "scene": {

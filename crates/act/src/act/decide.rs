@@ -215,5 +215,5 @@ fn rest(task: &Task, now: &Situation, last: &Step) -> Option<(Plan, Arc<Tool>)> 
     let pushes: Vec<ManualPush> = left.iter().map(asked).collect();
     let tool = Arc::new(last.tool.clone());
     let asked = manual_plan(task, now, &tool, &[grip_yaw], &pushes).ok()?;
-    asked.broken.is_empty().then_some((asked.plan, tool))
+    asked.violations.is_empty().then_some((asked.plan, tool))
 }

@@ -118,9 +118,9 @@ impl<'a> Runner<'a> {
             }
             match decision {
                 Decision::Done => trace.end = Some(End::Reached),
-                Decision::Nothing => trace.end = Some(End::NoPush),
+                Decision::Nothing => trace.end = Some(End::NoImprovingPush),
                 Decision::Do { .. } if trace.steps.len() >= trace.settings.max_pushes => {
-                    trace.end = Some(End::UsedUp);
+                    trace.end = Some(End::BudgetExhausted);
                 }
                 Decision::Do { why, plan, tool, chance } => {
                     let step = now.step(trace, &mut belief, world, (why, plan, tool, chance))?;

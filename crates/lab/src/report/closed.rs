@@ -185,8 +185,8 @@ fn rows(runs: &[ClosedRun]) -> Table {
     for (run, Finished { index, record, .. }) in tasks {
         let end = match record.end {
             Some(End::Reached) => "reached",
-            Some(End::UsedUp) => "used up",
-            Some(End::NoPush) => "no push",
+            Some(End::BudgetExhausted) => "used up",
+            Some(End::NoImprovingPush) => "no push",
             None => "broken off",
         };
         let mut cells = vec![

@@ -39,7 +39,7 @@ pub fn run_page(trace: &Trace, real: &[Trajectory], recipe: Recipe, view: PageVi
         name: name(trace),
         standing: match trace.end {
             Some(End::Reached) => Standing::Reached,
-            Some(End::UsedUp | End::NoPush) => Standing::GivenUp,
+            Some(End::BudgetExhausted | End::NoImprovingPush) => Standing::GivenUp,
             None => Standing::Open,
         },
         verdict: headline(trace),

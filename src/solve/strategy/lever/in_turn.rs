@@ -120,7 +120,7 @@ impl<'a> Strategy<'a> for InTurn<'a> {
     }
 
     fn next(&mut self, board: &mut Blackboard<'a>) -> Result<Option<Batch>, SolveError> {
-        while !board.attempts.list.iter().any(Attempt::works)
+        while !board.attempts.list.iter().any(Attempt::nominal_ok)
             && !board.query.progress.cancelled()
             && let Some(order) = self.orders.pop_front()
         {
@@ -154,7 +154,8 @@ fn solved(
         all.simulated += own.simulated;
         all.followed += own.followed;
     }
-    let best = solution.best().filter(|best| best.verdict.as_ref().is_some_and(Verdict::works));
+    let best =
+        solution.best().filter(|best| best.verdict.as_ref().is_some_and(Verdict::nominal_ok));
     Ok(best.map(|best| Prefix { plan: best.plan.clone(), tools: best.tools.clone() }))
 }
 

@@ -69,7 +69,7 @@ impl<'a> MakeRoom<'a> {
             let Some(left) = pushing_task(&towards, &start(task), self.library) else { continue };
             let solution = query.planner.solve_with(&left, self.library, query.progress)?;
             let Some(best) = solution.best().filter(|best| !best.plan.is_empty()) else { continue };
-            if !best.verdict.as_ref().is_some_and(Verdict::works) {
+            if !best.verdict.as_ref().is_some_and(Verdict::nominal_ok) {
                 continue;
             }
             let prefix = Prefix { plan: best.plan.clone(), tools: best.tools.clone() };
@@ -94,7 +94,7 @@ impl<'a> Strategy<'a> for MakeRoom<'a> {
             return Ok(Some(batch));
         }
         self.follow_up = None;
-        if board.attempts.list.iter().any(Attempt::works) || board.query.progress.cancelled() {
+        if board.attempts.list.iter().any(Attempt::nominal_ok) || board.query.progress.cancelled() {
             return Ok(None);
         }
         if let Some((prefix, moved)) =

@@ -103,7 +103,7 @@ fn candidates(
                     let push = [ManualPush { start, direction, length, speed: None }];
                     let yaws = &task.pushes.grip_yaws;
                     if let Ok(asked) = manual_plan(task, &samples.now, tool, yaws, &push)
-                        && asked.broken.is_empty()
+                        && asked.violations.is_empty()
                     {
                         found.push((object, asked.plan, Arc::clone(tool)));
                     }
