@@ -267,7 +267,7 @@ impl<'a> Search<'a> {
         let (task, length) = (self.workspace.task, extension.push.length);
         let Some(last) = trajectory.frames.last() else { return (None, Vec::new()) };
         let object = extension.planned.object;
-        let counts = task.wants(task.scene.thing(object));
+        let counts = task.has_goal(task.scene.thing(object));
         let mut best = match counts {
             true => (final_score(task, trajectory), length),
             // Moving an obstruction is not yet a plan.

@@ -44,7 +44,7 @@ fn keep(board: &mut Blackboard, mut refined: Vec<Refined>, aims: &[Goal]) -> Vec
     let query = board.query;
     let (workspace, situation, model) = (query.workspace(), query.situation, query.planner.model());
     in_order(&mut refined, &workspace, situation);
-    let aimed = query.task.aiming(aims);
+    let aimed = query.task.with_goals(aims);
     let mut worth = Vec::new();
     for refined in refined {
         // Error predicted by the network for this push, otherwise the measured error of many

@@ -47,7 +47,7 @@ fn pushes_of_a_run_teach_the_network_to_the_same_bits_after_an_interruption() {
     assert_eq!(json(&again), json(&trace));
 
     // Unknown properties of the scene are inferred first.
-    let open = task.guessing(Unknowns { frictions: true, ..Unknowns::NONE });
+    let open = task.with_unknowns(Unknowns { frictions: true, ..Unknowns::NONE });
     let (mut trace, mut world) = drawn(&open, 1);
     runner.run(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress).expect("a run");
     assert_eq!(trace.learnt, None);

@@ -81,7 +81,7 @@ fn what_makes_no_sense_in_a_list_is_a_fault_with_its_place() {
     });
     assert!(none.contains("goals"), "{none}");
     let far = Task::parse(TWO, "two.yaml").unwrap();
-    assert!(far.aiming(&[Goal::new(0, [0.1, 0.1], 0.01)]).goals[1] == far.goals[1]);
+    assert!(far.with_goals(&[Goal::new(0, [0.1, 0.1], 0.01)]).goals[1] == far.goals[1]);
 }
 
 /// Can that can be pushed to its goal, and a block that no tool reaches.

@@ -112,7 +112,7 @@ fn entities(plan: &PlanFile) -> Vec<Json> {
     let mut found = Vec::new();
     for (index, object) in drawn(plan) {
         let name = format!("object/{}", object.name);
-        let colour = if plan.task.wants(index) { WANTED } else { OBJECT };
+        let colour = if plan.task.has_goal(index) { WANTED } else { OBJECT };
         let middle = if in_space(plan) { object.shape.height() / 2.0 } else { 0.0 };
         let mut solids = vec![(object.shape, Pose::default(), middle)];
         if in_space(plan) {

@@ -48,7 +48,7 @@ pub fn task(task: Task) {
     let planner = Planner::builder(Simulated::new(Simulator::planar())).settings(settings).build();
     // Pushes have their own target, and pushing tools cannot lever.
     let blades = tools.iter().map(|tool| tool.name.clone());
-    let alone = task.clone().pushing(pushplan::PushRules::none()).choosing(blades);
+    let alone = task.clone().pushing(pushplan::PushRules::none()).with_tools(blades);
     match planner.solve(&alone, &library) {
         Ok(solution) => {
             for ranked in &solution.plans {

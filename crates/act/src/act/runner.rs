@@ -354,7 +354,7 @@ fn rests(
         rest = Some(now);
     }
     for (object, _) in last.seen.iter().enumerate().filter(|(_, sight)| sight.is_none()) {
-        if task.wants(object) {
+        if task.has_goal(object) {
             let object = task.scene.objects[object].name.clone();
             return Err(ActError::Lost { object, looks: LOOKS });
         }

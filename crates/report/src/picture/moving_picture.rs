@@ -93,7 +93,7 @@ impl MovingPicture<'_> {
         for (k, object) in self.task.scene.objects.iter().enumerate() {
             if bodies::moved(object, &ends[k]) {
                 stage.svg.open_faded(palette::START);
-                bodies::object(&mut stage.svg, &view, object, self.task.wants(k));
+                bodies::object(&mut stage.svg, &view, object, self.task.has_goal(k));
                 stage.svg.close();
                 self.way(stage, k);
             }
@@ -103,7 +103,7 @@ impl MovingPicture<'_> {
             self.animate(stage, k);
             self.open_object(stage, k, &ends[k]);
             let own = Object { pose: Pose::default(), ..object.clone() };
-            bodies::object(&mut stage.svg, &view.centred(), &own, self.task.wants(k));
+            bodies::object(&mut stage.svg, &view.centred(), &own, self.task.has_goal(k));
             stage.close(2);
         }
         self.joints(stage, &ends);
@@ -145,7 +145,7 @@ impl MovingPicture<'_> {
         stage.loops.animate(&class, &keys, [SEEN / length], |[left]| {
             format!("stroke-dashoffset:{}", short(left, 4))
         });
-        let style = if self.task.wants(k) { palette::GOAL_WAY } else { palette::OTHER_WAY };
+        let style = if self.task.has_goal(k) { palette::GOAL_WAY } else { palette::OTHER_WAY };
         stage.svg.drawn_line(&class, &points, style);
     }
 

@@ -77,7 +77,7 @@ impl LeverSuite {
         obstacles.push(pocket(&scene.blocks));
         let scene = Scene { obstacles, ..table };
         Task::new(format!("board-{}", index + 1), scene, Robot::reaching(0.0, 2.0), goal)
-            .choosing([TOOL])
+            .with_tools([TOOL])
             .levering(LeverRules::default())
             .pushing(PushRules::none())
             .described("Take the board out of the drive.")
