@@ -19,7 +19,7 @@ use super::text::Source;
 pub(super) static TOOL: Value = Value::Map(TOOL_KEYS);
 
 /// Specification of a tool file of either kind.
-pub(super) static TOOL_FILE: Value = Value::Told { by: of, of: &[&TOOL, &BLADE_TOOL] };
+pub(super) static TOOL_FILE: Value = Value::Dependent { by: of, of: &[&TOOL, &BLADE_TOOL] };
 
 /// Maximum number of parts of a tool.
 pub const MAX_PARTS: usize = 32;

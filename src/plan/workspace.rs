@@ -182,7 +182,9 @@ impl Workspace<'_> {
             free = free.min(t);
         }
         // An arm cannot hold the tool with this yaw everywhere.
-        while free >= MIN_LENGTH && !self.task.is_reachable(start + ahead * (free - SLACK), grip_yaw) {
+        while free >= MIN_LENGTH
+            && !self.task.is_reachable(start + ahead * (free - SLACK), grip_yaw)
+        {
             free -= SHORTER;
         }
         if free < MIN_LENGTH {

@@ -225,7 +225,7 @@ impl Recorder {
         warnings
             .extend(harmed.into_iter().filter(|one| !warnings.contains(one)).collect::<Vec<_>>());
         self.trajectory.force = Some(self.violations.force());
-        self.trajectory.tell_parts(scene, &motion.tool);
+        self.trajectory.resolve_parts(scene, &motion.tool);
         self.trajectory
     }
 

@@ -347,8 +347,9 @@ fn evidence(
         let mut movers = goals.flat_map(|goal| goal.movers());
         movers.any(|k| scene.objects.get(k).is_some_and(|object| object.name == name))
     };
-    let told = |warning: &Warning| !matches!(warning, Warning::Fell { object } if wanted(object));
-    trajectory.warnings.retain(told);
+    let reported =
+        |warning: &Warning| !matches!(warning, Warning::Fell { object } if wanted(object));
+    trajectory.warnings.retain(reported);
     Evidence {
         engine: engine.engine(),
         perturbation,

@@ -71,9 +71,10 @@ fn every_shipped_task_with_unknowns_is_solved_in_drawn_worlds() {
 #[test]
 fn tasks_that_say_so_need_a_probe() {
     let tasks = tasks_with_unknowns();
-    let told: Vec<&Task> = tasks.iter().filter(|task| task.description.contains("probe")).collect();
-    assert!(told.len() >= 2);
-    for task in told {
+    let probing: Vec<&Task> =
+        tasks.iter().filter(|task| task.description.contains("probe")).collect();
+    assert!(probing.len() >= 2);
+    for task in probing {
         let probed = (1..=4).any(|seed| {
             let (mut trace, mut world) = drawn(task, seed);
             run(&mut trace, &mut world).expect("it can be run");

@@ -66,7 +66,7 @@ fn holds(fit: &Fit, spread: f64, friction: f64) {
     for (found, truth) in [(&fit.spread, spread), (&fit.friction, friction)] {
         let off = (found.mean - truth).abs();
         assert!(off < 2.0 * found.deviation + 0.045, "{truth}: {found:?}, noise {}", fit.noise);
-        assert!(found.told && found.deviation < 0.1, "{found:?}");
+        assert!(found.identified && found.deviation < 0.1, "{found:?}");
     }
     // Medians are compared, because a push near a bifurcation may have a large error even with the
     // true parameters.

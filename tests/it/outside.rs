@@ -60,9 +60,11 @@ fn outside_of_it_simulation_takes_its_place_or_nothing_does() {
         Simulator::planar().run(&scene, &Job::stated(&scene, motion.clone()), Record::Frames);
     assert_eq!(run(OutOfRange::Simulate, &scene).frames, planar.frames);
     let guarded = routed(OutOfRange::Simulate);
-    let said = guarded.trust(&scene, &job(&scene)).warnings();
-    assert!(said.iter().all(|w| matches!(w, Warning::Simulated { .. })) && !said.is_empty());
-    assert!(said[0].to_string().contains("simulated in the plane instead"), "{}", said[0]);
+    let warnings = guarded.trust(&scene, &job(&scene)).warnings();
+    assert!(
+        warnings.iter().all(|w| matches!(w, Warning::Simulated { .. })) && !warnings.is_empty()
+    );
+    assert!(warnings[0].to_string().contains("simulated in the plane instead"), "{}", warnings[0]);
 
     let refused = run(OutOfRange::Refuse, &scene);
     assert_eq!(refused.outcome(), &scene.start());

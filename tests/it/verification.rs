@@ -151,11 +151,11 @@ fn what_the_task_does_not_allow_is_said_of_any_plan() {
     let askew = [push([0.235, 0.0], 0.0, 0.155)];
     let askew = Plan::pushing("paddle", 0.3, PushForm::Placed, 0.002, askew);
     let verdict = verifier.verify(&task, &Situation::stated(&task.scene), &[paddle()], &askew);
-    let says = |wanted: fn(&Warning) -> bool| verdict.forbidden.iter().any(wanted);
-    assert!(says(|w| matches!(w, Warning::ForbiddenTool { .. })));
-    assert!(says(|w| matches!(w, Warning::ForbiddenYaw { .. })));
-    assert!(says(|w| matches!(w, Warning::OutOfReach { push: 0 })));
-    assert!(says(|w| matches!(w, Warning::ThroughObstacle { push: 0, .. })));
+    let forbids = |wanted: fn(&Warning) -> bool| verdict.forbidden.iter().any(wanted);
+    assert!(forbids(|w| matches!(w, Warning::ForbiddenTool { .. })));
+    assert!(forbids(|w| matches!(w, Warning::ForbiddenYaw { .. })));
+    assert!(forbids(|w| matches!(w, Warning::OutOfReach { push: 0 })));
+    assert!(forbids(|w| matches!(w, Warning::ThroughObstacle { push: 0, .. })));
     assert!(matches!(verdict.reason, Some(Reason::Forbidden(_))) && !verdict.passed);
 }
 
@@ -200,8 +200,8 @@ fn what_is_fragile_is_pressed_no_harder_than_it_may() {
             assert_eq!((object.as_deref(), *limit), (Some("can"), 0.5 * weight));
             assert!((0.5..2.0).contains(&(needed / weight)), "{needed} N of {weight} N");
         }
-        let said = harmed.reason.map(|reason| format!("{reason:?}")).unwrap_or_default();
-        assert!(said.contains("TooMuchForce") && said.contains("can"), "{said}");
+        let reason = harmed.reason.map(|reason| format!("{reason:?}")).unwrap_or_default();
+        assert!(reason.contains("TooMuchForce") && reason.contains("can"), "{reason}");
     }
     let ahead = "{name: box, shape: {cuboid: {size: [0.04, 0.08, 0.08]}}, mass: 0.3, friction: 0.4, position: [0.42, 0]}";
     let behind = TASK

@@ -19,7 +19,7 @@ pub struct TerminalProgress<'a> {
     /// Whether the counted units belong to a stage.
     staged: bool,
     /// Stage, and best answer so far.
-    said: Mutex<[String; 2]>,
+    message: Mutex<[String; 2]>,
     /// First error of showing progress, which cancels the job.
     trouble: Mutex<Option<CliError>>,
 }
@@ -36,14 +36,14 @@ impl<'a> TerminalProgress<'a> {
     }
 
     fn with(session: &'a Session, bar: ProgressBar, staged: bool) -> Self {
-        Self { session, bar, staged, said: Mutex::default(), trouble: Mutex::default() }
+        Self { session, bar, staged, message: Mutex::default(), trouble: Mutex::default() }
     }
 
     /// Changes the shown message.
-    fn say(&self, change: impl FnOnce(&mut [String; 2])) {
-        let mut said = self.said.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-        change(&mut said);
-        let [stage, so_far] = &*said;
+    fn show(&self, change: impl FnOnce(&mut [String; 2])) {
+        let mut message = self.message.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        change(&mut message);
+        let [stage, so_far] = &*message;
         let message = if so_far.is_empty() { stage.clone() } else { format!("{stage} ({so_far})") };
         self.bar.set_message(message);
     }
@@ -72,11 +72,11 @@ impl Progress for TerminalProgress<'_> {
         if self.staged {
             count(&self.bar, false);
         }
-        self.say(|[stage, _]| *stage = what.to_owned());
+        self.show(|[stage, _]| *stage = what.to_owned());
     }
 
     fn so_far(&self, answer: &str) {
-        self.say(|[_, so_far]| *so_far = format!("so far {answer}"));
+        self.show(|[_, so_far]| *so_far = format!("so far {answer}"));
     }
 
     fn update(&self, done: u64, total: u64) {

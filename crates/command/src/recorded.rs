@@ -27,7 +27,7 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     let mut sets = load_recordings(&args.files)?;
     let fit = args.table.load()?;
     if let Some(fit) = &fit {
-        tell(fit, &mut sets, session);
+        apply(fit, &mut sets, session);
     }
     let all: Vec<&Recording> = sets.iter().flat_map(|set| &set.recordings).collect();
     let models = models(args, &all, fit.as_ref())?;
@@ -72,16 +72,16 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
 }
 
 /// Applies `fit` to all recordings; each kind of unfamiliar object is reported once.
-fn tell(fit: &TableFit, sets: &mut [RecordingSet], session: &Session) {
-    let mut told: Vec<String> = Vec::new();
+fn apply(fit: &TableFit, sets: &mut [RecordingSet], session: &Session) {
+    let mut reported: Vec<String> = Vec::new();
     for recording in sets.iter_mut().flat_map(|set| &mut set.recordings) {
         let strange: Vec<String> =
             fit.strange(&recording.scene).into_iter().map(str::to_owned).collect();
-        match told.contains(&strange.join(" ")) || strange.is_empty() {
+        match reported.contains(&strange.join(" ")) || strange.is_empty() {
             true => fit.state(&mut recording.scene),
             false => model::state(fit, &mut recording.scene, session),
         }
-        told.push(strange.join(" "));
+        reported.push(strange.join(" "));
     }
 }
 

@@ -29,17 +29,17 @@ use super::{
 const PLACES: [f64; 2] = [0.3, 0.6];
 
 /// Evaluated window.
-pub(super) struct Looked {
+pub(super) struct WindowEvidence {
     /// Rollout with the assumed joints.
     pub base: Rolled,
     /// Evidence about every pair.
-    pub told: Vec<Told>,
+    pub pairs: Vec<PairEvidence>,
     /// Displacement of every object, metres; zero if it may be noise.
     pub moved: Vec<f64>,
 }
 
 /// Evidence of a window about a pair.
-pub(super) struct Told {
+pub(super) struct PairEvidence {
     /// Result for the hypotheses; `None` if neither object moved.
     pub judged: Option<Judged>,
     /// Instants of the window by joint type, and rolled-out headings at its end. Headings that were
@@ -57,43 +57,43 @@ impl Belief {
         model: &dyn EffectModel,
         window: &[Observation],
         map: &Physics,
-    ) -> Option<Looked> {
+    ) -> Option<WindowEvidence> {
         let known: Vec<JointType> =
             self.pairs.iter().map(|pair| JointType::of(joint_of(map, pair.between))).collect();
         let base = self.roll(model, window, vec![map.clone()]).pop()?;
         let moved: Vec<f64> = (0..self.scene.objects.len())
             .map(|object| self.track.motion(object, &base, window))
             .collect();
-        let tells = |pair: &PairBelief| pair.between.iter().any(|&k| moved[k] > 0.0);
+        let informative = |pair: &PairBelief| pair.between.iter().any(|&k| moved[k] > 0.0);
         // All other joint types of every pair that moved.
-        let mut asked: Vec<(usize, JointType)> = Vec::new();
-        for (p, _) in self.pairs.iter().enumerate().filter(|(_, pair)| tells(pair)) {
+        let mut queries: Vec<(usize, JointType)> = Vec::new();
+        for (p, _) in self.pairs.iter().enumerate().filter(|(_, pair)| informative(pair)) {
             let others = JointType::ALL.into_iter().filter(|kind| *kind != known[p]);
-            asked.extend(others.map(|kind| (p, kind)));
+            queries.extend(others.map(|kind| (p, kind)));
         }
-        let physics = asked
+        let physics = queries
             .iter()
             .map(|&(p, kind)| with(map, &self.pairs, (&self.pairs[p], kind), &self.track.state));
         let rolled = self.roll(model, window, physics.collect());
-        let tell = |(p, pair): (usize, &PairBelief)| {
+        let evidence_of = |(p, pair): (usize, &PairBelief)| {
             let by_type = JointType::ALL.map(|kind| {
-                let job = asked.iter().position(|one| *one == (p, kind));
+                let job = queries.iter().position(|one| *one == (p, kind));
                 job.map_or(&base, |job| &rolled[job])
             });
             let instants =
                 by_type.map(|rolled| self.instants(pair.between, rolled, window, &moved));
             let places = by_type.map(|rolled| self.track.places(rolled, window, &moved));
-            let doubts = match tells(pair) {
+            let doubts = match informative(pair) {
                 true => self.doubts(pair, &instants, &moved),
                 false => [None; 4],
             };
-            let judged = tells(pair).then(|| self.judge(pair, &places, &instants, &doubts));
+            let judged = informative(pair).then(|| self.judge(pair, &places, &instants, &doubts));
             let ends = by_type
                 .map(|rolled| pair.between.map(|k| StateFilter::unseen_end(k, rolled, window)));
-            Told { judged, instants, ends, doubts }
+            PairEvidence { judged, instants, ends, doubts }
         };
-        let told = self.pairs.iter().enumerate().map(tell).collect();
-        Some(Looked { base, told, moved })
+        let pairs = self.pairs.iter().enumerate().map(evidence_of).collect();
+        Some(WindowEvidence { base, pairs, moved })
     }
 
     /// Evaluates a window with the joints of `map` only and returns the log-likelihood of the
@@ -103,22 +103,22 @@ impl Belief {
         model: &dyn EffectModel,
         window: &[Observation],
         map: &Physics,
-    ) -> Option<(Looked, f64)> {
+    ) -> Option<(WindowEvidence, f64)> {
         let base = self.roll(model, window, vec![map.clone()]).pop()?;
         let moved: Vec<f64> = (0..self.scene.objects.len())
             .map(|object| self.track.motion(object, &base, window))
             .collect();
-        let tell = |pair: &PairBelief| {
+        let evidence_of = |pair: &PairBelief| {
             let instants = self.instants(pair.between, &base, window, &moved);
             let instants = JointType::ALL.map(|_| instants.clone());
             let doubts = self.doubts(pair, &instants, &moved);
             let judged = Some(self.judge(pair, &[0.0; 4], &instants, &doubts));
             let ends = pair.between.map(|k| StateFilter::unseen_end(k, &base, window));
-            Told { judged, instants, ends: [ends; 4], doubts }
+            PairEvidence { judged, instants, ends: [ends; 4], doubts }
         };
-        let told = self.pairs.iter().map(tell).collect();
+        let pairs = self.pairs.iter().map(evidence_of).collect();
         let places = self.track.places(&base, window, &moved);
-        Some((Looked { base, told, moved }, places))
+        Some((WindowEvidence { base, pairs, moved }, places))
     }
 
     /// Rolls out the tool's motion in a window under every element of `physics`.

@@ -16,7 +16,7 @@ pub struct RegulatorFeatures {
     /// pairs.
     pub features: Vec<f32>,
     /// Whether the window was informative, per pair.
-    pub told: Vec<bool>,
+    pub informative: Vec<bool>,
     /// Filter's probabilities of [`JointType::ALL`] after the window.
     pub filtered: Vec<[f64; 4]>,
 }

@@ -178,7 +178,7 @@ mod tests {
     #[test]
     fn a_lock_left_behind_is_taken_and_told_if_it_is_of_another_machine() {
         let folder = tempfile::tempdir().expect("a folder");
-        for (left, told) in [
+        for (left, note) in [
             (format!("process 1 on {}\n", host()), None),
             ("process 7 on elsewhere\n".to_owned(), Some("process 7 on elsewhere")),
             (String::new(), None),
@@ -188,8 +188,8 @@ mod tests {
             let notes = Notes::default();
             drop(FolderLock::take(folder.path(), &notes).expect("a free folder"));
             let notes = notes.0.into_inner().expect("notes");
-            assert_eq!(notes.len(), usize::from(told.is_some()), "{left:?}: {notes:?}");
-            assert!(told.is_none_or(|told| notes[0].contains(told)), "{notes:?}");
+            assert_eq!(notes.len(), usize::from(note.is_some()), "{left:?}: {notes:?}");
+            assert!(note.is_none_or(|note| notes[0].contains(note)), "{notes:?}");
         }
     }
 }

@@ -108,8 +108,8 @@ impl<R: Serialize + DeserializeOwned> Store<R> {
     ) -> Result<(), E> {
         let left: Vec<usize> = self.manifest.indices().skip(self.finished.len()).collect();
         let total = self.manifest.indices().len();
-        let tell = |done: usize| progress.update(done as u64, total as u64);
-        tell(self.finished.len());
+        let report = |done: usize| progress.update(done as u64, total as u64);
+        report(self.finished.len());
         for index in left {
             if progress.cancelled() {
                 let done = self.finished.len();
@@ -117,7 +117,7 @@ impl<R: Serialize + DeserializeOwned> Store<R> {
             }
             let measured = measure(index)?;
             self.keep(index, measured)?;
-            tell(self.finished.len());
+            report(self.finished.len());
         }
         Ok(())
     }

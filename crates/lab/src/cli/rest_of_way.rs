@@ -22,7 +22,7 @@ use pushplan_command::value_enums::possible_values;
 use crate::bench::{Asked, BeliefRecord, JointMethod, belief_steps, follow};
 use crate::report::recorded_joints_document;
 
-use super::value_enums::TOLD;
+use super::value_enums::JOINT_METHODS;
 
 /// Predict the rest of recordings under different beliefs about their joints
 #[derive(Args, Debug)]
@@ -31,7 +31,7 @@ pub struct RestOfWayArgs {
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// What the model is told about the joints from first contact on
-    #[arg(long, required = true, num_args = 1.., value_parser = possible_values(&TOLD), value_name = "HOW")]
+    #[arg(long, required = true, num_args = 1.., value_parser = possible_values(&JOINT_METHODS), value_name = "HOW")]
     joints: Vec<JointMethod>,
     #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]
     model: ModelSpec,
@@ -49,9 +49,9 @@ pub fn run(args: &RestOfWayArgs, session: &Session) -> Result<(), CliError> {
     let sets = load_recordings(&args.files)?;
     let recordings: Vec<&Recording> = sets.iter().flat_map(|set| &set.recordings).collect();
     let asked = |method: &JointMethod| args.joints.contains(method);
-    let told: Vec<JointMethod> = JointMethod::ALL.into_iter().filter(asked).collect();
+    let methods: Vec<JointMethod> = JointMethod::ALL.into_iter().filter(asked).collect();
     let model = args.out_of_range.load(&args.model)?;
-    let regulator = match told.contains(&JointMethod::Regulator) {
+    let regulator = match methods.contains(&JointMethod::Regulator) {
         true => args.regulator.load()?.map(|(regulator, _)| regulator),
         false => None,
     };
@@ -71,5 +71,5 @@ pub fn run(args: &RestOfWayArgs, session: &Session) -> Result<(), CliError> {
     following.finish()?;
     let steps = belief_steps(&records.iter().collect::<Vec<_>>());
     let spec = model.spec().to_string();
-    args.form.show(session, &recorded_joints_document(&spec, recordings.len(), &steps, &told))
+    args.form.show(session, &recorded_joints_document(&spec, recordings.len(), &steps, &methods))
 }

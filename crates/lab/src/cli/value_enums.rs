@@ -7,7 +7,7 @@ use crate::bench::{CrowdFamily, JointMethod, Sighting, TaskKind};
 use crate::image::ImageFeatures;
 
 /// Assumptions about joints for the remaining motion.
-pub static TOLD: [(&str, JointMethod, &str); 7] = [
+pub static JOINT_METHODS: [(&str, JointMethod, &str); 7] = [
     ("given", JointMethod::True, "As they are stated"),
     ("none", JointMethod::None, "Nothing is joined"),
     ("contacts", JointMethod::ContactsFixed, "What touches is fixed"),
@@ -73,7 +73,7 @@ pub static KINDS: [(&str, &[TaskKind], &str); 21] = [
 
 /// Features of the shape for a network of lever-ups.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Told {
+pub enum ShapeFeatures {
     /// A fixed number of features.
     Numbers(LeverFeatures),
     /// An image, by convolutions.
@@ -81,22 +81,30 @@ pub enum Told {
 }
 
 /// Names of all features.
-pub static LEVER_FEATURES: [(&str, Told, &str); 9] = [
-    ("nothing", Told::Numbers(LeverFeatures::Nothing), "Nothing"),
+pub static LEVER_FEATURES: [(&str, ShapeFeatures, &str); 9] = [
+    ("nothing", ShapeFeatures::Numbers(LeverFeatures::Nothing), "Nothing"),
     (
         "shape-context",
-        Told::Numbers(LeverFeatures::ShapeContext),
+        ShapeFeatures::Numbers(LeverFeatures::ShapeContext),
         "Counts of outline points in rings and wedges",
     ),
-    ("corners", Told::Numbers(LeverFeatures::Corners), "Corners and centre of mass"),
-    ("support", Told::Numbers(LeverFeatures::Support), "The support edge and the centre of mass"),
-    ("shape", Told::Numbers(LeverFeatures::Shape), "All of the last two"),
-    ("image", Told::Image(ImageFeatures::Image), "A mask from above, by convolutions"),
-    ("image-code", Told::Image(ImageFeatures::ImageCode), "The same in the code of an autoencoder"),
+    ("corners", ShapeFeatures::Numbers(LeverFeatures::Corners), "Corners and centre of mass"),
+    (
+        "support",
+        ShapeFeatures::Numbers(LeverFeatures::Support),
+        "The support edge and the centre of mass",
+    ),
+    ("shape", ShapeFeatures::Numbers(LeverFeatures::Shape), "All of the last two"),
+    ("image", ShapeFeatures::Image(ImageFeatures::Image), "A mask from above, by convolutions"),
+    (
+        "image-code",
+        ShapeFeatures::Image(ImageFeatures::ImageCode),
+        "The same in the code of an autoencoder",
+    ),
     (
         "context-image",
-        Told::Image(ImageFeatures::ContextImage),
+        ShapeFeatures::Image(ImageFeatures::ContextImage),
         "The shape context, by convolutions",
     ),
-    ("depth", Told::Image(ImageFeatures::Depth), "Heights from above, by convolutions"),
+    ("depth", ShapeFeatures::Image(ImageFeatures::Depth), "Heights from above, by convolutions"),
 ];

@@ -116,10 +116,10 @@ impl Trainable for Task<'_> {
         let sizes = memory.sizes();
         let as_it_is = self.settings.features == ImageFeatures::ImageCode;
         let graph = ImageGraph::new((&sizes, &image), weights, as_it_is)?;
-        let told = graph.told(&images(&drawn, &image)?)?;
+        let contribution = graph.contribution(&images(&drawn, &image)?)?;
         let examples: Vec<&LeverExample> = drawn.iter().map(|seen| &seen.example).collect();
         let batch = LeverBatch::new(&examples, scales, &sizes)?;
-        gradients_of(&batch.loss(graph.memory(), Some(&told))?, graph.variables())
+        gradients_of(&batch.loss(graph.memory(), Some(&contribution))?, graph.variables())
     }
 
     fn score(&self, weights: &ImageWeights) -> LeverScore {

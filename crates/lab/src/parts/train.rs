@@ -112,9 +112,9 @@ impl Trainable for Task<'_> {
 
 /// Returns the mean distance between outputs and targets.
 fn loss(scales: &Normaliser, network: &Predictor, drawn: &Drawn) -> Result<Tensor> {
-    let said = network.forward(&Inputs::new(drawn.graphs.rows(), scales)?)?;
+    let predicted = network.forward(&Inputs::new(drawn.graphs.rows(), scales)?)?;
     let firsts = drawn.graphs.firsts();
-    let said = said.index_select(&Tensor::new(firsts, &Device::Cpu)?, 0)?;
+    let predicted = predicted.index_select(&Tensor::new(firsts, &Device::Cpu)?, 0)?;
     let wanted = Tensor::from_slice(&drawn.wanted, (firsts.len(), 6), &Device::Cpu)?;
-    ((said - wanted)?.sqr()?.sum(1)? + NEAR * NEAR)?.sqrt()?.mean_all()
+    ((predicted - wanted)?.sqr()?.sum(1)? + NEAR * NEAR)?.sqrt()?.mean_all()
 }

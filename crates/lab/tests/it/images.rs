@@ -8,7 +8,7 @@ use std::sync::Arc;
 use candle_core::{Device, Tensor};
 use pushplan::effect::LeverInputs;
 use pushplan::network::{
-    Card, LEVER_ENDS, LeverCard, LeverSizes, LeverTold, Parameters, Statistics, WeightsError,
+    Card, LEVER_ENDS, LeverCard, LeverOutput, LeverSizes, Parameters, Statistics, WeightsError,
 };
 use pushplan::progress::{NoProgress, Progress};
 use pushplan::{
@@ -84,19 +84,19 @@ fn what_predicts_computes_what_training_differentiates() {
                 before: Vec::new(),
             };
             let image = tensor(&image, &[1, sizes.rows, sizes.columns, 1]);
-            let beside = graph.told(&image).expect("a code");
+            let beside = graph.contribution(&image).expect("a code");
             let (poses, end) =
                 graph.memory().forward(&tensors, Some(&beside)).expect("predictions");
             assert_eq!(poses.len(), LEVER_FRAMES);
-            let row = |told: &Tensor| told.to_vec2::<f32>().expect("a row").concat();
+            let row = |output: &Tensor| output.to_vec2::<f32>().expect("a row").concat();
             let end: [f32; LEVER_ENDS] = row(&end).try_into().expect("an end");
-            let told = LeverTold { poses: poses.iter().flat_map(row).collect(), end };
-            let wanted = inputs.answer(&told, &job, None);
-            let said = network.rollout(&[job]).remove(0);
-            for (a, b) in said.lift.iter().zip(&wanted.lift) {
+            let output = LeverOutput { poses: poses.iter().flat_map(row).collect(), end };
+            let wanted = inputs.answer(&output, &job, None);
+            let predicted = network.rollout(&[job]).remove(0);
+            for (a, b) in predicted.lift.iter().zip(&wanted.lift) {
                 assert!((a.position - b.position).norm() < 1e-5 && a.angle_to(b) < 1e-3);
             }
-            assert_eq!(said.ending, wanted.ending);
+            assert_eq!(predicted.ending, wanted.ending);
         }
     }
 }

@@ -104,11 +104,11 @@ pub fn is_symmetric(model: &dyn LeverModel, preset: LeverPreset, most: f64) {
     let jobs: Vec<LeverJob> = drawn.episodes().iter().map(LeverEpisode::job).collect();
     let by = Pose::new(-0.2, 0.4, 2.5);
     let elsewhere = Pose3::upright(by, 0.0);
-    let told = model.rollout(&jobs);
+    let predicted = model.rollout(&jobs);
     let behind = model.rollout(&jobs.iter().map(mirrored).collect::<Vec<_>>());
     let beside = model.rollout(&jobs.iter().map(|job| moved(job, by)).collect::<Vec<_>>());
-    for (k, told) in told.iter().enumerate() {
-        let all = told.lift.iter().chain([&told.rest]);
+    for (k, predicted) in predicted.iter().enumerate() {
+        let all = predicted.lift.iter().chain([&predicted.rest]);
         let behind = behind[k].lift.iter().chain([&behind[k].rest]);
         let beside = beside[k].lift.iter().chain([&beside[k].rest]);
         for ((pose, behind), beside) in all.zip(behind).zip(beside) {

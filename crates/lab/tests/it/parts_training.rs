@@ -68,8 +68,8 @@ fn what_is_wanted_of_a_step_leads_where_it_should() {
         let course = LeverCourse::new(&a.job(), prior).expect("cuboids");
         let (from, to) = (course.see(&a.trajectory.lift[4]), course.see(&b.trajectory.lift[9]));
         let state = PartState::at(from);
-        let told = course.wanted(&state, 4, to);
-        let found = course.moved(&state, 4, (&told[..3], &told[3..]));
+        let predicted = course.wanted(&state, 4, to);
+        let found = course.moved(&state, 4, (&predicted[..3], &predicted[3..]));
         assert!(found.apart(to) < 1e-6, "{} m", found.apart(to));
     }
 }
@@ -87,10 +87,11 @@ fn settings(prior: bool) -> PartsSettings {
 /// Returns the mean error over the rotation, metres.
 fn error(model: &dyn LeverModel, episodes: &[LeverEpisode]) -> f64 {
     let jobs: Vec<LeverJob> = episodes.iter().map(LeverEpisode::job).collect();
-    let told = model.rollout(&jobs);
-    let off = episodes.iter().zip(&jobs).zip(&told);
-    let sum: f64 =
-        off.map(|((episode, job), told)| lever_error(job, &episode.trajectory, told).lift).sum();
+    let predicted = model.rollout(&jobs);
+    let off = episodes.iter().zip(&jobs).zip(&predicted);
+    let sum: f64 = off
+        .map(|((episode, job), predicted)| lever_error(job, &episode.trajectory, predicted).lift)
+        .sum();
     sum / episodes.len() as f64
 }
 

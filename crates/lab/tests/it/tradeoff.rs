@@ -248,10 +248,10 @@ fn what_models_say_of_their_errors_is_what_was_measured() {
         for (suite, measured) in suites.iter().zip(&row.suites) {
             let case = &suite.cases[0];
             let job = Job::stated(&case.scene, case.motion.clone());
-            let said = model(name).trust(&case.scene, &job).error().expect("it was measured");
+            let expected = model(name).trust(&case.scene, &job).error().expect("it was measured");
             let measured = measured.position.as_ref().unwrap();
-            assert!((said.median - measured.median).abs() < 0.5e-5, "{name}: {said:?}");
-            assert!((said.p95 - measured.p95).abs() < 0.5e-5, "{name}: {said:?}");
+            assert!((expected.median - measured.median).abs() < 0.5e-5, "{name}: {expected:?}");
+            assert!((expected.p95 - measured.p95).abs() < 0.5e-5, "{name}: {expected:?}");
         }
     }
     // The shipped errors of analytic model and network agree with the results on four times as many
@@ -266,9 +266,9 @@ fn what_models_say_of_their_errors_is_what_was_measured() {
         for (suite, row) in suites.iter().zip([&rows[0], &rows[2]]) {
             let case = &suite.cases[0];
             let job = Job::stated(&case.scene, case.motion.clone());
-            let said = model(name).trust(&case.scene, &job).error().expect("it was measured");
-            assert_eq!(format!("{:.2} mm", 1e3 * said.median), row[4], "{name}");
-            assert_eq!(format!("{:.2} mm", 1e3 * said.p95), row[5], "{name}");
+            let expected = model(name).trust(&case.scene, &job).error().expect("it was measured");
+            assert_eq!(format!("{:.2} mm", 1e3 * expected.median), row[4], "{name}");
+            assert_eq!(format!("{:.2} mm", 1e3 * expected.p95), row[5], "{name}");
         }
     }
 }

@@ -106,7 +106,7 @@ impl Lesson {
             types: pairs.iter().map(|pair| true_type(&scene, *pair)).collect(),
             moved: pairs.iter().map(|pair| pair.iter().any(|k| moved(&recording, *k))).collect(),
             pairs,
-            windows: belief.heard().to_vec(),
+            windows: belief.recorded().to_vec(),
             drafts: belief.drafts().to_vec(),
         }
     }

@@ -58,7 +58,7 @@ fn computes_what_training_differentiates(sizes: LeverSizes) {
     let parameters = Parameters { values: values.collect() };
     let (still, moving) = (draw(sizes.still), draw(sizes.moving * LEVER_FRAMES));
     let cell = LeverCell::new(&weights(LeverFeatures::Nothing, sizes, parameters.clone()));
-    let told = cell.predict(&still, &moving);
+    let predicted = cell.predict(&still, &moving);
 
     let tensor = |values: &[f32]| {
         Tensor::from_slice(values, (1, values.len()), &Device::Cpu).expect("a tensor")
@@ -68,7 +68,7 @@ fn computes_what_training_differentiates(sizes: LeverSizes) {
         moving: moving.chunks_exact(sizes.moving).map(tensor).collect(),
         // Predictions that the cell feeds back to itself.
         before: if sizes.feedback {
-            let poses = told.poses.chunks_exact(LEVER_POSE);
+            let poses = predicted.poses.chunks_exact(LEVER_POSE);
             std::iter::once(&[0.0; LEVER_POSE][..]).chain(poses).map(tensor).collect()
         } else {
             Vec::new()
@@ -78,10 +78,10 @@ fn computes_what_training_differentiates(sizes: LeverSizes) {
     let (poses, end) = graph.forward(&tensors, None).expect("predictions");
     let mut wanted: Vec<f32> =
         poses.iter().flat_map(|pose| pose.to_vec2::<f32>().expect("a row").concat()).collect();
-    assert_eq!([wanted.len(), told.poses.len()], [LEVER_POSE * LEVER_FRAMES; 2]);
+    assert_eq!([wanted.len(), predicted.poses.len()], [LEVER_POSE * LEVER_FRAMES; 2]);
     wanted.extend(end.to_vec2::<f32>().expect("a row").concat());
     assert_eq!(wanted.len(), LEVER_POSE * LEVER_FRAMES + LEVER_ENDS);
-    for (a, b) in told.poses.iter().chain(&told.end).zip(&wanted) {
+    for (a, b) in predicted.poses.iter().chain(&predicted.end).zip(&wanted) {
         assert!((a - b).abs() < 1e-5, "{a} {b}");
     }
 }
@@ -142,9 +142,10 @@ fn training_learns_and_resumes_to_the_same_bits() {
     let network = LeverNetwork::load(&whole.path().join("last.safetensors")).expect("weights");
     let jobs: Vec<LeverJob> = data.iter().map(LeverEpisode::job).collect();
     let error = |model: &dyn LeverModel| -> f64 {
-        let told = model.rollout(&jobs);
-        let off = data.iter().zip(&jobs).zip(&told);
-        off.map(|((episode, job), told)| lever_error(job, &episode.trajectory, told).lift).sum()
+        let predicted = model.rollout(&jobs);
+        let off = data.iter().zip(&jobs).zip(&predicted);
+        off.map(|((episode, job), predicted)| lever_error(job, &episode.trajectory, predicted).lift)
+            .sum()
     };
     let features = LeverFeatures::Support;
     let sizes = LeverInputs::sizes(features, false, 8);

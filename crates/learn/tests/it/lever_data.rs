@@ -217,11 +217,11 @@ fn lever_ups_are_written_as_scenes_with_what_comes_of_them() {
         assert_eq!(scene, pushplan_export::lever_mjcf(&episode.job()));
         // The blade must not fall with the plate in the solver.
         assert!(scene.contains(r#"<body name="blade/0" gravcomp="1""#));
-        let (rest, told) = (episode.trajectory.rest, &line["rest"]);
+        let (rest, line_rest) = (episode.trajectory.rest, &line["rest"]);
         let [x, y, z, w] = rest.quaternion();
         let at = rest.position;
         for (k, wanted) in [at.x, at.y, at.z, w, x, y, z].into_iter().enumerate() {
-            assert_eq!(told[k].as_f64(), Some(wanted));
+            assert_eq!(line_rest[k].as_f64(), Some(wanted));
         }
         assert_eq!(line["lift"].as_array().map(Vec::len), Some(episode.trajectory.lift.len()));
     }

@@ -38,10 +38,10 @@ fn the_cell_computes_what_training_differentiates() {
     let weights = random_weights(features, width);
     let cell = Regulator::new(&weights);
     let mut rng = Pcg64::seed_from_u64(5);
-    let (mut rows, mut told) = (Vec::new(), Vec::new());
+    let (mut rows, mut informative) = (Vec::new(), Vec::new());
     for _ in 0..windows {
         rows.push((0..3 * features).map(|_| rng.random_range(-2.0f32..2.0)).collect::<Vec<f32>>());
-        told.push((0..3).map(|_| rng.random_bool(0.7)).collect::<Vec<bool>>());
+        informative.push((0..3).map(|_| rng.random_bool(0.7)).collect::<Vec<bool>>());
     }
     let tensor = |values: Vec<f32>, columns: usize| {
         Tensor::from_vec(values, (3, columns), &Device::Cpu).expect("a tensor")
@@ -52,9 +52,11 @@ fn the_cell_computes_what_training_differentiates() {
     });
     let unrolled = Unrolled {
         features: rows.iter().map(|row| tensor(weights.card.scales.apply(row), features)).collect(),
-        told: told
+        informative: informative
             .iter()
-            .map(|told| tensor(told.iter().map(|yes| f32::from(u8::from(*yes))).collect(), 1))
+            .map(|informative| {
+                tensor(informative.iter().map(|yes| f32::from(u8::from(*yes))).collect(), 1)
+            })
             .collect(),
         ends,
         objects,
@@ -63,9 +65,9 @@ fn the_cell_computes_what_training_differentiates() {
     let (logits, _) = graph.forward(&unrolled).expect("logits");
     let mut memory = Memory::default();
     let mut compared = 0;
-    for ((row, told), logits) in rows.iter().zip(&told).zip(&logits) {
+    for ((row, informative), logits) in rows.iter().zip(&informative).zip(&logits) {
         let wanted: Vec<Vec<f32>> = logits.to_vec2().expect("rows");
-        let answers = cell.step(row, told, (&pairs, objects), &mut memory);
+        let answers = cell.step(row, informative, (&pairs, objects), &mut memory);
         for (answer, wanted) in answers.iter().zip(&wanted) {
             let Some(answer) = answer else { continue };
             for (a, b) in answer.logits.iter().zip(wanted) {

@@ -14,7 +14,7 @@ use crate::dataset::set::{Sampler, draw};
 use super::FORMAT;
 use super::archive::npz;
 use super::arrays::arrays;
-use super::statistics::{All, moments, said, with};
+use super::statistics::{All, moments, summary, with};
 
 /// Number of episodes per file: some megabytes, and at most seconds of work lost by an
 /// interruption.
@@ -87,7 +87,7 @@ pub fn generate_npz(
         all = with(all, &finished.moments);
         bytes += finished.bytes;
     }
-    let mut text = serde_json::to_vec_pretty(&said(&all)).unwrap_or_default();
+    let mut text = serde_json::to_vec_pretty(&summary(&all)).unwrap_or_default();
     text.push(b'\n');
     write_atomic(dir.join("README.md"), FORMAT.as_bytes()).map_err(StoreError::Write)?;
     write_atomic(dir.join("statistics.json"), &text).map_err(StoreError::Write)?;

@@ -110,8 +110,8 @@ pub fn score(network: &dyn LeverModel, held_out: &[LeverEpisode]) -> LeverScore 
     let jobs: Vec<LeverJob> = held_out.iter().map(|episode| episode.job()).collect();
     let share = 1.0 / jobs.len().max(1) as f64;
     let mut score = LeverScore::default();
-    for ((episode, job), said) in held_out.iter().zip(&jobs).zip(network.rollout(&jobs)) {
-        let error = lever_error(job, &episode.trajectory, &said);
+    for ((episode, job), predicted) in held_out.iter().zip(&jobs).zip(network.rollout(&jobs)) {
+        let error = lever_error(job, &episode.trajectory, &predicted);
         score.lift += share * error.lift;
         score.last += share * error.last;
         score.slips += share * f64::from(u8::from(error.same_slip));

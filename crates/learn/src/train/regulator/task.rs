@@ -81,9 +81,10 @@ impl Trainable for Task<'_> {
         let drafts = self.lessons.iter().flat_map(|lesson| &lesson.drafts);
         let first = drafts.flat_map(|draft| &draft.windows);
         for window in first.chain(self.lessons.iter().flat_map(|lesson| &lesson.windows)) {
-            columns = window.features.len() / window.told.len().max(1);
-            let rows = window.features.chunks_exact(columns.max(1)).zip(&window.told);
-            rows.filter(|(_, told)| **told).for_each(|(row, _)| table.extend_from_slice(row));
+            columns = window.features.len() / window.informative.len().max(1);
+            let rows = window.features.chunks_exact(columns.max(1)).zip(&window.informative);
+            rows.filter(|(_, informative)| **informative)
+                .for_each(|(row, _)| table.extend_from_slice(row));
         }
         Statistics::measure(&table, columns, true)
     }
