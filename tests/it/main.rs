@@ -3,7 +3,6 @@
 
 mod architecture;
 mod arms;
-mod clearing;
 mod assets;
 mod baselines;
 mod belief;
@@ -11,7 +10,7 @@ mod believing;
 mod bench_store;
 mod benchmarks;
 mod book;
-mod transport;
+mod clearing;
 mod cli;
 mod closed_loop;
 mod constraints;
@@ -23,7 +22,6 @@ mod export;
 mod facade;
 mod fitting;
 mod fixtures;
-mod predicted_joints;
 mod formats;
 mod gaps;
 mod group_goals;
@@ -50,6 +48,7 @@ mod pairs;
 mod pictures;
 mod plan_page;
 mod planning;
+mod predicted_joints;
 mod prisms;
 mod program;
 mod push_rules;
@@ -74,6 +73,7 @@ mod things;
 mod tool_change;
 mod tool_choice;
 mod tool_graph;
+mod transport;
 mod verification;
 
 /// Repository root, and the program under test.

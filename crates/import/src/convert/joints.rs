@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::fault::Ledger;
+use crate::diagnostic::Ledger;
 use crate::model::{Body, Model, Motion, Place};
 use pushplan::geometry::Vector;
 use pushplan::scene::{Joint, JointKind, Span, WorldJoint};

@@ -1,6 +1,6 @@
 //! Conversion of a model to a scene, with the goals stated in the file.
 
-use crate::fault::Ledger;
+use crate::diagnostic::Ledger;
 use crate::model::Model;
 use pushplan::asset::Faults;
 use pushplan::geometry::Vector;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::fault::Ledger;
+use crate::diagnostic::Ledger;
 use crate::model::{Model, Motion};
 use pushplan::asset::{Faults, MAX_PARTS, named_after};
 use pushplan::geometry::{ConvexPolygon, Shape};
