@@ -117,7 +117,7 @@ mod tests {
     use crate::scene::{JointKind, Object, Part, Scene};
 
     #[test]
-    fn a_jointed_group_is_disturbed_as_one_piece_and_by_little() {
+    fn a_jointed_group_is_perturbed_as_one_piece_and_by_little() {
         let object =
             |k: usize| Object::cylinder(format!("o{k}"), 0.05, 0.1).at(0.12 * k as f64, 0.0, 0.2);
         let scene = Scene::new((0..5).map(object))

@@ -122,7 +122,7 @@ fn a_push_carries_the_plate_as_far_as_the_tool_goes() {
 }
 
 #[test]
-fn the_whole_is_judged_and_disturbed_as_one() {
+fn the_whole_is_judged_and_perturbed_as_one() {
     let verdict = verify(&task(), &plan(0.02, 0.12));
     assert!(verdict.passed, "{:?}", verdict.reason);
     assert_eq!(verdict.evidence.len(), 5);

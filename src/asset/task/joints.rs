@@ -12,7 +12,7 @@ use crate::geometry::{Footprint, Pose, Vector, clearance};
 use crate::scene::{DisjointSets, Joint, JointKind, Object, Span, WorldJoint};
 
 use super::bodies::{body, known_object};
-use super::mounts;
+use super::world_joints;
 
 /// Maximum number of objects in one jointed group.
 const GROUP: usize = 12;
@@ -145,8 +145,8 @@ pub(super) fn check(joints: &[Node], objects: &[Node], obstacles: &[Node], ledge
     for node in joints {
         check_keys(node, ledger);
         check_limits(node, ledger);
-        if let Some(name) = mounts::moving(node, objects, obstacles) {
-            mounts::check(node, ledger);
+        if let Some(name) = world_joints::moving(node, objects, obstacles) {
+            world_joints::check(node, ledger);
             let Some(object) = known_object(name, objects, obstacles, ledger) else { continue };
             let index = objects.iter().position(|other| other.id == object.id);
             groups.hold(index.unwrap_or_default(), node, name_of(object).unwrap_or("?"), ledger);

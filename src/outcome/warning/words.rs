@@ -9,7 +9,7 @@ impl Warning {
     pub(super) fn fact(&self) -> String {
         match self {
             Warning::OutsideRange { of, quantity, value, low, high } => {
-                let value = told_apart(*value, [*low, *high]);
+                let value = distinguished(*value, [*low, *high]);
                 format!("{of}: {quantity} = {value} is outside the model's range {low} to {high}")
             }
             Warning::Declined { model } => format!("`{model}` does not take this motion"),
@@ -174,7 +174,7 @@ impl fmt::Display for Warning {
 }
 
 /// Formats `value` with four decimals, or with as many as distinguish it from these bounds.
-fn told_apart(value: f64, bounds: [f64; 2]) -> String {
+fn distinguished(value: f64, bounds: [f64; 2]) -> String {
     let same = |text: &str| text.parse().is_ok_and(|shown: f64| bounds.contains(&shown));
     let short = (4..12).map(|digits| format!("{value:.digits$}")).find(|text| !same(text));
     let text = short.unwrap_or_else(|| value.to_string());
