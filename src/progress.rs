@@ -67,7 +67,8 @@ pub struct Count<'a> {
 }
 
 impl<'a> Count<'a> {
-    /// Reports to `progress` that `done` of `total` units are finished, and then every further unit.
+    /// Reports to `progress` that `done` of `total` units are finished, and then every further
+    /// unit.
     pub fn new(progress: &'a dyn Progress, done: usize, total: usize) -> Self {
         let (done, total) = (done as u64, total as u64);
         progress.update(done, total);

@@ -1,5 +1,5 @@
-//! Iterative contact forces of a frame at fixed weights, for jams in which [`super::active_set`] finds
-//! no solution.
+//! Iterative contact forces of a frame at fixed weights, for jams in which [`super::active_set`]
+//! finds no solution.
 //!
 //! Accelerated projected Jacobi steps, with each body's mass divided among its constraints (Tonge,
 //! Benevolenski and Voroshilov 2012, doi:10.1145/2185520.2185601; Nesterov 1983). Unlike

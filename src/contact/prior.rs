@@ -33,7 +33,7 @@ pub(super) struct Prior {
     /// Tie of every joint; `None` within a group.
     pub joints: Vec<Option<usize>>,
     pub velocities: System,
-    /// WarmStart of every group in the last frame.
+    /// Speed gain of every group in the last frame.
     starts: Vec<WarmStart>,
 }
 

@@ -50,9 +50,9 @@ impl Planner {
         tasks.par_iter().map(|task| self.solve(task, library)).collect()
     }
 
-    /// Solves a task as [`Planner::solve`] does and reports progress to `progress`. If `progress` stops
-    /// it, the best plan so far is returned. A [`Cancel`](crate::progress::Cancel) stops it from
-    /// another thread.
+    /// Solves a task as [`Planner::solve`] does and reports progress to `progress`. If `progress`
+    /// stops it, the best plan so far is returned. A [`Cancel`](crate::progress::Cancel) stops it
+    /// from another thread.
     ///
     /// # Errors
     /// Returns [`SolveError`] for invalid input only.

@@ -76,8 +76,8 @@ impl<'a> Verifier<'a> {
         }
     }
 
-    /// Sets a progress observer that can stop the replays. Stopped replays carry [`Warning::Stopped`], and the
-    /// plan does not pass.
+    /// Sets a progress observer that can stop the replays. Stopped replays carry
+    /// [`Warning::Stopped`], and the plan does not pass.
     pub fn with_progress(self, progress: &'a dyn Progress) -> Self {
         Self { progress, ..self }
     }

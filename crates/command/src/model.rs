@@ -111,7 +111,8 @@ pub fn state(fit: &TableFit, scene: &mut Scene, session: &Session) {
 #[derive(Args, Clone, Copy, Debug)]
 pub struct OutOfRangeArgs {
     /// What to do outside of a model's ranges, or where its own prediction shows that it went wrong
-    #[arg(long, value_parser = possible_values(&OUT_OF_RANGE), value_name = "WHAT", default_value = "warn")]
+    #[arg(long, value_parser = possible_values(&OUT_OF_RANGE), value_name = "WHAT",
+          default_value = "warn")]
     out_of_range: OutOfRange,
 }
 

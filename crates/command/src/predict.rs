@@ -72,7 +72,8 @@ pub struct PredictArgs {
     #[arg(long, requires = "trajectories")]
     animate: bool,
     /// What the page shows
-    #[arg(long, value_parser = possible_values(&VIEWS), value_name = "VIEW", default_value = "2d", requires = "out")]
+    #[arg(long, value_parser = possible_values(&VIEWS), value_name = "VIEW", default_value = "2d",
+          requires = "out")]
     page: PageView,
     /// For recordings, one table only, with a row for each folder
     #[arg(long)]

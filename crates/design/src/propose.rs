@@ -25,8 +25,8 @@ const LONGEST_NAME: usize = 48;
 /// Proposes a tool for a pushing task that no tool of `library` solves, or that the new tool solves
 /// with more margin. Its plan is verified as for any other tool.
 ///
-/// The result is the same for any number of threads. If `progress` cancels, the best proposal so far
-/// is returned.
+/// The result is the same for any number of threads. If `progress` cancels, the best proposal so
+/// far is returned.
 ///
 /// ```
 /// use pushplan::progress::NoProgress;

@@ -1,9 +1,9 @@
 //! The interaction graph at one instant, for inspection: objects, tool parts and obstacles are
 //! nodes, linked by their relations.
 //!
-//! The network uses a cheaper form, [`pushplan::graph::PrescribedNode`]: the parts of a tool share one row
-//! because the fixed joints between them give all parts the same message. A test compares both
-//! forms.
+//! The network uses a cheaper form, [`pushplan::graph::PrescribedNode`]: the parts of a tool share
+//! one row because the fixed joints between them give all parts the same message. A test compares
+//! both forms.
 
 use serde::Serialize;
 

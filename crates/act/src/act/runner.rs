@@ -74,7 +74,8 @@ impl<'a> Runner<'a> {
     /// run resumes from there and yields bit-identical results.
     ///
     /// # Errors
-    /// If the run cannot continue or is cancelled by `progress`; the trace holds the finished steps.
+    /// If the run cannot continue or is cancelled by `progress`; the trace holds the finished
+    /// steps.
     pub fn run(
         &self,
         trace: &mut Trace,

@@ -126,8 +126,8 @@ impl<R: Serialize + DeserializeOwned> Store<R> {
     /// themselves. Results are saved in order, each as soon as all earlier ones are available.
     ///
     /// # Errors
-    /// Returns an error of saving, or a cancellation by `progress`, which is polled before every task.
-    /// Running tasks are then completed and saved.
+    /// Returns an error of saving, or a cancellation by `progress`, which is polled before every
+    /// task. Running tasks are then completed and saved.
     pub fn run_side_by_side(
         &mut self,
         progress: &dyn Progress,

@@ -52,7 +52,8 @@ pub struct JointsArgs {
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
     /// Engine of the trajectories
-    #[arg(long, value_parser = possible_values(&ENGINES), value_name = "ENGINE", default_value = "planar")]
+    #[arg(long, value_parser = possible_values(&ENGINES), value_name = "ENGINE",
+          default_value = "planar")]
     engine: Engine,
     /// Mislead the observer: friction values of objects 0.6 times, of the table 1.3 times what they
     /// are, 0.6 kg for every mass

@@ -31,7 +31,8 @@ pub struct RestOfWayArgs {
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// What the model is told about the joints from first contact on
-    #[arg(long, required = true, num_args = 1.., value_parser = possible_values(&JOINT_METHODS), value_name = "HOW")]
+    #[arg(long, required = true, num_args = 1.., value_parser = possible_values(&JOINT_METHODS),
+          value_name = "HOW")]
     joints: Vec<JointMethod>,
     #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]
     model: ModelSpec,

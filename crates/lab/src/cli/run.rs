@@ -51,7 +51,8 @@ pub struct RunArgs {
           value_parser = clap::value_parser!(u16).range(0..=1000))]
     max_probes: u16,
     /// How these are chosen
-    #[arg(long, value_parser = possible_values(&PROBES), value_name = "RULE", default_value = "task")]
+    #[arg(long, value_parser = possible_values(&PROBES), value_name = "RULE",
+          default_value = "task")]
     probe_rule: ProbeRule,
 }
 

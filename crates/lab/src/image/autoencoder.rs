@@ -21,8 +21,8 @@ const AT_ONCE: usize = 64;
 
 /// Trains an autoencoder of the images of `settings` in the folder `code` of a run, and returns its
 /// weights. It trains on the first and is evaluated on the second images, in as many steps as the
-/// network itself, and resumes from its own checkpoint there. Returns `None` if `progress` cancelled
-/// the training.
+/// network itself, and resumes from its own checkpoint there. Returns `None` if `progress`
+/// cancelled the training.
 ///
 /// # Errors Returns a [`TrainError`]; files saved before remain.
 pub(super) fn code(

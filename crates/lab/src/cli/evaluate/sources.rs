@@ -21,7 +21,8 @@ pub struct CrowdArgs {
     #[arg(long, value_name = "N")]
     objects: Vec<usize>,
     /// Only sets with these joints
-    #[arg(long, num_args = 1.., value_parser = possible_values(&JOINTS[1..]), value_name = "JOINTS")]
+    #[arg(long, num_args = 1.., value_parser = possible_values(&JOINTS[1..]),
+          value_name = "JOINTS")]
     joints: Vec<JointRule>,
     /// Only sets of these solids
     #[arg(long, value_parser = possible_values(&SOLIDS), value_name = "SOLIDS")]
