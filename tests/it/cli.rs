@@ -66,7 +66,7 @@ fn a_new_task_is_a_file_and_overwrites_none() {
     let output = run(&["new", name, "--example", "narrow-gap"]);
     assert_eq!(output.status.code(), Some(2));
     let said = stderr(&output);
-    assert!(said.contains("my.task.yaml is there already"), "{said}");
+    assert!(said.contains("my.task.yaml already exists"), "{said}");
     assert_eq!(written(), first);
     let other = folder.path().join("gap.yml");
     let other = other.to_str().expect("UTF-8");
@@ -330,8 +330,11 @@ fn check_says_why_there_is_no_plan_only_when_asked() {
         "{told}"
     );
     assert!(
-        told.contains("fine\n  a plan may reach the goal; `pushplan solve` verifies it"),
+        told.contains("fine\n  a plan is likely to exist; `pushplan solve` verifies it"),
         "{told}"
     );
-    assert!(told.ends_with("fine\n  of tasks of levering only `pushplan solve` tells\n"), "{told}");
+    assert!(
+        told.ends_with("fine\n  --why does not support levering tasks; use `pushplan solve`\n"),
+        "{told}"
+    );
 }

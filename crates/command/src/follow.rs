@@ -76,7 +76,7 @@ impl Watch for Following<'_> {
     }
 
     fn so_far(&self, answer: &str) {
-        self.say(|[_, so_far]| *so_far = format!("so far {answer}"));
+        self.say(|[_, so_far]| *so_far = format!("best so far: {answer}"));
     }
 
     fn progress(&self, done: u64, total: u64) {
