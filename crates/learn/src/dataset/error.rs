@@ -31,8 +31,7 @@ pub enum DatasetError {
     },
     /// The folder holds one shard of a data set.
     #[error(
-        "{} contains only shard {shard} of a data set; `pushplan-learn merge OUT SHARD...` merges \
-         shards",
+        "{} is shard {shard} of a data set; `pushplan-learn merge OUT SHARD...` merges shards",
         path.display()
     )]
     Shard {
