@@ -53,7 +53,7 @@ impl LibraryArgs {
     }
 }
 
-/// One action.
+/// Manual action.
 #[derive(Args, Debug)]
 pub struct ActionArgs {
     /// Name of the tool; the task's `tools` need not list it

@@ -74,7 +74,7 @@ pub struct PredictArgs {
     /// View on the page
     #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d", requires = "out")]
     page: PageView,
-    /// For recordings, print only one table, with a row for each folder
+    /// Print only one table for recordings, with a row for each folder
     #[arg(long)]
     pub summary: bool,
     #[command(flatten)]

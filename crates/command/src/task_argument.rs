@@ -19,7 +19,7 @@ pub fn example() -> PossibleValuesParser {
     Task::examples().into()
 }
 
-/// One task.
+/// Task of a command.
 #[derive(Args, Debug)]
 #[group(required = true, multiple = false)]
 pub struct TaskArgs {

@@ -60,7 +60,7 @@ enum FormName {
     /// Three consecutive pushes from a fixed home position
     #[default]
     Chained,
-    /// One push with random start and goal (the earlier form)
+    /// Single push with random start and goal (the earlier form)
     Single,
 }
 

@@ -89,7 +89,7 @@ fn cell_table(cells: &[(Cell, Judged)]) -> Table {
         ("motion", Align::Right),
         ("error, mean", Align::Right),
         ("p95", Align::Right),
-        ("truth's own, mean", Align::Right),
+        ("ground-truth spread, mean", Align::Right),
         ("wrong", Align::Right),
         ("undecided", Align::Right),
         ("flagged", Align::Right),
@@ -158,7 +158,7 @@ fn verdict(judged: &Judged) -> String {
         Verdict::Right => "right",
         Verdict::RightFlagged => "right, flagged",
         Verdict::WrongFlagged => "wrong, flagged",
-        Verdict::Undecided => "no truth, flagged",
+        Verdict::Undecided => "no ground truth, flagged",
         Verdict::Defect => "DEFECT",
     };
     if judged.finite < judged.pushes {
