@@ -330,7 +330,7 @@ fn check_says_why_there_is_no_plan_only_when_asked() {
         "{told}"
     );
     assert!(
-        told.contains("fine\n  a plan is likely to exist; `pushplan solve` verifies it"),
+        told.contains("fine\n  search predicts success; `pushplan solve` verifies the plan"),
         "{told}"
     );
     assert!(

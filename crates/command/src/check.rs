@@ -101,7 +101,7 @@ fn why(file: &Path, library: &ToolLibrary, session: &Session) -> Result<u8, CliE
             Ok(exit_code::NO_PLAN)
         }
         None => {
-            session.print("  a plan is likely to exist; `pushplan solve` verifies it\n")?;
+            session.print("  search predicts success; `pushplan solve` verifies the plan\n")?;
             Ok(exit_code::DONE)
         }
     }

@@ -31,8 +31,8 @@ predicts the motion of a plan; a trajectory file (`pushplan predict --trajectori
 contains it.
 
 trajectory writes <out>/<plan>.joints.json, a ROS message trajectory_msgs/JointTrajectory, and \
-<out>/<plan>.joints.csv, with times in seconds, positions in radians and velocities in radians per \
-second (in metres for prismatic joints). It needs a task whose robot has a `urdf`.")]
+<out>/<plan>.joints.csv. Times are in seconds, positions in radians and velocities in radians per \
+second (for prismatic joints in metres). It needs a task whose robot has a `urdf`.")]
 pub struct ExportArgs {
     /// Plan or trajectory files, which also contain the task and the tools
     #[arg(required = true, value_name = "PLAN")]

@@ -11,7 +11,7 @@ Lever-up of a levering task:
       the first corner), depth of the blade (m) and rotation (degrees)
   --lever point=0:0.5,depth=0.012,angle=30,pivot=-0.012,speed=0.05
       with the axis 12 mm behind the edge instead of at the support line (pivot=auto), and with
-      the speed in m/s (default: the speed of the task)";
+      a speed of 0.05 m/s (default: the speed of the task)";
 
 /// Parses one lever-up.
 ///
