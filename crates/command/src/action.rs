@@ -117,7 +117,7 @@ impl ActionArgs {
         let asked = session
             .compute(|| manual_plan(task, &situation, tool, &yaws, &self.pushes))
             .map_err(|error| refused(&error, task))?;
-        for (push, rule) in &asked.broken {
+        for (push, rule) in &asked.violations {
             session.warn(&format!("push {}: {rule}; no plan would contain this push", push + 1));
         }
         Ok((asked.plan, Arc::clone(tool)))
@@ -143,12 +143,12 @@ impl ActionArgs {
             }
             None => task.blades(library)?.remove(0),
         };
-        let (plan, broken) = manual_lever(task, &tool, lever).map_err(|error| {
+        let (plan, violation) = manual_lever(task, &tool, lever).map_err(|error| {
             let advice = "edge 0 runs from the first corner to the second, counter-clockwise; on a \
                           cuboid it is the edge at the smallest y";
             CliError::usage(error.to_string(), advice)
         })?;
-        if let Some(rule) = &broken {
+        if let Some(rule) = &violation {
             session.warn(&format!("{rule}; no plan would contain this lever-up"));
         }
         Ok((plan, tool))

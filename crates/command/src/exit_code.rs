@@ -13,7 +13,7 @@ pub const INVALID_FILE: u8 = 3;
 pub const NO_PLAN: u8 = 4;
 /// Plans that reach the goal by prediction, but fail verification.
 pub const FAILED_VERIFICATION: u8 = 5;
-/// Request outside the model's range, with `--outside refuse`.
+/// Request outside the model's range, with `--out-of-range refuse`.
 pub const REFUSED: u8 = 6;
 /// Best plan that works as written, but too seldom under perturbations.
 pub const FRAGILE: u8 = 7;

@@ -6,20 +6,20 @@ use std::time::Duration;
 use clap::Args;
 
 use pushplan::asset::PlanFile;
+use pushplan::progress::Until;
 use pushplan::scene::Situation;
 use pushplan::verify::{Verifier, VerifySettings};
-use pushplan::watch::Until;
 use pushplan_report::{PageView, Recipe, replay_warnings, verdict_document};
 
 use super::{
     error::CliError,
     exit_code,
-    follow::Following,
     form::Form,
     output, page,
+    progress::TerminalProgress,
     session::Session,
     solve::{share, time_limit},
-    words::{VIEWS, words},
+    value_enums::{VIEWS, possible_values},
 };
 
 /// Estimated duration above which replays are announced, seconds.
@@ -42,7 +42,7 @@ pub struct VerifyArgs {
     /// replays are skipped if too few clearly succeed in 2-D
     #[arg(long, value_name = "N", default_value_t = 8,
           value_parser = clap::value_parser!(u32).range(0..=100_000))]
-    disturbed: u32,
+    replays: u32,
     /// Share of the perturbed replays that must reach the goal, 0 to 1 [default: `robustness` of
     /// the task]
     #[arg(long, value_name = "SHARE", value_parser = share)]
@@ -57,7 +57,7 @@ pub struct VerifyArgs {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// View on the page
-    #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d", requires = "out")]
+    #[arg(long, value_parser = possible_values(&VIEWS), value_name = "VIEW", default_value = "2d", requires = "out")]
     page: PageView,
     #[command(flatten)]
     form: Form,
@@ -67,12 +67,12 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     args.out.as_deref().map(output::prepare).transpose()?;
     let mut file = PlanFile::load(&args.plan)?;
     file.task.robustness = args.robustness.unwrap_or(file.task.robustness);
-    let settings = VerifySettings { disturbed: args.disturbed as usize, seed: args.seed };
+    let settings = VerifySettings { replays: args.replays as usize, seed: args.seed };
     let situation = Situation::stated(&file.task.scene);
-    let following = Following::spinner(session, "replaying");
+    let following = TerminalProgress::spinner(session, "replaying");
     let until = Until::new(&following, args.time_limit);
     let verifier =
-        Verifier::new(settings).watched(&until).until_clear().moving(file.joints.as_ref());
+        Verifier::new(settings).with_progress(&until).until_clear().moving(file.joints.as_ref());
     let seconds = verifier.seconds(&file.task.scene, &file.plan) / session.threads() as f64;
     if seconds > LONG {
         session.warn(&format!(
@@ -96,7 +96,7 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     }
     args.form.show(session, &document)?;
     written.transpose()?;
-    Ok(match (verdict.passed, verdict.works()) {
+    Ok(match (verdict.passed, verdict.nominal_ok()) {
         (true, _) => exit_code::DONE,
         (false, true) => exit_code::FRAGILE,
         (false, false) => exit_code::FAILED_VERIFICATION,

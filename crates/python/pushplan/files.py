@@ -1,6 +1,6 @@
 """The keys of files as types, for tools and tasks that are built in code.
 
-``Task.of`` and ``Tool.of`` take such mappings and check them as strictly as files; a type checker
+``Task.from_dict`` and ``Tool.from_dict`` take such mappings and check them as strictly as files; a type checker
 finds misspelled keys before. ``pushplan.task_schema()`` says what every key means, its range and its
 default. Lengths are metres, masses kilograms, angles (keys that end in ``_deg``) degrees.
 """

@@ -13,7 +13,7 @@ use serde_json::json;
 
 use crate::plan::PyPlan;
 use crate::task::PyTask;
-use crate::{json, page, words, work};
+use crate::{arguments, json, page, work};
 
 /// How solving a task ended, with the plans that were found.
 #[pyclass(name = "Solution", module = "pushplan", frozen)]
@@ -32,7 +32,7 @@ impl PySolution {
     /// nearest. `"failed_verification"`: none of the plans that were replayed works.
     #[getter]
     fn status(&self) -> &'static str {
-        words::status(self.solution.status)
+        arguments::status(self.solution.status)
     }
 
     /// Whether the first plan passes.
@@ -43,7 +43,7 @@ impl PySolution {
 
     /// Whether its time limit stopped it before the search was over: the plans are the best so far.
     #[getter]
-    fn stopped(&self) -> bool {
+    fn timed_out(&self) -> bool {
         self.solution.stopped
     }
 

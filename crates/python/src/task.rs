@@ -75,7 +75,7 @@ impl PyTask {
     /// Builds a task from a mapping with the keys of a task file: lengths in metres, masses in
     /// kilograms, angles in degrees. See `pushplan.files.TaskFile`.
     #[staticmethod]
-    fn of(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
+    fn from_dict(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
         let task = Text::of(mapping)?.read(py, "task", Task::parse)?;
         Ok(Self { task: Arc::new(task), source: None })
     }
@@ -231,7 +231,7 @@ impl PyTask {
         arrays::array(py, offsets.collect(), [self.task.goals.len(), 3])
     }
 
-    /// The keys of its file, from which `Task.of` makes it again.
+    /// The keys of its file, from which `Task.from_dict` makes it again.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         dict(py, &self.task.to_json())
     }

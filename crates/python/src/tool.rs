@@ -38,7 +38,7 @@ impl PyTool {
     /// Builds a tool from a mapping with the keys of a tool file: lengths in metres, angles in
     /// degrees. See `pushplan.files.ToolFile`.
     #[staticmethod]
-    fn of(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
+    fn from_dict(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
         Ok(Self(Arc::new(Text::of(mapping)?.read(py, "tool", Tool::parse)?)))
     }
 
@@ -67,7 +67,7 @@ impl PyTool {
         (grip.position.x, grip.position.y, grip.heading)
     }
 
-    /// The keys of its file, from which `Tool.of` makes it again.
+    /// The keys of its file, from which `Tool.from_dict` makes it again.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         dict(py, &self.0.to_json())
     }

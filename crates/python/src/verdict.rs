@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use numpy::PyArray2;
 use pushplan::asset::PlanFile;
-use pushplan::outcome::{Disturbance, Evidence, Warning};
+use pushplan::outcome::{Evidence, Perturbation, Warning};
 use pushplan::{Task, Verdict};
 use pushplan_report::{
     Origin, PageView, TaskSource, replay_warnings, verdict_document, verdict_page,
@@ -15,7 +15,7 @@ use pyo3::types::PyAny;
 use serde_json::json;
 
 use crate::trajectory::PyTrajectory;
-use crate::{arrays, json, page, words};
+use crate::{arguments, arrays, json, page};
 
 /// Whether a plan works when it is replayed in both engines, as written and disturbed.
 #[pyclass(name = "Verdict", module = "pushplan", frozen)]
@@ -36,8 +36,8 @@ impl PyVerdict {
 
     /// Whether it works as written, though perhaps too seldom under disturbances.
     #[getter]
-    fn works(&self) -> bool {
-        self.verdict.works()
+    fn nominal_ok(&self) -> bool {
+        self.verdict.nominal_ok()
     }
 
     /// Share of the disturbed replays that reach the goal, 0 to 1, in the engine in which fewer do;
@@ -133,15 +133,15 @@ impl PyReplay {
     /// `"planar"` or `"3d"`.
     #[getter]
     fn engine(&self) -> &'static str {
-        words::engine(self.evidence.engine)
+        arguments::engine(self.evidence.engine)
     }
 
     /// Number of the disturbance, from 1 and the same in both engines; `None` as written.
     #[getter]
     fn draw(&self) -> Option<usize> {
-        match self.evidence.disturbance {
-            Disturbance::Nominal => None,
-            Disturbance::Disturbed { draw } => Some(draw),
+        match self.evidence.perturbation {
+            Perturbation::Nominal => None,
+            Perturbation::Perturbed { draw } => Some(draw),
         }
     }
 

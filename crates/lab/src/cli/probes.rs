@@ -10,7 +10,7 @@ use pushplan_command::bench::suite::{Cases, Measure, Run, Suite, only};
 use pushplan_command::error::CliError;
 use pushplan_command::model;
 use pushplan_command::session::Session;
-use pushplan_command::words::{PROBES, words};
+use pushplan_command::value_enums::{PROBES, possible_values};
 use pushplan_report::Document;
 use serde_json::json;
 
@@ -32,8 +32,8 @@ Examples:
 {}", keep::HELP))]
 pub struct ProbesArgs {
     /// Rules for choosing pushes; several are possible [default: all but task, which needs a task]
-    #[arg(long, num_args = 1.., value_parser = words(&PROBES), value_name = "RULE")]
-    rule: Vec<ProbeRule>,
+    #[arg(long, num_args = 1.., value_parser = possible_values(&PROBES), value_name = "RULE")]
+    probe_rule: Vec<ProbeRule>,
     /// Number of objects in a scene
     #[arg(long, value_name = "N", default_value_t = 6,
           value_parser = clap::value_parser!(u8).range(2..=12))]
@@ -59,7 +59,7 @@ impl Suite for ProbesArgs {
         _: &KeepArgs,
         _: &'a Session,
     ) -> Result<Cases<'a, ProbeRecord>, CliError> {
-        let rules = match &self.rule[..] {
+        let rules = match &self.probe_rule[..] {
             [] => &[
                 ProbeRule::Information,
                 ProbeRule::Random,
