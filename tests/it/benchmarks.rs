@@ -87,7 +87,7 @@ fn an_interrupted_benchmark_keeps_its_tasks_and_goes_on_to_the_same_bytes() {
     let kept = || fs::read_to_string(broken.join("records.jsonl")).unwrap_or_default();
     let line = [&BENCH[..], &TASKS, &["--out", out]].concat().join(" ");
     let output = crate::interrupted::interrupted(&line, || !kept().is_empty());
-    let goes_on = stderr(&output).contains("the same command goes on");
+    let goes_on = stderr(&output).contains("rerun the same command to resume");
     assert!(goes_on || output.status.success(), "{}", stderr(&output));
     let before = kept();
     assert!(!before.is_empty());

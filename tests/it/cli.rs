@@ -66,7 +66,7 @@ fn a_new_task_is_a_file_and_overwrites_none() {
     let output = run(&["new", name, "--example", "narrow-gap"]);
     assert_eq!(output.status.code(), Some(2));
     let message = stderr(&output);
-    assert!(message.contains("my.task.yaml is there already"), "{message}");
+    assert!(message.contains("my.task.yaml already exists"), "{message}");
     assert_eq!(written(), first);
     let other = folder.path().join("gap.yml");
     let other = other.to_str().expect("UTF-8");
@@ -330,8 +330,11 @@ fn check_says_why_there_is_no_plan_only_when_asked() {
         "{text}"
     );
     assert!(
-        text.contains("fine\n  a plan may reach the goal; `pushplan solve` verifies it"),
+        text.contains("fine\n  search predicts success; `pushplan solve` verifies the plan"),
         "{text}"
     );
-    assert!(text.ends_with("fine\n  of tasks of levering only `pushplan solve` tells\n"), "{text}");
+    assert!(
+        text.ends_with("fine\n  --why does not support levering tasks; use `pushplan solve`\n"),
+        "{text}"
+    );
 }

@@ -78,5 +78,5 @@ fn many_files_with_one_doubt_get_one_warning() {
     let of_mass: Vec<&str> = warnings.lines().filter(|line| line.contains("mass")).collect();
     assert_eq!(of_mass.len(), 1, "{warnings}");
     assert!(of_mass[0].starts_with("warning: push-1: "), "{warnings}");
-    assert!(of_mass[0].ends_with("(and the like in 2 more of 4 recordings)"), "{warnings}");
+    assert!(of_mass[0].ends_with("(and similar in 2 more of 4 recordings)"), "{warnings}");
 }

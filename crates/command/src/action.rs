@@ -17,13 +17,13 @@ use super::{
     error::CliError, lever_argument::lever_argument, push_argument::push_argument, session::Session,
 };
 
-/// Where tools come from.
+/// Sources of tools.
 #[derive(Args, Debug)]
 pub struct LibraryArgs {
-    /// Folder of tool files to choose from instead of the built-in tools
+    /// Folder of tool files that replace the built-in tools
     #[arg(long, value_name = "DIR")]
     tools: Option<PathBuf>,
-    /// Folder of further tool files to choose from
+    /// Folder of additional tool files
     #[arg(long, value_name = "DIR")]
     more_tools: Option<PathBuf>,
 }
@@ -53,21 +53,22 @@ impl LibraryArgs {
     }
 }
 
-/// One action.
+/// Manual action.
 #[derive(Args, Debug)]
 pub struct ActionArgs {
-    /// Name of the tool; it need not be among the task's
+    /// Name of the tool; the task's `tools` need not list it
     #[arg(long, value_name = "NAME", requires = "moves")]
     tool: Option<String>,
-    /// A push, or several in order; see below
+    /// Push to make, see below; repeat the option for several pushes in order
     #[arg(long = "push", value_name = "PUSH", requires = "tool", allow_hyphen_values = true,
           value_parser = push_argument, group = "moves")]
     pushes: Vec<ManualPush>,
-    /// A lever-up in a task of levering; see below. The tool is the task's first unless one is named
+    /// Lever-up of a levering task, see below; without --tool, the first tool of the task is used
     #[arg(long, value_name = "LEVER", conflicts_with_all = ["pushes", "grip_yaw_deg"],
           allow_hyphen_values = true, value_parser = lever_argument, group = "moves")]
     lever: Option<ManualLever>,
-    /// Turn of the end effector against +x [default: the first of the task's that fits]
+    /// Rotation of the end effector from +x, degrees [default: the first possible grip yaw of the
+    /// task]
     #[arg(long, value_name = "DEGREES", allow_hyphen_values = true)]
     grip_yaw_deg: Option<f64>,
 }
@@ -95,8 +96,8 @@ impl ActionArgs {
         if task.levers.is_some() && (self.tool.is_none() || task.pushes.max_count == 0) {
             let advice = "add --lever point=0:0.5,depth=0.012,angle=90, see --help";
             let message = match self.pushes.is_empty() {
-                true => "this is a task of levering, and no lever-up is given",
-                false => "this is a task of levering, not one of pushes",
+                true => "this is a levering task, but no lever-up is given",
+                false => "this is a levering task, not a pushing task",
             };
             return Err(CliError::usage(message, advice));
         }
@@ -117,7 +118,7 @@ impl ActionArgs {
             .compute(|| manual_plan(task, &situation, tool, &yaws, &self.pushes))
             .map_err(|error| refused(&error, task))?;
         for (push, rule) in &asked.violations {
-            session.warn(&format!("push {}: {rule}; a plan would not contain it", push + 1));
+            session.warn(&format!("push {}: {rule}; no plan would contain this push", push + 1));
         }
         Ok((asked.plan, Arc::clone(tool)))
     }
@@ -131,8 +132,8 @@ impl ActionArgs {
         session: &Session,
     ) -> Result<(Plan, Arc<Tool>), CliError> {
         if task.levers.is_none() {
-            let advice = "give --tool and --push, or another task";
-            return Err(CliError::usage("this task is one of pushes, not of levering", advice));
+            let advice = "add --tool and --push, or choose a levering task";
+            return Err(CliError::usage("this is a pushing task, not a levering task", advice));
         }
         let tool = match &self.tool {
             Some(name) => {
@@ -143,12 +144,12 @@ impl ActionArgs {
             None => task.blades(library)?.remove(0),
         };
         let (plan, violation) = manual_lever(task, &tool, lever).map_err(|error| {
-            let advice = "edge 0 runs from the first corner to the second, counter-clockwise; of a \
-                          cuboid it is that at the smallest y";
+            let advice = "edge 0 runs from the first corner to the second, counter-clockwise; on a \
+                          cuboid it is the edge at the smallest y";
             CliError::usage(error.to_string(), advice)
         })?;
         if let Some(rule) = &violation {
-            session.warn(&format!("{rule}; a plan would not contain it"));
+            session.warn(&format!("{rule}; no plan would contain this lever-up"));
         }
         Ok((plan, tool))
     }
@@ -156,7 +157,7 @@ impl ActionArgs {
 
 fn refused(error: &ActionError, task: &Task) -> CliError {
     let advice = match error {
-        ActionError::ChainBroken => "leave the start out after the first push".to_owned(),
+        ActionError::ChainBroken => "omit `start` after the first push".to_owned(),
         ActionError::Chained => "write direction_deg=.. length=..".to_owned(),
         ActionError::NoStart => "write start=x,y, or use the form OBJECT:DIRECTION_DEG".to_owned(),
         ActionError::NoObject { .. } => {
@@ -167,7 +168,7 @@ fn refused(error: &ActionError, task: &Task) -> CliError {
             "try another direction, offset or grip yaw, or give the start".to_owned()
         }
         ActionError::Blade { .. } => "name a tool that pushes".to_owned(),
-        ActionError::NoYaw => "add one".to_owned(),
+        ActionError::NoYaw => "add `grip_yaws_deg`".to_owned(),
     };
     CliError::usage(error.to_string(), advice)
 }

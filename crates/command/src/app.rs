@@ -47,9 +47,9 @@ enum Command {
 
 /// Groups of commands, in the order of `--help`.
 const GROUPS: Groups = &[
-    ("Plan and carry out", &["new", "solve", "run", "verify", "predict", "design"]),
+    ("Plan and execute", &["new", "solve", "run", "verify", "predict", "design"]),
     ("Files", &["check", "import", "export"]),
-    ("Learn from what was recorded", &["fit", "infer"]),
+    ("Learn from recordings", &["fit", "infer"]),
     ("Measure", &["bench"]),
 ];
 

@@ -17,7 +17,7 @@ use super::{
     solve::solve_error,
 };
 
-/// Check your files: every fault with its place; or print their schema for editors
+/// Check files and list every error with its location, or print a JSON schema for editors
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
   pushplan check tools/*.yaml tasks/*.yaml
@@ -26,13 +26,13 @@ use super::{
   # then, as the first line of a task file:
   # yaml-language-server: $schema=task.schema.json")]
 pub struct CheckArgs {
-    /// Tool, task, plan, trajectory, recording, world and run files; content tells their kind
+    /// Tool, task, plan, trajectory, recording, world or run files; the content determines the kind
     #[arg(required_unless_present = "schema", value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Print the JSON schema of this kind of file
     #[arg(long, value_name = "KIND", conflicts_with = "files")]
     schema: Option<Schema>,
-    /// Say also why a task of pushing has no plan: what `solve` would name, without verifying any
+    /// Also explain why a pushing task has no plan, as `solve` would, but without verifying plans
     #[arg(long, conflicts_with = "schema")]
     why: bool,
     #[command(flatten)]
@@ -49,7 +49,7 @@ enum Schema {
 }
 
 fn damaged(file: &Path, error: &ActError) -> Faults {
-    let advice = "the file is damaged, or of another version; make it again";
+    let advice = "the file is damaged or from another version; create it again";
     Fault::of_file(&file.display().to_string(), error.to_string(), advice).into()
 }
 
@@ -88,11 +88,11 @@ pub fn run(args: &CheckArgs, session: &Session) -> Result<u8, CliError> {
 fn why(file: &Path, library: &ToolLibrary, session: &Session) -> Result<u8, CliError> {
     let task = asset::load_task(file, library)?;
     if task.levers.is_some() {
-        session.print("  of tasks of levering only `pushplan solve` tells\n")?;
+        session.print("  --why does not support levering tasks; use `pushplan solve`\n")?;
         return Ok(exit_code::DONE);
     }
     let planner = Planner::for_effort(Effort::default())?.build();
-    let following = TerminalProgress::spinner(session, "looking for a plan");
+    let following = TerminalProgress::spinner(session, "searching for a plan");
     let found = session.compute(|| planner.why(&task, library, &following));
     following.finish()?;
     match found.map_err(solve_error)? {
@@ -101,7 +101,7 @@ fn why(file: &Path, library: &ToolLibrary, session: &Session) -> Result<u8, CliE
             Ok(exit_code::NO_PLAN)
         }
         None => {
-            session.print("  a plan may reach the goal; `pushplan solve` verifies it\n")?;
+            session.print("  search predicts success; `pushplan solve` verifies the plan\n")?;
             Ok(exit_code::DONE)
         }
     }

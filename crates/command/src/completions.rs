@@ -7,11 +7,10 @@ use super::{app, error::CliError, exit_code, session::Session};
 
 /// Print a completion script for a shell
 #[derive(Args, Debug)]
-#[command(
-    after_help = "Example:\n  pushplan completions bash > ~/.local/share/bash-completion/completions/pushplan"
-)]
+#[command(after_help = "Example:
+  pushplan completions bash > ~/.local/share/bash-completion/completions/pushplan")]
 pub struct CompletionsArgs {
-    /// The shell
+    /// Name of the shell
     shell: Shell,
 }
 

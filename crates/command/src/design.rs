@@ -24,45 +24,47 @@ use super::{
 /// Folder of proposed tools, within the folder of results.
 const TOOLS: &str = "tools";
 
-/// Propose a tool for a task that none solves, or that one solves with more margin
+/// Propose a new tool for a task that no existing tool solves, or solves only with little margin
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
   pushplan design my-task.yaml
   pushplan design my-task.yaml --parts 4 --candidates 2000
   pushplan solve my-task.yaml --more-tools plans/tools
 
-Bars, hooks, cranks, forks and rings of cuboids are drawn, and the best of them varied; the simplest
-with which a verified plan works is proposed. Writes <out>/tools/<tool>.yaml, a tool file to change and
-to choose from, <out>/<tool>.plan.json, <out>/<tool>.svg and <out>/<tool>.html. Where the tools that
-there are solve the task and none was found that does so with more margin, nothing is written.
-Without a plan that works, exit codes and names of files are those of `solve`, and there is no tool file.")]
+The search draws bars, hooks, cranks, forks and rings of cuboids, and varies the best of them. It \
+proposes the simplest tool that has a verified plan.
+
+Writes the editable tool file <out>/tools/<tool>.yaml, and <out>/<tool>.plan.json, \
+<out>/<tool>.svg and <out>/<tool>.html. Writes nothing if an existing tool solves the task and no \
+new tool solves it with more margin. Without a working plan there is no tool file; exit codes and \
+file names are the same as for `solve`.")]
 pub struct DesignArgs {
     #[command(flatten)]
     task: TaskArgs,
-    /// The most parts of the tool
+    /// Maximum number of parts of the tool
     #[arg(long, value_name = "N", default_value_t = DesignSettings::PARTS as u8,
           value_parser = clap::value_parser!(u8).range(1..=DesignSettings::MOST_PARTS as i64))]
     parts: u8,
-    /// Tools that are looked at
+    /// Number of candidate tools
     #[arg(long, value_name = "N", default_value_t = DesignSettings::CANDIDATES as u32,
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     candidates: u32,
-    /// Draw all of them by chance, to see what the search is worth
+    /// Draw all candidates at random, as a baseline for the search
     #[arg(long, hide = true)]
     random: bool,
-    /// How hard to try with each of the best tools
+    /// Search effort for each of the best tools
     #[arg(long, value_parser = possible_values(&EFFORTS), default_value = "standard")]
     effort: Effort,
-    /// Seed of the tools, of refinement's samples and of the disturbed replays
+    /// Seed of the tools, the refinement samples and the perturbed replays
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    /// Share of the disturbed replays that must reach the goal, 0 to 1 [default: what the task
-    /// says, 0.75 if nothing]
+    /// Share of the perturbed replays that must reach the goal, 0 to 1 [default: `robustness` of
+    /// the task, otherwise 0.75]
     #[arg(long, value_name = "SHARE", value_parser = share)]
     robustness: Option<f64>,
     #[command(flatten)]
     results: ResultArgs,
-    /// Also draw a moving picture of the 3-D replay
+    /// Also write an animation of the 3-D replay
     #[arg(long)]
     animate: bool,
     #[command(flatten)]
@@ -74,8 +76,8 @@ pub fn run(args: &DesignArgs, session: &Session) -> Result<u8, CliError> {
     let mut task = args.task.load(&library)?;
     task.robustness = args.robustness.unwrap_or(task.robustness);
     if task.levers.is_some() {
-        let advice = "tools with blades are not proposed";
-        return Err(CliError::usage("this is a task of levering, not one of pushes", advice));
+        let advice = "`design` proposes no tools with blades; choose a pushing task";
+        return Err(CliError::usage("this is a levering task, not a pushing task", advice));
     }
     let planner = Planner::for_effort(args.effort)?.seed(args.seed).build();
     output::prepare(&args.results.out)?;

@@ -28,7 +28,8 @@ pub enum CliError {
     File(String),
     /// Request outside the model's range, with the option to refuse it.
     #[error(
-        "{0}\n  help: `--out-of-range simulate` simulates instead, `--out-of-range warn` predicts all the same"
+        "{0}\n  help: `--out-of-range simulate` simulates instead, `--out-of-range warn` predicts \
+         nevertheless"
     )]
     Refused(String),
     /// Interruption by a signal.

@@ -27,13 +27,13 @@ pub const HELP: &str = "\
 Exit codes:
     0  done
     1  could not finish (folder not writable, disk full, internal error)
-    2  wrong command line
+    2  invalid command line
     3  a file is missing or invalid
     4  no plan found
     5  plans were found but failed verification
-    6  outside of what the model was trained on, and `--out-of-range refuse` was given
-    7  the plan works, but too seldom under small errors of starts and frictions
-    8  the plan meets some of several goals only
+    6  request outside the model's range, with `--out-of-range refuse`
+    7  fragile plan: it works as planned, but too few perturbed replays reach the goal
+    8  partial plan: it meets only some of several goals
   130  interrupted; finished work is saved";
 
 #[cfg(test)]

@@ -15,31 +15,31 @@ use pushplan_export::{
 
 use super::{error::CliError, exit_code, model, output, session::Session};
 
-/// Write plans for other programs: MuJoCo scenes, recordings for Foxglove and Rerun, joint trajectories
+/// Export plans as MuJoCo scenes, MCAP recordings (Foxglove, Rerun) or joint trajectories (ROS)
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
   pushplan export plans/pull-back.plan.json --out mjcf
   pip install mujoco && python3 mjcf/replay.py mjcf/pull-back.xml
   pushplan export plans/pull-back.plan.json --format mcap --model planar
 
-mjcf writes <out>/<plan>.xml, a MuJoCo scene with the plan's pushes and goal in it, and
-<out>/replay.py, which plays such scenes and says for each whether the plan works there; of a plan with
-lever-ups <out>/lever.py does.
+mjcf writes <out>/<plan>.xml, a MuJoCo scene with the pushes and the goal of the plan. It also \
+writes <out>/replay.py, which plays such scenes and reports for each whether the plan works. For \
+plans with lever-ups, the script is <out>/lever.py.
 
-mcap writes <out>/<plan>.mcap: how tool and objects move, as foxglove.SceneUpdate (/scene) and
-foxglove.FrameTransforms (/tf) that viewers such as Foxglove and Rerun play, the same as plain numbers
-(/state, metres and radians), all in JSON, and the plan as an attachment. A plan is carried out by
---model; a trajectory file (`pushplan predict --trajectories`) is written as it is. Wheels and released
-binaries write mcap; a build of your own needs `--features mcap`.
+mcap writes <out>/<plan>.mcap with the motion of the tool and the objects. Its JSON messages are \
+foxglove.SceneUpdate (/scene) and foxglove.FrameTransforms (/tf), which Foxglove and Rerun play, \
+and the same poses as plain numbers (/state, metres and radians). The plan is attached. --model \
+predicts the motion of a plan; a trajectory file (`pushplan predict --trajectories`) already \
+contains it. Wheels and released binaries write mcap; your own build needs `--features mcap`.
 
-trajectory writes <out>/<plan>.joints.json, the message trajectory_msgs/JointTrajectory of ROS, and
-<out>/<plan>.joints.csv: times in seconds, positions and velocities in radians, of a task whose robot has
-a `urdf`.")]
+trajectory writes <out>/<plan>.joints.json, a ROS message trajectory_msgs/JointTrajectory, and \
+<out>/<plan>.joints.csv. Times are in seconds, positions in radians and velocities in radians per \
+second (for prismatic joints in metres). It needs a task whose robot has a `urdf`.")]
 pub struct ExportArgs {
-    /// Plan or trajectory files; each holds the task and the tool as well
+    /// Plan or trajectory files, which also contain the task and the tools
     #[arg(required = true, value_name = "PLAN")]
     plans: Vec<PathBuf>,
-    /// For which program
+    /// Output format
     #[arg(long, value_enum, default_value_t = Format::Mjcf)]
     format: Format,
     #[arg(long, value_name = "MODEL", default_value = "3d", help = model::HELP)]
@@ -54,11 +54,11 @@ pub struct ExportArgs {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// MuJoCo's scenes
+    /// MuJoCo scenes
     Mjcf,
-    /// Recordings for Foxglove, Rerun and others
+    /// MCAP recordings for Foxglove, Rerun and others
     Mcap,
-    /// How the joints of an arm move, for ROS and as a table
+    /// Joint trajectories of an arm, for ROS and as a table
     Trajectory,
 }
 
@@ -154,7 +154,7 @@ fn open(path: &Path) -> Result<(PlanFile, Option<Trajectory>), Faults> {
             Ok((plan, Some(trajectory)))
         }
         kind => {
-            let message = format!("this is a {kind} file; plans and trajectories are exported");
+            let message = format!("this is a {kind} file; `export` needs a plan or a trajectory");
             let advice =
                 "`pushplan solve` writes plans, `pushplan predict --trajectories` trajectories";
             Err(Fault::of_file(&path.display().to_string(), message, advice).into())
@@ -189,7 +189,7 @@ fn carried_out(
             })),
         };
     let trajectory =
-        trajectory.ok_or_else(|| CliError::unexpected("cannot carry out the plan", spec))?;
+        trajectory.ok_or_else(|| CliError::unexpected("cannot predict the plan", spec))?;
     for warning in &trajectory.warnings {
         session.warn(&format!("{}: {warning}", trajectory.by));
     }

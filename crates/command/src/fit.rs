@@ -16,18 +16,18 @@ use super::{
     recordings::load_recordings, session::Session,
 };
 
-/// Fit how objects rest on the table and rub on the pusher to recorded pushes
+/// Fit the support of objects and their friction with the pusher to recorded pushes
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Finds the spread of the support, the share of the corners' distance (or of \
-the radius) at which
-objects rest, and the coefficient of friction of pusher and objects, the same for all recordings.
-Give recordings of one object, or of similar ones, one push each; fifty pushes of a centimetre are
-enough. The final poses of each are compared; errors follow Student's law. The prior is for slow
-pushes, up to 0.02 m/s; for faster ones use --model planar.
+    after_help = "Fits two parameters to all recordings together: the spread of the support and \
+the friction coefficient between pusher and objects. The spread is the distance of the support \
+points from the centre, as a share of the corners' distance or of the radius. Give recordings of \
+one object or of similar objects, one push each; fifty pushes of 1 cm are enough. The fit compares \
+final poses and assumes errors with Student's distribution. The analytic model `prior` is for slow \
+pushes, up to 0.02 m/s; for faster pushes use --model planar.
 
-With --save-fit the network learns from the same recordings what these numbers leave, from some
-twenty pushes on; `--fit FILE` of solve and predict takes the file.
+With --save-fit, the network also learns the remaining error from the same recordings, which needs \
+about twenty pushes. The option `--fit FILE` of solve and predict reads the file.
 
 Examples:
   pushplan fit pushes/ --out plans
@@ -35,19 +35,19 @@ Examples:
   pushplan fit --model planar push-1.recording.json push-2.recording.json"
 )]
 pub struct FitArgs {
-    /// Recordings, or folders of them
+    /// Recordings, or folders of recordings
     #[arg(required = true, value_name = "RECORDINGS")]
     recordings: Vec<PathBuf>,
     #[arg(long, value_name = "MODEL", default_value = "prior", help = model::HELP)]
     model: ModelSpec,
-    /// Width of the error that no model can avoid, metres in x, in y and in the turn at the radius of
-    /// gyration [default: it is fitted as well]
+    /// Scale of the error that no model can avoid, metres; for rotations, at the radius of gyration
+    /// [default: fitted]
     #[arg(long, value_name = "METRES", value_parser = noise)]
     noise: Option<f64>,
-    /// Take errors for normally distributed: no push ends far off by chance
+    /// Assume normally distributed errors, without outliers
     #[arg(long)]
     gaussian: bool,
-    /// Also let the network learn from the recordings, and write all that was found to this file
+    /// Also train the network on the recordings, and write the whole fit to this file
     #[arg(long, value_name = "FILE")]
     save_fit: Option<PathBuf>,
     /// Folder for fit.json and posterior.svg
@@ -58,9 +58,9 @@ pub struct FitArgs {
 }
 
 fn noise(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "1 mm is 0.001".to_owned())?;
+    let value: f64 = text.parse().map_err(|_| "expected metres; 1 mm is 0.001".to_owned())?;
     let sound = (1e-6..=1.0).contains(&value);
-    sound.then_some(value).ok_or_else(|| "it must be 0.000001 to 1; 1 mm is 0.001".to_owned())
+    sound.then_some(value).ok_or_else(|| "must be from 0.000001 to 1; 1 mm is 0.001".to_owned())
 }
 
 pub fn run(args: &FitArgs, session: &Session) -> Result<u8, CliError> {
@@ -79,8 +79,8 @@ pub fn run(args: &FitArgs, session: &Session) -> Result<u8, CliError> {
     following.finish()?;
     let Some(found) = found else {
         let advice =
-            "record pushes in which the pusher moves an object by at least some millimetres";
-        return Err(CliError::usage("nothing moves in these recordings", advice));
+            "record pushes in which the pusher moves an object by at least a few millimetres";
+        return Err(CliError::usage("no object moves in these recordings", advice));
     };
     let mut objects: Vec<&str> = recordings
         .iter()
@@ -99,7 +99,7 @@ pub fn run(args: &FitArgs, session: &Session) -> Result<u8, CliError> {
         let settings = HeadSettings { law, ..HeadSettings::default() };
         let learnt = session.compute(|| learn(&network, &trials, &Basis::from(&found), &settings));
         let learnt =
-            learnt.map_err(|error| CliError::unexpected("cannot name the weights", &error))?;
+            learnt.map_err(|error| CliError::unexpected("cannot identify the weights", &error))?;
         document.sections.push(table_fit_section(&learnt));
         learnt.write(file).map_err(CliError::Output)?;
         document.wrote(std::slice::from_ref(file));

@@ -6,7 +6,7 @@ use pushplan_report::Document;
 
 use super::{error::CliError, session::Session};
 
-/// How results are printed; as text unless something else is asked for.
+/// Output format of results; text by default.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct Form {
     /// Print JSON instead of text

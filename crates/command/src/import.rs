@@ -10,7 +10,7 @@ use pushplan_import::{Imported, ImportedScene, Language, Reading, Wanted, object
 
 use super::{error::CliError, exit_code, session::Session};
 
-/// Import a tool or objects from a file of MuJoCo (MJCF) or ROS (URDF), or from a mesh (STL, OBJ)
+/// Import a tool or objects from an MJCF (MuJoCo) or URDF (ROS) file, or from a mesh (STL, OBJ)
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:
@@ -18,75 +18,79 @@ use super::{error::CliError, exit_code, session::Session};
   pushplan import scene.xml --as objects --body can --body box --out tasks/mine.yaml
   pushplan import mug.stl --as objects --unit mm --density 2400
 
-Without --out the file is printed. `pushplan import --help` says what is imported as what.",
-    after_long_help = "What is imported as what:
+Without --out, the file is printed. `pushplan import --help` explains the conversion.",
+    after_long_help = "Conversion:
 
-  objects    Bodies that stand freely (<freejoint/>, two slides and a hinge, --free NAME; in URDF a link
-             without a parent, or on a floating joint of `world`) on one plane or box, the table, or up
-             to 25 cm above it. A body is one object; of several solids it has parts, of many those that
-             cover the same. Hinges about the vertical and slides along the table become joints, to the
-             world as well. Small spheres under a solid are the points that it stands on. What does not
-             move is an obstacle: the box around it. Robot and tools, and the goal where the file has
-             none, stand for yours.
-  meshes     STL, OBJ and MSH, of the file or by themselves: the prism of up to eight corners, or the
-             upright cylinder, over what the convex hull covers, as MuJoCo and Bullet have it. A mesh by
-             itself that is not convex has parts. A warning says how far the outline is off.
-  includes   Files in or below the folder of the file, or that of --root.
-  tool       One body with all that is fixed to it, undersides level. Its frame is that of the body.
-             What it weighs, and what holds or moves it, does not matter.
-  mass       <inertial> if it is there, else MuJoCo's rule: mass, or density (1000 kg/m^3) times volume,
-             else --density. One mass of several solids is split by volume, so that the centre of mass
-             is where it should be. A centre of mass off the middle makes a box a prism.
-  friction   The first number of `friction` in MJCF (1 by default); in URDF <lateral_friction>,
-             <mu1>, <mu> or Drake's, else --friction. MuJoCo takes the larger value of a pair, or that of a <pair>,
-             where pushplan takes the mean: pairs that differ are listed under `frictions`. Of a tool
-             and an object it is the mean.
-  shapes that are only seen (contype and conaffinity 0, <visual>) weigh, but are left out.
+  objects    Free bodies on the table (one plane or box) or up to 25 cm above it. A body is free
+             with <freejoint/>, with two slides and a hinge, or by --free NAME. In URDF it is free
+             without a parent or on a floating joint of `world`. A body becomes one object. Its
+             solids become parts; many solids are reduced to parts that cover the same area.
+             Vertical hinges and slides along the table become joints, also to the world. Small
+             spheres under a solid become its support points. An immovable body becomes an
+             obstacle, its bounding box. Robot, tools and a missing goal are placeholders.
+  meshes     STL, OBJ and MSH, inside a file or given directly. The convex hull, which MuJoCo and
+             Bullet also use, becomes a prism of up to eight corners or an upright cylinder. A
+             non-convex mesh given directly is split into parts. A warning states the error of
+             the outline.
+  includes   Files in or below the folder of the file, or in or below --root.
+  tool       One body with everything fixed to it, undersides level, in the frame of the body.
+             Its mass, its joints and its actuators are ignored.
+  mass       <inertial> if present; otherwise MuJoCo's rule, mass or density (1000 kg/m^3) times
+             volume; otherwise --density. The mass of a body is split over its solids by volume,
+             so that the centre of mass is kept. A box with an eccentric centre of mass becomes
+             a prism.
+  friction   In MJCF the first number of `friction` (default 1); in URDF <lateral_friction>, <mu1>,
+             <mu> or Drake's element; otherwise --friction. For two objects, MuJoCo uses the
+             larger value or a <pair>, and pushplan the mean. Pairs with different results are
+             listed under `frictions`. A tool and an object always use the mean.
+  visuals    Visual shapes (contype and conaffinity 0, <visual>) contribute mass but no shape.
 
-What pushplan cannot express is an error that says where and what to do. What it expresses only
-roughly, such as damping of joints, is a warning."
+An unsupported element is an error with its location and a remedy. An approximated element, such \
+as joint damping, gives a warning."
 )]
 pub struct ImportArgs {
-    /// An MJCF or URDF file, or a mesh (STL, OBJ)
+    /// MJCF or URDF file, or mesh (STL, OBJ)
     file: PathBuf,
-    /// What to make of it
+    /// Kind of file to create
     #[arg(long = "as", value_enum, value_name = "WHAT")]
     kind: What,
-    /// A body or link to import, several if repeated; by default all, or the only one
+    /// Body or link to import, repeatable [default: all, or the only one]
     #[arg(long = "body", value_name = "NAME")]
     bodies: Vec<String>,
-    /// A body that stands freely although the file holds it, several if repeated
+    /// Body to treat as free although the file fixes it, repeatable
     #[arg(long, value_name = "NAME")]
     free: Vec<String>,
-    /// Folder in and below which the file may name others (meshes, includes); by default its own
+    /// Folder in or below which the referenced meshes and includes must be [default: the folder of
+    /// the file]
     #[arg(long, value_name = "FOLDER")]
     root: Option<PathBuf>,
     /// Unit of a mesh
     #[arg(long, value_enum, default_value_t = Unit::M)]
     unit: Unit,
-    /// Density of bodies that state no mass, kg/m^3: wood 700, plastic 1000, aluminium 2700, steel 7800
+    /// Density of bodies without a stated mass, kg/m^3: wood 700, plastic 1000, aluminium 2700,
+    /// steel 7800
     #[arg(long, value_name = "VALUE", value_parser = positive)]
     density: Option<f64>,
-    /// Name of the tool or task; by default that of the model, or of the file
+    /// Name of the tool or task [default: the name of the model, otherwise of the file]
     #[arg(long, value_name = "NAME")]
     name: Option<String>,
-    /// Friction value of bodies that state none
+    /// Friction coefficient of bodies without a stated one
     #[arg(long, value_name = "VALUE", default_value_t = Wanted::FRICTION)]
     friction: f64,
-    /// Shift all objects on the table by this, metres
+    /// Translation of all objects on the table, metres
     #[arg(long, value_name = "X,Y", value_parser = shift, allow_hyphen_values = true,
           default_value = "0,0")]
     shift: Vector,
-    /// File to write instead of printing it
+    /// File to write; without it, the result is printed
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum What {
-    /// A tool file
+    /// Tool file
     Tool,
-    /// A task file with the objects and obstacles
+    /// Task file with the objects and obstacles
     Objects,
 }
 
@@ -163,7 +167,7 @@ fn from(file: &str, language: Language) -> String {
 fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
-        _ => Err("write a number above 0, such as 700 for wood".to_owned()),
+        _ => Err("expected a number above 0, such as 700 for wood".to_owned()),
     }
 }
 
@@ -172,6 +176,6 @@ fn shift(text: &str) -> Result<Vector, String> {
     let numbers: Option<Vec<f64>> = text.split(',').map(|word| word.trim().parse().ok()).collect();
     match numbers.as_deref() {
         Some([x, y]) if x.is_finite() && y.is_finite() => Ok(Vector::new(*x, *y)),
-        _ => Err("write two numbers such as 0.5,-0.1".to_owned()),
+        _ => Err("expected two numbers, such as 0.5,-0.1".to_owned()),
     }
 }

@@ -27,19 +27,20 @@ use super::{
 /// Default model for the rollouts of hypotheses.
 const MODEL: &str = "prior";
 
-/// Infer from a recording which objects are joined, and by which joints
+/// Infer the joints between objects from a recording
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Tells for every two objects within 3 cm of each other at the start whether they are free,
-fixed to each other, turn about a point (revolute) or slide along a line (prismatic), how sure that
-is, and where the point or line is. Joints that the recording states are ignored. Five recorded
-instants are looked at together; what else the recording says about the scene, masses and frictions,
-is taken as true but hardly matters. Headings that are not recorded are estimated: where objects are
-pushed one by one, nearly as many joints are found as with headings; in a tight crowd about a fifth
-of the pairs are mistaken.
+    after_help = "Considers every two objects within 3 cm of each other at the start. Infers \
+whether they are free, fixed to each other, revolute (rotation about a point) or prismatic \
+(sliding along a line). Reports the probability of each, and the point or line. Joints stated in \
+the recording are ignored. Five recorded instants are evaluated together. Masses, frictions and \
+other stated values of the scene are assumed to be true, but have little effect.
 
-Masses can only be told of objects that another object touched: unless forces are measured, motion
-shows only their ratios, and which range each is in as far as ratios tell it (--mass-ranges).
+Missing headings are estimated. If objects are pushed one by one, nearly as many joints are found \
+as with headings. In a dense crowd, about a fifth of the pairs are wrong.
+
+Masses are inferred only for objects that another object touched. Unless forces are measured, \
+motion shows only mass ratios, which limit the range of each mass (--mass-ranges).
 
 Examples:
   pushplan infer pushes.recording.json
@@ -47,22 +48,22 @@ Examples:
   pushplan infer pushes.recording.json --mass-ranges 0.2-0.5 1-2 8-10"
 )]
 pub struct InferArgs {
-    /// A recording, or a trajectory file
+    /// Recording or trajectory file
     #[arg(value_name = "FILE")]
     recording: PathBuf,
-    /// Effect model that rolls hypotheses out
+    /// Effect model for the rollouts of hypotheses
     #[arg(long, value_name = "MODEL", default_value = MODEL)]
     model: ModelSpec,
     #[command(flatten)]
     noise: NoiseArgs,
-    /// Also tell which of these ranges every mass is in, lightest first, kg; masses that the
-    /// recording states are then ignored
+    /// Mass ranges in kg, lightest first: also infer the range of every mass. Masses stated in the
+    /// recording are then ignored
     #[arg(long, value_name = "LOW-HIGH", num_args = 2.., value_parser = mass_range)]
     mass_ranges: Vec<Span>,
-    /// Folder for belief.json, belief.svg and belief.html, a page that plays what was seen
+    /// Folder for belief.json, belief.svg and belief.html, a page that plays the observations
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// What the page shows
+    /// View on the page
     #[arg(long, value_parser = possible_values(&VIEWS), value_name = "VIEW", default_value = "2d")]
     page: PageView,
     #[command(flatten)]
@@ -75,8 +76,8 @@ pub fn run(args: &InferArgs, session: &Session) -> Result<u8, CliError> {
     let sets = load_recordings(std::slice::from_ref(&args.recording))?;
     let recordings: Vec<&Recording> = sets.iter().flat_map(|set| &set.recordings).collect();
     let [recording] = recordings[..] else {
-        let advice = "name one of them; beliefs about several tables cannot be mixed";
-        return Err(CliError::usage("this folder holds several recordings", advice));
+        let advice = "name one of them, because a belief covers a single table";
+        return Err(CliError::usage("this folder contains several recordings", advice));
     };
     let model = model::load(&args.model)?;
     if let Some(folder) = &args.out {
@@ -132,9 +133,9 @@ fn mass_range(text: &str) -> Result<Span, String> {
     let range = text.split_once('-').and_then(|(low, high)| {
         Some(Span::new(low.trim().parse().ok()?, high.trim().parse().ok()?))
     });
-    let range = range.ok_or_else(|| "200 to 500 g is 0.2-0.5".to_owned())?;
+    let range = range.ok_or_else(|| "expected LOW-HIGH; 200 to 500 g is 0.2-0.5".to_owned())?;
     let sound = 1e-3 <= range.low && range.low < range.high && range.high <= 1e3;
     sound
         .then_some(range)
-        .ok_or_else(|| "it must go from low to high, within 0.001 kg to 1000 kg".to_owned())
+        .ok_or_else(|| "must be from low to high, within 0.001 kg to 1000 kg".to_owned())
 }

@@ -5,13 +5,13 @@ use pushplan::task::Pivot;
 
 /// Help for options that accept a lever-up.
 pub const LEVER_FORM: &str = "\
-A lever-up, in a task of levering:
+Lever-up of a levering task:
   --lever point=0:0.5,depth=0.012,angle=90
-      where the blade goes under (edge, counted from 0, and how far along it; or metres along the
-      outline from the first corner on), how deep (m) and how far it turns (degrees)
+      lever point (edge, counted from 0, and fraction along it; or metres along the outline from
+      the first corner), depth of the blade (m) and rotation (degrees)
   --lever point=0:0.5,depth=0.012,angle=30,pivot=-0.012,speed=0.05
-      with the axis 12 mm behind the edge instead of at the support line (pivot=auto), and so fast
-      (m/s; by default as the task says)";
+      with the axis 12 mm behind the edge instead of at the support line (pivot=auto), and with
+      a speed of 0.05 m/s (default: the speed of the task)";
 
 /// Parses one lever-up.
 ///
@@ -49,8 +49,8 @@ pub fn lever_argument(text: &str) -> Result<ManualLever, String> {
     }
     Ok(ManualLever {
         place: place.ok_or("point is missing: point=EDGE:FRACTION, or metres along the outline")?,
-        depth: depth.ok_or("depth is missing, metres")?,
-        angle: angle.ok_or("angle is missing, degrees")?.to_radians(),
+        depth: depth.ok_or("depth in metres is missing")?,
+        angle: angle.ok_or("angle in degrees is missing")?.to_radians(),
         pivot: pivot.unwrap_or(Pivot::Auto),
         speed,
     })
@@ -59,7 +59,7 @@ pub fn lever_argument(text: &str) -> Result<ManualLever, String> {
 fn point(text: &str) -> Result<ManualPlace, String> {
     match text.split_once(':') {
         Some((edge, fraction)) => {
-            let edge = edge.parse().map_err(|_| format!("point: `{edge}` is no edge's number"))?;
+            let edge = edge.parse().map_err(|_| format!("point: `{edge}` is no edge number"))?;
             Ok(ManualPlace::Edge(edge, within("point", fraction, [0.0, 1.0])?))
         }
         None => Ok(ManualPlace::Along(within("point", text, [0.0, 100.0])?)),
@@ -90,7 +90,7 @@ mod tests {
     #[test]
     fn mistakes_are_named() {
         let error = |text: &str| lever_argument(text).unwrap_err();
-        assert_eq!(error("point=0:0.5,angle=90"), "depth is missing, metres");
+        assert_eq!(error("point=0:0.5,angle=90"), "depth in metres is missing");
         assert_eq!(error("point=0:2,depth=0.01,angle=9"), "point must be from 0 to 1");
         assert_eq!(error("depth=nan"), "depth: `nan` is not a finite number");
         assert_eq!(error("depth=12"), "depth must be from 0.002 to 0.2");

@@ -17,9 +17,10 @@ use super::value_enums::{OUT_OF_RANGE, possible_values};
 macro_rules! help {
     ($end:literal) => {
         concat!(
-            "What predicts the effect of pushes: network; prior (the network's prior alone); \
-             planar or 3d (simulations); still (nothing moves); or a file of weights. Settings stand behind commas: prior,frame=20mm or planar,step=1/120; a \
-             bar says which model takes over: prior,up-to=2|planar",
+            "Effect model of pushes: network; prior (the analytic model that it corrects); planar or \
+             3d (2-D or 3-D simulation); still (nothing moves); or a weights file. \
+             Settings follow commas: prior,frame=20mm or planar,step=1/120. A bar precedes the \
+             fallback model: prior,up-to=2|planar",
             $end
         )
     };
@@ -30,8 +31,8 @@ pub const HELP: &str = help!("");
 
 /// Text of `--help` for commands whose default models depend on the effort.
 pub const HELP_WITH_EFFORT: &str = help!(
-    ". Two with > between them: the first screens the many rollouts of a search, the second decides \
-     among the few, prior>network [default: those of the effort]"
+    ". prior>network names two models: a screening model for the many rollouts of a search, and a \
+     final model for the best of them [default: the models of the effort]"
 );
 
 /// Text of `--help` for commands whose default is the network; lever-ups have their own text.
@@ -39,7 +40,7 @@ pub const HELP_WITH_NETWORK: &str = help!(" [default: network]");
 
 /// Text of `--help` for models of lever-ups.
 pub const HELP_FOR_LEVERS: &str =
-    "What predicts the effect of lever-ups: prior, or a simulation such as 3d,step=1/60";
+    "Effect model of lever-ups: prior (analytic model), or a simulation such as 3d,step=1/60";
 
 /// Default model.
 pub const DEFAULT: &str = "network";
@@ -71,10 +72,10 @@ impl From<ModelError> for CliError {
     }
 }
 
-/// What was learnt about the table.
+/// Table fit.
 #[derive(Args, Clone, Debug)]
 pub struct TableArgs {
-    /// What `pushplan fit --save-fit FILE` learnt about this table
+    /// Table fit, written by `pushplan fit --save-fit FILE`
     #[arg(long, value_name = "FILE")]
     fit: Option<PathBuf>,
 }
@@ -99,20 +100,20 @@ impl TableArgs {
 pub fn state(fit: &TableFit, scene: &mut Scene, session: &Session) {
     for object in fit.strange(scene) {
         session.warn(&format!(
-            "the fit was learnt on other objects than `{object}`: what it changes in the network \
-             counts by {:.0} % here",
+            "the table fit was learnt on other objects than `{object}`, so its correction of the \
+             network is scaled to {:.0} %",
             100.0 * OTHER_OBJECTS
         ));
     }
     fit.state(scene);
 }
 
-/// What to do where the model should not be trusted.
+/// Policy outside of a model's range.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct OutOfRangeArgs {
-    /// What to do outside of a model's ranges, or where its own prediction shows that it went wrong
-    #[arg(long, value_parser = possible_values(&OUT_OF_RANGE), value_name = "WHAT",
-          default_value = "warn")]
+    /// Policy outside of a model's ranges, and for predictions that are evidently wrong
+    #[arg(long, value_parser = possible_values(&OUT_OF_RANGE),
+          value_name = "WHAT", default_value = "warn")]
     out_of_range: OutOfRange,
 }
 

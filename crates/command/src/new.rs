@@ -11,17 +11,17 @@ use super::{error::CliError, exit_code, session::Session, task_argument};
 /// Minimal task that runs, with answers to beginners' questions.
 const TASK: &str = include_str!("new.yaml");
 
-/// Write a task file to begin with
+/// Write a starter task file
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
   pushplan new my-task
   pushplan new my-gap --example narrow-gap
 
-Writes <name>.yaml, never over a file that is there.")]
+Writes <name>.yaml; never overwrites an existing file.")]
 pub struct NewArgs {
-    /// Name of the task, or the path of its file
+    /// Name of the task, or path of its file
     name: PathBuf,
-    #[arg(long, value_name = "NAME", help = "Begin with a shipped task",
+    #[arg(long, value_name = "NAME", help = "Shipped task to start from",
           value_parser = task_argument::example())]
     example: Option<String>,
 }
@@ -34,7 +34,7 @@ pub fn run(args: &NewArgs, session: &Session) -> Result<u8, CliError> {
     }
     let shown = path.display();
     if path.exists() {
-        return Err(CliError::usage(format!("{shown} is there already"), "choose another name"));
+        return Err(CliError::usage(format!("{shown} already exists"), "choose another name"));
     }
     let text = match &args.example {
         Some(name) => example_text(name)?,

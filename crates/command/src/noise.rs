@@ -39,7 +39,7 @@ impl NoiseArgs {
 }
 
 fn deviation(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "1 mm is 0.001".to_owned())?;
+    let value: f64 = text.parse().map_err(|_| "expected a number; 1 mm is 0.001".to_owned())?;
     let sound = (0.0..=0.5).contains(&value);
-    sound.then_some(value).ok_or_else(|| "it must be 0 to 0.5".to_owned())
+    sound.then_some(value).ok_or_else(|| "must be from 0 to 0.5".to_owned())
 }

@@ -14,13 +14,13 @@ use super::value_enums::{VIEWS, possible_values};
 /// Default folder of the results.
 pub const FOLDER: &str = "plans";
 
-/// Where results go, what their page shows, and which tools there are.
+/// Folder of the results, view on their page, and tools.
 #[derive(Args, Debug)]
 pub struct ResultArgs {
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = FOLDER)]
     pub out: PathBuf,
-    /// What the page shows
+    /// View on the page
     #[arg(long, value_parser = possible_values(&VIEWS), value_name = "VIEW", default_value = "2d")]
     pub page: PageView,
     #[command(flatten)]

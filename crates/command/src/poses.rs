@@ -10,10 +10,10 @@ use pushplan_report::{PoseRow, poses_document};
 
 use super::error::CliError;
 
-/// Where predicted poses go.
+/// Export of predicted poses.
 #[derive(Args, Clone, Debug)]
 pub struct PosesArgs {
-    /// Write the poses of all objects over time to this file, .csv or .json: name, by (model),
+    /// File for the predicted poses of all objects over time, .csv or .json: name, by (the model),
     /// object, time in s, x and y in m, heading in rad
     #[arg(long, value_name = "FILE")]
     export: Option<PosesFile>,
@@ -35,7 +35,7 @@ impl FromStr for PosesFile {
         match end.as_ref().and_then(|end| end.to_str()) {
             Some("csv") => Ok(Self { path, json: false }),
             Some("json") => Ok(Self { path, json: true }),
-            _ => Err("name a file that ends in .csv or .json".into()),
+            _ => Err("expected a file name that ends in .csv or .json".into()),
         }
     }
 }

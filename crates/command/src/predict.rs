@@ -35,12 +35,12 @@ use super::{
     value_enums::{VIEWS, possible_values},
 };
 
-/// Predict what a motion does, or how well your recordings are predicted
+/// Predict the effect of a motion, or measure prediction errors on recordings
 #[derive(Args, Debug)]
 #[command(after_help = forms(), after_long_help = forms())]
 pub struct PredictArgs {
-    /// A task, with --tool and --push or with --lever; a plan; or recordings, trajectories and
-    /// folders of them, which every model is compared with
+    /// Task (with --tool and --push, or with --lever), or plan; or recordings, trajectories and
+    /// folders of these, on which the errors of every model are measured
     #[arg(required_unless_present = "example", value_name = "TASK|PLAN|RECORDING")]
     pub files: Vec<PathBuf>,
     #[arg(long, value_name = "NAME", help = task_argument::HELP, conflicts_with = "files",
@@ -56,26 +56,26 @@ pub struct PredictArgs {
     pub table: model::TableArgs,
     #[command(flatten)]
     pub out_of_range: OutOfRangeArgs,
-    /// Only this model, without those that it is compared with
+    /// Evaluate this model alone, without the models for comparison
     #[arg(long)]
     pub alone: bool,
     #[command(flatten)]
     pub poses: PosesArgs,
-    /// Folder for a page that plays what every model says, named after the task; for recordings,
-    /// errors.json and their curves by horizon
+    /// Folder for a page that plays the prediction of every model, named after the task; for
+    /// recordings, folder for errors.json and curves of the errors by horizon
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Also write every frame that each model predicts as a trajectory file, with a picture
+    /// Also write the predicted frames of each model as a trajectory file, with a drawing
     #[arg(long, requires = "out")]
     trajectories: bool,
-    /// Also draw moving pictures of the trajectories
+    /// Also write animations of the trajectories
     #[arg(long, requires = "trajectories")]
     animate: bool,
-    /// What the page shows
-    #[arg(long, value_parser = possible_values(&VIEWS), value_name = "VIEW", default_value = "2d",
-          requires = "out")]
+    /// View on the page
+    #[arg(long, value_parser = possible_values(&VIEWS),
+          value_name = "VIEW", default_value = "2d", requires = "out")]
     page: PageView,
-    /// For recordings, one table only, with a row for each folder
+    /// Print only one table for recordings, with a row for each folder
     #[arg(long)]
     pub summary: bool,
     #[command(flatten)]
@@ -110,8 +110,8 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
         }
         Named::File(file, kind) => predict(args, args.asked(file, kind, session)?, session),
         Named::Recordings if args.action.given() => Err(CliError::usage(
-            "recordings already say what was done",
-            "leave --tool and --push out, or name one task",
+            "recordings already contain the pushes that were made",
+            "omit --tool and --push, or name a single task",
         )),
         Named::Recordings => recorded::run(args, session),
     }
@@ -166,8 +166,8 @@ fn predict(args: &PredictArgs, asked: Asked, session: &Session) -> Result<u8, Cl
     let motions = plan.motions(&tools).unwrap_or_default();
     let [motion] = &motions[..] else {
         return Err(CliError::usage(
-            "models predict one motion, and this plan has another number of them",
-            "`pushplan verify` plays all of it",
+            "`predict` needs a plan of exactly one motion",
+            "`pushplan verify` replays the whole plan",
         ));
     };
     let spec = args.model.clone().unwrap_or(match task.levers {
@@ -202,7 +202,7 @@ fn predict(args: &PredictArgs, asked: Asked, session: &Session) -> Result<u8, Cl
             session.warn(&format!("{by}: {warning}"));
         }
         if effect.warnings.contains(&Warning::Refused) {
-            return Err(CliError::Refused(format!("{by} gives no prediction for this action")));
+            return Err(CliError::Refused(format!("{by} declines to predict this action")));
         }
     }
     let rows: Vec<PoseRow> = trajectories.iter().flat_map(|found| poses(&task, found)).collect();

@@ -76,7 +76,7 @@ impl Progress for TerminalProgress<'_> {
     }
 
     fn so_far(&self, answer: &str) {
-        self.show(|[_, so_far]| *so_far = format!("so far {answer}"));
+        self.show(|[_, so_far]| *so_far = format!("best so far: {answer}"));
     }
 
     fn update(&self, done: u64, total: u64) {

@@ -5,13 +5,13 @@ use pushplan::solve::{ManualPush, ManualStart};
 
 /// Help for options that accept a push.
 const FORMS: &str = "\
-Pushes, in the order they are made:
+Pushes, in the order of execution:
   --push 'start=0.42,0.10 direction_deg=180 length=0.2 speed=0.1'
-      where the end effector starts (m), which way it goes (degrees from +x), how far (m) and
-      how fast (m/s); length and speed default to the task's
-  --push can:180          push the object `can` towards -x, the tool set down before it
-  --push can:180:0.01     with its centre 1 cm left of the centre line of the tool's face
-  --push can:180:0:0.15   15 cm far";
+      start of the end effector (m), direction (degrees from +x), length (m) and speed (m/s);
+      length and speed default to the values of the task
+  --push can:180          push the object `can` towards -x; the tool starts next to it
+  --push can:180:0.01     with the object's centre 1 cm left of the centre line of the tool's face
+  --push can:180:0:0.15   over a length of 15 cm";
 
 /// Returns the help for options that accept pushes or a lever-up.
 pub fn forms() -> String {

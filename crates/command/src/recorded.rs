@@ -129,7 +129,7 @@ fn warn(model: &dyn EffectModel, recordings: &[&Recording], session: &Session) {
             1 => String::new(),
             count => {
                 let all = recordings.len();
-                format!(" (and the like in {} more of {all} recordings)", count - 1)
+                format!(" (and similar in {} more of {all} recordings)", count - 1)
             }
         };
         session.warn(&format!("{}: {warning}{more}", names[0]));

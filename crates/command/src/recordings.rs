@@ -57,8 +57,8 @@ fn load(file: &Path) -> Result<Recording, Faults> {
             let slides = file.plan.slides(&file.tools).filter(|_| flat);
             let Some([motion]) = slides.as_deref() else {
                 let message =
-                    "what leaves the plane, or changes the tool, is no recording of pushes";
-                return Err(Fault::of_file(&file.task.name, message, "leave it out").into());
+                    "a trajectory that leaves the plane or changes the tool is no push recording";
+                return Err(Fault::of_file(&file.task.name, message, "omit this file").into());
             };
             let frames = &file.trajectory.frames;
             Ok(Recording::of_frames(&file.task.name, &file.task.scene, motion, frames))

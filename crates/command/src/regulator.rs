@@ -14,11 +14,11 @@ use super::error::CliError;
 /// Name of the option to use no regulator.
 const NONE: &str = "none";
 
-/// Which belief regulator.
+/// Belief regulator.
 #[derive(Args, Debug)]
 pub struct RegulatorArgs {
-    /// Weights of the belief regulator that corrects the hypothesis filter, or `none` for the filter
-    /// alone [default: the shipped ones]
+    /// Weights of the belief regulator, which corrects the hypothesis filter; `none` for the filter
+    /// alone [default: the shipped weights]
     #[arg(long, value_name = "FILE")]
     regulator: Option<String>,
 }

@@ -32,19 +32,21 @@ use super::{
     value_enums::{EFFORTS, PROBES, possible_values},
 };
 
-/// Carry out a task in a world that is only partly known: push, look, learn, plan again
+/// Execute a task in a partly unknown world: push, observe, update the belief, plan again
 #[derive(Args, Debug)]
 #[command(
-    after_help = "The task's `unknown` says what is not known of its scene: joints, masses, frictions, support. What
-they really are is hidden in the world: a file (`pushplan check --schema world`), or a seed from which
-it is drawn. Every plan is judged under samples of what is believed; after every push the rest of the
-plan is judged again, and another one is made where too few samples reach the goal.
+    after_help = "The task's `unknown` lists the unknown properties of its scene: joints, masses, \
+frictions, support. Their true values are hidden in the world: a file (`pushplan check --schema \
+world`), or a seed from which they are drawn. Every plan is evaluated on samples of the belief. \
+After every push, the rest of the plan is evaluated again; if too few samples reach the goal, the \
+planner makes a new plan.
 
-Writes <out>/<task>.run.json after every push; after an interruption the same command with --resume
-goes on from there, and the file ends up the same to the byte. <task>.run.html plays the run: what
-was predicted, what happened, what was believed meanwhile. Pictures: <task>.run.svg and
-<task>.belief.svg. Exit code 0: reached, as far as can be seen; 4: no push brings the object nearer;
-5: all pushes are used up.
+Writes <out>/<task>.run.json after every push. After an interruption, rerun the same command with \
+--resume; the final file is byte-identical to an uninterrupted run. <task>.run.html plays the \
+predictions, the observations and the beliefs. Drawings are <task>.run.svg and <task>.belief.svg.
+
+Exit code 0: the last observation meets the goal. 4: no push brings the object nearer to the goal. \
+5: the maximum number of pushes is exhausted.
 
 Examples:
   pushplan run --example hidden-hinge --world 1
@@ -53,46 +55,46 @@ Examples:
 pub struct RunArgs {
     #[command(flatten)]
     task: TaskArgs,
-    /// What is really there: a world file, or a seed from which it is drawn
+    /// Ground truth: a world file, or a seed from which the world is drawn
     #[arg(long, value_name = "FILE|SEED")]
     world: String,
-    /// How hard to try with every plan
+    /// Search effort of every plan
     #[arg(long, value_parser = possible_values(&EFFORTS), default_value = "draft")]
     effort: Effort,
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
     model: Option<Models>,
     #[command(flatten)]
     table: TableArgs,
-    /// Let the network learn from the pushes of the run where the task leaves nothing unknown, and
-    /// write what it knows in the end to this file; without --fit it takes ten pushes
+    /// Train the network on the pushes of the run, and write the final table fit to this file.
+    /// Needs a task without `unknown`; without --fit, learning needs ten pushes
     #[arg(long, value_name = "FILE")]
     save_fit: Option<PathBuf>,
     #[command(flatten)]
     regulator: RegulatorArgs,
     #[command(flatten)]
     out_of_range: OutOfRangeArgs,
-    /// Most pushes before giving up
+    /// Maximum number of pushes
     #[arg(long, value_name = "N", default_value_t = 12,
           value_parser = clap::value_parser!(u16).range(1..=1000))]
     max_pushes: u16,
-    /// Samples of the belief under which plans are judged
+    /// Number of belief samples on which plans are evaluated
     #[arg(long, value_name = "N", default_value_t = 16,
           value_parser = clap::value_parser!(u16).range(1..=1000))]
     samples: u16,
-    /// Share of the samples in which a plan must reach the goal, 0 to 1
+    /// Share of the belief samples in which a plan must reach the goal, 0 to 1
     #[arg(long, value_name = "SHARE", default_value_t = 0.8, value_parser = share)]
     min_success: f64,
-    /// Most pushes that are made only to learn something
+    /// Maximum number of exploratory pushes
     #[arg(long, value_name = "N", default_value_t = 3,
           value_parser = clap::value_parser!(u16).range(0..=1000))]
     max_probes: u16,
-    /// How these are chosen
+    /// Rule for choosing exploratory pushes
     #[arg(long, value_parser = possible_values(&PROBES), value_name = "RULE", default_value = "task")]
     probe_rule: ProbeRule,
-    /// Seed of samples and plans
+    /// Seed of the belief samples and the plans
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    /// Go on with the run that is kept in the folder, if there is one
+    /// Resume the run in --out, if there is one
     #[arg(long)]
     resume: bool,
     #[command(flatten)]
@@ -106,14 +108,14 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
     let mut task = args.task.load(&library)?;
     if task.levers.is_some() {
         return Err(CliError::usage(
-            "what leaves the plane cannot be run: after a lever-up nobody looks",
-            "`pushplan solve` plans it and verifies it as a whole",
+            "`run` does not support levering, because no observation follows a lever-up",
+            "use `pushplan solve`, which plans and verifies the whole task",
         ));
     }
     if args.save_fit.is_some() && task.unknown.any() {
         return Err(CliError::usage(
-            "nothing is learnt where the task leaves things unknown: pushes tell of those first",
-            "leave out --save-fit, or state them in the task",
+            "--save-fit needs a task without `unknown`, because the pushes identify those values",
+            "omit --save-fit, or state the values in the task",
         ));
     }
     let truth = world(&args.world, &task, &library)?;
@@ -140,8 +142,8 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
         ..RunSettings::default()
     };
     if args.save_fit.is_some() && EffectModels::weights_of(&models.decided)?.is_none() {
-        let advice = "leave out --save-fit, or let the network decide: --model prior>network";
-        return Err(CliError::usage(format!("{models} has no network that could learn"), advice));
+        let advice = "omit --save-fit, or use a network as final model: --model prior>network";
+        return Err(CliError::usage(format!("{models} contains no network to train"), advice));
     }
     let regulator = args.regulator.load()?;
     let mut planned_by = format!(
@@ -261,8 +263,8 @@ fn begin(path: &Path, begun: Trace, resume: bool) -> Result<Trace, CliError> {
     match there.is_of(&begun) {
         true => Ok(there),
         false => Err(CliError::usage(
-            format!("{} is of another task, world or settings", path.display()),
-            "the same command as before goes on with a run; without --resume a new one begins",
+            format!("{} belongs to another task, world or settings", path.display()),
+            "repeat the command of the run to resume it, or omit --resume to start a new run",
         )),
     }
 }
@@ -275,11 +277,11 @@ fn act_error(error: ActError, path: &Path) -> CliError {
         ActError::Keep(faults) => CliError::Output(faults),
         ActError::Trace(_) => CliError::File(format!("{}: {message}", path.display())),
         ActError::Stopped { .. } => CliError::Interrupted(format!(
-            "{message}; the same command with --resume goes on from there"
+            "{message}; rerun the same command with --resume to continue"
         )),
         ActError::Objects { .. } => CliError::File(format!("{}: {message}", path.display())),
         ActError::World(_) | ActError::Lost { .. } => {
-            CliError::Ended(format!("{message}; what was done is in {}", path.display()))
+            CliError::Ended(format!("{message}; the pushes made are in {}", path.display()))
         }
     }
 }

@@ -14,12 +14,12 @@ use super::error::CliError;
 /// Options of every subcommand.
 #[derive(Args, Clone, Debug)]
 pub struct GlobalArgs {
-    /// Worker threads; 0 means one per core of the machine, the container or the Slurm task (its
-    /// --cpus-per-task). Results never depend on it
+    /// Number of worker threads; 0 means one per core of the machine, the container or the Slurm
+    /// task (--cpus-per-task). Results do not depend on it
     #[arg(long, global = true, value_name = "N", default_value_t = 0,
           value_parser = clap::value_parser!(u16).range(0..=1024))]
     pub threads: u16,
-    /// No progress and no warnings on stderr
+    /// Suppress progress and warnings on stderr
     #[arg(long, short, global = true)]
     pub quiet: bool,
 }

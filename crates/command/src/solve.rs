@@ -25,7 +25,7 @@ use super::{
     value_enums::{EFFORTS, possible_values},
 };
 
-/// Choose a tool and pushes, or a lever-up, for a task, verify them, write plan, picture and page
+/// Plan a task: choose a tool and pushes or a lever-up, verify them, write plan, drawing and page
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
   pushplan solve my-task.yaml
@@ -33,15 +33,18 @@ use super::{
   pushplan solve --example raise-plate
   pushplan solve my-task.yaml --tools my-tools --out results --animate
 
-Writes <out>/<task>.plan.json, <out>/<task>.svg and <out>/<task>.html, a page that plays the plan and
-shows why the others lost; with --animate <out>/<task>.animated.svg, too.
-Without a plan that works, the nearest one is written as <task>.nearest.* (exit code 4) or
-<task>.failed.* (exit code 5); one that works too seldom as <task>.fragile.* (exit code 7), one that
-meets some of several goals as <task>.partial.* (exit code 8).")]
+Writes <out>/<task>.plan.json, the drawing <out>/<task>.svg and the page <out>/<task>.html. The \
+page plays the plan and shows why other plans were rejected. --animate also writes \
+<out>/<task>.animated.svg.
+
+Without a working plan, the nearest plan is written as <task>.nearest.* (exit code 4) or \
+<task>.failed.* (exit code 5). A fragile plan, which fails in too many perturbed replays, is \
+written as <task>.fragile.* (exit code 7). A plan that meets only some of several goals is written \
+as <task>.partial.* (exit code 8).")]
 pub struct SolveArgs {
     #[command(flatten)]
     task: TaskArgs,
-    /// How hard to try
+    /// Search effort
     #[arg(long, value_parser = possible_values(&EFFORTS), default_value = "standard")]
     effort: Effort,
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
@@ -50,24 +53,24 @@ pub struct SolveArgs {
     table: model::TableArgs,
     #[command(flatten)]
     out_of_range: OutOfRangeArgs,
-    /// Seed of refinement's samples and of the disturbed replays
+    /// Seed of the refinement samples and the perturbed replays
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub seed: u64,
-    /// Disturbed replays of the winning plan in each simulation, at least; up to 64 are made as long as
-    /// it is not clear whether enough of them reach the goal, and none in 3-D if too few clearly do in
-    /// the plane [default: 4, 8 or 16 by effort]
+    /// Minimum number of perturbed replays of the best plan per engine; up to 64 until the verdict
+    /// is clear. 3-D replays are skipped if too few clearly succeed in 2-D [default: 4, 8 or 16 by
+    /// effort]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=10_000))]
     pub replays: Option<u16>,
-    /// Share of the disturbed replays that must reach the goal, 0 to 1 [default: what the task
-    /// says, 0.75 if nothing]
+    /// Share of the perturbed replays that must reach the goal, 0 to 1 [default: `robustness` of
+    /// the task, otherwise 0.75]
     #[arg(long, value_name = "SHARE", value_parser = share)]
     robustness: Option<f64>,
-    /// Stop after this time and show the best plan so far
+    /// Time limit in seconds, after which the best plan so far is reported
     #[arg(long, value_name = "SECONDS", value_parser = time_limit)]
     time_limit: Option<Duration>,
     #[command(flatten)]
     results: ResultArgs,
-    /// Also draw a moving picture of the 3-D replay
+    /// Also write an animation of the 3-D replay
     #[arg(long)]
     animate: bool,
     #[command(flatten)]
@@ -126,19 +129,19 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
 
 /// Parses a share from 0 to 1.
 pub fn share(text: &str) -> Result<f64, String> {
-    let share: f64 = text.parse().map_err(|_| "a share is a number from 0 to 1".to_owned())?;
+    let share: f64 = text.parse().map_err(|_| "expected a share from 0 to 1".to_owned())?;
     match (0.0..=1.0).contains(&share) {
         true => Ok(share),
-        false => Err("a share is from 0 to 1; three quarters are 0.75".to_owned()),
+        false => Err("a share must be from 0 to 1; 75 % is 0.75".to_owned()),
     }
 }
 
 /// Parses a time in seconds.
 pub fn time_limit(text: &str) -> Result<Duration, String> {
-    let seconds: f64 = text.parse().map_err(|_| "a time is a number of seconds".to_owned())?;
+    let seconds: f64 = text.parse().map_err(|_| "expected a number of seconds".to_owned())?;
     let limit = Duration::try_from_secs_f64(seconds).map_err(|error| error.to_string())?;
     match limit.is_zero() {
-        true => Err("a time limit must be above zero; half a second is 0.5".to_owned()),
+        true => Err("a time limit must be above 0; half a second is 0.5".to_owned()),
         false => Ok(limit),
     }
 }

@@ -12,18 +12,18 @@ use pushplan_report::TaskSource;
 use super::error::CliError;
 
 /// Text of `--help` for `--example`.
-pub const HELP: &str = "A shipped task instead of a file";
+pub const HELP: &str = "Shipped task to use instead of a file";
 
 /// Returns a parser of the names of shipped tasks, which help and errors list.
 pub fn example() -> PossibleValuesParser {
     Task::examples().into()
 }
 
-/// One task.
+/// Task of a command.
 #[derive(Args, Debug)]
 #[group(required = true, multiple = false)]
 pub struct TaskArgs {
-    /// The task file
+    /// Task file
     task: Option<PathBuf>,
     #[arg(long, value_name = "NAME", help = HELP, value_parser = example())]
     example: Option<String>,

@@ -14,52 +14,52 @@ pub type ValueTable<T> = [(&'static str, T, &'static str)];
 
 /// Levels of effort.
 pub static EFFORTS: [(&str, Effort, &str); 3] = [
-    ("draft", Effort::Draft, "A first look"),
+    ("draft", Effort::Draft, "Fast, for a first impression"),
     ("standard", Effort::Standard, "Enough for most tasks"),
-    (
-        "thorough",
-        Effort::Thorough,
-        "Longer: the network in every rollout, more replays to tell robustness",
-    ),
+    ("thorough", Effort::Thorough, "Slower: the network in every rollout, more perturbed replays"),
 ];
 
 /// Policies outside of a model's range.
 pub static OUT_OF_RANGE: [(&str, OutOfRange, &str); 3] = [
-    ("simulate", OutOfRange::Simulate, "Simulate in the plane instead"),
+    ("simulate", OutOfRange::Simulate, "Simulate in 2-D instead"),
     ("warn", OutOfRange::Warn, "Predict and warn"),
-    ("refuse", OutOfRange::Refuse, "Give no prediction; exit code 6"),
+    ("refuse", OutOfRange::Refuse, "Decline to predict; exit code 6"),
 ];
 
 /// Views of the table on a page.
 pub static VIEWS: [(&str, PageView, &str); 2] = [
-    ("2d", PageView::Above, "A drawing from above"),
-    ("3d", PageView::Solid, "The same, and a scene to look at from all sides"),
+    ("2d", PageView::Above, "Drawing from above"),
+    ("3d", PageView::Solid, "Drawing from above, and a 3-D scene that can be rotated"),
 ];
 
 /// Simulation engines.
 pub static ENGINES: [(&str, Engine, &str); 3] = [
-    ("planar", Engine::Planar, "Top-down, fast"),
-    ("3d", Engine::Spatial, "Full 3-D"),
+    ("planar", Engine::Planar, "2-D engine, fast"),
+    ("3d", Engine::Spatial, "3-D engine"),
     (
         "3d-upright",
         Engine::Upright,
-        "3-D, but nothing tips: the physics of the plane in other code",
+        "3-D engine without tipping: the 2-D physics in independent code",
     ),
 ];
 
 /// Rules for choosing exploratory pushes.
 pub static PROBES: [(&str, ProbeRule, &str); 5] = [
-    ("task", ProbeRule::Task, "Tells apart the samples in which different plans work"),
-    ("information", ProbeRule::Information, "Tells the most, whatever the task"),
-    ("random", ProbeRule::Random, "By chance"),
-    ("uncertain", ProbeRule::Uncertain, "At the pair whose joint is least certain"),
-    ("motion", ProbeRule::Motion, "Moves objects farthest"),
+    ("task", ProbeRule::Task, "Distinguish the samples in which different plans work"),
+    ("information", ProbeRule::Information, "Gain the most information, regardless of the task"),
+    ("random", ProbeRule::Random, "Choose at random"),
+    ("uncertain", ProbeRule::Uncertain, "Push the pair with the least certain joint"),
+    ("motion", ProbeRule::Motion, "Move objects farthest"),
 ];
 
 /// Layouts of the cylinder's starts in the tool benchmark.
 pub static LAYOUTS: [(&str, Layout, &str); 2] = [
-    ("grid", Layout::Grid, "On the reference's grid, where flat faces meet it nearly always"),
-    ("scattered", Layout::Scattered, "Anywhere within its cell of that grid"),
+    (
+        "grid",
+        Layout::Grid,
+        "On the reference grid, where flat faces nearly always meet the cylinder",
+    ),
+    ("scattered", Layout::Scattered, "At random within the cell of the reference grid"),
 ];
 
 /// Returns a parser of the words of a table.
@@ -70,6 +70,6 @@ where
     let values = table.iter().map(|(word, _, meaning)| PossibleValue::new(*word).help(*meaning));
     PossibleValuesParser::new(values).try_map(|given| {
         let known = table.iter().find(|(word, ..)| *word == given);
-        known.map(|(_, value, _)| value.clone()).ok_or_else(|| format!("`{given}` is not known"))
+        known.map(|(_, value, _)| value.clone()).ok_or_else(|| format!("unknown value `{given}`"))
     })
 }

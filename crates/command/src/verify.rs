@@ -25,38 +25,38 @@ use super::{
 /// Estimated duration above which replays are announced, seconds.
 const LONG: f64 = 20.0;
 
-/// Replay a plan in both simulations, as written and disturbed
+/// Verify a plan by nominal and perturbed replays in the 2-D and the 3-D engine
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Exit code 0: it passes; that is, it keeps the rules of its task, its replays as written reach
-the goal in both simulations, and so does the share of disturbed ones that the task asks for. 7: only
-the disturbed ones fail. 5: it does not work.
+    after_help = "Exit code 0: the plan passes. It keeps the rules of its task, its nominal \
+replays reach the goal in both engines, and so does the required share of its perturbed replays. \
+7: only the perturbed replays fail. 5: the plan does not work.
 
 Example:
   pushplan verify plans/pull-back.plan.json --replays 64"
 )]
 pub struct VerifyArgs {
-    /// The plan file; it holds the task and the tool as well
+    /// Plan file, which also contains the task and the tools
     plan: PathBuf,
-    /// Disturbed replays in each simulation, at least; up to 64 are made as long as it is not clear
-    /// whether enough of them reach the goal, and none in 3-D if too few clearly do in the plane
+    /// Minimum number of perturbed replays per engine; up to 64 until the verdict is clear. 3-D
+    /// replays are skipped if too few clearly succeed in 2-D
     #[arg(long, value_name = "N", default_value_t = 8,
           value_parser = clap::value_parser!(u32).range(0..=100_000))]
     replays: u32,
-    /// Share of the disturbed replays that must reach the goal, 0 to 1 [default: what the task
-    /// says]
+    /// Share of the perturbed replays that must reach the goal, 0 to 1 [default: `robustness` of
+    /// the task]
     #[arg(long, value_name = "SHARE", value_parser = share)]
     robustness: Option<f64>,
-    /// Stop after this time, with whatever is done by then
+    /// Time limit in seconds, after which the finished replays are reported
     #[arg(long, value_name = "SECONDS", value_parser = time_limit)]
     time_limit: Option<Duration>,
-    /// Seed of the disturbances
+    /// Seed of the perturbations
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
     /// Folder for a page that plays the replays, named after the task
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// What the page shows
+    /// View on the page
     #[arg(long, value_parser = possible_values(&VIEWS), value_name = "VIEW", default_value = "2d", requires = "out")]
     page: PageView,
     #[command(flatten)]
@@ -76,8 +76,8 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     let seconds = verifier.seconds(&file.task.scene, &file.plan) / session.threads() as f64;
     if seconds > LONG {
         session.warn(&format!(
-            "replaying this plan takes about {seconds:.0} s; Ctrl-C or `--time-limit` stops it, \
-             `--replays 0` makes it shorter"
+            "replaying this plan takes about {seconds:.0} s; stop it with Ctrl-C or \
+             `--time-limit`, or shorten it with `--replays 0`"
         ));
     }
     let verdict =

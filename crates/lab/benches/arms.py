@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Which of the shipped tasks arms can do, and whether Pinocchio agrees.
+"""Counts the shipped tasks that arms can execute, and checks their plans with Pinocchio.
 
     pip install pin example-robot-data pyyaml mujoco
     python3 crates/lab/benches/arms.py --program target/release/pushplan --out arms [--mujoco]
@@ -115,7 +115,7 @@ class Judge:
                     off, turned = self.off(pose, step, length)
                     worst = max(worst, off)
                     if off > OFF or turned > TURNED:
-                        found.append(f"off by {off * 1e3:.2f} mm, {math.degrees(turned):.2f} deg")
+                        found.append(f"error {off * 1e3:.2f} mm, {math.degrees(turned):.2f} deg")
             ends = [points[begin]["positions"], points[end]["positions"]]
             goals = [np.array(step["start"]), np.array(step["start"]) + step["length"] * heading(step)]
             for q, goal in zip(ends, goals):
@@ -170,9 +170,9 @@ def main():
     parser.add_argument("--out", type=Path, default=Path("arms"))
     parser.add_argument("--arms", default=",".join(ARMS))
     parser.add_argument("--flanges", default=",".join(map(str, FLANGES)))
-    parser.add_argument("--only", help="tasks whose names contain this")
+    parser.add_argument("--only", help="only tasks with this text in the name")
     parser.add_argument("--effort", default="standard")
-    parser.add_argument("--mujoco", action="store_true", help="carry the plans out in MuJoCo, too")
+    parser.add_argument("--mujoco", action="store_true", help="also execute the plans in MuJoCo")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     folder, more = robots(), ["--effort", options.effort]

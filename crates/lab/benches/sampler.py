@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""The whole of `pushplan solve` against a search by sampling in MuJoCo: cost, and where both plans end.
+"""Compares `pushplan solve` with a sampling search in MuJoCo: cost, and errors of both plans.
 
     crates/lab/benches/sampler.py [--seed 1]
 
-The sampler has the same tools, grips and kinds of pushes: 500 random ones are rolled out at 4 ms with MuJoCo's
-usual contacts, then 96 around the best eight; the nearest is its plan, of one push, and nothing is verified. Its
-time is that of its rollouts alone, without the compilation of models; ours is all of the command, verification
-and page included. Both plans are judged where neither was made, in the exported scene at 0.25 ms. Needs what
-`python.py rollout` needs.
+The sampler has the same tools, grips and kinds of pushes. It rolls out 500 random pushes with a step of 4 ms and the
+usual contacts of MuJoCo, then 96 pushes around the best eight. Its plan is the push nearest to the goal, without
+verification. Its time contains only the rollouts, without the compilation of models. The time of `pushplan solve`
+contains verification and the page. Both plans are evaluated in the exported scene with a step of 0.25 ms. The
+requirements are the same as for `python.py rollout`.
 """
 
 import argparse
@@ -109,7 +109,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
-    print("| task | sampler | solve | cheaper | the sampler's, as it thinks | in exact contacts | ours there |")
+    print("| task | sampler | solve | factor | error of the sampler, predicted | with exact contacts | error of `solve` |")
     print("| --- | --: | --: | --: | --: | --: | --: |")
     ratios = []
     for name in TASKS:
@@ -125,7 +125,7 @@ def main():
         exact = [rolled([one], step=EXACT)[0][0] for one in (best, ours)]
         numbers = [f"{seconds:.2f} s", f"{own:.3f} s", f"{ratios[-1]:.0f}", *map(said, [thinks, *exact])]
         print(f"| {name} | " + " | ".join(numbers) + " |", flush=True)
-    print(f"\nCheaper by {statistics.median(ratios):.0f} in the median.")
+    print(f"\nMedian factor {statistics.median(ratios):.0f}.")
 
 
 if __name__ == "__main__":

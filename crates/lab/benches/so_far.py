@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How long people wait for a first plan: until `pushplan solve` shows one in a terminal, or is done.
+"""Measures the time until `pushplan solve` shows a first plan in a terminal, or ends.
 
     crates/lab/benches/so_far.py            # the shipped tasks; PUSHPLAN names another binary
 
@@ -46,7 +46,7 @@ def main():
         print(f"{name}: {1e3 * first:.0f} of {1e3 * whole:.0f} ms")
     firsts = [first for _, first, _ in rows]
     soon = sum(first <= 0.1 for first in firsts)
-    print(f"{len(rows)} tasks: {1e3 * statistics.median(firsts):.0f} ms in the median, {soon} within 100 ms")
+    print(f"{len(rows)} tasks: median {1e3 * statistics.median(firsts):.0f} ms, {soon} within 100 ms")
 
 
 if __name__ == "__main__":

@@ -48,7 +48,7 @@ struct Arguments {
     /// Write every case to this file before it runs: for one that ends the process
     #[arg(long, value_name = "FILE")]
     current: Option<PathBuf>,
-    /// Where failing files are written
+    /// Folder for failing files
     #[arg(long, value_name = "DIR", default_value = "crates/lab/fuzz/found")]
     found: PathBuf,
 }

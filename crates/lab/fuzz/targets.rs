@@ -23,7 +23,7 @@ pub enum Target {
     Blade,
     LeverTask,
     LeverPlan,
-    /// Of other programs: MJCF and URDF.
+    /// Files of other programs: MJCF and URDF.
     Foreign,
 }
 

@@ -7,7 +7,7 @@ use crate::{error::CliError, exit_code, session::Session};
 use super::suite::SuiteArgs;
 use super::{saved, status, tasks, tools};
 
-/// Measure tool selection and suites of tasks
+/// Benchmark tool selection and task suites
 #[derive(Args, Debug)]
 pub struct BenchArgs {
     #[command(subcommand)]

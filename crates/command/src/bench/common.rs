@@ -13,7 +13,7 @@ use pushplan::effect::EffectModel;
 use pushplan::scene::{ModelKind, ModelSpec, Models};
 use pushplan::solve::{Effort, Planner, PlannerBuilder};
 
-/// What every benchmark takes.
+/// Arguments of every benchmark.
 #[derive(Args, Debug)]
 pub struct Common {
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]

@@ -19,20 +19,22 @@ const PAGE: &str = "report.html";
 const ROWS: &str = "tasks.csv";
 
 /// Section of `--help` for saved benchmarks.
-pub const HELP: &str = "With --out every finished task is kept as soon as those before it are: \
-after an interruption (Ctrl-C) the same command goes on.
-manifest.json and records.jsonl are then the same bytes as without interruption; times.jsonl holds
-the wall times, which differ. --shard 2/3 measures every third task, for example on another machine;
-`merge OUT SHARD...` puts the parts together as one run would have left them, `status SHARD...` says
-which are missing, and `report DIR...` shows them again.";
+pub const HELP: &str = "With --out, each finished task is saved as soon as all earlier tasks are \
+saved. After an interruption (Ctrl-C), rerun the same command to resume. manifest.json and \
+records.jsonl are then byte-identical to an uninterrupted run; times.jsonl contains the wall \
+times, which differ.
 
-/// Where results are kept.
+--shard 2/3 measures every third task, for example on another machine. `merge OUT SHARD...` \
+combines the shards into the files of a single run, `status SHARD...` lists missing shards, and \
+`report DIR...` reports saved runs.";
+
+/// Storage of the results.
 #[derive(Args, Debug)]
 pub struct KeepArgs {
-    /// Folder that keeps every task's result, a report (HTML) and a table (CSV)
+    /// Folder for the result of every task, a report (HTML) and a table (CSV)
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Measure only part I of N
+    /// Measure only shard I of N
     #[arg(long, value_name = "I/N", requires = "out")]
     shard: Option<Shard>,
 }
@@ -92,8 +94,8 @@ impl KeepArgs {
         following.finish()?;
         match measured {
             Err(CliError::Interrupted(message)) => Err(CliError::Interrupted(match &self.out {
-                Some(_) => format!("{message}; the same command goes on from there"),
-                None => format!("{message}; with --out DIR they would have been kept"),
+                Some(_) => format!("{message}; rerun the same command to resume"),
+                None => format!("{message}; results are saved only with --out DIR"),
             })),
             measured => measured.map(|()| store),
         }
@@ -153,14 +155,14 @@ impl From<StoreError> for CliError {
             StoreError::Cancelled { .. } => Self::Interrupted(message),
             StoreError::Write(faults) => Self::Output(faults),
             StoreError::OtherRun { .. } | StoreError::Stray { .. } => {
-                Self::usage(message, "the same command as before goes on with an unfinished run")
+                Self::usage(message, "to resume an unfinished run, repeat its command exactly")
             }
             StoreError::DuplicateShard { .. }
             | StoreError::MissingShards { .. }
             | StoreError::Occupied { .. }
             | StoreError::NothingToMerge => Self::usage(
                 message,
-                "name a new folder, then those of all shards: merge OUT SHARD...",
+                "name a new folder, then the folders of all shards: merge OUT SHARD...",
             ),
             StoreError::Manifest { .. }
             | StoreError::Damaged { .. }

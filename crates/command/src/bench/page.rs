@@ -13,10 +13,10 @@ use pushplan_bench::store::RunManifest;
 use pushplan_bench::{End, SolvedTask};
 use pushplan_report::{PageView, TaskSource};
 
-/// Which task, and the tools that it was solved with.
+/// Task of the page, and the tools of its plan.
 #[derive(Args, Debug)]
 pub struct PageArgs {
-    /// A task file of the run whose plan a page is to play
+    /// Task file of the run; also write a page that plays its plan
     #[arg(long, value_name = "TASK", requires = "out")]
     page: Option<PathBuf>,
     #[command(flatten)]
@@ -48,16 +48,16 @@ impl PageArgs {
         let task = load_task(path, &library)?;
         let found = solved.find(|record| record.task == task.name);
         let record = found.ok_or_else(|| {
-            let message = format!("the run holds no task `{}`", task.name);
-            CliError::usage(message, "name the file of a task that was measured")
+            let message = format!("the run contains no task `{}`", task.name);
+            CliError::usage(message, "name the file of a measured task")
         })?;
         let plan = record.plan.clone().ok_or_else(|| {
-            let message = format!("no push can be made in `{}`, so there is no plan", task.name);
+            let message = format!("`{}` has no plan, because no push is possible", task.name);
             CliError::usage(message, "name another task")
         })?;
         let tool = library.get(plan.tool()).ok_or_else(|| {
-            let message = format!("the plan uses the tool `{}`, which is not here", plan.tool());
-            CliError::usage(message, "give the --tools or --more-tools of the run")
+            let message = format!("the plan uses the unknown tool `{}`", plan.tool());
+            CliError::usage(message, "repeat --tools or --more-tools of the run")
         })?;
         let replays = run.settings["budget"]["replays"].as_u64().unwrap_or(0) as usize;
         let verifier = Verifier::new(VerifySettings { replays, seed }).until_clear();
@@ -67,8 +67,8 @@ impl PageArgs {
         let end = |engine| verdict.nominal(engine).map(|evidence| End::of(&evidence.outcome));
         if [record.planar, record.spatial] != Engine::ALL.map(end) {
             return Err(CliError::usage(
-                format!("the replays of `{}` end elsewhere than in the run", task.name),
-                "name exactly the task and tools that were measured, and use the same program",
+                format!("the replays of `{}` end differently than in the run", task.name),
+                "use exactly the task, the tools and the program version of the run",
             ));
         }
         let models: Option<Models> = run.model.parse().ok();

@@ -15,14 +15,14 @@ use super::suite::{Suite, load};
 use super::tasks::TasksArgs;
 use super::tools::ToolsArgs;
 
-/// Put the shards of a benchmark together: the same bytes as one run
+/// Merge the shards of a benchmark into the files of a single run
 #[derive(Args, Debug)]
 #[command(after_help = "Example:
   pushplan bench tools --out part-1 --shard 1/2      # here
   pushplan bench tools --out part-2 --shard 2/2      # there
   pushplan bench merge whole part-1 part-2")]
 pub struct MergeArgs {
-    /// Folder for the merged run; must hold none
+    /// Folder for the merged run; it must not contain a run
     #[arg(value_name = "OUT")]
     out: PathBuf,
     /// Folders of all shards, in any order
@@ -32,7 +32,7 @@ pub struct MergeArgs {
     form: Form,
 }
 
-/// Show runs that are kept in folders; several of one suite side by side
+/// Report saved runs; several runs of one suite are shown side by side
 #[derive(Args, Debug)]
 pub struct ReportArgs {
     /// Folders of runs
@@ -95,8 +95,8 @@ pub fn merge(args: &MergeArgs, suites: &[Kept], session: &Session) -> Result<(),
     let whole = merge_runs(out, shards, store::Form::Lines, &mut line_index)?;
     if kept.is_some_and(|kept| kept.document.is_none()) {
         return session.print(&format!(
-            "{} units in {}; the command of the shards with this folder and without --shard shows \
-             the results\n",
+            "merged {} units into {}; for the results, run the command of the shards with --out \
+             set to this folder and without --shard\n",
             whole.tasks,
             out.display()
         ));
@@ -131,19 +131,19 @@ fn document(suites: &[Kept], runs: &[PathBuf]) -> Result<Document, CliError> {
     if let Some(other) = names.iter().position(|other| other != suite) {
         return Err(CliError::usage(
             format!(
-                "{} holds the suite `{}`, {} `{suite}`",
+                "{} contains a run of suite `{}`, but {} a run of suite `{suite}`",
                 runs[other].display(),
                 names[other],
                 runs[0].display()
             ),
-            "show each suite by itself",
+            "report each suite separately",
         ));
     }
     match known(suites, &runs[0])?.document {
         Some(document) => document(runs),
         None => Err(CliError::usage(
-            format!("the report of the suite `{suite}` needs more than is kept"),
-            "repeat the command of the run, with its --out: it measures only what is missing",
+            format!("suite `{suite}` cannot be reported from its saved records alone"),
+            "rerun the command of the run with its --out; it measures only missing cases",
         )),
     }
 }
@@ -153,7 +153,7 @@ fn known<'a>(suites: &'a [Kept], dir: &Path) -> Result<&'a Kept, CliError> {
     let name = RunManifest::expect(dir)?.suite;
     suites.iter().find(|kept| kept.suite == name).ok_or_else(|| {
         CliError::File(format!(
-            "{} holds a suite that this program does not know: `{name}`",
+            "{} contains a run of suite `{name}`, which this program does not support",
             dir.display()
         ))
     })
@@ -168,13 +168,13 @@ fn page(
     session: &Session,
 ) -> Result<PathBuf, CliError> {
     let [dir] = &args.runs[..] else {
-        return Err(CliError::usage("a page is of one run", "name one folder"));
+        return Err(CliError::usage("--page needs exactly one run", "name one folder"));
     };
     let kept = known(suites, dir)?;
     let Some((run, seed, solved)) = (kept.solved)(dir)? else {
         return Err(CliError::usage(
-            format!("runs of the suite `{}` are not of single plans", kept.suite),
-            "leave out --page",
+            format!("runs of suite `{}` contain no plans for a page", kept.suite),
+            "omit --page",
         ));
     };
     args.page.write(task, out, session, (&run, seed), solved.iter())

@@ -7,11 +7,12 @@ use clap::Args;
 use crate::{error::CliError, session::Session};
 use pushplan_bench::store::RunStatus;
 
-/// Say which shards of a run are missing or unfinished, as array jobs take them: `3,7-9`
+/// List missing and unfinished shards of a run in the format of array jobs, such as `3,7-9`
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Prints nothing on stdout if all are finished, and on stderr how far the unfinished ones are.
-A folder that does not exist yet is that of a missing shard, as long as another one holds a run.
+    after_help = "Prints nothing on stdout if all shards are finished. Prints the progress of \
+unfinished shards on stderr. A folder that does not exist counts as a missing shard if another \
+folder contains a run.
 
 Examples:
   pushplan bench status runs/tools-shards/*

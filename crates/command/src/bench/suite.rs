@@ -137,8 +137,6 @@ pub fn load<R: Serialize + DeserializeOwned>(dirs: &[PathBuf]) -> Result<Vec<Run
 pub fn only<R>(runs: &[Run<R>]) -> Result<&Run<R>, CliError> {
     match runs {
         [run] => Ok(run),
-        _ => {
-            Err(CliError::usage("runs of this suite are not shown side by side", "name one folder"))
-        }
+        _ => Err(CliError::usage("runs of this suite cannot be shown together", "name one folder")),
     }
 }

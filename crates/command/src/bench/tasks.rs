@@ -22,19 +22,19 @@ use super::common::Common;
 use super::keep::{self, KeepArgs, tools_digest, value_digest, weights_digest};
 use super::suite::{Cases, Measure, Run, Suite, only};
 
-/// Solve task files one after another: success, errors and time of each
+/// Solve task files in sequence, and report success, error and time of each
 #[derive(Args, Debug)]
 #[command(after_help = keep::HELP)]
 pub struct TasksArgs {
     #[command(flatten)]
     common: Common,
-    /// The task files
+    /// Task files
     #[arg(required = true, value_name = "TASK")]
     tasks: Vec<PathBuf>,
-    /// How hard to try
+    /// Search effort
     #[arg(long, value_parser = possible_values(&EFFORTS), default_value = "standard")]
     effort: Effort,
-    /// Seed of refinement's samples and of the disturbed replays
+    /// Seed of the refinement samples and the perturbed replays
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
 }

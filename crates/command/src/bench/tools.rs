@@ -24,43 +24,43 @@ use pushplan_report::{Document, single_document, tools_document};
 use super::keep::{self, KeepArgs, value_digest, weights_digest};
 use super::suite::{Cases, Measure, Run, Suite, SuiteArgs, only};
 
-/// The reference tool benchmark: choose a tool, pushes and a stop for a goal
+/// Run the reference tool benchmark: choose a tool, pushes and a stopping point for each goal
 #[derive(Args, Debug)]
 #[command(after_help = keep::HELP)]
 pub struct ToolsArgs {
-    /// Effect model of all rows; by default the network, and for the planner that of the effort
+    /// Effect model of all rows [default: the network; for the planner, the models of the effort]
     #[arg(long, value_name = "MODEL")]
     model: Option<Models>,
     #[command(flatten)]
     out_of_range: OutOfRangeArgs,
-    /// Where the cylinder starts
+    /// Start positions of the cylinder
     #[arg(long, value_parser = possible_values(&LAYOUTS), default_value = "grid")]
     layout: Layout,
-    /// The pushes
+    /// Pushes of a task
     #[arg(long, value_enum, default_value_t)]
     form: FormName,
-    /// How hard the planner tries
+    /// Search effort of the planner
     #[arg(long, value_parser = possible_values(&EFFORTS), default_value = "standard")]
     effort: Effort,
-    /// Number of tasks of single pushes
+    /// Number of tasks with --form single
     #[arg(long, value_name = "N", default_value_t = 10_000,
           value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     tasks: u32,
-    /// Seed of the random choices, and of the tasks of single pushes
+    /// Seed of the random choices, and of the tasks with --form single
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
-    /// Make the goals of the layout again, write them to this file, and stop
+    /// Regenerate the goals of the layout, write them to this file, and exit
     #[arg(long, value_name = "FILE")]
     make_goals: Option<PathBuf>,
 }
 
-/// The pushes.
+/// Pushes of a task.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 enum FormName {
-    /// Three one after another from a fixed home
+    /// Three consecutive pushes from a fixed home position
     #[default]
     Chained,
-    /// One, with start and goal at random (the earlier form)
+    /// Single push with random start and goal (the earlier form)
     Single,
 }
 
@@ -83,8 +83,8 @@ pub fn run(args: &SuiteArgs<ToolsArgs>, session: &Session) -> Result<(), CliErro
     }
     if args.keep.out.is_some() {
         return Err(CliError::usage(
-            "single pushes take seconds; they are neither kept nor sharded",
-            "leave --out out, or --form single",
+            "single pushes are neither saved nor sharded, because they take only seconds",
+            "omit --out or --form single",
         ));
     }
     let model = tools.out_of_range.load(&tools.spec())?;
@@ -113,7 +113,7 @@ impl Suite for ToolsArgs {
         let layout = self.layout;
         let setup = ReferenceSetup::new(layout);
         let goals = GoalSet::shipped(layout)
-            .map_err(|error| CliError::unexpected("the shipped goals are broken", &error))?;
+            .map_err(|error| CliError::unexpected("cannot read the shipped goals", &error))?;
         let spec = self.spec();
         let model = self.out_of_range.load(&spec)?;
         let effort = self.effort;

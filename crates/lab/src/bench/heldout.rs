@@ -139,7 +139,7 @@ impl HeldOut {
     /// Compares the 2-D engine with itself, every object's start shifted by 0.1 mm in a random
     /// direction. No model can be expected to have smaller errors.
     pub fn spread(&self) -> HeldOutErrors {
-        self.judge("planar, start off by 0.1 mm", |trial, index| {
+        self.judge("planar, start shifted by 0.1 mm", |trial, index| {
             let mut rng = generator(self.seed ^ 0xD157, index as u64);
             let job = trial.job();
             let start = shifted_start(&job.start, &job.physics, PERTURBATION, &mut rng);

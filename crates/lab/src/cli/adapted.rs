@@ -16,24 +16,23 @@ use rayon::prelude::*;
 use crate::bench::{adapted_rows, measure_split, splits};
 use crate::report::adapted_document;
 
-/// Errors on recorded pushes of a network that was fitted to others of the same table
+/// Measure errors of a network on recorded pushes, after a fit to other pushes on the same table
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Every folder is a set, of one object or support. New pushes are drawn from \
-all sets together; then
-each set is left out in turn."
+    after_help = "Every folder is a set of one object or support. In the first part, test pushes \
+are drawn from all sets together; in the second part, each set is left out of the fit in turn."
 )]
 pub struct AdaptedArgs {
     /// Folders of recordings
     #[arg(required = true, value_name = "RECORDINGS")]
     recordings: Vec<PathBuf>,
-    /// Weights file of the network [default: the shipped one]
+    /// Weights file of the network, or `network` for the shipped weights
     #[arg(long, value_name = "MODEL", default_value = model::DEFAULT)]
     model: ModelSpec,
-    /// Numbers of pushes to learn from
+    /// Numbers of training pushes
     #[arg(long, value_name = "N", value_delimiter = ',', default_value = "20,50,100")]
     learn: Vec<usize>,
-    /// Random draws of each number
+    /// Number of random draws for each number of training pushes
     #[arg(long, value_name = "N", default_value_t = 5)]
     draws: u32,
     /// Seed of the draws
@@ -53,10 +52,10 @@ pub fn run(args: &AdaptedArgs, session: &Session) -> Result<u8, CliError> {
         ranges.push((set.title.clone(), first..trials.len()));
     }
     let Some(weights) = model::weights(&args.model)? else {
-        return Err(CliError::usage("only a network has a head", "use --model network"));
+        return Err(CliError::usage("only a network can be fitted", "use --model network"));
     };
     let ModelKind::Network { .. } = args.model.first().kind else {
-        return Err(CliError::usage("only a network has a head", "use --model network"));
+        return Err(CliError::usage("only a network can be fitted", "use --model network"));
     };
     let network = Network::new(weights);
     let splits = splits(&ranges, &args.learn, args.draws, args.seed);
@@ -65,7 +64,7 @@ pub fn run(args: &AdaptedArgs, session: &Session) -> Result<u8, CliError> {
         splits.par_iter().map(of).collect::<Result<Vec<_>, _>>()
     });
     let measured =
-        measured.map_err(|error| CliError::unexpected("cannot name the weights", &error))?;
+        measured.map_err(|error| CliError::unexpected("cannot identify the weights", &error))?;
     let found: Vec<_> = splits
         .iter()
         .zip(measured)

@@ -17,7 +17,7 @@ use super::{
     masses, probes, random, refinement, rest_of_way, tradeoff, train,
 };
 
-/// Measures what pushplan publishes: errors, costs, success, beliefs and trade-offs.
+/// Measures the published results of pushplan: errors, costs, success, beliefs and trade-offs.
 #[derive(Debug, Parser)]
 #[command(name = "pushplan-lab", version, max_term_width = 100, after_help = exit_code::HELP)]
 struct Cli {
@@ -57,7 +57,7 @@ const GROUPS: Groups = &[
     ("Planning", &["random", "run", "refinement", "tradeoff"]),
     ("Belief", &["joints", "rest-of-way", "masses", "probes"]),
     ("Levering", &["levers", "lever-tasks", "lever-points", "hdd", "convergence", "train"]),
-    ("Runs that are kept", &["merge", "status", "report"]),
+    ("Saved runs", &["merge", "status", "report"]),
 ];
 
 /// Runs the command with the given arguments, the program's name first, and returns its exit code.

@@ -11,13 +11,13 @@ use pushplan_learn::dataset::LeverPreset;
 use crate::bench::convergence;
 use crate::report::convergence_document;
 
-/// Compare simulated lever-ups in coarser and finer steps, and with the start a little off
+/// Compare simulated lever-ups with coarser and finer time steps, and with a perturbed start
 #[derive(Args, Debug)]
 pub struct ConvergenceArgs {
     /// Families of lever-ups [default: levers, levers-varied and hdd]
     #[arg(value_parser = possible_values(&LEVER_PRESETS), value_name = "FAMILY")]
     families: Vec<LeverPreset>,
-    /// Number of lever-ups of each family, every one of another shape
+    /// Number of lever-ups of each family, each with another shape
     #[arg(long, value_name = "N", default_value_t = 256,
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     cases: u32,

@@ -21,44 +21,45 @@ use crate::bench::{
 };
 use crate::report::{cost_document, crowd_cost_document, equation_document, far_document};
 
-/// Time one push by every model, and a search of one-push candidates
+/// Measure the time of one push by every model, and of a search of one-push candidates
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Times of one machine are compared, so there are no shards; it takes minutes at most."
+    after_help = "There are no shards, because only times on the same machine can be compared. The \
+measurement takes a few minutes at most."
 )]
 pub struct CostArgs {
     #[command(flatten)]
     common: Common,
     #[command(flatten)]
     form: Form,
-    /// The task that is searched
+    /// Task of the search
     #[arg(value_name = "TASK", required_unless_present_any = ["crowd", "far", "equations"])]
     task: Option<PathBuf>,
-    /// Time the network alone, on scenes of this many objects, some joined
+    /// Measure the network alone, on scenes with this many objects, some joined
     #[arg(long, value_name = "OBJECTS", num_args = 0..=1, default_missing_value = "10",
           conflicts_with = "task", value_parser = clap::value_parser!(u16).range(2..=12))]
     crowd: Option<u16>,
-    /// Time pushes with up to 100 objects that they cannot touch, and draw the curves
+    /// Measure pushes with up to 100 objects out of reach of the push, and draw the curves
     #[arg(long, conflicts_with_all = ["task", "crowd"])]
     far: bool,
-    /// Count and time what the prior's equations take, with 1 to 12 objects, free and jointed
+    /// Count and time the equations of the analytic model with 1 to 12 objects, free and jointed
     #[arg(long, conflicts_with_all = ["task", "crowd", "far"])]
     equations: bool,
     /// Folder for far.svg, the curves of --far
     #[arg(long, value_name = "DIR", requires = "far")]
     out: Option<PathBuf>,
-    /// Most candidates of the search
+    /// Maximum number of candidates of the search
     #[arg(long, value_name = "N", default_value_t = 500,
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     candidates: u32,
-    /// Lateral offsets per face; by default those of the standard effort
+    /// Number of lateral offsets per face [default: as for the effort `standard`]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=999))]
     offsets: Option<u16>,
-    /// Pushes predicted together
+    /// Number of pushes predicted together
     #[arg(long, value_name = "N", default_value_t = 64,
           value_parser = clap::value_parser!(u16).range(1..=4096))]
     batch: u16,
-    /// Pushes that are timed
+    /// Number of timed pushes
     #[arg(long, value_name = "N", default_value_t = 32,
           value_parser = clap::value_parser!(u16).range(1..=4096))]
     pushes: u16,
@@ -102,9 +103,8 @@ pub fn run(args: &CostArgs, session: &Session) -> Result<(), CliError> {
 
 fn crowd_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     let objects = args.crowd.map_or(10, usize::from);
-    let weights = model::weights(&args.common.model_or_network())?.ok_or_else(|| {
-        CliError::usage("only a network can be timed on a crowd", "leave --model out")
-    })?;
+    let weights = model::weights(&args.common.model_or_network())?
+        .ok_or_else(|| CliError::usage("--crowd needs a network", "omit --model"))?;
     let spinner = session.spinner("timing");
     let cases = crowd_cases(objects, args.seed, usize::from(args.pushes));
     let networks = inference_costs(&weights, &cases, &NETWORK_BATCHES);
@@ -121,9 +121,8 @@ fn equation_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
 }
 
 fn far_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
-    let weights = model::weights(&args.common.model_or_network())?.ok_or_else(|| {
-        CliError::usage("only a network leaves out what it cannot touch", "leave --model out")
-    })?;
+    let weights = model::weights(&args.common.model_or_network())?
+        .ok_or_else(|| CliError::usage("--far needs a network", "omit --model"))?;
     if let Some(out) = &args.out {
         output::prepare(out)?;
     }

@@ -19,29 +19,29 @@ use crate::bench::{LeverBaseline, Neighbour, drive_report};
 use crate::cli::levers::Named;
 use crate::report::hdd_document;
 
-/// Compare models of boards levered out of drives with the 3-D engine, on drives that none has seen
+/// Measure models of boards levered out of drives against the 3-D engine, on unseen drives
 #[derive(Args, Debug)]
-#[command(after_help = "Networks learn of drives by
+#[command(after_help = "To train a network on drives:
   pushplan-learn generate data/hdd --preset hdd --episodes 500 --seed 1
   pushplan-learn generate data/hdd-held-out --preset hdd --episodes 1000 --seed 3
   pushplan-lab train memory runs/hdd --data data/hdd --held-out data/hdd-held-out
   pushplan-lab hdd --network runs/hdd/best.safetensors")]
 pub struct HddArgs {
-    /// Number of lever-ups, four on a drive
+    /// Number of lever-ups, four per drive
     #[arg(long, value_name = "N", default_value_t = 1000,
           value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     cases: u64,
     /// Seed of the drives
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
-    /// Number of lever-ups that models without physics remember
+    /// Number of remembered lever-ups, for models without physics
     #[arg(long, value_name = "N", default_value_t = 500,
           value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     known: u64,
-    /// Their seed; must differ from that of the others
+    /// Seed of the remembered lever-ups; it must differ from --seed
     #[arg(long, value_name = "N", default_value_t = 1)]
     known_seed: u64,
-    /// Weights of networks that learned of drives
+    /// Weights of networks trained on drives
     #[arg(long, value_name = "FILE", num_args = 1..)]
     network: Vec<PathBuf>,
     #[command(flatten)]
@@ -50,7 +50,7 @@ pub struct HddArgs {
 
 pub fn run(args: &HddArgs, session: &Session) -> Result<(), CliError> {
     if args.seed == args.known_seed {
-        let message = "the lever-ups that are remembered have the seed of the others";
+        let message = "remembered lever-ups and tested lever-ups have the same seed";
         return Err(CliError::usage(message, "choose another --known-seed"));
     }
     let load = |path: &PathBuf| Named::load(path, true);

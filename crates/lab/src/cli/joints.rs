@@ -24,7 +24,7 @@ use crate::cli::kept::cases_of;
 use crate::cli::value_enums::{FAMILIES, SIGHTINGS};
 use crate::report::joints_document;
 
-/// Infer joints from observed crowds, and predict the rest of the way under each belief
+/// Infer joints from observed crowds, and predict the remaining motion under each belief
 #[derive(Args, Debug)]
 #[command(after_help = format!("Examples:
   pushplan-lab joints --count 50 --out runs/joints
@@ -38,13 +38,13 @@ pub struct JointsArgs {
     /// Numbers of objects
     #[arg(long, value_name = "N", num_args = 1.., default_value = "9")]
     objects: Vec<usize>,
-    /// Joints between near neighbours
+    /// Types of joints between near neighbours
     #[arg(long, value_parser = possible_values(&JOINTS[1..]), default_value = "mixed")]
     joints: JointRule,
-    /// How things are seen; may be given several times [default: in all ways]
+    /// Quality of the observations; several are possible [default: all]
     #[arg(long, num_args = 1.., value_parser = possible_values(&SIGHTINGS), value_name = "HOW")]
     seen: Vec<Sighting>,
-    /// Trajectories of each
+    /// Number of trajectories of each set
     #[arg(long, value_name = "N", default_value_t = 200,
           value_parser = clap::value_parser!(u32).range(1..=100_000))]
     count: u32,
@@ -55,14 +55,14 @@ pub struct JointsArgs {
     #[arg(long, value_parser = possible_values(&ENGINES), value_name = "ENGINE",
           default_value = "planar")]
     engine: Engine,
-    /// Mislead the observer: friction values of objects 0.6 times, of the table 1.3 times what they
-    /// are, 0.6 kg for every mass
+    /// Give the observer wrong values: object friction 0.6 times and table friction 1.3 times the
+    /// true value, and 0.6 kg for every mass
     #[arg(long)]
     misled: bool,
-    /// Effect model that rolls out hypotheses and the rest of the way
+    /// Effect model for hypotheses and the remaining motion
     #[arg(long, value_name = "MODEL", default_value = "prior")]
     model: ModelSpec,
-    /// Do not predict the rest of the way, which takes most of the time
+    /// Infer types only; skip the prediction of the remaining motion, which takes most of the time
     #[arg(long)]
     types_only: bool,
     #[command(flatten)]
@@ -93,8 +93,8 @@ impl Suite for JointsArgs {
             .under(circumstances);
         if suite.cases().is_empty() {
             return Err(CliError::usage(
-                "no set has that many objects",
-                "sparse sets have 6, 9 or 12 objects, dense ones 6, 8 or 9",
+                "no set has this number of objects",
+                "sparse sets have 6, 9 or 12 objects, dense sets 6, 8 or 9",
             ));
         }
         let model = model::load(&self.model)?;

@@ -58,7 +58,7 @@ pub fn same_tasks<R>(runs: &[Run<R>]) -> Result<(), CliError> {
     match others.iter().find(|(run, _)| tasks(run) != tasks(&first.0)) {
         Some((other, _)) => Err(CliError::usage(
             format!(
-                "the runs are of different tasks: seed {}, {} tasks and seed {}, {} tasks",
+                "the runs have different tasks: seed {}, {} tasks and seed {}, {} tasks",
                 first.0.seed, first.0.tasks, other.seed, other.tasks
             ),
             "compare runs with the same --seed, --count, --kind, --shard and --tools",

@@ -15,7 +15,7 @@ use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverPreset};
 use crate::bench::point_report;
 use crate::report::lever_points_document;
 
-/// Lever points inferred from the first frames, and what they say of the rest
+/// Infer lever points from the first frames, and predict the remaining motion with them
 #[derive(Args, Debug)]
 pub struct LeverPointsArgs {
     /// Families of lever-ups [default: disc and pcb]

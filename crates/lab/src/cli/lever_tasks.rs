@@ -22,7 +22,7 @@ use crate::bench::{LeverRecord, LeverSuite};
 use crate::cli::tasks::save_tasks;
 use crate::report::lever_tasks_document;
 
-/// Solve generated tasks of levering: take the board out of a drive
+/// Solve generated levering tasks: take the board out of a drive
 #[derive(Args, Debug)]
 #[command(after_help = format!("Examples:
   pushplan-lab lever-tasks --count 50
@@ -37,14 +37,14 @@ pub struct LeverTasksArgs {
     /// Seed of the tasks
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
-    /// How hard to try
+    /// Search effort
     #[arg(long, value_parser = possible_values(&EFFORTS), default_value = "standard")]
     effort: Effort,
     #[arg(long, value_name = "MODEL", help = model::HELP_FOR_LEVERS)]
     model: Option<ModelSpec>,
     #[command(flatten)]
     library: LibraryArgs,
-    /// Also write the tasks to this folder, for `pushplan solve`
+    /// Also write the task files to this folder, for `pushplan solve`
     #[arg(long, value_name = "DIR")]
     save_tasks: Option<PathBuf>,
 }

@@ -21,7 +21,7 @@ use pushplan_learn::lever_model::{LeverModel, SimulatedLevers};
 use crate::bench::{LeverBaseline, Neighbour, lever_report, load_lever};
 use crate::report::levers_document;
 
-/// Models of lever-ups against the 3-D engine, on plates that none has seen
+/// Measure models of lever-ups against the 3-D engine, on unseen plates
 #[derive(Args, Debug)]
 pub struct LeversArgs {
     /// Families of lever-ups [default: levers and levers-varied]
@@ -34,24 +34,24 @@ pub struct LeversArgs {
     /// Seed of the lever-ups
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
-    /// Number of lever-ups that models without physics remember
+    /// Number of remembered lever-ups, for models without physics
     #[arg(long, value_name = "N", default_value_t = 1600,
           value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     known: u64,
-    /// Their seed; must differ from that of the others
+    /// Seed of the remembered lever-ups; it must differ from --seed
     #[arg(long, value_name = "N", default_value_t = 1)]
     known_seed: u64,
-    /// Weights of networks to measure as well as the shipped one, see `pushplan-lab train`
+    /// Weights of additional networks, see `pushplan-lab train`
     #[arg(long, value_name = "FILE", num_args = 1..)]
     network: Vec<PathBuf>,
-    /// Only plates of this many corners, of all lever-ups
+    /// Restrict to plates with this many corners
     #[arg(long, value_name = "N")]
     corners: Option<usize>,
-    /// As in the thesis, ask the lever-ups of --seed that `train memory --random-split` leaves; those
-    /// that it learns from are remembered
+    /// Split as in the thesis: test the lever-ups of --seed that `train memory --random-split`
+    /// leaves out, and remember its training lever-ups
     #[arg(long, conflicts_with_all = ["known", "known_seed"])]
     random_split: bool,
-    /// As in the thesis, measure up to the first slip only
+    /// Measure only up to the first slip, as in the thesis
     #[arg(long)]
     cut: bool,
     #[command(flatten)]
@@ -60,7 +60,7 @@ pub struct LeversArgs {
 
 pub fn run(args: &LeversArgs, session: &Session) -> Result<(), CliError> {
     if args.seed == args.known_seed && !args.random_split {
-        let message = "the lever-ups that are remembered have the seed of the others";
+        let message = "remembered lever-ups and tested lever-ups have the same seed";
         return Err(CliError::usage(message, "choose another --known-seed"));
     }
     let others =
@@ -105,11 +105,11 @@ pub fn run(args: &LeversArgs, session: &Session) -> Result<(), CliError> {
     }
     let mut document = levers_document(&reports);
     if args.random_split {
-        let note = "Shapes of these lever-ups have been seen, levered at other places.";
+        let note = "The shapes of these lever-ups occur in training, with other lever points.";
         document.notes.push(note.to_owned());
     }
     if args.cut {
-        let note = "Frames from a slip on are left out; the turn ends with the last one before.";
+        let note = "The rotation ends with the last frame before a slip.";
         document.notes.push(note.to_owned());
     }
     args.form.show(session, &document)

@@ -19,7 +19,7 @@ use crate::cli::kept::cases_of;
 use crate::cli::value_enums::{CONTROLLED, SIGHTINGS};
 use crate::report::masses_document;
 
-/// Tell which of three ranges masses are in, from pushes in which objects touch
+/// Infer which of three ranges each mass is in, from pushes in which objects touch
 #[derive(Args, Debug)]
 #[command(after_help = format!("Examples:
   pushplan-lab masses --count 100
@@ -36,23 +36,23 @@ pub struct MassesArgs {
     #[arg(long, value_name = "N", num_args = 0..,
           value_parser = clap::value_parser!(u8).range(2..=12))]
     crowds: Vec<u8>,
-    /// Nine cylinders that are always arranged and pushed alike; only their masses differ
+    /// Setups of nine cylinders with fixed positions and pushes; only the masses vary
     #[arg(long, num_args = 1.., value_parser = possible_values(&CONTROLLED), value_name = "SETUP")]
     controlled: Vec<Controlled>,
-    /// How things are seen; may be given several times [default: exact, fine and coarse]
+    /// Quality of the observations; several are possible [default: exact, fine and coarse]
     #[arg(long, num_args = 1.., value_parser = possible_values(&SIGHTINGS), value_name = "HOW")]
     seen: Vec<Sighting>,
-    /// Friction values of the objects and the table are unknown, too
+    /// Treat friction coefficients of the objects and the table as unknown, too
     #[arg(long)]
     frictions: bool,
-    /// Trajectories of each
+    /// Number of trajectories of each set
     #[arg(long, value_name = "N", default_value_t = 100,
           value_parser = clap::value_parser!(u32).range(1..=100_000))]
     count: u32,
     /// Seed of the scenes
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
-    /// Effect model that replays pushes with other masses
+    /// Effect model for replays with other masses
     #[arg(long, value_name = "MODEL", default_value = "prior")]
     model: ModelSpec,
 }
@@ -76,7 +76,7 @@ impl Suite for MassesArgs {
         };
         let suite = MassSuite::new(&setups, sights, self.seed, self.frictions);
         if suite.cases().is_empty() {
-            return Err(CliError::usage("no scenes", "name numbers of cylinders: --crowds 9"));
+            return Err(CliError::usage("no scenes", "give numbers of cylinders: --crowds 9"));
         }
         let model = model::load(&self.model)?;
         let settings = json!({

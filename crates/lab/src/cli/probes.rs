@@ -18,11 +18,12 @@ use crate::bench::{ProbeRecord, ProbeSuite, summarise_probes};
 use crate::cli::kept::cases_of;
 use crate::report::probes_document;
 
-/// Choose pushes that tell how objects are joined, and see what was learnt
+/// Choose exploratory pushes by several rules, and measure the inferred joints
 #[derive(Args, Debug)]
-#[command(after_help = format!("Three pushes of 10 cm are made into dense scenes of cylinders with all types of joints, each the best
-of sixteen at random by the rule; after each the belief is compared with the truth, and used to
-predict four other pushes of 20 cm.
+#[command(after_help = format!("Makes three exploratory pushes of 10 cm in dense scenes of \
+cylinders with all types of joints. The rule chooses each push among sixteen random pushes. After \
+each push, the belief is compared with the ground truth, and used to predict four other pushes of \
+20 cm.
 
 Examples:
   pushplan-lab probes --count 100
@@ -30,21 +31,21 @@ Examples:
 
 {}", keep::HELP))]
 pub struct ProbesArgs {
-    /// How pushes are chosen; several may be given [default: all but task, which needs one]
+    /// Rules for choosing pushes; several are possible [default: all but task, which needs a task]
     #[arg(long, num_args = 1.., value_parser = possible_values(&PROBES), value_name = "RULE")]
     probe_rule: Vec<ProbeRule>,
     /// Number of objects in a scene
     #[arg(long, value_name = "N", default_value_t = 6,
           value_parser = clap::value_parser!(u8).range(2..=12))]
     objects: u8,
-    /// Scenes
+    /// Number of scenes
     #[arg(long, value_name = "N", default_value_t = 100,
           value_parser = clap::value_parser!(u32).range(1..=100_000))]
     count: u32,
     /// Seed of the scenes
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
-    /// Effect model that rolls out hypotheses and pushes
+    /// Effect model for hypotheses and pushes
     #[arg(long, value_name = "MODEL", default_value = "prior")]
     model: ModelSpec,
 }
@@ -68,8 +69,9 @@ impl Suite for ProbesArgs {
             some => some,
         };
         if rules.contains(&ProbeRule::Task) {
-            let help = "ask for information, random, uncertain or motion; `pushplan-lab run --probe-rule task` has tasks";
-            return Err(CliError::usage("there is no task here that a probe could serve", help));
+            let help = "use information, random, uncertain or motion, or measure tasks with \
+                        `pushplan-lab run --probe-rule task`";
+            return Err(CliError::usage("the rule `task` needs a task", help));
         }
         let suite = ProbeSuite::new(self.objects.into(), rules, self.seed);
         let model = model::load(&self.model)?;

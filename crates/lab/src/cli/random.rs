@@ -19,7 +19,7 @@ use crate::cli::kept::same_tasks;
 use crate::cli::tasks::{TasksArgs, save_tasks};
 use crate::report::random_document;
 
-/// Solve random tasks of several kinds, each known to be solvable
+/// Solve random tasks of several kinds, which are solvable by construction
 #[derive(Args, Debug)]
 #[command(after_help = format!("Examples:
   pushplan-lab random --count 200 --out runs/network
@@ -36,10 +36,10 @@ pub struct RandomArgs {
     #[arg(long, value_name = "N", default_value_t = 1000,
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     count: u32,
-    /// How hard to try
+    /// Search effort
     #[arg(long, value_parser = possible_values(&EFFORTS), default_value = "standard")]
     effort: Effort,
-    /// Also write the tasks to this folder, for `pushplan solve`
+    /// Also write the task files to this folder, for `pushplan solve`
     #[arg(long, value_name = "DIR")]
     save_tasks: Option<PathBuf>,
 }
@@ -86,7 +86,7 @@ impl Suite for RandomArgs {
 pub fn random_error(error: RandomError) -> CliError {
     match error {
         RandomError::NoTask(_) => {
-            CliError::usage(error.to_string(), "choose other kinds with --kind, or other tools")
+            CliError::usage(error.to_string(), "choose another --kind or other tools")
         }
         RandomError::Solve(error) => solve_error(error),
     }

@@ -17,7 +17,7 @@ use serde_json::json;
 use crate::bench::{RefinedTask, RefinementReport, refine_task};
 use crate::report::refinement_document;
 
-/// Random solvable tasks with and without refinement of what the search finds
+/// Solve random solvable tasks with and without refinement of the search results
 #[derive(Args, Debug)]
 #[command(after_help = keep::HELP)]
 pub struct RefinementArgs {
@@ -27,7 +27,7 @@ pub struct RefinementArgs {
     #[arg(long, value_name = "N", default_value_t = 200,
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     tasks: u32,
-    /// How hard to try otherwise
+    /// Search effort, apart from refinement
     #[arg(long, value_parser = possible_values(&EFFORTS), default_value = "standard")]
     effort: Effort,
     /// Seed of the tasks

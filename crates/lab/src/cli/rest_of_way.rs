@@ -24,13 +24,13 @@ use crate::report::recorded_joints_document;
 
 use super::value_enums::JOINT_METHODS;
 
-/// Predict the rest of recordings under different beliefs about their joints
+/// Predict the remaining motion of recordings under different assumptions about their joints
 #[derive(Args, Debug)]
 pub struct RestOfWayArgs {
     /// Recordings, trajectories and folders of them
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// What the model is told about the joints from first contact on
+    /// Assumptions of the model about the joints after first contact
     #[arg(long, required = true, num_args = 1.., value_parser = possible_values(&JOINT_METHODS),
           value_name = "HOW")]
     joints: Vec<JointMethod>,

@@ -19,7 +19,7 @@ use crate::cli::random::random_error;
 use crate::cli::tasks::TasksArgs;
 use crate::report::closed_document;
 
-/// Run random tasks with joints, masses, frictions and supports hidden
+/// Run random tasks with hidden joints, masses, frictions and supports
 #[derive(Args, Debug)]
 #[command(after_help = format!("Examples:
   pushplan-lab run --count 200 --out runs/closed
@@ -33,33 +33,33 @@ pub struct RunArgs {
     #[arg(long, value_name = "N", default_value_t = 200,
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     count: u32,
-    /// How hard to try with every plan
+    /// Search effort of every plan
     #[arg(long, value_parser = possible_values(&EFFORTS), default_value = "draft")]
     effort: Effort,
-    /// Engine of the worlds
+    /// Engine of the simulated worlds
     #[arg(long, value_parser = possible_values(&ENGINES), default_value = "planar")]
     engine: Engine,
-    /// Tolerance of the goals as a share of the usual 2 cm
+    /// Tolerance of the goals, relative to the usual 2 cm
     #[arg(long, value_name = "SHARE", default_value_t = 1.0, value_parser = tolerance)]
     tolerance: f64,
-    /// Most pushes of a run
+    /// Maximum number of pushes of a run
     #[arg(long, value_name = "N", default_value_t = 12,
           value_parser = clap::value_parser!(u16).range(1..=1000))]
     max_pushes: u16,
-    /// Most pushes of a run that are made only to learn something
+    /// Maximum number of exploratory pushes of a run
     #[arg(long, value_name = "N", default_value_t = 3,
           value_parser = clap::value_parser!(u16).range(0..=1000))]
     max_probes: u16,
-    /// How these are chosen
-    #[arg(long, value_parser = possible_values(&PROBES), value_name = "RULE",
-          default_value = "task")]
+    /// Rule for choosing exploratory pushes
+    #[arg(long, value_parser = possible_values(&PROBES),
+          value_name = "RULE", default_value = "task")]
     probe_rule: ProbeRule,
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "a quarter is 0.25".to_owned())?;
+    let value: f64 = text.parse().map_err(|_| "expected a number; a quarter is 0.25".to_owned())?;
     let sound = (0.05..=10.0).contains(&value);
-    sound.then_some(value).ok_or_else(|| "it must be 0.05 to 10".to_owned())
+    sound.then_some(value).ok_or_else(|| "must be from 0.05 to 10".to_owned())
 }
 
 impl Suite for RunArgs {
@@ -75,7 +75,7 @@ impl Suite for RunArgs {
         let library = common.library.load()?;
         let suite = self.tasks.suite(&library);
         if let Some(kind) = suite.kinds().iter().find(|kind| TaskKind::EVERYDAY.contains(kind)) {
-            let message = format!("tasks of the kind `{kind}` are not run in a closed loop here");
+            let message = format!("`run` does not support tasks of the kind `{kind}`");
             return Err(CliError::usage(message, "use `pushplan-lab random`, which plans them"));
         }
         let planner = common.planner(self.effort)?.build();

@@ -19,7 +19,7 @@ use crate::bench::{RandomSuite, TaskKind};
 
 use super::value_enums::KINDS;
 
-/// Random tasks, and what solves them.
+/// Random tasks, with models and tools.
 #[derive(Args, Debug)]
 pub struct TasksArgs {
     #[command(flatten)]
@@ -27,7 +27,7 @@ pub struct TasksArgs {
     /// Seed of the tasks
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
-    /// Only tasks of this kind; may be given several times [default: all, in turn]
+    /// Restrict to tasks of this kind; repeatable [default: all, in turn]
     #[arg(long = "kind", value_parser = possible_values(&KINDS), value_name = "KIND")]
     kinds: Vec<&'static [TaskKind]>,
 }

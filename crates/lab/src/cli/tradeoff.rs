@@ -16,53 +16,53 @@ use pushplan_command::{exit_code, interrupt, output};
 use crate::bench::{TradeOff, TradeOffSettings, Unit, levels, plan_levels};
 use crate::report::tradeoff_document;
 
-/// Measure speed against accuracy: every predictor and every budget of planning
+/// Measure the trade-off between speed and accuracy of all predictors and planning budgets
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Errors are measured on held-out pushes, success on random tasks, replayed in 3-D; costs are
-processor time of one thread, all levels in turn. With --out every finished unit is kept: the same
-command goes on after an interruption. The folder then holds tradeoff.json, tradeoff.md,
-tradeoff-push.svg and tradeoff-task.svg.
+    after_help = "Errors are measured on held-out pushes, and success on random tasks that are \
+replayed in 3-D. Costs are processor time of one thread, with all levels in turn. With --out, \
+every finished unit is saved, and a rerun of the same command resumes an interrupted run. The \
+folder then contains tradeoff.json, tradeoff.md, tradeoff-push.svg and tradeoff-task.svg.
 
---shard 2/3 measures every third unit, on another machine say; when `pushplan-lab merge OUT
-SHARD...` has put the parts together, the same command with --out OUT and without --shard finds
-nothing left to measure and writes the results. Errors and successes are the same as of one run.
-Costs are times: shards on different processors give costs of no real machine.
+--shard 2/3 measures every third unit, for example on another machine. First merge the shards with \
+`pushplan-lab merge OUT SHARD...`. Then run the same command with --out OUT and without --shard to \
+write the results. Errors and success rates are the same as in a single run. Costs are valid only \
+if all shards ran on the same processor.
 
 Examples:
   pushplan-lab tradeoff --quick
   pushplan-lab tradeoff --out runs/tradeoff --weights runs/w64/best.safetensors"
 )]
 pub struct TradeOffArgs {
-    /// Other networks to measure as well as the shipped one
+    /// Weights of additional networks
     #[arg(long, value_name = "FILE", num_args = 1..)]
     weights: Vec<PathBuf>,
-    /// Held-out pushes of each kind [default: 2000]
+    /// Number of held-out pushes of each kind [default: 2000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pushes: Option<u32>,
-    /// Random tasks [default: 200]
+    /// Number of random tasks [default: 200]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     tasks: Option<u32>,
-    /// Tolerance of the tasks, as a share of the usual 2 cm
+    /// Tolerance of the tasks, relative to the usual 2 cm
     #[arg(long, value_name = "SHARE", default_value_t = USUAL.tolerance,
           value_parser = tolerance_share)]
     tolerance: f64,
-    /// Rounds of timing; the fastest counts [default: 7]
+    /// Number of timing rounds, of which the fastest counts [default: 7]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
     rounds: Option<u32>,
-    /// A first look: 200 pushes, 6 tasks and 2 rounds where no number is given
+    /// Fast, for a first impression: by default 200 pushes, 6 tasks and 2 rounds
     #[arg(long)]
     quick: bool,
-    /// Only levels of planning whose name contains one of these
+    /// Restrict to planning levels with one of these words in the name
     #[arg(long, value_name = "WORDS", num_args = 1..)]
     plans: Vec<String>,
     /// Seed of pushes and tasks
     #[arg(long, value_name = "N", default_value_t = USUAL.seed)]
     seed: u64,
-    /// Folder that keeps every finished unit and the results
+    /// Folder for finished units and results
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Measure only part I of N of the units; the results are made of all
+    /// Measure only shard I of N; the results need all shards
     #[arg(long, value_name = "I/N", requires = "out")]
     shard: Option<Shard>,
     #[command(flatten)]
@@ -105,7 +105,7 @@ pub fn run(args: &TradeOffArgs, session: &Session) -> Result<u8, CliError> {
     if shard != Shard::WHOLE {
         let count = units.len();
         session
-            .print(&format!("{count} units, shard {shard}; merge all shards to see results\n"))?;
+            .print(&format!("{count} units, shard {shard}; merge all shards for the results\n"))?;
         return Ok(exit_code::DONE);
     }
     let document = tradeoff_document(&run.report(&units));
@@ -149,7 +149,7 @@ fn measure(
         store.run::<CliError>(&following, |index| {
             following.stage(&run.title(index));
             run.measure(index)
-                .map_err(|error| CliError::usage(error.to_string(), "try it with other tools"))
+                .map_err(|error| CliError::usage(error.to_string(), "try other tools"))
         })
     });
     following.finish()?;
@@ -161,6 +161,6 @@ fn measure(
 fn tolerance_share(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(share) if (0.05..=5.0).contains(&share) => Ok(share),
-        _ => Err("use a number from 0.05 to 5; 1 is 2 cm".to_owned()),
+        _ => Err("expected a number from 0.05 to 5; 1 is 2 cm".to_owned()),
     }
 }

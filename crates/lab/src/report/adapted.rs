@@ -14,21 +14,21 @@ pub fn adapted_document(rows: &[AdaptedRow], draws: u32, seed: u64) -> Document 
         rows,
         &[
             ("predicted", Left, &|row: &&AdaptedRow| row.title.clone()),
-            ("learnt from", Right, &|row| row.learnt.to_string()),
+            ("training pushes", Right, &|row| row.learnt.to_string()),
             ("pushes", Right, &|row| row.predicted.to_string()),
             ("with a head", Right, &|row| format!("{:.0} %", 100.0 * row.heads)),
-            ("prior as shipped", Right, &|row| format!("{:.3} mm", 1e3 * row.shipped)),
-            ("against it", Right, &|row| ratio(&row.against_shipped)),
-            ("against the prior after fit", Right, &|row| ratio(&row.against_prior)),
+            ("shipped analytic model", Right, &|row| format!("{:.3} mm", 1e3 * row.shipped)),
+            ("ratio to it", Right, &|row| ratio(&row.against_shipped)),
+            ("ratio to the fitted analytic model", Right, &|row| ratio(&row.against_prior)),
             ("without head", Right, &|row| ratio(&row.network)),
-            ("turn", Right, &|row| ratio(&row.turn)),
+            ("rotation", Right, &|row| ratio(&row.turn)),
             ("inside 90 %", Right, &|row| format!("{:.1} %", 100.0 * row.inside)),
         ],
     );
     Document {
         title: format!(
             "Mean final error of the network fitted to a table, {draws} draws of seed {seed}, \
-             intervals of 95 %"
+             95 % confidence intervals"
         ),
         sections: vec![Section { table, ..Section::default() }],
         json: json!({"adapted": rows}),

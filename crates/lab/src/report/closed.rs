@@ -16,10 +16,10 @@ pub type ClosedRun = (RunManifest, Vec<Finished<ClosedRecord>>);
 pub fn closed_document(runs: &[ClosedRun]) -> Document {
     let (count, seed) = runs.first().map_or((0, 0), |(run, tasks)| (tasks.len(), run.seed));
     let mut notes = vec![
-        "Random tasks with joints, masses, friction values and supports hidden, seen with 1 mm and \
-         0.5 degrees of noise. Reached is where the object really is at rest: by the closed loop, by \
-         one plan made with the guesses and carried out without looking, and by one plan made with \
-         everything known but the noise."
+        "Random tasks with hidden joints, masses, friction coefficients and supports; observations \
+         have 1 mm and 0.5 degrees of noise. *Reached* refers to the true pose at rest. *Planned \
+         once* executes one plan, made with the guessed values, without observations. *All known* \
+         makes this plan with the true values; only the noise remains."
             .to_owned(),
     ];
     notes.extend(runs.iter().filter_map(|(run, tasks)| progress_note(run, tasks.len())));
@@ -35,7 +35,7 @@ pub fn closed_document(runs: &[ClosedRun]) -> Document {
         sections.push(compared(runs));
     }
     Document {
-        title: format!("{count} random tasks of seed {seed} with everything hidden"),
+        title: format!("{count} random tasks of seed {seed} with hidden properties"),
         notes,
         sections,
         rows: rows(runs),
@@ -103,7 +103,7 @@ fn compared(runs: &[ClosedRun]) -> Section {
         ]);
     }
     Section {
-        title: "Tasks in which any of them probes; probes count as pushes".to_owned(),
+        title: "Tasks with exploratory pushes in any run; they count as pushes".to_owned(),
         table,
         ..Section::default()
     }

@@ -10,11 +10,11 @@ use crate::report::length;
 /// Returns a table for each family.
 pub fn convergence_document(reports: &[ConvergenceReport]) -> Document {
     Document {
-        title: "simulated lever-ups against themselves at 1/1920 s".to_owned(),
+        title: "Simulated lever-ups, compared with a time step of 1/1920 s".to_owned(),
         notes: vec![
-            "`lift` is the root mean square distance of the plate's frame over the frames of the \
-             turn, `end` that at its end. In the last row the plate starts 0.1 mm aside, and the \
-             run at 1/240 s is compared with itself without."
+            "`lift` is the root mean square distance of the plate frame over the frames of the \
+             rotation, `end` the distance at the end of the rotation. In the last row, the plate \
+             starts with an offset of 0.1 mm, and the reference is the run at 1/240 s without it."
                 .to_owned(),
         ],
         sections: reports.iter().map(section).collect(),
@@ -31,7 +31,7 @@ fn section(report: &ConvergenceReport) -> Section {
         &[
             ("step", Left, &|row: &&ConvergenceRow| match row.setting {
                 Setting::Steps(rate) => format!("1/{rate} s"),
-                Setting::Aside => "1/240 s, start 0.1 mm aside".to_owned(),
+                Setting::Aside => "1/240 s, start offset 0.1 mm".to_owned(),
             }),
             ("lift, mean", Right, &|row| length(&row.lift, |errors| errors.mean)),
             ("median", Right, &|row| length(&row.lift, |errors| errors.median)),

@@ -19,7 +19,7 @@ pub fn cost_document(
     sections.push(section("One push", push_table(pushes)));
     sections.push(section("A search of one-push candidates", search_table(searches)));
     Document {
-        title: "What predicting costs".to_owned(),
+        title: "Cost of predictions".to_owned(),
         sections,
         json: json!({"cost": {"networks": networks, "pushes": pushes, "searches": searches}}),
         ..Document::default()
@@ -29,7 +29,7 @@ pub fn cost_document(
 /// Returns the costs of a network on scenes of many objects.
 pub fn crowd_cost_document(objects: usize, networks: &[InferenceCost]) -> Document {
     Document {
-        title: format!("{objects} objects, sparse and dense, mixed joints; times a graph-step"),
+        title: format!("{objects} objects, sparse and dense, mixed joints; time per graph-step"),
         sections: vec![section("", inference_table(networks))],
         json: json!({"cost": {"objects": objects, "networks": networks}}),
         ..Document::default()
@@ -39,7 +39,7 @@ pub fn crowd_cost_document(objects: usize, networks: &[InferenceCost]) -> Docume
 /// Returns the cost of the analytic model's equations by number of objects.
 pub fn equation_document(costs: &[EquationCost]) -> Document {
     Document {
-        title: "Where the prior's time goes, a push".to_owned(),
+        title: "Cost of the equations of the analytic model, per push".to_owned(),
         notes: vec![EQUATIONS.to_owned()],
         sections: vec![section("", equation_table(costs))],
         json: json!({"equations": costs}),
@@ -49,9 +49,9 @@ pub fn equation_document(costs: &[EquationCost]) -> Document {
 
 /// Explanation of the columns of the equations.
 const EQUATIONS: &str = "Two *systems* are solved in each piece of a frame, for displacements and \
-    for velocities. An *update* recomputes the resistance of objects that moved and tries *sets* of \
-    contacts that stick, slide or stay open until one is right, else it *iterates*. *Operations* are \
-    those of points that drag and of linear equations alone, and are compared with matrix products.";
+    for velocities. An *update* recomputes the resistance of moved objects and tries active *sets* \
+    of contacts (sticking, sliding or open); if none is consistent, it *iterates*. *Operations* \
+    count only support points and linear equations, and are compared with matrix products.";
 
 /// Returns the costs of a push by the number of objects that it cannot touch.
 pub fn far_document(costs: &[FarCost]) -> Document {
@@ -65,7 +65,7 @@ pub fn far_document(costs: &[FarCost]) -> Document {
 }
 
 /// Title of the costs of far objects.
-const FAR: &str = "Objects that a push cannot touch cost nothing";
+const FAR: &str = "Cost of objects out of reach of a push";
 
 fn section(title: &str, table: Table) -> Section {
     Section { title: title.to_owned(), table, ..Section::default() }
@@ -78,8 +78,8 @@ fn push_table(costs: &[PushCost]) -> Table {
         &[
             ("model", Left, &|cost| cost.model.to_string()),
             ("batch", Right, &|cost| cost.batch.to_string()),
-            ("processor time a push", Right, &|cost| seconds(cost.seconds)),
-            ("a frame", Right, &|cost| seconds(cost.seconds_per_frame)),
+            ("processor time per push", Right, &|cost| seconds(cost.seconds)),
+            ("per frame", Right, &|cost| seconds(cost.seconds_per_frame)),
         ],
     )
 }
@@ -117,9 +117,9 @@ fn equation_table(costs: &[EquationCost]) -> Table {
             ("systems", Right, &|cost| ratio(cost.tally.systems, cost.pushes as u64)),
             ("constraints each", Right, &|cost| ratio(cost.tally.constraints, cost.tally.systems)),
             ("updates each", Right, &|cost| ratio(cost.tally.updates, cost.tally.systems)),
-            ("objects an update", Right, &|cost| ratio(cost.tally.weighed, cost.tally.updates)),
-            ("sets an update", Right, &|cost| ratio(cost.tally.rounds, cost.tally.updates)),
-            ("equations a set", Right, &|cost| ratio(cost.tally.rows, cost.tally.rounds)),
+            ("objects per update", Right, &|cost| ratio(cost.tally.weighed, cost.tally.updates)),
+            ("sets per update", Right, &|cost| ratio(cost.tally.rounds, cost.tally.updates)),
+            ("equations per set", Right, &|cost| ratio(cost.tally.rows, cost.tally.rounds)),
             ("iterated", Right, &|cost| {
                 let share = cost.tally.approached as f64 / cost.tally.updates.max(1) as f64;
                 format!("{:.1} %", 100.0 * share)
@@ -152,7 +152,7 @@ fn far_table(costs: &[FarCost]) -> Table {
     let mut head = vec![("objects out of reach".to_owned(), Right)];
     for (model, batch) in &models {
         head.push((format!("{model}, {batch} at a time"), Right));
-        head.push(("ends differ by".to_owned(), Right));
+        head.push(("difference of final poses".to_owned(), Right));
     }
     let mut table = Table::new(head.iter().map(|(name, align)| (name.as_str(), *align)));
     let mut counts: Vec<usize> = costs.iter().map(|cost| cost.far).collect();

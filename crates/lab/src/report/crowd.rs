@@ -60,10 +60,10 @@ pub fn evaluation_document(suites: &[HeldOutReport], crowds: &[CrowdReport]) -> 
 
 /// Explanation of the columns of [`crowd_table`].
 const LEGEND: &str = "\
-error: mean final distance from the truth over all objects; of motion, median, p90: the same, its
-median and 90th percentile, as shares of the mean true motion; moved: over objects that move more
-than 1 cm; over frames: averaged over all frames instead of the last; overlap: deepest of any two
-predicted objects; fixed, revolute, prismatic: mean / largest drift of predicted joints";
+error: mean final distance from the ground truth over all objects; of motion, median, p90: mean,
+median and 90th percentile of this error, relative to the mean true motion; moved: objects that move
+more than 1 cm; over frames: average over all frames; overlap: maximum penetration of two predicted
+objects; fixed, revolute, prismatic: mean / maximum drift of predicted joints";
 
 /// Returns the errors of all models on a set, one row each; percentages are of the mean true
 /// motion.

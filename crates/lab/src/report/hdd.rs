@@ -21,12 +21,12 @@ pub fn hdd_document(report: &DriveReport) -> Document {
             ("lift, mean", Right, &|row| length(&row.lift, |errors| errors.mean)),
             ("median", Right, &|row| length(&row.lift, |errors| errors.median)),
             ("p95", Right, &|row| length(&row.lift, |errors| errors.p95)),
-            ("turn, mean", Right, &|row| angle(&row.turn, |angles| angles.mean)),
+            ("rotation, mean", Right, &|row| angle(&row.turn, |angles| angles.mean)),
             ("p95", Right, &|row| angle(&row.turn, |angles| angles.p95)),
             ("end, mean", Right, &|row| length(&row.last, |errors| errors.mean)),
             ("rest, mean", Right, &|row| length(&row.rest, |errors| errors.mean)),
             ("median", Right, &|row| length(&row.rest, |errors| errors.median)),
-            ("in or out right", Right, &|row| format!("{:.1} %", 1e2 * row.outside)),
+            ("in/out correct", Right, &|row| format!("{:.1} %", 1e2 * row.outside)),
             ("time", Right, &|row| seconds(row.time)),
         ],
     );
@@ -38,13 +38,13 @@ pub fn hdd_document(report: &DriveReport) -> Document {
         ..Section::default()
     };
     Document {
-        title: "models of boards levered out of drives against the 3-D engine at 1/240 s"
+        title: "Models of boards levered out of drives, compared with the 3-D engine at 1/240 s"
             .to_owned(),
         notes: vec![
-            "`lift` and `turn` are the root mean squares over the 15 frames of the turn of the \
-             distance of the centre of mass and of the angle, `end` is that distance at the end of \
-             the turn. A board that rests with its centre of mass beyond the walls is out. Time is \
-             that of one core."
+            "`lift` and `rotation` are root mean square errors over the 15 frames of the rotation: \
+             the distance of the centre of mass, and the angle. `end` is the distance at the last \
+             of these frames. A board is out if its centre of mass rests beyond the walls. Time is \
+             on one core."
                 .to_owned(),
         ],
         sections: vec![section],

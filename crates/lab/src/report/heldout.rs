@@ -49,7 +49,7 @@ fn error_table<'a>(first: &str, rows: impl Iterator<Item = (String, &'a ErrorRow
             }),
             ("mean against 3-D", Right, &|(_, row)| length(&row.position_3d, |errors| errors.mean)),
             ("not moved", Right, &|(_, row)| count(&row.unmoved)),
-            ("mean there", Right, &|(_, row)| length(&row.unmoved, |errors| errors.mean)),
+            ("their mean", Right, &|(_, row)| length(&row.unmoved, |errors| errors.mean)),
         ],
     )
 }

@@ -11,17 +11,18 @@ use crate::bench::{
 };
 
 /// Explanation of the columns.
-const LEGEND: &str = "Counted are pairs of objects with a gap below 3 cm at the start, as only these \
-    are ever joined, of which either has moved by more than 1 cm; in *not moved* are the others. Types are \
-    those of the likeliest joints that close no loop. *nll* is the mean negative logarithm of the \
-    probability of the true type, *calibration* the expected calibration error of all four \
-    probabilities. *All ordered pairs* counts as the thesis does: every pair of bodies, far ones and the \
-    hand's included. Anchors and axes are those of pairs that turned by 15 degrees or slid by 2 cm.";
+const LEGEND: &str = "The pairs have a gap below 3 cm at the start, because only such pairs are \
+    joined, and at least one object that has moved by more than 1 cm; *not moved* contains the \
+    other pairs. The types are the most probable joints without a loop. *nll* is the mean \
+    negative log probability of the true type, *calibration* the expected calibration error of \
+    all four probabilities. *All ordered pairs* counts every pair of bodies, as in the thesis, \
+    including far objects and the hand. Anchors and axes need a rotation by 15 degrees or a \
+    translation by 2 cm.";
 
 /// Explanation of the table of recordings.
-const RECORDED: &str = "Mean distance of predicted from recorded final positions, over all objects, when \
-    what the tool still did is predicted from where everything was believed to be, so many observations \
-    after the first that shows motion.";
+const RECORDED: &str = "Mean distance between predicted and recorded final positions of all \
+    objects. The prediction starts from the believed poses, the given number of observations \
+    after the first observation with motion, and covers the remaining motion of the tool.";
 
 /// Accuracy over all ordered pairs of sparse scenes of nine objects with mixed joints after a
 /// number of frames, read off figure 4 of Tekden et al. (ICRA 2020); a stroke has about 29 frames.
@@ -33,7 +34,7 @@ pub fn joints_document(summaries: &[BeliefSummary], times: &UpdateTimes) -> Docu
     let mut sections = vec![
         Section { title: "Types at the end".into(), table: types(summaries), ..Section::default() },
         Section {
-            title: "How sure, and where".into(),
+            title: "Probabilities, anchors and axes".into(),
             table: sure(summaries),
             ..Section::default()
         },
@@ -46,7 +47,7 @@ pub fn joints_document(summaries: &[BeliefSummary], times: &UpdateTimes) -> Docu
     ];
     if summaries.iter().flat_map(|one| &one.steps).any(|step| !step.rest.is_empty()) {
         sections.push(Section {
-            title: "The rest of the way: error at the end under the belief at that moment".into(),
+            title: "Remaining motion: final error under the belief at that time".into(),
             table: rest(summaries),
             figures: rest_charts(summaries),
             ..Section::default()
@@ -54,7 +55,7 @@ pub fn joints_document(summaries: &[BeliefSummary], times: &UpdateTimes) -> Docu
     }
     if !times.is_empty() {
         sections.push(Section {
-            title: "Processor time of an update".into(),
+            title: "Processor time per update".into(),
             table: update_table(times),
             ..Section::default()
         });
@@ -71,7 +72,7 @@ pub fn joints_document(summaries: &[BeliefSummary], times: &UpdateTimes) -> Docu
 
 fn update_table(times: &UpdateTimes) -> Table {
     let mut table =
-        Table::new([("set", Left), ("seen", Left), ("belief", Left), ("an observation", Right)]);
+        Table::new([("set", Left), ("seen", Left), ("belief", Left), ("per observation", Right)]);
     for (case, spent) in times {
         let set = format!("{} {}", case.set.family.title(), case.set.objects);
         for (by, each) in spent {
@@ -276,7 +277,7 @@ pub fn recorded_joints_document(
     }
     let recordings = if count == 1 { "recording" } else { "recordings" };
     Document {
-        title: format!("{title}: error at the end of {count} {recordings}, predicted on the way"),
+        title: format!("{title}: final error of {count} {recordings}, predicted during the motion"),
         notes: vec![RECORDED.to_owned()],
         sections: vec![Section { table, ..Section::default() }],
         json: json!({"rest_of_the_way": steps}),
@@ -322,9 +323,9 @@ fn chart(summaries: &[BeliefSummary]) -> Chart {
         labels: Vec::new(),
     });
     Chart {
-        title: "Types right, all ordered pairs".into(),
+        title: "Correct types, all ordered pairs".into(),
         x: Axis::linear("strokes"),
-        y: Axis::linear("right, %"),
+        y: Axis::linear("correct, %"),
         series,
     }
 }
@@ -350,10 +351,10 @@ fn rest_charts(summaries: &[BeliefSummary]) -> Vec<Figure> {
             }
         });
         let chart = Chart {
-            title: format!("Error at the end, predicted on the way: {}", name(summary)),
+            title: format!("Final error, predicted during the motion: {}", name(summary)),
             x: Axis::linear(match summary.case.set.family {
-                CrowdFamily::Sparse => "strokes seen",
-                _ => "observations seen",
+                CrowdFamily::Sparse => "observed strokes",
+                _ => "observations",
             }),
             y: Axis::log("mean error, mm"),
             series: series.collect(),

@@ -11,12 +11,13 @@ use crate::report::length;
 /// Returns a table for each family.
 pub fn lever_points_document(reports: &[PointReport]) -> Document {
     Document {
-        title: "lever points inferred from the first frames".to_owned(),
+        title: "Lever points inferred from the first frames".to_owned(),
         notes: vec![
-            "`angle` is how far the inferred place on the outline is from the true one, as seen from \
-             the centre of mass. `rest` is the root mean square distance of the centre of mass over \
-             the frames that follow, predicted from there and from what was last seen, `end` that at \
-             the end of the turn. `place known` is the error of the model alone over the same frames."
+            "`angle` is the angle between the inferred and the true lever point at the centre of \
+             mass. `rest` is the root mean square distance of the centre of mass over the later \
+             frames, predicted with the inferred point from the last observed pose. `end` is the \
+             distance at the end of the rotation. `point known` is the error of the model over the \
+             same frames with the true lever point."
                 .to_owned(),
         ],
         sections: reports.iter().map(section).collect(),
@@ -40,11 +41,11 @@ fn section(report: &PointReport) -> Section {
             ("rest, mean", Right, &|row| length(&row.rest, |errors| errors.mean)),
             ("median", Right, &|row| length(&row.rest, |errors| errors.median)),
             ("end, mean", Right, &|row| length(&row.last, |errors| errors.mean)),
-            ("place known", Right, &|row| length(&row.known, |errors| errors.mean)),
+            ("point known", Right, &|row| length(&row.known, |errors| errors.mean)),
         ],
     );
     Section {
-        title: format!("{preset}: {cases} lever-ups of seed {seed}, by the model {model}"),
+        title: format!("{preset}: {cases} lever-ups of seed {seed}, with the model {model}"),
         table,
         ..Section::default()
     }

@@ -24,13 +24,13 @@ pub fn lever_tasks_document(run: &RunManifest, tasks: &[Finished<LeverRecord>]) 
     let further = mean_of(&|record| record.further);
     let candidates = mean_of(&|record| record.candidates as f64);
     let rows = [
-        ("a lever-up at random takes the board out", share(&|record| record.random)),
-        ("works as written", share(&|record| record.works)),
+        ("a random lever-up takes the board out", share(&|record| record.random)),
+        ("nominal replay works", share(&|record| record.works)),
         ("solved", share(&|record| record.status == PlanStatus::Solved)),
-        ("further disturbed replays that reach the goal", format!("{:.1} %", 100.0 * further)),
-        ("candidates a task", format!("{candidates:.0}")),
-        ("time a task, median", seconds(percentile(&spent, 50.0))),
-        ("time a task, 95th percentile", seconds(percentile(&spent, 95.0))),
+        ("additional perturbed replays that reach the goal", format!("{:.1} %", 100.0 * further)),
+        ("candidates per task", format!("{candidates:.0}")),
+        ("time per task, median", seconds(percentile(&spent, 50.0))),
+        ("time per task, 95th percentile", seconds(percentile(&spent, 95.0))),
     ];
     let table = Table::of(
         rows,
@@ -40,16 +40,16 @@ pub fn lever_tasks_document(run: &RunManifest, tasks: &[Finished<LeverRecord>]) 
         ],
     );
     let mut notes = vec![
-        "A board is to come out of the pocket of a drive, each task with another drive and a notch \
-         somewhere in a wall. Solved means that the replay as written reaches the goal and so do \
-         three quarters of those with 0.5 mm and 1 degree of error and 10 % of other friction. \
-         Further replays have other draws than those of the planner; without a plan that works \
-         they count as missed."
+        "The goal is to take a board out of the pocket of a drive. Each task has another drive, \
+         with a notch at a random place in a wall. *Solved*: the nominal replay reaches the goal, \
+         and so do three quarters of the perturbed replays (0.5 mm, 1 degree, 10 % friction). The \
+         additional replays have other perturbations than the replays of the planner. Without a \
+         working plan they count as failed."
             .to_owned(),
     ];
     notes.extend(progress_note(run, tasks.len()));
     Document {
-        title: format!("{} generated tasks of levering of seed {}", tasks.len(), run.seed),
+        title: format!("{} generated levering tasks of seed {}", tasks.len(), run.seed),
         notes,
         sections: vec![Section { table, ..Section::default() }],
         rows: Table::of(

@@ -11,11 +11,11 @@ use crate::report::length;
 /// Returns two tables for each family: models, and the support edge.
 pub fn levers_document(reports: &[LeverReport]) -> Document {
     Document {
-        title: "models of lever-ups against the 3-D engine at 1/240 s".to_owned(),
+        title: "Models of lever-ups, compared with the 3-D engine at 1/240 s".to_owned(),
         notes: vec![
             "`lift` is the root mean square distance of the centre of mass over the 15 frames of \
-             the turn, `end` its distance at the end of the turn, `turn` the angle there. Time is \
-             that of one core."
+             the rotation. `end` is its distance and `rotation` the angle at the last of these \
+             frames. Time is on one core."
                 .to_owned(),
         ],
         sections: reports.iter().flat_map(|report| [models(report), supports(report)]).collect(),
@@ -37,13 +37,13 @@ fn models(report: &LeverReport) -> Section {
             ("slipping", Right, &|row| mean(&row.slipping)),
             ("others", Right, &|row| mean(&row.kept)),
             ("end, mean", Right, &|row| mean(&row.last)),
-            ("turn, median", Right, &|row| {
+            ("rotation, median", Right, &|row| {
                 row.turn.as_ref().map_or(NONE.to_owned(), |turn| degrees(turn.median))
             }),
             ("rest, mean", Right, &|row| mean(&row.rest)),
             ("median", Right, &|row| median(&row.rest)),
-            ("slip right", Right, &|row| percent(row.slips)),
-            ("ending right", Right, &|row| percent(row.endings)),
+            ("slip correct", Right, &|row| percent(row.slips)),
+            ("ending correct", Right, &|row| percent(row.endings)),
             ("time", Right, &|row| seconds(row.time)),
         ],
     );
@@ -70,9 +70,9 @@ fn supports(report: &LeverReport) -> Section {
                 corners => corners.to_string(),
             }),
             ("lever-ups", Right, &|row| row.all.to_string()),
-            ("right", Right, &|row| share(row.right, row.all)),
+            ("correct", Right, &|row| share(row.right, row.all)),
             ("not slipping", Right, &|row| row.kept.to_string()),
-            ("right", Right, &|row| share(row.kept_right, row.kept)),
+            ("correct", Right, &|row| share(row.kept_right, row.kept)),
         ],
     );
     Section {

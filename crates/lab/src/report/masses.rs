@@ -7,13 +7,14 @@ use serde_json::json;
 use crate::bench::MassSummary;
 
 /// Explanation of the columns.
-const LEGEND: &str = "Masses are 0.2 to 0.5, 1 to 2 or 8 to 10 kg, so that chance is right in a third. \
-    Counted are objects that another object touched; *unknown* is the share of the others, of which \
-    nothing can be known, of which nothing is believed. *nll* is the mean negative logarithm of the \
-    probability of the true range, 1.10 by chance; *calibration* the expected calibration error. The \
-    ratio of two masses that touched is off by the factor given in the median, beside that of taking \
-    all for equal; *within* is the share of ratios within 1.645 of their standard deviations. *Heavier* \
-    is how often of two of which one is more than twice as heavy that one is believed to be it.";
+const LEGEND: &str = "Masses are 0.2 to 0.5, 1 to 2 or 8 to 10 kg; a random guess is correct in a \
+    third of the cases. The objects are those touched by another object; *unknown* is the share \
+    of unobservable masses correctly left undetermined. *nll* is the mean negative log \
+    probability of the true range (random: 1.10), *calibration* the expected calibration error. \
+    *Ratio error* is the median factor between the inferred and the true ratio of two touching \
+    masses; *equal masses* is its value for a guess of equal masses. *Heavier* counts pairs with \
+    a true ratio above 2: the share in which the heavier object is identified. *Within* is the \
+    share of ratios within 1.645 standard deviations.";
 
 /// Returns the results of masses.
 pub fn masses_document(summaries: &[MassSummary]) -> Document {
@@ -21,12 +22,12 @@ pub fn masses_document(summaries: &[MassSummary]) -> Document {
         ("scenes", Left),
         ("seen", Left),
         ("objects", Right),
-        ("right, %", Right),
+        ("correct, %", Right),
         ("nll", Right),
         ("calibration, %", Right),
         ("unknown, %", Right),
         ("ratios", Right),
-        ("off by", Right),
+        ("ratio error", Right),
         ("equal masses", Right),
         ("heavier, %", Right),
         ("within, %", Right),
@@ -50,7 +51,7 @@ pub fn masses_document(summaries: &[MassSummary]) -> Document {
     }
     let trajectories: usize = summaries.iter().map(|one| one.trajectories).sum();
     Document {
-        title: format!("Masses told from {trajectories} observed trajectories"),
+        title: format!("Masses inferred from {trajectories} observed trajectories"),
         notes: vec![LEGEND.to_owned()],
         sections: vec![Section { table, ..Section::default() }],
         json: json!({"masses": summaries}),

@@ -8,12 +8,12 @@ use serde_json::json;
 use crate::bench::ProbeSummary;
 
 /// Explanation of the columns.
-const LEGEND: &str = "Each probe is the best of sixteen pushes of 10 cm at random by the rule: what tells \
-    most (*information*), the first (*random*), the first at an object of the pair that is least certain \
-    (*uncertain*), what moves things farthest (*motion*). *Right* are pairs that stood near each other \
-    with the true type of joint, *nll* is the mean negative logarithm of its probability. *Test push* is \
-    the error of the mean object after a push of 20 cm from there that nothing was learnt from, predicted \
-    under the belief, *all known* under the true joints.";
+const LEGEND: &str = "Each exploratory push is the best of sixteen random pushes of 10 cm by the \
+    rule: most information (*information*), the first (*random*), the first at an object of the \
+    least certain pair (*uncertain*), or largest motion (*motion*). *Correct* is the share of \
+    near pairs with the true type of joint, *nll* the mean negative log probability of this type. \
+    *Test push* is the mean error over the objects for a later push of 20 cm, which is not \
+    observed, predicted under the belief; *all known* is predicted with the true joints.";
 
 /// Returns the results of probes.
 pub fn probes_document(summaries: &[ProbeSummary]) -> Document {
@@ -21,7 +21,7 @@ pub fn probes_document(summaries: &[ProbeSummary]) -> Document {
         ("rule", Left),
         ("probes", Right),
         ("pairs", Right),
-        ("right, %", Right),
+        ("correct, %", Right),
         ("nll", Right),
         ("test push, median", Right),
         ("mean", Right),
@@ -43,7 +43,7 @@ pub fn probes_document(summaries: &[ProbeSummary]) -> Document {
     let scenes = summaries.first().map_or(0, |one| one.scenes);
     let set = summaries.first().map_or_else(String::new, |one| one.case.set.title());
     Document {
-        title: format!("Probes in {scenes} scenes: {set}"),
+        title: format!("Exploratory pushes in {scenes} scenes: {set}"),
         notes: vec![LEGEND.to_owned()],
         sections: vec![Section { table, ..Section::default() }],
         json: json!({"probes": summaries}),

@@ -50,15 +50,15 @@ pub fn random_document(runs: &[RandomRun]) -> Document {
     let count = runs.iter().map(|(_, tasks)| tasks.len()).max().unwrap_or(0);
     let seed = runs.first().map_or(0, |(run, _)| run.seed);
     let solvable = match kinds.contains(&TaskKind::Gap) {
-        true => "No task of the kind gap can be solved; every other one can",
+        true => "Tasks of the kind gap are unsolvable, all others are solvable",
         false => "Every task is solvable",
     };
     let mut notes = vec![format!(
-        "Solved means that the verdict is passed: in both engines the plan ends within the \
-         tolerance at rest, nothing jams or topples on the way, and so do enough of the disturbed \
-         replays; fragile means all but the last. {solvable}: its goals are where a random plan \
-         that it allows really ends, in both engines. Errors are final distances from the goal, of the \
-         nearest plan where none was solved; times are of the planner alone."
+        "*Solved* means that the plan passes verification: in both engines, the object rests \
+         within the tolerance, nothing jams or topples, and enough perturbed replays succeed; \
+         *fragile* lacks only the last criterion. {solvable}, because the goals are the final \
+         poses of a random allowed plan in both engines. Errors are final distances from the \
+         goal, of the nearest plan if the task is not solved; times are planning times."
     )];
     notes.extend(runs.iter().filter_map(|(run, tasks)| progress_note(run, tasks.len())));
     let errors: Vec<(String, Vec<f64>)> = methods
@@ -83,7 +83,7 @@ pub fn random_document(runs: &[RandomRun]) -> Document {
                 ..Section::default()
             },
             Section {
-                title: "Time and effort of the planner".to_owned(),
+                title: "Cost of planning".to_owned(),
                 table: effort(&methods, &kinds),
                 ..Section::default()
             },
@@ -148,10 +148,10 @@ fn summary(methods: &[Method], kinds: &[TaskKind]) -> Table {
         ("method", Align::Left),
         ("tasks", Align::Right),
         ("solved", Align::Right),
-        ("within, planar", Align::Right),
+        ("within, 2-D", Align::Right),
         ("within, 3-D", Align::Right),
         ("predicted, mean", Align::Right),
-        ("planar, mean", Align::Right),
+        ("2-D, mean", Align::Right),
         ("3-D, mean", Align::Right),
         ("3-D, median", Align::Right),
         ("3-D, p95", Align::Right),

@@ -10,7 +10,7 @@ use crate::report::length;
 /// Returns the final errors of plans without and with refinement, by planners of the named effort.
 pub fn refinement_document(report: &RefinementReport, effort: &str) -> Document {
     let table = Table::of(
-        [("as searched", &report.before), ("refined", &report.after)],
+        [("not refined", &report.before), ("refined", &report.after)],
         &[
             ("plans", Left, &|(name, _)| (*name).to_owned()),
             ("solved", Right, &|(_, plans)| format!("{} of {}", plans.solved, report.tasks)),
@@ -18,11 +18,11 @@ pub fn refinement_document(report: &RefinementReport, effort: &str) -> Document 
                 format!("{} of {}", plans.on_all_supports, report.tasks)
             }),
             ("predicted", Right, &|(_, plans)| length(&plans.predicted, |errors| errors.mean)),
-            ("planar", Right, &|(_, plans)| length(&plans.planar, |errors| errors.mean)),
+            ("2-D", Right, &|(_, plans)| length(&plans.planar, |errors| errors.mean)),
             ("3-D", Right, &|(_, plans)| length(&plans.spatial, |errors| errors.mean)),
             ("median", Right, &|(_, plans)| length(&plans.spatial, |errors| errors.median)),
             ("p95", Right, &|(_, plans)| length(&plans.spatial, |errors| errors.p95)),
-            ("replays a task", Right, &|(_, plans)| format!("{:.2}", plans.attempts)),
+            ("replays per task", Right, &|(_, plans)| format!("{:.2}", plans.attempts)),
             ("rollouts", Right, &|(_, plans)| format!("{:.0}", plans.rollouts)),
         ],
     );

@@ -12,10 +12,10 @@ use crate::report::length;
 
 /// Families of levels: name, and prefixes of the names of their models. The first match counts.
 const FAMILIES: [(&str, &[&str]); 6] = [
-    ("prior screens, network decides", &["prior>"]),
+    ("analytic model screens, network decides", &["prior>"]),
     ("network", &["network"]),
-    ("prior alone", &["prior"]),
-    ("planar simulation", &["planar"]),
+    ("analytic model", &["prior"]),
+    ("2-D simulation", &["planar"]),
     ("3-D simulation", &["3d"]),
     ("without physics", &["projection", "follow", "still"]),
 ];
@@ -32,8 +32,8 @@ pub fn tradeoff_document(report: &TradeOffReport) -> Document {
         notes: vec![measured(report), LEGEND.to_owned()],
         sections: vec![
             Section { figures: vec![push], ..section("Predictors", predictor_table(report)) },
-            section("A push by number of objects", object_table(report)),
-            Section { figures: vec![task], ..section("Levels of planning", plan_table(report)) },
+            section("Cost of a push by number of objects", object_table(report)),
+            Section { figures: vec![task], ..section("Planning levels", plan_table(report)) },
             Section { lines: prior_alone(report), ..section("Efforts", effort_table(report)) },
         ],
         json: json!(report),
@@ -42,18 +42,18 @@ pub fn tradeoff_document(report: &TradeOffReport) -> Document {
 }
 
 /// Explanation of the columns.
-const LEGEND: &str = "*A push* is processor time with what can be shared among 64 shared, *alone* \
-    with nothing shared. *Works* is the share of replays with small disturbances, on other supports \
-    and with other starts and frictions, that reach the goal, in the engine in which fewer do; \
-    *solved* is what the level itself has found out by its own replays.";
+const LEGEND: &str = "*A push* is processor time per push in batches of 64, which share common \
+    work; *alone* is without sharing. *Works* is the share of perturbed replays, with other \
+    support models, starts and frictions, that reach the goal, in the engine with the lower \
+    share. *Solved* is the verdict of the planner at this level, from its own replays.";
 
 /// Returns the measurement conditions, in a line or two.
 fn measured(report: &TradeOffReport) -> String {
     let counts = &report.counts;
     format!(
-        "Measured by `pushplan-lab tradeoff`: {} held-out pushes of each kind, {} tasks of seed {}; processor time of one thread, which \
-         reaches {:.0} GFLOP/s in matrix products; the median round of {} is {:.0} % slower than \
-         the fastest, which counts",
+        "Measured by `pushplan-lab tradeoff`: {} held-out pushes of each kind, {} tasks of seed \
+         {}. Processor time is on one thread, which reaches {:.0} GFLOP/s in matrix products. The \
+         fastest of {} rounds counts; the median round is {:.0} % slower",
         counts.pushes,
         counts.tasks,
         counts.seed,
@@ -65,7 +65,7 @@ fn measured(report: &TradeOffReport) -> String {
 
 /// Returns errors and cost of every predictor; the first row compares the ground truth with itself.
 fn predictor_table(report: &TradeOffReport) -> Table {
-    let truth = ("planar, start off by 0.1 mm".to_owned(), &report.spread, None);
+    let truth = ("planar, start shifted by 0.1 mm".to_owned(), &report.spread, None);
     let levels = report.predictors.iter();
     let levels = levels.map(|level| (level.model.to_string(), &level.suites, Some(level)));
     let one = |suites: &[SuiteErrors], value: fn(&Summary) -> f64| {
@@ -158,11 +158,11 @@ fn prior_alone(report: &TradeOffReport) -> Vec<String> {
     let line = |(effort, row): (_, &PlanRow)| {
         let other = prior_instead(&report.plans, row, report.noise);
         other.map_or_else(
-            || format!("No level with the prior alone is cheaper than `{effort}` and as robust."),
+            || format!("No level with only `prior` is cheaper than `{effort}` and as robust."),
             |other| {
                 format!(
-                    "The prior alone is cheaper than `{effort}` and as robust: {:.2} of its cost, \
-                     {} works against {} ({}).",
+                    "A level with only `prior` is cheaper than `{effort}` and as robust: {:.2} \
+                     times its cost, {} instead of {} works ({}).",
                     other.seconds / row.seconds,
                     percent(other.robustness),
                     percent(row.robustness),
@@ -191,7 +191,7 @@ fn push_chart(report: &TradeOffReport) -> Chart {
     chart(
         "Speed against accuracy of one push",
         Axis::log("processor time of a push, \u{b5}s"),
-        Axis::log("mean error against the planar truth, mm"),
+        Axis::log("mean error against the 2-D engine, mm"),
         &points.collect::<Vec<Dot>>(),
         true,
     )
@@ -212,7 +212,7 @@ fn task_chart(report: &TradeOffReport) -> Chart {
     chart(
         "Speed against robustness of plans",
         Axis::log("processor time of a task, s"),
-        Axis::linear("disturbed replays that reach the goal, %"),
+        Axis::linear("perturbed replays that reach the goal, %"),
         &points.collect::<Vec<Dot>>(),
         false,
     )

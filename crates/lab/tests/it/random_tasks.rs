@@ -165,5 +165,5 @@ fn every_shard_measures_every_kind() {
 fn tools_that_make_no_task_are_an_answer_and_no_endless_search() {
     let suite = RandomSuite::new(&ToolLibrary::default(), 7, &[TaskKind::Pull]);
     let error = suite.task(0).expect_err("no tools").to_string();
-    assert_eq!(error, "no task of the kind `pull` could be made with these tools");
+    assert_eq!(error, "no task of the kind `pull` can be generated with these tools");
 }

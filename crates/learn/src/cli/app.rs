@@ -12,7 +12,7 @@ use pushplan_command::{exit_code, start};
 
 use super::{generate, merge, train};
 
-/// Makes training data by simulation and trains the networks of pushplan on them.
+/// Generates training data by simulation, and trains the networks of pushplan on it.
 #[derive(Debug, Parser)]
 #[command(name = "pushplan-learn", version, max_term_width = 100, after_help = exit_code::HELP)]
 struct Cli {

@@ -22,17 +22,17 @@ use crate::dataset::{
     generate, generate_npz,
 };
 
-/// Make training data: random scenes with pushes or lever-ups, simulated
+/// Generate training data by simulating pushes or lever-ups in random scenes
 #[derive(Args, Debug)]
 #[command(
-    after_help = "The same settings always give the same files. An interrupted run (Ctrl-C) keeps its finished
-episodes; the same command goes on from there. --shard 2/3 makes every third episode, on another
-machine say; `pushplan-learn merge DIR SHARD...` makes of the parts the same files as one run, and
-`pushplan-learn status SHARD...` says which are missing.
+    after_help = "The same settings always give the same files. An interrupted run (Ctrl-C) keeps \
+its finished episodes; rerun the same command to resume. --shard 2/3 generates every third \
+episode, for example on another machine. `pushplan-learn merge DIR SHARD...` merges the shards into the \
+files of a single run, and `pushplan-learn status SHARD...` lists missing shards.
 
-A crowd's objects, joints, solids and speed are drawn for training; the options below fix them,
-for test sets such as the published ones (hand at 0.21 m/s). Lever-ups of one seed have no random
-shape in common with those of another.
+In crowds, the objects, joints, solids and speed are random by default. The options above fix them \
+for test sets such as the published test sets (hand at 0.21 m/s). Lever-ups with different seeds \
+have no random shape in common.
 
 Examples:
   pushplan-learn generate data/train --episodes 20000 --seed 1
@@ -41,30 +41,31 @@ Examples:
   pushplan-learn generate data/levers --preset levers --episodes 1600 --seed 1
   pushplan-learn generate data/arrays --episodes 2000 --format npz
 
-mjcf writes every lever-up as a scene of MuJoCo, lever.py, which plays such scenes, and ours.jsonl, where the
-plate comes to here, in the same words.
+mjcf writes every lever-up as a MuJoCo scene, and lever.py, which plays such scenes. It also \
+writes ours.jsonl, with the results of pushplan's 3-D engine in the format of lever.py.
 
-npz keeps 128 episodes a file, so that an interruption costs up to so many, and writes
-statistics.json and a README.md that says what every array holds: poses, velocities and tool poses
-of all frames, masses, frictions, sizes, scenes and tools, in metres, kilograms, seconds, radians."
+npz writes 128 episodes per file, so an interruption loses up to 128 episodes. It also writes \
+statistics.json and a README.md that documents every array. The arrays contain poses, velocities \
+and tool poses of all frames, masses, frictions, sizes, scenes and tools, in metres, kilograms, \
+seconds and radians."
 )]
 pub struct GenerateArgs {
     /// Folder for the data
     #[arg(value_name = "DIR")]
     folder: PathBuf,
-    /// Number of episodes: one scene and one sequence of pushes, or one lever-up, each
+    /// Number of episodes, each a scene with a sequence of pushes or with one lever-up
     #[arg(long, value_name = "N", default_value_t = DatasetConfig::default().episodes)]
     episodes: u64,
-    /// Decides every episode; train and held-out data need different ones
+    /// Seed of the episodes; training and held-out data need different seeds
     #[arg(long, value_name = "N", default_value_t = DatasetConfig::default().seed)]
     seed: u64,
     /// Family of scenes
     #[arg(long, value_parser = possible_values(&DATA), default_value = "tools")]
     preset: Data,
-    /// Who says what is true of pushes with tools
+    /// Source of the ground truth for pushes with tools
     #[arg(long, value_parser = possible_values(&TRUTHS), default_value = "both")]
     truth: Truth,
-    /// Number of objects of a crowd, 2 to 12 [default: any of them]
+    /// Number of objects of a crowd, 2 to 12 [default: random]
     #[arg(long, value_name = "N")]
     objects: Option<usize>,
     /// Joints between near neighbours of a crowd [default: redrawn every 25 episodes]
@@ -73,24 +74,24 @@ pub struct GenerateArgs {
     /// Solids of a crowd [default: redrawn every 25 episodes]
     #[arg(long, value_parser = possible_values(&SOLIDS), value_name = "KIND")]
     solids: Option<Solids>,
-    /// Files for whom
+    /// Format of the files
     #[arg(long, value_enum, default_value_t = Format::Records)]
     format: Format,
-    /// Speed of the hand, 0.05 to 0.25 m/s [default: any of them]
+    /// Speed of the hand, 0.05 to 0.25 m/s [default: random]
     #[arg(long, value_name = "M/S")]
     speed: Option<f64>,
-    /// Make only part I of N, in a folder of its own
+    /// Generate only shard I of N; every shard needs its own folder
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// Our own training
+    /// Records for `pushplan-learn train`
     Records,
-    /// MuJoCo: a scene of every lever-up, and what comes of it here
+    /// MuJoCo scenes of lever-ups, with the results of the 3-D engine
     Mjcf,
-    /// NumPy: arrays of 128 episodes a file, and their statistics
+    /// NumPy arrays, 128 episodes per file, with statistics
     Npz,
 }
 
@@ -119,7 +120,7 @@ impl GenerateArgs {
                 let config = DatasetConfig { seed, episodes, preset, constraints, truth };
                 match self.format {
                     Format::Mjcf => {
-                        let why = "plans with pushes are written by `pushplan export`";
+                        let why = "mjcf is for lever-ups; `pushplan export` exports pushes";
                         Err(DatasetError::Constraint(why.to_owned()))
                     }
                     Format::Records => generate(&config, shard, &self.folder, following),
@@ -133,7 +134,7 @@ impl GenerateArgs {
                 }
             }
             Data::Levers(_) if constraints != Constraints::default() => {
-                let why = "objects, joints, solids and speed can be fixed for crowds only";
+                let why = "--objects, --joints, --solids and --speed are for crowds only";
                 Err(DatasetError::Constraint(why.to_owned()))
             }
             Data::Levers(preset) => {
@@ -144,7 +145,7 @@ impl GenerateArgs {
                         twins(&config, &self.folder, following)
                     }
                     _ => {
-                        let why = "lever-ups cannot be written as npz, nor their scenes in shards";
+                        let why = "lever-ups cannot be written as npz, or in shards as mjcf";
                         Err(DatasetError::Constraint(why.to_owned()))
                     }
                 }
@@ -213,17 +214,17 @@ pub fn run(args: &GenerateArgs, session: &Session) -> Result<u8, CliError> {
 pub fn data_error(error: DatasetError) -> CliError {
     match error {
         DatasetError::Cancelled => CliError::Interrupted(error.to_string()),
-        DatasetError::Empty(_) => CliError::usage(error.to_string(), "ask for at least one"),
+        DatasetError::Empty(_) => CliError::usage(error.to_string(), "increase the number"),
         DatasetError::Constraint(_) => CliError::usage(
             error.to_string(),
-            "`pushplan-learn generate --help` says what each preset has",
+            "`pushplan-learn generate --help` lists presets and options",
         ),
         DatasetError::Foreign { .. } | DatasetError::Shard { .. } => {
             CliError::File(error.to_string())
         }
         DatasetError::Player(_) => CliError::usage(
             error.to_string(),
-            "pip install mujoco, or make data of another --truth",
+            "run `pip install mujoco`, or choose another --truth",
         ),
         DatasetError::Store(error) => error.into(),
     }

@@ -11,14 +11,14 @@ use crate::dataset::merge_data;
 
 use super::generate::data_error;
 
-/// Put the shards of training data together: the same bytes as one run
+/// Merge the shards of training data into the files of a single run
 #[derive(Args, Debug)]
 #[command(after_help = "Example:
   pushplan-learn generate part-1 --seed 1 --shard 1/2      # here
   pushplan-learn generate part-2 --seed 1 --shard 2/2      # there
   pushplan-learn merge whole part-1 part-2")]
 pub struct MergeArgs {
-    /// Folder for the merged data; must hold none
+    /// Folder for the merged data; it must not contain data
     #[arg(value_name = "OUT")]
     out: PathBuf,
     /// Folders of all shards, in any order

@@ -5,7 +5,7 @@ use crate::train::Exposure;
 
 /// Families of training scenes.
 pub static PRESETS: [(&str, Preset, &str); 5] = [
-    ("tools", Preset::Tools, "One to three objects, sometimes obstacles, pushed by random tools"),
+    ("tools", Preset::Tools, "1 to 3 objects, sometimes obstacles, pushed by random tools"),
     ("sparse", Preset::Sparse, "Scattered objects, seven or eight strokes of a round hand"),
     ("sparse-line", Preset::SparseLine, "Scattered objects, one long stroke through them"),
     ("dense", Preset::Dense, "Objects almost touching, one stroke into them"),
@@ -14,20 +14,20 @@ pub static PRESETS: [(&str, Preset, &str); 5] = [
 
 /// Sources of the ground truth for pushes with tools.
 pub static TRUTHS: [(&str, Truth, &str); 4] = [
-    ("both", Truth::Both, "The 3-D engine in four of five episodes, else the planar one"),
-    ("planar", Truth::Planar, "The planar engine"),
-    ("3d", Truth::Spatial, "The 3-D engine"),
-    ("mujoco", Truth::Mujoco, "MuJoCo, by the Python that PUSHPLAN_PYTHON names or `python3`"),
+    ("both", Truth::Both, "3-D engine in four of five episodes, otherwise 2-D engine"),
+    ("planar", Truth::Planar, "2-D engine"),
+    ("3d", Truth::Spatial, "3-D engine"),
+    ("mujoco", Truth::Mujoco, "MuJoCo, run by PUSHPLAN_PYTHON or `python3`"),
 ];
 
 /// Families of lever-ups.
 pub static LEVER_PRESETS: [(&str, LeverPreset, &str); 6] = [
-    ("levers", LeverPreset::Fixed, "Polygons levered up by one motion, at any place"),
-    ("levers-varied", LeverPreset::Varied, "The same by any motion, with any friction"),
-    ("disc", LeverPreset::Disc, "A disc levered up at 100 places"),
-    ("pcb", LeverPreset::Board, "A circuit board's outline levered up at any place"),
-    ("hdd", LeverPreset::Drive, "Boards lifted or pried out of drives built of cuboids"),
-    ("lying", LeverPreset::Lying, "Boxes and lying cylinders, alike from above"),
+    ("levers", LeverPreset::Fixed, "Polygons, one fixed motion, random lever points"),
+    ("levers-varied", LeverPreset::Varied, "Polygons, random motions, frictions and lever points"),
+    ("disc", LeverPreset::Disc, "Disc, 100 lever points"),
+    ("pcb", LeverPreset::Board, "Outline of a circuit board, random lever points"),
+    ("hdd", LeverPreset::Drive, "Boards levered out of hard disk drives built from cuboids"),
+    ("lying", LeverPreset::Lying, "Boxes and lying cylinders with the same outline from above"),
 ];
 
 /// Kinds of training data.
@@ -44,9 +44,9 @@ pub static DATA: [(&str, Data, &str); 11] = data();
 
 /// Joints between near neighbours of a crowd.
 pub static JOINTS: [(&str, JointRule, &str); 3] = [
-    ("none", JointRule::None, "None"),
-    ("fixed", JointRule::Fixed, "Some neighbours joined rigidly"),
-    ("mixed", JointRule::Mixed, "Some neighbours joined by fixed, revolute and prismatic joints"),
+    ("none", JointRule::None, "No joints"),
+    ("fixed", JointRule::Fixed, "Fixed joints between some neighbours"),
+    ("mixed", JointRule::Mixed, "Fixed, revolute and prismatic joints between some neighbours"),
 ];
 
 const fn data() -> [(&'static str, Data, &'static str); 11] {
@@ -67,21 +67,17 @@ const fn data() -> [(&'static str, Data, &'static str); 11] {
 
 /// Solids of a crowd.
 pub static SOLIDS: [(&str, Solids, &str); 2] = [
-    ("cylinders", Solids::Cylinders, "Cylinders alone"),
+    ("cylinders", Solids::Cylinders, "Cylinders only"),
     ("any", Solids::Any, "Cylinders and cuboids"),
 ];
 
 /// Distributions of the number of rollout frames before an example.
 pub static EXPOSURES: [(&str, Exposure, &str); 3] = [
-    ("pushforward", Exposure::Pushforward, "Any number of frames, each equally often"),
+    ("pushforward", Exposure::Pushforward, "Uniform distribution"),
     (
         "scheduled",
         Exposure::Scheduled,
         "Scheduled sampling: each frame with a probability that rises from zero to one",
     ),
-    (
-        "multi-step",
-        Exposure::MultiStep,
-        "Every start is followed for all of the frames, and every one is an example",
-    ),
+    ("multi-step", Exposure::MultiStep, "Full rollout from every start; every frame is an example"),
 ];

@@ -122,7 +122,7 @@ impl Sampler for DatasetConfig {
         match self.episodes {
             0 => Err(DatasetError::Empty("episodes")),
             _ if self.truth != Truth::Both && self.preset.is_crowd() => {
-                let why = "crowds are played by the planar engine, whatever the truth of others";
+                let why = "crowds are always simulated by the 2-D engine; omit --truth";
                 Err(DatasetError::Constraint(why.to_owned()))
             }
             _ => self.constraints.check(self.preset),

@@ -85,8 +85,8 @@ impl Constraints {
         }
         if !preset.is_crowd() {
             return refused(
-                "objects, joints, solids and speed can be chosen for sparse, sparse-line and \
-                 dense scenes only"
+                "--objects, --joints, --solids and --speed need the preset sparse, sparse-line or \
+                 dense"
                     .to_owned(),
             );
         }

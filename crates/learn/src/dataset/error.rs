@@ -15,23 +15,23 @@ pub enum DatasetError {
     #[error("{0}")]
     Constraint(String),
     /// The caller cancelled.
-    #[error("stopped; what was finished is kept, run the same command again to go on")]
+    #[error("stopped; the finished episodes are saved; rerun the same command to resume")]
     Cancelled,
     /// The folder cannot be read or written, or holds other data.
     #[error(transparent)]
     Store(#[from] StoreError),
     /// An external engine is unavailable.
-    #[error("{0}; PUSHPLAN_PYTHON names a Python with the package `mujoco`")]
+    #[error("{0}; set PUSHPLAN_PYTHON to a Python with the package `mujoco`")]
     Player(String),
     /// The folder holds no episodes of this version.
-    #[error("{} does not hold data of this version of pushplan", path.display())]
+    #[error("{} contains no data of this version of pushplan", path.display())]
     Foreign {
         /// Path of the folder.
         path: PathBuf,
     },
     /// The folder holds one shard of a data set.
     #[error(
-        "{} is shard {shard} of a data set; `pushplan-learn merge OUT SHARD...` puts shards together",
+        "{} is shard {shard} of a data set; `pushplan-learn merge OUT SHARD...` merges shards",
         path.display()
     )]
     Shard {

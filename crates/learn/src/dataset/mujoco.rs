@@ -140,12 +140,13 @@ impl Player {
             let why = format!("{what} with `{python}`: {error}");
             DatasetError::Player(why)
         };
-        let folder = tempfile::tempdir().map_err(|error| failed("cannot begin", &error))?;
+        let folder =
+            tempfile::tempdir().map_err(|error| failed("cannot prepare MuJoCo", &error))?;
         let write = |path: &Path, text: &str| fs::write(path, text);
         let script = folder.path().join("frames.py");
         write(&script, FRAMES_SCRIPT)
             .and_then(|()| write(&folder.path().join("replay.py"), REPLAY_SCRIPT))
-            .map_err(|error| failed("cannot begin", &error))?;
+            .map_err(|error| failed("cannot prepare MuJoCo", &error))?;
         let mut child = Command::new(&python)
             .arg(&script)
             .stdin(Stdio::piped())
@@ -161,13 +162,13 @@ impl Player {
         let version: Option<String> = read.ok().and_then(|_| serde_json::from_str(&line).ok());
         match version {
             Some(version) => Ok(Self { child, requests, answers, version, _folder: folder }),
-            None => Err(failed("cannot run MuJoCo", &"it says no version")),
+            None => Err(failed("cannot run MuJoCo", &"it reports no version")),
         }
     }
 
     fn ask(&mut self, request: &str) -> Result<Answer, DatasetError> {
         let ended =
-            |why: &dyn std::fmt::Display| DatasetError::Player(format!("MuJoCo has ended: {why}"));
+            |why: &dyn std::fmt::Display| DatasetError::Player(format!("MuJoCo ended: {why}"));
         writeln!(self.requests, "{request}").map_err(|error| ended(&error))?;
         let mut line = String::new();
         self.answers.read_line(&mut line).map_err(|error| ended(&error))?;

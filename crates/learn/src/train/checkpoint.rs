@@ -16,7 +16,7 @@ pub enum CheckpointError {
     #[error("not a checkpoint: {0}")]
     Format(#[from] safetensors::SafeTensorError),
     /// The header is unreadable.
-    #[error("the checkpoint's header is damaged: {0}")]
+    #[error("the header of the checkpoint is damaged: {0}")]
     Header(#[from] serde_json::Error),
     /// The header is missing.
     #[error("a safetensors file, but not a checkpoint of this network")]

@@ -57,11 +57,11 @@ pub enum TrainError {
     #[error("the network failed: {0}")]
     Candle(#[from] candle_core::Error),
     /// The data contain no examples.
-    #[error("no example: in none of the episodes is there anything to learn")]
+    #[error("the episodes contain no training example")]
     NoExamples,
     /// Loss or gradient is no longer finite.
     #[error(
-        "loss or gradient became infinite or undefined at step {0}; the checkpoint before it is kept"
+        "loss or gradient is infinite or undefined at step {0}; the previous checkpoint is kept"
     )]
     NotFinite(u64),
 }

@@ -85,7 +85,7 @@ fn files_are_the_same_for_any_number_of_threads_and_interruptions() {
     // A changed file is detected.
     fs::write(&first, "no zip").unwrap();
     let made = generate_npz(&config, whole.path(), &NoProgress);
-    assert!(made.unwrap_err().to_string().contains("is not what was written"));
+    assert!(made.unwrap_err().to_string().contains("was changed after it was written"));
     let other = DatasetConfig { seed: 6, ..config };
     assert!(generate_npz(&other, stopped.path(), &NoProgress).is_err());
 }

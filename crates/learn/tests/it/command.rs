@@ -54,7 +54,7 @@ fn what_does_not_fit_together_in_training_is_refused() {
     let wrong = [
         ("predictor runs/none --width 7", "--width must be even, not 7"),
         ("predictor runs/none --learning-rate 2", "--learning-rate must be above 0"),
-        ("regulator runs/none --held-out-seed 1", "the seed of the others"),
+        ("regulator runs/none --held-out-seed 1", "have the same seed"),
         ("lever runs/none --data a", "--held-out"),
         ("gears runs/none", "unrecognized subcommand"),
     ];

@@ -50,7 +50,7 @@ impl Progress for Listener {
     fn line(&self, text: &str) {
         // The lines after the last step report the share of the correction.
         let step = text.starts_with("step ");
-        assert!(step || text.contains("share") || text.contains("counts"), "{text}");
+        assert!(step || text.contains("share") || text.contains("scaled by"), "{text}");
         self.lines.fetch_add(u64::from(step), Ordering::SeqCst);
     }
 

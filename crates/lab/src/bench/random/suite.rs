@@ -54,7 +54,7 @@ pub struct SuiteTask {
 
 /// Error of a suite whose tools allow no task of a kind.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
-#[error("no task of the kind `{kind}` could be made with these tools")]
+#[error("no task of the kind `{kind}` can be generated with these tools")]
 pub struct NoTask {
     /// Kind of the task.
     pub kind: TaskKind,

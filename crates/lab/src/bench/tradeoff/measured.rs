@@ -123,7 +123,7 @@ pub struct TradeOffReport {
     /// Noise between levels of planning: the difference of two measurements of one level's cost,
     /// and one standard error of the best level's robustness.
     pub noise: Noise,
-    /// Comparison of the 2-D ground truth with itself, with the start off by 0.1 mm.
+    /// Comparison of the 2-D ground truth with itself, with the start shifted by 0.1 mm.
     pub spread: Vec<SuiteErrors>,
     /// Predictors with errors and costs.
     pub predictors: Vec<PredictorRow>,

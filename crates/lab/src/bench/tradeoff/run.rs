@@ -144,9 +144,9 @@ impl<'a> TradeOff<'a> {
     pub fn title(&self, index: usize) -> String {
         let rounds = self.levels.len() + 1;
         match index {
-            0 => "the truth's own spread".to_owned(),
+            0 => "spread of the ground truth".to_owned(),
             k if k < rounds => format!("errors of {}", self.levels[k - 1].name()),
-            k if k < rounds + self.settings.rounds => format!("round {} of timing", k - rounds + 1),
+            k if k < rounds + self.settings.rounds => format!("timing round {}", k - rounds + 1),
             k => format!("task {}", k - rounds - self.settings.rounds + 1),
         }
     }

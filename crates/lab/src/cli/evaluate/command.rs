@@ -20,22 +20,23 @@ use crate::trivial;
 
 /// Measure prediction errors on held-out pushes and crowds
 #[derive(Args, Debug)]
-#[command(after_help = "What to measure on, any of:
-  tools          all pushes of a shipped tool: single, single-any-speed, touching (default)
+#[command(after_help = "Test sets of --on:
+  tools          all pushes of the shipped tools: single, single-any-speed, touching (default)
   sparse, dense  scenes of 6 to 12 objects, some joined, pushed by a round hand
-  sparse-line    the same with one long stroke
+  sparse-line    sparse scenes with one long stroke
   all            sparse and dense
 
-With --out every finished part (a kind of pushes, a set of scenes) is kept at once: after an
-interruption (Ctrl-C) the same command goes on. --shard 2/3 measures every third part, on another
-machine say; `pushplan-lab merge OUT SHARD...` puts all shards together as one run would have left them.
+With --out, every finished part (a kind of pushes, a set of scenes) is saved at once. After an \
+interruption (Ctrl-C), rerun the same command to resume. --shard 2/3 measures every third part, \
+for example on another machine; `pushplan-lab merge OUT SHARD...` merges the shards into the files \
+of a single run.
 
 Examples:
   pushplan-lab evaluate --on single --pushes 2000
   pushplan-lab evaluate --on dense --objects 9 --count 50 --out plans
   pushplan-lab evaluate runs/full/best.safetensors --on tools")]
 pub struct EvaluateArgs {
-    /// The model, the same as --model
+    /// Effect model, as in --model
     #[arg(value_name = "MODEL", conflicts_with = "model", value_parser = trivial::spec)]
     positional: Option<ModelSpec>,
     #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP,
@@ -43,17 +44,17 @@ pub struct EvaluateArgs {
     model: ModelSpec,
     #[command(flatten)]
     pub out_of_range: OutOfRangeArgs,
-    /// What to measure on, see below; several may be given
+    /// Test sets, see below; several are possible
     #[arg(long, value_name = "WHAT", num_args = 1..)]
     on: Vec<On>,
-    /// Pushes of each kind of tool pushes
+    /// Number of pushes of each kind of tool pushes
     #[arg(long, value_name = "N", default_value_t = 2000,
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub pushes: u32,
     /// Seed of the pushes and scenes
     #[arg(long, value_name = "N", default_value_t = 7)]
     pub seed: u64,
-    /// Measure only shard I of N; a kind of pushes or a set of scenes is never split
+    /// Measure only shard I of N; kinds of pushes and sets of scenes are never split
     #[arg(long, value_name = "I/N", requires = "out")]
     pub shard: Option<Shard>,
     #[command(flatten)]

@@ -28,10 +28,10 @@ impl FromStr for On {
             "dense" => On::Crowds(vec![Dense]),
             "all" => On::Crowds(vec![Sparse, Dense]),
             file if file.ends_with(".safetensors") => {
-                return Err("these are weights; name them before --on, or after --model".into());
+                return Err("this is a weights file; give it before --on or after --model".into());
             }
             file if file.contains(['.', '/']) => {
-                return Err("recordings are judged by `pushplan predict FILE...`".into());
+                return Err("for recordings use `pushplan predict FILE...`".into());
             }
             _ => {
                 return Err("use tools, single, single-any-speed, touching, sparse, sparse-line, \

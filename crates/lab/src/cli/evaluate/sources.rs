@@ -13,28 +13,28 @@ use crate::bench::{CrowdFamily, CrowdSet};
 /// Options of scenes of many objects.
 #[derive(Args, Debug)]
 pub struct CrowdArgs {
-    /// Trajectories of each set of sparse or dense scenes
+    /// Number of trajectories of each set of sparse or dense scenes
     #[arg(long, value_name = "N", default_value_t = 200,
           value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub count: u32,
-    /// Only sets with this many objects
+    /// Restrict to sets with this many objects
     #[arg(long, value_name = "N")]
     objects: Vec<usize>,
-    /// Only sets with these joints
+    /// Restrict to sets with these joints
     #[arg(long, num_args = 1.., value_parser = possible_values(&JOINTS[1..]),
           value_name = "JOINTS")]
     joints: Vec<JointRule>,
-    /// Only sets of these solids
+    /// Restrict to sets of these solids
     #[arg(long, value_parser = possible_values(&SOLIDS), value_name = "SOLIDS")]
     solids: Option<Solids>,
-    /// Measure the model alone on sparse and dense scenes, without baselines
+    /// Measure only the model on sparse and dense scenes, without baselines
     #[arg(long)]
     pub no_baselines: bool,
-    /// Of sparse and dense scenes print only one table, a row for each set
+    /// Print only one table for sparse and dense scenes, with a row for each set
     #[arg(long)]
     pub summary: bool,
-    /// Folder that keeps every finished part, evaluation.json, written again after each, and the
-    /// curves of error by horizon as SVG
+    /// Folder for finished parts, evaluation.json (updated after each part) and curves of the
+    /// errors by horizon (SVG)
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }
@@ -48,8 +48,8 @@ impl CrowdArgs {
         let sets: Vec<CrowdSet> = all.filter(|set| self.picks(set)).collect();
         match sets.is_empty() && !families.is_empty() {
             true => Err(CliError::usage(
-                "no set has that many objects",
-                "sparse sets have 6, 9 or 12 objects, dense ones 6, 8 or 9",
+                "no set has this number of objects",
+                "sparse sets have 6, 9 or 12 objects, dense sets 6, 8 or 9",
             )),
             false => Ok(sets),
         }

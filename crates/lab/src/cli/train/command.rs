@@ -8,13 +8,15 @@ use pushplan_command::session::Session;
 
 use super::{memory, parts};
 
-/// Train networks of lever-ups that were tried; the same command goes on with an interrupted run
+/// Train alternative networks of lever-ups; a rerun resumes an interrupted run
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Lever-ups are those of `pushplan-learn generate`. In the folder lie checkpoint.safetensors to go on from,
-metrics.jsonl, and best.safetensors, the weights with the lowest held-out error, for `pushplan-lab levers`
-and `pushplan-lab hdd`. Ctrl-C saves and stops; the same command then goes on, to the same bits as a run
-that never stopped. The shipped network is trained by `pushplan-learn train lever`."
+    after_help = "The data come from `pushplan-learn generate`. The folder of the run contains \
+metrics.jsonl, checkpoint.safetensors, from which a run resumes, and best.safetensors, the weights \
+with the lowest held-out error. `pushplan-lab levers` and `pushplan-lab hdd` read these weights.
+
+Ctrl-C saves the run and stops. A rerun of the same command resumes it, and the result is \
+bit-identical to an uninterrupted run. `pushplan-learn train lever` trains the shipped network."
 )]
 pub struct TrainArgs {
     #[command(subcommand)]
@@ -27,27 +29,27 @@ enum Network {
     Parts(parts::PartsArgs),
 }
 
-/// What both are told.
+/// Arguments of both networks.
 #[derive(Args, Debug)]
 pub(super) struct RunArgs {
     /// Folder of the run
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
-    /// Folders of lever-ups to learn from
+    /// Folders of lever-ups to train on
     #[arg(long, value_name = "DIR", required = true, num_args = 1..)]
     pub data: Vec<PathBuf>,
-    /// Predict everything, and correct no prior
+    /// Predict the whole motion instead of a correction of the analytic model
     #[arg(long)]
     pub no_prior: bool,
-    /// Learn from this share of every folder only, its first lever-ups
+    /// Train on only this percentage of every folder, its first lever-ups
     #[arg(long, value_name = "PERCENT", default_value_t = 100,
           value_parser = clap::value_parser!(u8).range(1..=100))]
     share: u8,
-    /// Steps between held-out evaluations and checkpoints
+    /// Number of steps between held-out evaluations and checkpoints
     #[arg(long, value_name = "N", default_value_t = 1000,
           value_parser = clap::value_parser!(u64).range(1..))]
     pub evaluate_every: u64,
-    /// Seed of first weights and batches
+    /// Seed of the initial weights and the batches
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
 }

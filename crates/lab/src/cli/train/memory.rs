@@ -15,10 +15,11 @@ use super::RunArgs;
 use crate::cli::value_enums::{LEVER_FEATURES, ShapeFeatures};
 use crate::image::{ImageSettings, train_image};
 
-/// A long short-term memory that is told the whole at once
+/// Train a long short-term memory on the whole motion at once
 #[derive(Args, Debug)]
 #[command(
-    after_help = "With `--features image-code` an autoencoder is trained first, for as many steps, in the folder's `code`.
+    after_help = "With `--features image-code`, an autoencoder is trained first, for the same \
+number of steps, in the subfolder `code`.
 
 Examples:
   pushplan-learn generate data/levers --preset levers --episodes 8000 --seed 1
@@ -32,27 +33,27 @@ Examples:
 pub struct MemoryArgs {
     #[command(flatten)]
     run: RunArgs,
-    /// Folders of held-out lever-ups, of other seeds
+    /// Folders of held-out lever-ups with other seeds
     #[arg(long, value_name = "DIR", required_unless_present = "random_split", num_args = 1..)]
     held_out: Vec<PathBuf>,
-    /// As in the thesis, learn from 14 in 18 lever-ups of every folder, hold one out, and leave the
-    /// others to `pushplan-lab levers --random-split`: their shapes have been seen
+    /// Split as in the thesis: of 18 lever-ups of every folder, train on 14, hold out 1, and leave
+    /// 3 to `pushplan-lab levers --random-split`, whose shapes then occur in training
     #[arg(long, conflicts_with_all = ["held_out", "share"])]
     random_split: bool,
-    /// As in the thesis, tell the pose of the frame before: the true one while learning, the predicted
-    /// one after
+    /// Use the pose of the previous frame as input, as in the thesis: the true pose in training,
+    /// the predicted pose afterwards
     #[arg(long, requires = "no_prior")]
     feedback: bool,
-    /// As in the thesis, leave out the frames from a slip on
+    /// Omit the frames after a slip, as in the thesis
     #[arg(long)]
     cut: bool,
-    /// What the network is told of the shape
+    /// Features of the shape that the network sees
     #[arg(long, value_parser = possible_values(&LEVER_FEATURES), default_value = "support")]
     features: ShapeFeatures,
-    /// Leave out plates of this many corners
+    /// Omit plates with this many corners
     #[arg(long, value_name = "CORNERS")]
     leave_out: Option<usize>,
-    /// Steps of the whole schedule
+    /// Number of training steps of the whole schedule
     #[arg(long, value_name = "N", default_value_t = LeverSettings::default().descent.steps,
           value_parser = clap::value_parser!(u64).range(1..))]
     steps: u64,

@@ -13,7 +13,7 @@ use pushplan_learn::train::Descent;
 use super::RunArgs;
 use crate::parts::{PartsSettings, train_parts};
 
-/// Propagation between cuboids that are near, step by step
+/// Train a propagation network between near cuboids, step by step
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
   pushplan-learn generate data/hdd --preset hdd --episodes 500 --seed 1
@@ -23,14 +23,14 @@ use crate::parts::{PartsSettings, train_parts};
 pub struct PartsArgs {
     #[command(flatten)]
     run: RunArgs,
-    /// Folders of held-out lever-ups, of other seeds
+    /// Folders of held-out lever-ups with other seeds
     #[arg(long, value_name = "DIR", required = true, num_args = 1..)]
     held_out: Vec<PathBuf>,
-    /// Steps of the whole schedule
+    /// Number of training steps of the whole schedule
     #[arg(long, value_name = "N", default_value_t = PartsSettings::default().descent.steps,
           value_parser = clap::value_parser!(u64).range(1..))]
     steps: u64,
-    /// Hidden width, an even number
+    /// Hidden width, even
     #[arg(long, value_name = "N", default_value_t = PartsSettings::default().config.width as u32,
           value_parser = clap::value_parser!(u32).range(2..=1024))]
     width: u32,

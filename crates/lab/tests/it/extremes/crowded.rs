@@ -21,7 +21,7 @@ const ROW_GAP: f64 = 0.01;
 
 const SINKING: &str = "bodies of very different mass sink into each other, or need stiff contacts";
 const THROWN: &str = "the engine throws overlapping bodies apart";
-const CRUSHED: &str = "nothing gives way: the engine presses the object into tool or wall";
+const CRUSHED: &str = "no body can move: the engine presses the object into tool or wall";
 
 /// Draws a given number of touching objects from the training ranges.
 pub fn touching(draw: &Draw, count: usize) -> Vec<Case> {

@@ -10,19 +10,19 @@ use super::tasks::TaskCell;
 
 /// Rule by which cells are judged.
 const RULE: &str = "\
-Every cell is a set of pushes that have one extreme in common; everything else is a 10 cm object of
-400 g and friction 0.4 on a table of 0.5, or two or three of them, pushed 20 cm at 0.1 m/s by the
-shipped tools in turn. The error of a push is that of the object that is farthest off: its centre's
-distance from where the planar engine leaves it and, for a cuboid, its turn times its mean radius,
-added as squares. A push is wrong if its error exceeds 3 times the 95th percentile of ordinary
-pushes of its kind, 5 % of the true motion, and 3 times what the truth itself changes by when its
-time step is halved or its start shifted by 0.1 mm; if only the last is not met it is undecided.
-Ordinary pushes break the rule now and then, too (last column of the first table), so a cell is
-wrong when more than a tenth of its pushes are. Flagged is a push that the model warned of, before
-the rollout or during it. A cell is a DEFECT if more than a tenth of its pushes are wrong and not
-flagged, if an answer is not finite, or if an object ends farther away than the tool could send it.
-Where the engine itself is known to be wrong (\u{2020}) every push must be flagged; in front of a wall
-that is where the object truly touches both tool and wall.
+A cell is a set of pushes with one extreme in common. Otherwise, one to three 10 cm objects (400 g,
+friction 0.4, table friction 0.5) are pushed 20 cm at 0.1 m/s by the shipped tools in turn. The
+error of a push is the maximum over its objects. It combines as squares the distance of the centre
+from its position in the 2-D engine and, for a cuboid, the rotation error times its mean radius. A
+push is wrong if its error exceeds three limits: 3 times the 95th percentile of ordinary pushes of
+its kind, 5 % of the true motion, and 3 times the spread of the ground truth. This spread is its
+change if the time step is halved or the start shifted by 0.1 mm. If the error exceeds only the
+first two limits, the push is undecided. Some ordinary pushes are wrong, too (last column of the
+first table), so a cell is wrong if more than a tenth of its pushes are. A push is flagged if the
+model warned before or during the rollout. A cell is a DEFECT in three cases: more than a tenth of
+its pushes are wrong and not flagged, a prediction is not finite, or an object ends farther away
+than the tool could send it. If the engine itself is known to be wrong (\u{2020}), every push must
+be flagged; in front of a wall, this holds if the object truly touches both tool and wall.
 ";
 
 /// Returns the page, with the `command` that writes it.
@@ -34,7 +34,7 @@ pub fn page(extremes: &Extremes, command: &str) -> String {
     let doubts: String = doubts.iter().map(|doubt| format!("- \u{2020} {doubt}\n")).collect();
     format!(
         "# At the extremes\n\n{}.\n\n```sh\n{command}\n```\n\n{RULE}\n{}\n{}\n{doubts}\n\
-         ## Tasks\n\nA random solvable task made extreme, at draft effort.\n\n{}",
+         ## Tasks\n\nEach row is a random solvable task with an extreme value, at draft effort.\n\n{}",
         line(extremes),
         yardstick_table(&extremes.yardsticks).to_markdown(),
         cell_table(&extremes.cells).to_markdown(),
@@ -89,7 +89,7 @@ fn cell_table(cells: &[(Cell, Judged)]) -> Table {
         ("motion", Align::Right),
         ("error, mean", Align::Right),
         ("p95", Align::Right),
-        ("truth's own, mean", Align::Right),
+        ("ground-truth spread, mean", Align::Right),
         ("wrong", Align::Right),
         ("undecided", Align::Right),
         ("flagged", Align::Right),
@@ -158,7 +158,7 @@ fn verdict(judged: &Judged) -> String {
         Verdict::Right => "right",
         Verdict::RightFlagged => "right, flagged",
         Verdict::WrongFlagged => "wrong, flagged",
-        Verdict::Undecided => "no truth, flagged",
+        Verdict::Undecided => "no ground truth, flagged",
         Verdict::Defect => "DEFECT",
     };
     if judged.finite < judged.pushes {

@@ -44,7 +44,7 @@ pub struct TaskCell {
 }
 
 const TASKS: [(&str, Expected, Change); 20] = [
-    ("an ordinary one", Expected::Solved(1), |_| {}),
+    ("ordinary task", Expected::Solved(1), |_| {}),
     ("goal at the start", Expected::Solved(0), |task| {
         let at = task.scene.objects[0].pose.position;
         task.goals[0].set_position(at);

@@ -16,13 +16,16 @@ use crate::train::{CheckpointError, TrainError};
 
 use super::{lever, predictor, regulator};
 
-/// Make a network's data and weights; the same command goes on with an interrupted run
+/// Generate the data of a network and train its weights; a rerun resumes an interrupted run
 #[derive(Args, Debug)]
 #[command(
-    after_help = "One line makes the data and weights of a shipped network from nothing. The folder holds the run: the
-data, if none are given, checkpoint.safetensors to go on from, metrics.jsonl, best.safetensors, the
-weights with the best held-out score, and last.safetensors, those of the last evaluation. Ctrl-C
-saves and stops; the same command then goes on, to the same bits as a run that never stopped.
+    after_help = "One command generates the data and the weights of a shipped network. The folder \
+of the run contains the data, unless --data is given, metrics.jsonl and checkpoint.safetensors, \
+from which a run resumes. best.safetensors contains the weights with the best held-out score, \
+last.safetensors the weights of the last evaluation.
+
+Ctrl-C saves the run and stops. A rerun of the same command resumes it, and the result is \
+bit-identical to an uninterrupted run.
 
 Examples:
   pushplan-learn train predictor runs/predictor
@@ -94,7 +97,7 @@ pub(super) fn written(
 ) -> Result<u8, CliError> {
     let best = best.map_err(train_error)?;
     if interrupt::requested() {
-        let message = "stopped; the run is saved, the same command goes on with it";
+        let message = "stopped; the run is saved; rerun the same command to resume";
         return Err(CliError::Interrupted(message.to_owned()));
     }
     if let Some(best) = best {
@@ -109,7 +112,7 @@ fn train_error(error: TrainError) -> CliError {
         TrainError::Write(faults) => CliError::Output(faults),
         TrainError::Checkpoint(_, CheckpointError::Other) => CliError::usage(
             error.to_string(),
-            "the same settings go on with a run; every setting counts",
+            "to resume a run, repeat its command with exactly the same settings",
         ),
         TrainError::Checkpoint(..) => CliError::File(error.to_string()),
         _ => CliError::Unexpected(error.to_string()),

@@ -27,10 +27,11 @@ const HELD_OUT: [LeverConfig; 2] = [
     LeverConfig { seed: 3, episodes: 1500, preset: LeverPreset::Fixed },
 ];
 
-/// The network that corrects predicted lever-ups
+/// Train the network that corrects predicted lever-ups
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Networks that correct no prior, are told other features or see images are trained by `pushplan-lab train`.
+    after_help = "`pushplan-lab train` trains alternative networks: without an analytic model, \
+with other features, or with images.
 
 Examples:
   pushplan-learn train lever runs/lever
@@ -42,17 +43,18 @@ pub struct LeverArgs {
     /// Folder of the run
     #[arg(value_name = "DIR")]
     folder: PathBuf,
-    /// Folders of lever-ups to learn from [default: those of the shipped weights, made in DIR]
+    /// Folders of lever-ups to train on [default: the data of the shipped weights, generated in
+    /// DIR]
     #[arg(long, value_name = "DIR", num_args = 1.., requires = "held_out")]
     data: Vec<PathBuf>,
-    /// Folders of held-out lever-ups, of other seeds
+    /// Folders of held-out lever-ups with other seeds
     #[arg(long, value_name = "DIR", num_args = 1.., requires = "data")]
     held_out: Vec<PathBuf>,
-    /// Steps of the whole schedule
+    /// Number of training steps of the whole schedule
     #[arg(long, value_name = "N", default_value_t = LeverSettings::default().descent.steps,
           value_parser = clap::value_parser!(u64).range(1..))]
     steps: u64,
-    /// Steps between held-out evaluations and checkpoints
+    /// Number of steps between held-out evaluations and checkpoints
     #[arg(long, value_name = "N", default_value_t = LeverSettings::default().descent.evaluate_every,
           value_parser = clap::value_parser!(u64).range(1..))]
     evaluate_every: u64,
@@ -60,7 +62,7 @@ pub struct LeverArgs {
     #[arg(long, value_name = "N", default_value_t = LeverSettings::default().width as u32,
           value_parser = clap::value_parser!(u32).range(1..=1024))]
     width: u32,
-    /// Seed of first weights and batches
+    /// Seed of the initial weights and the batches
     #[arg(long, value_name = "N", default_value_t = LeverSettings::default().seed)]
     seed: u64,
 }
@@ -127,7 +129,7 @@ pub fn distinct(learned: &[LeverDataset], held_out: &[LeverDataset]) -> Result<(
     let seeds =
         |sets: &[LeverDataset]| sets.iter().map(|set| set.config().seed).collect::<Vec<_>>();
     if seeds(learned).iter().any(|seed| seeds(held_out).contains(seed)) {
-        let message = "held-out lever-ups have the seed of others";
+        let message = "training data and held-out lever-ups have a seed in common";
         return Err(CliError::usage(message, "generate them with another --seed"));
     }
     Ok(())

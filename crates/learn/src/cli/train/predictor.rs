@@ -28,15 +28,15 @@ const SETS: [(&str, Preset, Truth, u64, u64); 4] = [
     ("crowds", Preset::Crowds, Truth::Both, 1600, 40),
 ];
 
-/// The physics predictor
+/// Train the physics predictor
 #[derive(Args, Debug)]
 #[command(
-    after_help = "The data are pushes with tools played by three engines, ours in the plane and in 3-D and MuJoCo, each
-as often in a step as the others, and crowds. MuJoCo needs Python: PUSHPLAN_PYTHON names one with the
-package `mujoco`.
+    after_help = "The data are crowds, and pushes with tools simulated by three engines: the 2-D \
+engine, the 3-D engine and MuJoCo, with equal shares of every batch. MuJoCo needs a Python with \
+the package `mujoco`; PUSHPLAN_PYTHON names it.
 
-curves.svg in the folder of the run shows the held-out errors. The weights of the last evaluation,
-last.safetensors, are often the better ones once the schedule is through.
+curves.svg in the folder of the run shows the held-out errors. After the whole schedule, the \
+weights of the last evaluation (last.safetensors) are often better than best.safetensors.
 
 Examples:
   pushplan-learn train predictor runs/predictor
@@ -48,55 +48,55 @@ pub struct PredictorArgs {
     /// Folder of the run
     #[arg(value_name = "DIR")]
     folder: PathBuf,
-    /// Folders with data made by `generate` [default: they are made in DIR]
+    /// Folders of data from `generate` [default: data generated in DIR]
     #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["share", "data_seed", "without_mujoco"])]
     data: Vec<PathBuf>,
-    /// Share of the episodes that the shipped weights have learned from, made in DIR
+    /// Number of episodes to generate in DIR, relative to the training of the shipped weights
     #[arg(long, value_name = "X", default_value_t = 1.0)]
     share: f64,
-    /// Without those of MuJoCo
+    /// Omit the episodes simulated by MuJoCo
     #[arg(long)]
     without_mujoco: bool,
-    /// Seed of the episodes made in DIR
+    /// Seed of the episodes generated in DIR
     #[arg(long, value_name = "N", default_value_t = DatasetConfig::default().seed)]
     data_seed: u64,
-    /// Seed of the held-out episodes; must differ from that of the data
+    /// Seed of the held-out episodes; it must differ from the seed of the training data
     #[arg(long, value_name = "N", default_value_t = 2)]
     held_out_seed: u64,
-    /// Steps of the whole schedule
+    /// Number of training steps of the whole schedule
     #[arg(long, value_name = "N", default_value_t = PredictorSettings::default().descent.steps,
           value_parser = clap::value_parser!(u64).range(1..))]
     steps: u64,
-    /// Steps between held-out evaluations and checkpoints
+    /// Number of steps between held-out evaluations and checkpoints
     #[arg(long, value_name = "N", default_value_t = PredictorSettings::default().descent.evaluate_every,
           value_parser = clap::value_parser!(u64).range(1..))]
     evaluate_every: u64,
-    /// Graphs per step, an even number
+    /// Number of graphs per step, even
     #[arg(long, value_name = "N", default_value_t = PredictorSettings::default().descent.batch as u32,
           value_parser = clap::value_parser!(u32).range(2..=65_536))]
     batch: u32,
-    /// Hidden width, an even number
+    /// Hidden width, even
     #[arg(long, value_name = "N", default_value_t = Config::default().width as u32,
           value_parser = clap::value_parser!(u32).range(2..=4096))]
     width: u32,
-    /// Propagation steps
+    /// Number of propagation steps
     #[arg(long, value_name = "N", default_value_t = Config::default().steps as u32,
           value_parser = clap::value_parser!(u32).range(1..=16))]
     propagation: u32,
-    /// Highest learning rate
+    /// Maximum learning rate
     #[arg(long, value_name = "X", default_value_t = PredictorSettings::default().descent.learning_rate)]
     learning_rate: f64,
-    /// Largest shift of noisy inputs, metres
+    /// Maximum shift of noisy inputs, metres
     #[arg(long, value_name = "X", default_value_t = PredictorSettings::default().noise.shift)]
     noise: f64,
-    /// Largest number of frames that the network's own rollout leads up to an example; none by
-    /// default, as the corrections wanted are those at the true state either way
+    /// Maximum number of frames that the network rolls out before an example. The target correction
+    /// always belongs to the true state, so 0 is sufficient
     #[arg(long, value_name = "N", default_value_t = PredictorSettings::default().noise.lead)]
     lead: usize,
-    /// How that number is drawn
+    /// Distribution of the number of rollout frames before an example
     #[arg(long, value_parser = possible_values(&EXPOSURES), default_value = "pushforward")]
     exposure: Exposure,
-    /// Seed of first weights, batches and noise
+    /// Seed of the initial weights, the batches and the noise
     #[arg(long, value_name = "N", default_value_t = PredictorSettings::default().seed)]
     seed: u64,
 }
@@ -127,7 +127,7 @@ pub fn run(args: &PredictorArgs, session: &Session) -> Result<u8, CliError> {
         }
     }
     if learned.iter().any(|set| set.config().seed == args.held_out_seed) {
-        let message = "the held-out episodes have the seed of the data";
+        let message = "training episodes and held-out episodes have the same seed";
         return Err(CliError::usage(message, "choose another --held-out-seed"));
     }
     let mut held_out = Vec::new();

@@ -14,12 +14,12 @@ use crate::cli::train::{data, take, weights};
 use crate::dataset::lessons;
 use crate::train::{Descent, RegulatorSettings, train_regulator};
 
-/// The belief regulator
+/// Train the belief regulator
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Lessons are crowds that are seen with noise, some of them without the headings of cylinders, and what
-the filter made of every window; they are kept in the folder's `lessons` and `held-out`. The shipped
-propagation network is not changed.
+    after_help = "Lessons are noisy observations of crowds, some without headings of cylinders, \
+with the belief of the filter after every window. They are saved in the subfolders `lessons` and \
+`held-out`. The shipped propagation network is not changed.
 
 Examples:
   pushplan-learn train regulator runs/regulator
@@ -29,25 +29,25 @@ pub struct RegulatorArgs {
     /// Folder of the run
     #[arg(value_name = "DIR")]
     folder: PathBuf,
-    /// Number of lessons
+    /// Number of training lessons
     #[arg(long, value_name = "N", default_value_t = RegulatorSettings::default().lessons,
           value_parser = clap::value_parser!(u64).range(1..))]
     lessons: u64,
-    /// Seed of the lessons
+    /// Seed of the training lessons
     #[arg(long, value_name = "N", default_value_t = RegulatorSettings::default().data_seed)]
     data_seed: u64,
     /// Number of held-out lessons
     #[arg(long, value_name = "N", default_value_t = 500,
           value_parser = clap::value_parser!(u64).range(1..))]
     held_out: u64,
-    /// Seed of the held-out lessons; must differ from that of the others
+    /// Seed of the held-out lessons; it must differ from --data-seed
     #[arg(long, value_name = "N", default_value_t = 2)]
     held_out_seed: u64,
-    /// Steps of the whole schedule
+    /// Number of training steps of the whole schedule
     #[arg(long, value_name = "N", default_value_t = RegulatorSettings::default().descent.steps,
           value_parser = clap::value_parser!(u64).range(1..))]
     steps: u64,
-    /// Steps between held-out evaluations and checkpoints
+    /// Number of steps between held-out evaluations and checkpoints
     #[arg(long, value_name = "N", default_value_t = RegulatorSettings::default().descent.evaluate_every,
           value_parser = clap::value_parser!(u64).range(1..))]
     evaluate_every: u64,
@@ -55,14 +55,14 @@ pub struct RegulatorArgs {
     #[arg(long, value_name = "N", default_value_t = RegulatorSettings::default().width as u32,
           value_parser = clap::value_parser!(u32).range(1..=1024))]
     width: u32,
-    /// Seed of first weights and batches
+    /// Seed of the initial weights and the batches
     #[arg(long, value_name = "N", default_value_t = RegulatorSettings::default().seed)]
     seed: u64,
 }
 
 pub fn run(args: &RegulatorArgs, session: &Session) -> Result<u8, CliError> {
     if args.data_seed == args.held_out_seed {
-        let message = "the held-out lessons have the seed of the others";
+        let message = "training lessons and held-out lessons have the same seed";
         return Err(CliError::usage(message, "choose another --held-out-seed"));
     }
     let default = RegulatorSettings::default();

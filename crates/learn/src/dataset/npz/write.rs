@@ -100,6 +100,6 @@ fn unchanged(finished: &Finished, dir: &Path) -> Result<(), String> {
     let there = std::fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))?;
     match digest(&there) == finished.digest {
         true => Ok(()),
-        false => Err(format!("{} is not what was written", path.display())),
+        false => Err(format!("{} was changed after it was written", path.display())),
     }
 }

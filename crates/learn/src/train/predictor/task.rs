@@ -65,7 +65,7 @@ fn finish(
         weights.card.share = share;
         weights.card.doubt = Some(fit_doubt(&weights, data));
         write_atomic(path, &weights.to_bytes()?)?;
-        progress.line(&format!("{}: {share} of the correction counts", path.display()));
+        progress.line(&format!("{}: the correction is scaled by {share}", path.display()));
     }
     Ok(())
 }
