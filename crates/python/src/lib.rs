@@ -3,8 +3,8 @@
 //! This is a thin layer; all computation, decisions and texts are in the library. Arguments are
 //! converted to the library's types (`mapping`, `words`, `push`, `arrays`). Long work runs without
 //! the GIL and stops at Ctrl-C (`work`). Results become attributes with units. The Python side,
-//! `python/pushplan`, holds the code that is simpler in Python: exceptions, types of files, the
-//! Gymnasium environment.
+//! `crates/python/pushplan`, holds the code that is simpler in Python: exceptions, types of files,
+//! the Gymnasium environment.
 
 use pyo3::prelude::*;
 

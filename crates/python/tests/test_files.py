@@ -71,7 +71,7 @@ def test_what_no_file_can_hold_is_refused(task: pushplan.Task) -> None:
     build: Any = pushplan.Task.of
     with pytest.raises(TypeError, match="robustness: expected numbers"):
         build({**keys, "robustness": {0.5}})
-    with pytest.raises(TypeError, match="keys are strings"):
+    with pytest.raises(TypeError, match="keys must be strings"):
         build({1: 2})
     endless: list[Any] = []
     endless.append(endless)

@@ -72,7 +72,7 @@ def test_efforts_differ_and_unknown_words_are_refused(task: pushplan.Task) -> No
     draft = pushplan.solve(task, effort="draft").to_dict()
     standard = pushplan.solve(task).to_dict()
     assert draft["statistics"]["rollouts"] < standard["statistics"]["rollouts"]
-    with pytest.raises(ValueError, match='effort: "hard" is not known; use "draft"'):
+    with pytest.raises(ValueError, match='effort: unknown value "hard"; use "draft"'):
         pushplan.solve(task, effort="hard")  # type: ignore[arg-type]
     with pytest.raises(pushplan.ModelError, match="use network, prior, planar"):
         pushplan.solve(task, model="quasi-static")
