@@ -90,7 +90,7 @@ class _TableEnv(gymnasium.Env[_Action, _Action]):
         return self._seen(), self._info(None)
 
     def render(self) -> Any:
-        """Returns the image of the table, ``[256, 256, 3]``, the report of the last push, or None."""
+        """Returns the image, ``[256, 256, 3]``, the report of the last push, or ``None``."""
         if self.render_mode == "html":
             return None if self._last is None else self._last.page()
         if self._picture is None:

@@ -189,7 +189,7 @@ class Camera:
 class Seen:
     """Observation of the objects, the result of `look`."""
 
-    #: Poses for `Task.at`, ``[objects, 3]``: x, y (metres), heading (radians); by default the task's.
+    #: Poses for `Task.at`, ``[objects, 3]``: x, y (metres), heading (radians); default: the task's.
     poses: Floats
     #: Covariances of the poses, ``[objects, 3, 3]``; NaN without observation.
     covariance: Floats
@@ -355,7 +355,7 @@ def _fit(camera: Camera, points: Floats, corners: Floats, pixels: float) -> Opti
 
 
 def _slopes(camera: Camera, points: Floats, pose: Floats) -> tuple[Floats, Floats, Floats]:
-    """Returns an object's points at a pose, and their projection's derivatives by pose and camera."""
+    """Returns points of an object at a pose, and derivatives of their projection."""
     turned = points @ _about_z(pose[2]).T + np.array([pose[0], pose[1], 0.0])
     by_point, by_camera = camera.slopes(turned)
     around = np.column_stack([-(turned[:, 1] - pose[1]), turned[:, 0] - pose[0], np.zeros(len(turned))])
