@@ -81,7 +81,7 @@ class ActionError(PushplanError, ValueError):
 
 
 class RefusedError(PushplanError):
-    """Input outside the model's validity range, with ``outside="refuse"``.
+    """Input outside the model's validity range, with ``out_of_range="refuse"``.
 
     Parameters
     ----------

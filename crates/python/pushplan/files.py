@@ -1,8 +1,8 @@
 """Types of mappings with the keys of files, for tools and tasks that are built in code.
 
-``Task.from_dict`` and ``Tool.of`` check such mappings as strictly as files. A type checker finds
-misspelled keys earlier. ``pushplan.task_schema()`` states the meaning, range and default of every
-key. Lengths are metres, masses kilograms, and angles (keys that end in ``_deg``) degrees.
+``Task.from_dict`` and ``Tool.from_dict`` check such mappings as strictly as files. A type checker
+finds misspelled keys earlier. ``pushplan.task_schema()`` states the meaning, range and default of
+every key. Lengths are metres, masses kilograms, and angles (keys that end in ``_deg``) degrees.
 """
 
 import sys

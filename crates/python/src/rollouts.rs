@@ -81,7 +81,7 @@ impl Rollouts {
 ///     default the poses of the task.
 /// model : str, default "network"
 ///     Effect model, such as "network", "prior" (the analytic model), "planar" or "3d".
-/// outside : {"warn", "simulate", "refuse"}, default "warn"
+/// out_of_range : {"warn", "simulate", "refuse"}, default "warn"
 ///     Action outside the model's validity range: add a warning, simulate in 2-D instead, or return
 ///     no prediction, with a warning.
 /// record : {"frames", "outcome"}, default "frames"

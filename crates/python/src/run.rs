@@ -183,16 +183,16 @@ impl PyRun {
 ///     radians, NaN for a number without observation. `act(motion)` executes a `Motion` and returns
 ///     pairs of a time since its start, seconds, and such an array; the last one is at rest. The
 ///     optional `change_tool(tool)` is called before a motion with another tool.
-/// tools, effort, model, outside, seed, threads
+/// tools, effort, model, out_of_range, seed, threads
 ///     Options of the planner, see `solve`.
-/// pushes : int, default 12
+/// max_pushes : int, default 12
 ///     Maximum number of pushes, at most 1000.
 /// samples : int, default 16
 ///     Number of belief samples in which plans are evaluated, 1 to 1000.
-/// enough : float, default 0.8
+/// min_success : float, default 0.8
 ///     Minimum share of the samples in which a plan must reach the goal, 0 to 1. Such a plan needs
 ///     no exploratory pushes.
-/// probes : int, default 3
+/// max_probes : int, default 3
 ///     Maximum number of exploratory pushes.
 /// noise : tuple of float, optional
 ///     Standard deviations of the observations, metres and radians.
@@ -245,7 +245,8 @@ pub fn run(
         runner = runner.regulated(shipped_regulator()?);
     }
     if !(0.0..=1.0).contains(&enough) || !(1..=1000).contains(&samples) || pushes > 1000 {
-        let message = "`enough` must be 0 to 1, `samples` 1 to 1000 and `pushes` at most 1000";
+        let message =
+            "`min_success` must be 0 to 1, `samples` 1 to 1000 and `max_pushes` at most 1000";
         return Err(PyValueError::new_err(message));
     }
     let defaults = RunSettings::default();

@@ -5,7 +5,7 @@ use pyo3::types::PyAny;
 
 use crate::json::dict;
 
-/// Returns the JSON schema (draft 2020-12) of tool files and of mappings for `Tool.of`.
+/// Returns the JSON schema (draft 2020-12) of tool files and of mappings for `Tool.from_dict`.
 #[pyfunction]
 pub fn tool_schema(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
     dict(py, &pushplan::asset::tool_schema())
@@ -17,7 +17,7 @@ pub fn task_schema(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
     dict(py, &pushplan::asset::task_schema())
 }
 
-/// Returns the JSON schema (draft 2020-12) of recordings and of mappings for `Recording.of`.
+/// Returns the JSON schema (draft 2020-12) of recordings and of mappings for `Recording.from_dict`.
 #[pyfunction]
 pub fn recording_schema(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
     dict(py, &pushplan::asset::recording_schema())

@@ -41,12 +41,12 @@ use crate::{errors, words, work};
 ///     Effect model, such as "network", "prior" (the analytic model), "planar" or "3d". Two names
 ///     with ">" between them are the screening model and the final model. By default the models of
 ///     the effort.
-/// outside : {"warn", "simulate", "refuse"}, default "warn"
+/// out_of_range : {"warn", "simulate", "refuse"}, default "warn"
 ///     Action outside the model's validity range: add a warning, simulate in 2-D instead, or raise
 ///     `RefusedError`.
 /// seed : int, default 0
 ///     Seed of the samples of refinement and of the perturbations.
-/// disturbed : int, optional
+/// replays : int, optional
 ///     Minimum number of perturbed replays of the winning plan in each engine; by default the
 ///     effort's. The planner adds replays until the verdict is clear.
 /// robustness : float, optional
@@ -73,7 +73,7 @@ use crate::{errors, words, work};
 /// ModelError
 ///     If `model` is not the name of an effect model.
 /// RefusedError
-///     If `outside` is "refuse" and the task is outside the model's validity range.
+///     If `out_of_range` is "refuse" and the task is outside the model's validity range.
 /// ValueError
 ///     If another argument has an invalid value.
 ///
@@ -125,7 +125,7 @@ pub fn stated(task: Arc<Task>, fit: Option<&TableFit>) -> Arc<Task> {
 /// ----------
 /// tasks : sequence of Task
 ///     Tasks to solve.
-/// tools, effort, model, outside, seed, disturbed, robustness, time_limit, fit, threads
+/// tools, effort, model, out_of_range, seed, replays, robustness, time_limit, fit, threads
 ///     Options for every task, see `solve`.
 ///
 /// Returns
@@ -232,7 +232,7 @@ fn solution(
 ///     Plan to predict. A table fit of the plan applies if `model` is the plan's own model.
 /// model : str, default "network"
 ///     Effect model, such as "network", "prior" (the analytic model), "planar" or "3d".
-/// outside : {"warn", "simulate", "refuse"}, default "warn"
+/// out_of_range : {"warn", "simulate", "refuse"}, default "warn"
 ///     Action outside the model's validity range, see `solve`.
 /// threads : int, default 0
 ///     Number of worker threads; 0 means one per core.
@@ -247,9 +247,9 @@ fn solution(
 /// ModelError
 ///     If `model` is not the name of an effect model.
 /// RefusedError
-///     If `outside` is "refuse" and the plan is outside the model's validity range.
+///     If `out_of_range` is "refuse" and the plan is outside the model's validity range.
 /// ValueError
-///     If `outside` or `threads` has an invalid value.
+///     If `out_of_range` or `threads` has an invalid value.
 #[pyfunction]
 #[pyo3(signature = (plan, model = "network", *, outside = "warn", threads = 0))]
 pub fn predict(
@@ -267,8 +267,8 @@ pub fn predict(
     let trajectory = work::run(py, words::threads(threads)?, |_| predicted(&model, file))?;
     if trajectory.warnings.contains(&Warning::Refused) {
         let message = format!(
-            "`outside` is \"refuse\", and the plan is outside the validity range of the model \
-             `{}`; use another model, or `outside=\"simulate\"`",
+            "`out_of_range` is \"refuse\", and the plan is outside the validity range of the model \
+             `{}`; use another model, or `out_of_range=\"simulate\"`",
             trajectory.by
         );
         return Err(errors::refused(py, &message, &trajectory.warnings));
@@ -312,7 +312,7 @@ pub fn predicted(model: &Routed, file: &PlanFile) -> Trajectory {
 /// ----------
 /// plan : Plan
 ///     Plan to verify.
-/// disturbed : int, default 8
+/// replays : int, default 8
 ///     Minimum number of perturbed replays in each engine, at most 100000.
 /// seed : int, default 0
 ///     Seed of the perturbations.
@@ -336,7 +336,7 @@ pub fn predicted(model: &Routed, file: &PlanFile) -> Trajectory {
 ///
 /// Examples
 /// --------
-/// >>> verdict = pushplan.verify(solution.best, disturbed=32)
+/// >>> verdict = pushplan.verify(solution.best, replays=32)
 /// >>> print(verdict.passed, verdict.robustness)
 #[pyfunction]
 #[pyo3(signature = (plan, *, disturbed = 8, seed = 0, robustness = None, time_limit = None,
@@ -351,7 +351,7 @@ pub fn verify(
     threads: usize,
 ) -> PyResult<PyVerdict> {
     if disturbed > 100_000 {
-        let message = format!("`disturbed` must be at most 100000, found {disturbed}");
+        let message = format!("`replays` must be at most 100000, found {disturbed}");
         return Err(pyo3::exceptions::PyValueError::new_err(message));
     }
     let mut file = plan.file.clone();

@@ -15,8 +15,8 @@ use crate::mapping::Text;
 
 /// Rigid tool of upright solids, which the end effector holds at its grip.
 ///
-/// Instances come from `Tool.load`, `Tool.parse`, `Tool.of` and `ToolLibrary`. Two tools are equal
-/// if all their values are equal.
+/// Instances come from `Tool.load`, `Tool.parse`, `Tool.from_dict` and `ToolLibrary`. Two tools are
+/// equal if all their values are equal.
 #[pyclass(name = "Tool", module = "pushplan", frozen, eq)]
 #[derive(PartialEq)]
 pub struct PyTool(pub Arc<Tool>);
@@ -75,7 +75,7 @@ impl PyTool {
     /// Examples
     /// --------
     /// >>> bar = {"name": "bar", "size": [0.2, 0.04, 0.05], "position": [0.1, 0]}
-    /// >>> tool = pushplan.Tool.of({"name": "short-stick", "parts": [bar]})
+    /// >>> tool = pushplan.Tool.from_dict({"name": "short-stick", "parts": [bar]})
     #[staticmethod]
     fn of(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
         Ok(Self(Arc::new(Text::of(mapping)?.read(py, "tool", Tool::parse)?)))
@@ -106,7 +106,7 @@ impl PyTool {
         (grip.position.x, grip.position.y, grip.heading)
     }
 
-    /// Returns the tool with the keys of a tool file, for `Tool.of`.
+    /// Returns the tool with the keys of a tool file, for `Tool.from_dict`.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         dict(py, &self.0.to_json())
     }

@@ -1,4 +1,4 @@
-"""Files, texts and mappings obey the same rules, and faults say where."""
+"""Files, texts and mappings obey the same rules, and faults state their location."""
 
 from __future__ import annotations
 
@@ -169,7 +169,7 @@ def test_the_types_have_the_keys_of_the_schema(schema: dict[str, Any], keys: Any
 
 
 def compared(schema: dict[str, Any], keys: Any) -> int:
-    """Compares a map of the schema with a typed dictionary; how many keys they have."""
+    """Compares a map of the schema with a typed dictionary; returns the number of keys."""
     assert set(schema["properties"]) == set(get_type_hints(keys)), keys
     # In a variant every key is optional, but exactly one is required.
     assert set(schema.get("required", [])) == set(keys.__required_keys__), keys

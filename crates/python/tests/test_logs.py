@@ -1,4 +1,4 @@
-"""Logs of trackers: what they are, and what they cannot be."""
+"""Valid and invalid logs of trackers."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Row = list[float]
 
 
 def rows() -> list[Row]:
-    """A finger pushes a box by 5 cm; it turns by 0.3 rad on the way, from half a turn on."""
+    """Returns a log in which a finger pushes a box by 5 cm and rotates it by 0.3 rad, past pi."""
     found = []
     for k in range(101):
         tip = 0.001 * k
@@ -114,8 +114,10 @@ def test_stale_poses_and_small_angles_are_said(tmp_path: Path) -> None:
 
 
 def bag(path: Path, table: list[Row], late: float = 0.0) -> Path:
-    """The same as rosbag2 writes it, by somebody else's code: the box turned in space by a quaternion, and
-    its stamps `late`."""
+    """Writes the log as a bag of rosbag2 with an independent library.
+
+    The rotation of the box is a quaternion, and its stamps are shifted by `late`, seconds.
+    """
     support = pytest.importorskip("mcap_ros2.writer")
     stamp = "int32 sec\nuint32 nanosec\n"
     header = "builtin_interfaces/Time stamp\nstring frame_id\n"

@@ -1,4 +1,4 @@
-"""Solving through Python is solving: same plans to the bit, whatever the number of threads."""
+"""Python and the command find bit-identical plans, for any number of threads."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import pytest
 
 import pushplan
 
-# One solved at once, one by two pushes among obstacles, one without a solution.
+# A task with one push, a task with two pushes among obstacles, and a task without a solution.
 TASKS = ["pull-back-behind-wall", "pull-back-twice", "narrow-gap"]
 
 
