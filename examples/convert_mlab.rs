@@ -4,7 +4,7 @@
 //! data.
 //!
 //! The data state the fingertip as a point with an error of about 1 mm. The recording has a
-//! cylinder of 2 mm radius, whose path is shifted by the radius away from the edge that the point
+//! cylinder of 2 mm radius. Its path is shifted by the radius away from the edge that the point
 //! touches, so that the surfaces meet at the point. The object's position is its centre of mass.
 //! The data state no frictions. Between tip and plate it is 0.5, because `pushplan fit` finds 0.46
 //! to 0.54 in every file. Between plate and table it is 0.3; slow pushes depend neither on this

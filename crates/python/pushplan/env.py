@@ -159,14 +159,19 @@ class PushEnv(_TableEnv):
     """Environment with one push per step, with the tools, rules and goal of a task.
 
     The tool is set down just before the object of the first unreached goal and pushes it. An action
-    has five numbers from -1 to 1: the tool and the grip yaw (equal intervals, in the order of
-    ``tools`` and ``task.grip_yaws``), the direction (in units of pi radians from world +x), the
-    lateral offset of the object (in units of ``most_offset``), and the length (the task's length
-    changed by up to half). :meth:`action` converts metres and radians to an action.
+    has five numbers from -1 to 1, which :meth:`action` computes from metres and radians:
 
-    An observation holds x, y (metres), cosine and sine of the heading of every object. Then follow
-    the rotation to the goal heading (radians) of every goal, and the position of every goal and the
-    offset from the object to it, x and y in metres.
+    - tool, in equal intervals in the order of ``tools``;
+    - grip yaw, in equal intervals in the order of ``task.grip_yaws``;
+    - direction, in units of pi radians from world +x;
+    - lateral offset of the object, in units of ``most_offset``;
+    - length, with 0 for the task's length and 1 for 50 % more.
+
+    An observation has, in this order,
+
+    - x and y (metres), cosine and sine of the heading of every object;
+    - rotation to the goal heading (radians) of every goal;
+    - position of every goal, and offset from the object to it, x and y in metres.
 
     The reward is the gained share of the distance to the goal, plus 1 for reaching it, minus 0.02
     per push. An infeasible push, or one that violates a rule of the task, moves nothing;

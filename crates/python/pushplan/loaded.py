@@ -46,8 +46,8 @@ def scene_from(
     model : mujoco.MjModel
         Loaded model.
     data : mujoco.MjData, optional
-        State with the poses of the bodies and the positions of the joints, from which joint limits
-        count; by default the initial state of the model.
+        State with the poses of bodies and joints; by default the initial state of the model. Joint
+        limits count from this state.
     bodies, name, friction, shift, free, density
         Options of the import, see :func:`import_task`.
 

@@ -76,9 +76,11 @@ pub struct PyRun(Trace);
 
 #[pymethods]
 impl PyRun {
-    /// Reason for the end. `"reached"`: the observations show the goal reached;
-    /// `"budget_exhausted"`: all allowed pushes are made; `"no_improving_push"`: no push brings the
-    /// object nearer to the goal.
+    /// Reason for the end of the run.
+    ///
+    /// - `"reached"`: the goal is reached according to the observations.
+    /// - `"budget_exhausted"`: all allowed pushes are made.
+    /// - `"no_improving_push"`: no push brings the object nearer to the goal.
     #[getter]
     fn end(&self) -> &'static str {
         match self.0.end {
@@ -252,10 +254,10 @@ pub fn run(
     let defaults = RunSettings::default();
     let noise = match noise {
         Some((position, heading)) if position > 0.0 && heading > 0.0 => Noise { position, heading },
-        Some(_) => {
-            return Err(PyValueError::new_err(
-                "`noise` must be two numbers above 0, metres and radians",
-            ));
+        Some(found) => {
+            let message =
+                format!("`noise` must be two numbers above 0 (metres, radians), found {found:?}");
+            return Err(PyValueError::new_err(message));
         }
         None => defaults.noise,
     };
