@@ -76,11 +76,8 @@ pub struct PyRun(Trace);
 
 #[pymethods]
 impl PyRun {
-    /// Reason for the end of the run.
-    ///
-    /// - `"reached"`: the goal is reached according to the observations.
-    /// - `"budget_exhausted"`: all allowed pushes are made.
-    /// - `"no_improving_push"`: no push brings the object nearer to the goal.
+    /// Reason for the end: `"reached"`, `"budget_exhausted"` (all allowed pushes are made) or
+    /// `"no_improving_push"` (no push brings the object nearer to the goal).
     #[getter]
     fn end(&self) -> &'static str {
         match self.0.end {
@@ -113,8 +110,7 @@ impl PyRun {
         }
     }
 
-    /// Table fit from the given fit and the pushes of the run; `None` without a fit, for example
-    /// because the task has `unknown` values.
+    /// Table fit after the run; `None` without one, for example with `unknown` values.
     #[getter]
     fn fit(&self) -> Option<PyTableFit> {
         self.0.learnt.clone().map(PyTableFit)
@@ -255,8 +251,7 @@ pub fn run(
     let noise = match noise {
         Some((position, heading)) if position > 0.0 && heading > 0.0 => Noise { position, heading },
         Some(found) => {
-            let message =
-                format!("`noise` must be two numbers above 0 (metres, radians), found {found:?}");
+            let message = format!("`noise` must be two numbers above 0, found {found:?}");
             return Err(PyValueError::new_err(message));
         }
         None => defaults.noise,
