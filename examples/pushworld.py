@@ -34,7 +34,7 @@ NEAREST = 0.36
 MASS = 0.1
 
 #: Tool: a plate that fits into a cell beside an object.
-PLATE = pushplan.Tool.of(
+PLATE = pushplan.Tool.from_dict(
     {
         "name": "plate",
         "description": "An upright plate under the grip, as wide as the object of one cell.",
@@ -217,7 +217,7 @@ def task_of(text: str, name: str, pushes: int = 6) -> pushplan.Task:
     }
     if "AW" in cells:
         task["keep_out"] = table.closed(cells["AW"])
-    return pushplan.Task.of(task)  # type: ignore[arg-type]
+    return pushplan.Task.from_dict(task)  # type: ignore[arg-type]
 
 
 def main() -> None:

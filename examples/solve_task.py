@@ -40,13 +40,13 @@ HOOK: ToolFile = {
 
 
 def main(folder: Path) -> None:
-    task = pushplan.Task.of(TASK)
-    tools = pushplan.ToolLibrary.shipped().with_tool(pushplan.Tool.of(HOOK))
+    task = pushplan.Task.from_dict(TASK)
+    tools = pushplan.ToolLibrary.shipped().with_tool(pushplan.Tool.from_dict(HOOK))
     solution = pushplan.solve(task, tools)
     print(solution)
     best = solution.best
     assert solution.solved and best is not None
-    verdict = pushplan.verify(best, disturbed=32)
+    verdict = pushplan.verify(best, replays=32)
     print(f"{verdict.robustness:.0%} of the perturbed replays reach the goal")
     folder.mkdir(exist_ok=True)
     best.save(folder / f"{task.name}.plan.json")

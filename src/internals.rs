@@ -7,6 +7,6 @@
 
 #[doc(inline)]
 pub use crate::{
-    asset, contact, effect, geometry, graph, network, outcome, plan, recording, rollout, scene,
-    seeded, sim, solve, task, verify, watch,
+    asset, contact, effect, geometry, graph, network, outcome, plan, progress, recording, rollout,
+    scene, seeded, sim, solve, task, verify,
 };

@@ -104,6 +104,8 @@ pub mod outcome;
 #[doc(hidden)]
 pub mod plan;
 #[doc(hidden)]
+pub mod progress;
+#[doc(hidden)]
 pub mod recording;
 #[doc(hidden)]
 pub mod rollout;
@@ -119,8 +121,6 @@ pub mod solve;
 pub mod task;
 #[doc(hidden)]
 pub mod verify;
-#[doc(hidden)]
-pub mod watch;
 
 pub use asset::ToolLibrary;
 pub use effect::{EffectModel, Simulated, Trust};
@@ -128,8 +128,8 @@ pub use error::Error;
 pub use geometry::{ConvexPolygon, PolygonError, Pose, Shape, Vector};
 pub use outcome::{Outcome, Record, Trajectory, Verdict, Warning};
 pub use scene::{
-    Blade, Body, Joint, JointKind, ModelSpec, Models, Object, Obstacle, Part, Physics, Robot,
-    Scene, Sight, Situation, State, TableFit, Tool, Unknowns,
+    Blade, Body, Joint, JointKind, ModelSpec, Models, Object, ObservedPose, Obstacle, Part,
+    Physics, Robot, Scene, Situation, State, TableFit, Tool, Unknowns,
 };
 pub use sim::Simulator;
 pub use solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};

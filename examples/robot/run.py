@@ -69,7 +69,7 @@ def drawn(rng: np.random.Generator, urdf: Path) -> pushplan.Task:
             "goal": {"object": "goods", "position": goal.tolist(), "tolerance": PLANNED},
         }
         try:
-            return pushplan.Task.of(task)
+            return pushplan.Task.from_dict(task)
         except pushplan.TaskError:
             continue  # objects overlap
 

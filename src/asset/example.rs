@@ -2,7 +2,7 @@
 
 use crate::task::Task;
 
-use super::fault::{Fault, Faults, did_you_mean};
+use super::diagnostic::{Fault, Faults, did_you_mean};
 use super::library::ToolLibrary;
 use super::task::parse_with;
 

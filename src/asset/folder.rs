@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::fault::Fault;
+use super::diagnostic::Fault;
 
 /// Returns the files of `folder` with one of the given extensions, sorted.
 pub(super) fn files_in(folder: &Path, endings: &[&str]) -> Result<Vec<PathBuf>, Fault> {

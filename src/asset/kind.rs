@@ -7,7 +7,7 @@ use crate::recording::Recording;
 use crate::scene::Tool;
 
 use super::blade::BLADE_TOOL_KEYS;
-use super::fault::{Fault, Faults};
+use super::diagnostic::{Fault, Faults};
 use super::library::ToolLibrary;
 use super::node::Node;
 use super::recording::RECORDING_KEYS;

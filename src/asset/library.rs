@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use crate::scene::Tool;
 
-use super::fault::{Fault, Faults};
+use super::diagnostic::{Fault, Faults};
 use super::folder::files_in;
 
 /// Shipped tools, as file name and text.

@@ -8,8 +8,8 @@
 
 mod arm;
 mod blade;
+mod diagnostic;
 mod example;
-mod fault;
 mod field;
 mod folder;
 mod kind;
@@ -32,8 +32,8 @@ mod tool;
 mod world;
 mod write;
 
+pub use diagnostic::{Fault, Faults, Place};
 pub use example::{example_text, load_example};
-pub use fault::{Fault, Faults, Place};
 pub use folder::recordings_in;
 pub use kind::{Kind, check};
 pub use library::ToolLibrary;

@@ -13,7 +13,7 @@ use serde::de::{
     self, DeserializeSeed, Deserializer, EnumAccess, IgnoredAny, MapAccess, SeqAccess, Visitor,
 };
 
-use super::fault::{Fault, Faults, Place};
+use super::diagnostic::{Fault, Faults, Place};
 use super::node::{Content, Node};
 use super::text::{Language, Source};
 

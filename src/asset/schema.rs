@@ -148,7 +148,7 @@ fn schema(value: &Value) -> Json {
             "type": "object", "properties": properties(keys),
             "minProperties": 1, "maxProperties": 1, "additionalProperties": false,
         }),
-        Value::Told { of, .. } => {
+        Value::Dependent { of, .. } => {
             let mut all = of.iter().map(|value| schema(value));
             let first = all.next().unwrap_or_default();
             all.fold(first, |mut merged, other| {

@@ -53,7 +53,7 @@ pub(super) enum Value {
     /// First alternative whose kind matches the value.
     Either(&'static [Value]),
     /// Alternative selected by the beginning of the value.
-    Told { by: fn(&Node) -> &'static Value, of: &'static [&'static Value] },
+    Dependent { by: fn(&Node) -> &'static Value, of: &'static [&'static Value] },
 }
 
 /// Interval from `low` to `high`, both included.

@@ -1,6 +1,6 @@
 //! Strict check of a tree against the specification of a file, and the ledger of faults.
 
-use super::fault::{Fault, Faults, Place, did_you_mean, one_of};
+use super::diagnostic::{Fault, Faults, Place, did_you_mean, one_of};
 use super::node::{Content, Node};
 use super::reader::locate;
 use super::spec::{Key, Range, Value};
@@ -115,7 +115,7 @@ pub(super) fn check(node: &mut Node, value: &Value, ledger: &mut Ledger) {
                 reject(node, value, ledger);
             }
         }
-        Value::Told { by, .. } => check(node, by(node), ledger),
+        Value::Dependent { by, .. } => check(node, by(node), ledger),
         Value::Either(values) => match values.iter().find(|value| same_kind(node, value)) {
             // A wrong word may be a misspelling of another form of the value.
             Some(Value::Word(words)) if !words.iter().any(|word| node.text() == Some(word)) => {
@@ -273,7 +273,7 @@ fn same_kind(node: &Node, value: &Value) -> bool {
         Value::Number(_) | Value::Count(_) => node.number().is_some(),
         Value::List { .. } => matches!(node.content, Content::List(_)),
         Value::Map(_) | Value::Variant(_) => matches!(node.content, Content::Map(_)),
-        Value::Told { by, .. } => same_kind(node, by(node)),
+        Value::Dependent { by, .. } => same_kind(node, by(node)),
         Value::Either(values) => values.iter().any(|value| same_kind(node, value)),
     }
 }
@@ -297,7 +297,7 @@ pub(super) fn describe(value: &Value) -> String {
         Value::List { items, min, max, .. } => format!("a list of {min} to {max} {items}"),
         Value::Map(keys) => format!("a map with the keys {}", names(keys).join(", ")),
         Value::Variant(keys) => format!("a map with one key, {}", one_of(&names(keys))),
-        Value::Told { of, .. } => of.first().map_or(String::new(), |value| describe(value)),
+        Value::Dependent { of, .. } => of.first().map_or(String::new(), |value| describe(value)),
         Value::Either(values) => one_of(&values.iter().map(describe).collect::<Vec<_>>()),
     }
 }

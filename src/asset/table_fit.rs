@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::checksum::checksum;
 use crate::scene::TableFit;
 
-use super::fault::{Fault, Faults, Place};
+use super::diagnostic::{Fault, Faults, Place};
 use super::text::read_text;
 use super::write_atomic;
 

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::checksum::checksum;
 
-use super::fault::Fault;
+use super::diagnostic::Fault;
 
 /// Maximum size of a file, bytes; a trajectory of hundreds of objects is smaller.
 const MAX_BYTES: u64 = 1 << 28;

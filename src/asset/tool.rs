@@ -6,7 +6,7 @@ use crate::geometry::{Pose, Shape};
 use crate::scene::{Part, Tool, ToolError};
 
 use super::blade::{BLADE_TOOL, blade_tool_of, is_blade_tool};
-use super::fault::{Fault, Faults, did_you_mean};
+use super::diagnostic::{Fault, Faults, did_you_mean};
 
 use super::node::Node;
 use super::shapes::{self, SHAPE, shape};
@@ -19,7 +19,7 @@ use super::text::Source;
 pub(super) static TOOL: Value = Value::Map(TOOL_KEYS);
 
 /// Specification of a tool file of either kind.
-pub(super) static TOOL_FILE: Value = Value::Told { by: of, of: &[&TOOL, &BLADE_TOOL] };
+pub(super) static TOOL_FILE: Value = Value::Dependent { by: of, of: &[&TOOL, &BLADE_TOOL] };
 
 /// Maximum number of parts of a tool.
 pub const MAX_PARTS: usize = 32;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use tempfile::NamedTempFile;
 
-use super::fault::{Fault, Faults};
+use super::diagnostic::{Fault, Faults};
 
 /// Writes `bytes` to `path` through a temporary file in the same folder, which is flushed to disk
 /// and then renamed. The old content stays until the new content is complete.

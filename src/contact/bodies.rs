@@ -65,7 +65,7 @@ impl Movable {
 
 /// A body with prescribed motion: a tool part or an obstacle.
 #[derive(Clone, Copy, Debug)]
-pub struct Given {
+pub struct PrescribedBody {
     /// Index of the part of the tool, or of the obstacle of the scene.
     pub index: usize,
     /// Footprint on the table.
@@ -125,7 +125,7 @@ pub struct Mounted {
     /// Kind of the joint.
     pub kind: JointKind,
     /// The joint's frame in the world, and relative to the object, see
-    /// [`crate::scene::Mount::frames`].
+    /// [`crate::scene::WorldJoint::frames`].
     pub frames: [Pose; 2],
     /// Range of rotations (radians) or displacements (metres) relative to the start, if limited.
     pub limits: Option<Span>,
@@ -167,13 +167,13 @@ pub struct Bodies {
     /// Objects, in the order of the scene.
     pub objects: Vec<Movable>,
     /// Pieces of the tool's outline.
-    pub parts: Vec<Given>,
+    pub parts: Vec<PrescribedBody>,
     /// Footprints of all outline pieces, with their poses in the tool frame, listed or not.
     pub outline: Arc<[(Footprint, Pose)]>,
     /// Exposed boundary of every outline piece.
     pub rims: Arc<[Option<Rim>]>,
     /// Obstacles.
-    pub obstacles: Vec<Given>,
+    pub obstacles: Vec<PrescribedBody>,
     /// Joints between objects.
     pub joints: Vec<Jointed>,
     /// Joints between objects and the world.
@@ -270,7 +270,7 @@ impl Bodies {
             .outline()
             .iter()
             .enumerate()
-            .map(|(index, piece)| Given {
+            .map(|(index, piece)| PrescribedBody {
                 index,
                 footprint: piece.footprint(),
                 pose: piece.pose,
@@ -285,7 +285,7 @@ impl Bodies {
             .obstacles
             .iter()
             .enumerate()
-            .map(|(index, obstacle)| Given {
+            .map(|(index, obstacle)| PrescribedBody {
                 index,
                 footprint: obstacle.shape().footprint(),
                 pose: obstacle.pose,

@@ -21,7 +21,7 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 use super::{
     constraint::{Constraint, Tie, apply, product},
     index::GroupIndex,
-    limb::{Limb, inverse, pull},
+    tree_link::{TreeLink, inverse, pull},
     unknown::Unknown,
 };
 
@@ -29,10 +29,10 @@ use super::{
 #[derive(Clone, Debug, Default)]
 pub(super) struct Eliminated {
     /// Ties with the groups that they join, from the roots of all mechanisms to their leaves.
-    limbs: Vec<Limb>,
+    links: Vec<TreeLink>,
     /// Ties to the world, each of a different root; each root is entered as its own parent, and no
     /// effect is passed on.
-    anchors: Vec<Limb>,
+    anchors: Vec<TreeLink>,
     /// Whether each group is a root, or already connected to one.
     reached: Vec<bool>,
     /// Root of the mechanism of each group.
@@ -50,8 +50,8 @@ impl Eliminated {
     /// Finds the groups that `ties` join. A tie that closes a loop is left out; valid input has
     /// none.
     pub fn hang(&mut self, groups: usize, ties: &[Tie]) {
-        let Self { limbs, anchors, reached, mechanism, .. } = self;
-        limbs.clear();
+        let Self { links, anchors, reached, mechanism, .. } = self;
+        links.clear();
         anchors.clear();
         mechanism.clear();
         mechanism.extend(0..groups);
@@ -61,14 +61,14 @@ impl Eliminated {
         reached.clear();
         reached.resize(groups, false);
         let to_world = ties.iter().enumerate().filter(|(_, tie)| tie.a.is_none());
-        anchors.extend(to_world.map(|(index, tie)| Limb::new(index, [tie.b.0; 2], false)));
+        anchors.extend(to_world.map(|(index, tie)| TreeLink::new(index, [tie.b.0; 2], false)));
         // No mechanism has two, because they would close a loop.
         let held = anchors.iter().map(|anchor| anchor.child);
         for root in held.chain(0..groups) {
             if std::mem::replace(&mut reached[root], true) {
                 continue;
             }
-            let mut first = limbs.len();
+            let mut first = links.len();
             let mut parent = root;
             loop {
                 for (index, tie) in ties.iter().enumerate() {
@@ -78,11 +78,11 @@ impl Eliminated {
                     if (turned || a == parent) && !reached[child] {
                         reached[child] = true;
                         mechanism[child] = root;
-                        limbs.push(Limb::new(index, [parent, child], turned));
+                        links.push(TreeLink::new(index, [parent, child], turned));
                     }
                 }
-                let Some(limb) = limbs.get(first) else { break };
-                parent = limb.child;
+                let Some(link) = links.get(first) else { break };
+                parent = link.child;
                 first += 1;
             }
         }
@@ -91,16 +91,16 @@ impl Eliminated {
     /// Computes the responses at the present weights.
     pub fn prepare(&mut self, unknowns: &[Unknown], ties: &[Tie]) {
         let nothing = self.is_empty();
-        let Self { limbs, anchors, mechanism, resistance, blocks, .. } = self;
+        let Self { links, anchors, mechanism, resistance, blocks, .. } = self;
         blocks.clear();
         if nothing {
             return;
         }
         resistance.clear();
         resistance.extend(unknowns.iter().map(|unknown| unknown.resistance));
-        for limb in limbs.iter_mut().rev() {
-            let felt = limb.weigh(&ties[limb.tie], &inverse(&resistance[limb.child]));
-            resistance[limb.parent] += felt;
+        for link in links.iter_mut().rev() {
+            let felt = link.weigh(&ties[link.tie], &inverse(&resistance[link.child]));
+            resistance[link.parent] += felt;
         }
         let count = unknowns.len();
         blocks.resize(count * count, Matrix3::zeros());
@@ -112,11 +112,11 @@ impl Eliminated {
             anchor.weigh(&ties[anchor.tie], &blocks[root * count + root]);
             blocks[root * count + root] = anchor.held;
         }
-        for (k, limb) in limbs.iter().enumerate() {
-            let Limb { parent, child, carried, held, .. } = limb;
+        for (k, link) in links.iter().enumerate() {
+            let TreeLink { parent, child, carried, held, .. } = link;
             let root = mechanism[*child];
             // Groups of one root are adjacent, parents before children.
-            let above = limbs[..k].iter().rev().take_while(|other| mechanism[other.child] == root);
+            let above = links[..k].iter().rev().take_while(|other| mechanism[other.child] == root);
             for other in above.map(|other| other.child).chain([root]) {
                 let block = carried * blocks[parent * count + other];
                 blocks[child * count + other] = block;
@@ -142,7 +142,7 @@ impl Eliminated {
     /// Returns `true` if there are no joints.
     #[inline]
     pub fn is_empty(&self) -> bool {
-        self.limbs.is_empty() && self.anchors.is_empty()
+        self.links.is_empty() && self.anchors.is_empty()
     }
 
     /// Adds to `felt` the contribution of force and torque on every group to `value` times the
@@ -213,7 +213,7 @@ impl Eliminated {
         ties: &mut [Tie],
     ) {
         let nothing = self.is_empty();
-        let Self { limbs, anchors, mechanism, load, moved, blocks, .. } = self;
+        let Self { links, anchors, mechanism, load, moved, blocks, .. } = self;
         for unknown in unknowns.iter_mut() {
             (unknown.pressed, unknown.touched) = (Vector3::zeros(), false);
         }
@@ -224,11 +224,11 @@ impl Eliminated {
         }
         load.clear();
         load.extend(unknowns.iter().map(|unknown| unknown.pressed));
-        for limb in limbs.iter_mut().rev() {
-            limb.ask(&ties[limb.tie], unknowns);
-            let felt = limb.carried.tr_mul(&load[limb.child])
-                - pull(&limb.on_parent, &(limb.stiffness * limb.left));
-            load[limb.parent] += felt;
+        for link in links.iter_mut().rev() {
+            link.ask(&ties[link.tie], unknowns);
+            let felt = link.carried.tr_mul(&load[link.child])
+                - pull(&link.on_parent, &(link.stiffness * link.left));
+            load[link.parent] += felt;
         }
         let count = unknowns.len();
         moved.clear();
@@ -245,15 +245,15 @@ impl Eliminated {
             tie.press(unknowns);
             moved[root] += pull(&anchor.drawn, &anchor.left);
         }
-        for limb in limbs.iter() {
-            let (load, above) = (&load[limb.child], moved[limb.parent]);
-            let gap = limb.left + apply(&limb.on_parent, &above) - apply(&limb.answer, load);
-            let force = limb.stiffness * gap;
-            let tie = &mut ties[limb.tie];
-            tie.force = if limb.turned { -force } else { force };
+        for link in links.iter() {
+            let (load, above) = (&load[link.child], moved[link.parent]);
+            let gap = link.left + apply(&link.on_parent, &above) - apply(&link.answer, load);
+            let force = link.stiffness * gap;
+            let tie = &mut ties[link.tie];
+            tie.force = if link.turned { -force } else { force };
             tie.press(unknowns);
-            moved[limb.child] =
-                limb.held * load + pull(&limb.drawn, &limb.left) + limb.carried * above;
+            moved[link.child] =
+                link.held * load + pull(&link.drawn, &link.left) + link.carried * above;
         }
         for (unknown, moved) in unknowns.iter_mut().zip(moved) {
             unknown.twist = unknown.free + *moved;

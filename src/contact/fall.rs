@@ -1,6 +1,6 @@
 //! Closed-form stopping motion of an object that slides and rotates.
 //!
-//! See [`super::coast`] for the equations: the speeds decrease as v = v0 u and c omega = c omega0
+//! See [`super::free_sliding`] for the equations: the speeds decrease as v = v0 u and c omega = c omega0
 //! u^k while u decreases from one to zero, and mu g dt = -s du / u.
 
 /// Nodes u and weights 2 y w of a Gauss-Legendre quadrature over y from 0 to 1. The substitution u

@@ -1,7 +1,7 @@
 //! The forces of a frame, and the effect of each alone.
 
 use nalgebra::Vector3;
-use pushplan_kernel::LoneSolution;
+use pushplan_kernel::SingleBodySolution;
 
 use crate::{geometry::Vector, scene::State};
 
@@ -18,7 +18,7 @@ pub struct FrameForces<'a> {
 /// Solver that found the forces.
 #[derive(Clone, Copy, Debug)]
 enum Found<'a> {
-    Alone(&'a LoneSolution),
+    Alone(&'a SingleBodySolution),
     Together(&'a Prior),
 }
 
@@ -28,7 +28,11 @@ impl<'a> FrameForces<'a> {
     }
 
     /// Creates the forces of a frame of one object.
-    pub(super) fn alone(bodies: &'a Bodies, state: &'a State, solution: &'a LoneSolution) -> Self {
+    pub(super) fn alone(
+        bodies: &'a Bodies,
+        state: &'a State,
+        solution: &'a SingleBodySolution,
+    ) -> Self {
         Self { bodies, state, found: Found::Alone(solution) }
     }
 

@@ -5,12 +5,12 @@ use crate::{
     scene::State,
     task::FrameStep,
 };
-use pushplan_kernel::{LoneSolution, Motion};
+use pushplan_kernel::{Motion, SingleBodySolution};
 
 use super::{
     awake::{Awake, View},
     bodies::Bodies,
-    coast::coast,
+    free_sliding::coast,
     index::{AwakeIndex, ListIndex},
     pairs::PairId,
     points::{Contact, MARGIN, Scenery, find_contacts},
@@ -39,7 +39,7 @@ pub struct Frame {
     /// Motions of the awake objects.
     pub(super) motions: Vec<Motion>,
     /// Solution of the kernel, for a frame of a single object.
-    pub(super) lone: Option<LoneSolution>,
+    pub(super) single: Option<SingleBodySolution>,
 }
 
 /// A solved frame.
@@ -84,8 +84,8 @@ impl Frame {
     /// Computes free sliding, contacts and awake objects, and gathers the awake objects. Returns
     /// `true` if there are any.
     pub(super) fn wake(&mut self, FrameProblem { bodies, state, step, .. }: FrameProblem) -> bool {
-        let Self { coasts, turns, contacts, awake, motions, lone } = self;
-        *lone = None;
+        let Self { coasts, turns, contacts, awake, motions, single } = self;
+        *single = None;
         motions.clear();
         coasts.clear();
         let objects = bodies.objects.iter().zip(&state.velocities);
@@ -138,9 +138,9 @@ impl FrameSolution<'_> {
     /// Returns the contacts that are closed or close in the frame.
     pub fn touches(&self) -> impl Iterator<Item = Touch> {
         self.contacts.iter().filter_map(|contact| {
-            let stops = contact.sights().map(|sight| {
-                sight.is_some_and(|sight| {
-                    sight.overlap(&self.coasts[sight.receiver], self.motions) > 0.0
+            let stops = contact.sides().map(|side| {
+                side.is_some_and(|side| {
+                    side.overlap(&self.coasts[side.receiver], self.motions) > 0.0
                 })
             });
             let Contact { pair, gap, normal, .. } = *contact;

@@ -7,45 +7,45 @@
 //! results. It solves single frames, or frames of several candidates side by side: the loop over
 //! time is in [`crate::rollout`].
 
-mod active;
-mod approach;
+mod active_set;
 mod awake;
 mod blocks;
 mod bodies;
-mod coast;
 mod constraint;
+mod contact_side;
 mod eliminated;
 mod elimination;
 mod fall;
 mod forces;
 mod frame;
-mod gain;
-mod hold;
+mod free_sliding;
 mod index;
+mod iterative;
 mod joint;
-mod limb;
-mod lone;
-mod march;
-mod midway;
+mod joint_projection;
+mod midpoint;
 mod pairs;
 mod points;
 mod prior;
-mod sight;
+mod single_body;
 mod solver;
 mod subset;
+mod substeps;
 mod system;
+mod tree_link;
 mod twist;
 mod unknown;
+mod warm_start;
 
-pub use pushplan_kernel::{Motion, Tally};
+pub use pushplan_kernel::{Motion, SolverStats};
 
-pub use bodies::{Bodies, Given, Groups, Jointed, Mounted, Movable, Partner};
+pub use bodies::{Bodies, Groups, Jointed, Mounted, Movable, Partner, PrescribedBody};
+pub use contact_side::ContactSide;
 pub use forces::FrameForces;
 pub use frame::{Frame, FrameProblem, FrameSolution, Touch};
-pub use hold::hold;
 pub use index::{AwakeIndex, GroupIndex, Index, ListIndex, SceneIndex};
+pub use joint_projection::project_joints;
 pub use pairs::{PairId, Pairs};
 pub use points::{Contact, MARGIN};
-pub use sight::Sight;
 pub use solver::FrameSolver;
 pub use subset::Subset;

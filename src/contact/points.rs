@@ -10,7 +10,7 @@ use crate::{
 use pushplan_kernel::Motion;
 
 use super::{
-    bodies::{Bodies, Given, Partner},
+    bodies::{Bodies, Partner, PrescribedBody},
     pairs::PairId,
 };
 
@@ -164,14 +164,14 @@ impl Scenery<'_> {
         let Self { bodies, step, .. } = *self;
         let other = match with {
             Partner::Part(index) => {
-                let Given { footprint, pose: Pose { position, heading }, turn, .. } =
+                let PrescribedBody { footprint, pose: Pose { position, heading }, turn, .. } =
                     &bodies.parts[index];
                 let position = step.from.position + tool.from.of(*position);
                 let pose = Pose { position, heading: step.from.heading + heading };
                 Placed::turned(footprint, pose, tool.from.after(turn))
             }
             Partner::Obstacle(index) => {
-                let Given { footprint, pose, turn, .. } = &bodies.obstacles[index];
+                let PrescribedBody { footprint, pose, turn, .. } = &bodies.obstacles[index];
                 Placed::turned(footprint, *pose, *turn)
             }
             Partner::Object(other) => self.placed(other),

@@ -12,13 +12,13 @@ use crate::geometry::{Vector, perpendicular};
 use super::{
     bodies::Partner,
     constraint::{Constraint, Law},
-    gain::Gain,
     joint::{Held, turn_joints},
-    midway::{Midway, midway},
+    midpoint::{Midpoint, midpoint},
     points::{Contact, Scenery},
     system::System,
     twist::{along, shift},
     unknown::Unknown,
+    warm_start::WarmStart,
 };
 
 /// A target below every displacement of a frame, metres.
@@ -33,8 +33,8 @@ pub(super) struct Prior {
     /// Tie of every joint; `None` within a group.
     pub joints: Vec<Option<usize>>,
     pub velocities: System,
-    /// Gain of every group in the last frame.
-    gains: Vec<Gain>,
+    /// WarmStart of every group in the last frame.
+    starts: Vec<WarmStart>,
 }
 
 impl Prior {
@@ -74,13 +74,13 @@ impl Prior {
         last: Option<&[Contact]>,
     ) {
         let Scenery { bodies, state, step, coasts, .. } = scenery;
-        let Self { system, joints, gains, .. } = self;
-        let gains = last.is_some().then_some(&gains[..]);
+        let Self { system, joints, starts, .. } = self;
+        let starts = last.is_some().then_some(&starts[..]);
         let last = last.unwrap_or_default();
         let travel = (step.to.position - step.from.position).norm();
         let fastest = coasts.iter().map(|coast| coast.shift.norm()).fold(travel, f64::max);
         system.quantity = Quantity::Displacement;
-        system.begin(scenery, fastest, gains);
+        system.begin(scenery, fastest, starts);
         for contact in contacts {
             let groups = &bodies.groups.of;
             let other = match contact.with {
@@ -124,7 +124,7 @@ impl Prior {
         system.solve(scenery, |constraints, ties, unknowns| {
             unknowns.iter_mut().for_each(|unknown| unknown.look(HALF));
             for (contact, constraint) in contacts.iter().zip(&mut *constraints) {
-                let at = midway(bodies, state, contact, unknowns, HALF);
+                let at = midpoint(bodies, state, contact, unknowns, HALF);
                 face(contact, &at, constraint);
                 constraint.target = [
                     contact.given.dot(&at.normal) - contact.gap,
@@ -140,16 +140,16 @@ impl Prior {
     /// configuration. Closed contacts stay closed.
     fn release(&mut self, scenery: Scenery, axis: Vector, contacts: &[Contact]) {
         let Scenery { bodies, state, .. } = scenery;
-        let Self { system, velocities, gains, .. } = self;
+        let Self { system, velocities, starts, .. } = self;
         velocities.quantity = Quantity::Velocity;
         system.unknowns.iter_mut().for_each(|unknown| unknown.look(WHOLE));
-        velocities.continue_from(system, gains, scenery);
+        velocities.continue_from(system, starts, scenery);
         let ended = &system.unknowns;
         let pressing = contacts.iter().zip(&system.constraints);
         let pressing = pressing.filter(|(_, constraint)| constraint.presses());
         let count = pressing.clone().count();
         for ((contact, _), constraint) in pressing.zip(&mut velocities.constraints) {
-            let end = midway(bodies, state, contact, ended, WHOLE);
+            let end = midpoint(bodies, state, contact, ended, WHOLE);
             face(contact, &end, constraint);
             let given = contact.given;
             constraint.target = [given.dot(&end.normal), given.dot(&perpendicular(end.normal))];
@@ -162,10 +162,10 @@ impl Prior {
         }
         ties.iter_mut().for_each(|tie| tie.target = [0.0; 2]);
         velocities.solve(scenery, |_, _, _| {});
-        gains.clear();
+        starts.clear();
         let groups = system.unknowns.iter().zip(&velocities.unknowns).zip(&bodies.groups.members);
-        gains.extend(groups.map(|((moved, ended), members)| {
-            Gain::of(moved.as_it_began(members, scenery), moved, ended)
+        starts.extend(groups.map(|((moved, ended), members)| {
+            WarmStart::of(moved.as_it_began(members, scenery), moved, ended)
         }));
     }
 
@@ -197,7 +197,7 @@ impl Prior {
 
 /// Rotates the rows of a contact's constraint to the contact geometry `at`.
 #[inline]
-fn face(contact: &Contact, at: &Midway, constraint: &mut Constraint) {
+fn face(contact: &Contact, at: &Midpoint, constraint: &mut Constraint) {
     let directions = [at.normal, perpendicular(at.normal)];
     constraint.to = directions.map(|direction| along(direction, at.arm));
     if let Partner::Object(_) = contact.with {
@@ -211,7 +211,7 @@ fn face(contact: &Contact, at: &Midway, constraint: &mut Constraint) {
 fn sliding_in_touch(
     coasts: &[Motion],
     contact: &Contact,
-    at: &Midway,
+    at: &Midpoint,
     constraint: &Constraint,
     unknowns: &[Unknown],
 ) -> f64 {

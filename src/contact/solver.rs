@@ -3,12 +3,12 @@
 use super::{
     forces::FrameForces,
     frame::{Frame, FrameProblem, FrameSolution},
-    lone::{self, Waiting},
-    march::March,
     points::Scenery,
     prior::Prior,
+    single_body::{self, Waiting},
+    substeps::Substeps,
 };
-use pushplan_kernel::Tally;
+use pushplan_kernel::SolverStats;
 
 /// Number of substeps for a frame of several objects. Their interaction depends on the order of
 /// events: over 60 sparse trajectories with fixed joints the mean error of a stroke is 3.4 mm with
@@ -25,17 +25,17 @@ pub struct FrameSolver {
 #[derive(Clone, Debug, Default)]
 struct Equations {
     prior: Prior,
-    march: March,
+    substeps: Substeps,
     waiting: Vec<Waiting>,
-    tally: Tally,
+    tally: SolverStats,
 }
 
 impl FrameSolver {
     /// Returns the statistics of all frames so far.
-    pub fn tally(&self) -> Tally {
-        let Equations { prior, march, tally, .. } = &self.equations;
+    pub fn tally(&self) -> SolverStats {
+        let Equations { prior, substeps, tally, .. } = &self.equations;
         let mut tally = *tally;
-        for prior in [prior, &march.prior] {
+        for prior in [prior, &substeps.prior] {
             tally.add(&prior.system.tally);
             tally.add(&prior.velocities.tally);
         }
@@ -93,13 +93,15 @@ impl Equations {
         waiting.clear();
         for (place, (problem, frame)) in problems.iter().zip(&mut *frames).enumerate() {
             let Some(problem) = *problem else { continue };
-            let effort = frame.lone.map_or([0; 3], |lone| lone.effort);
-            if frame.wake(problem) && lone::is_lone(&frame.scenery(problem), &frame.contacts) {
+            let effort = frame.single.map_or([0; 3], |single| single.effort);
+            if frame.wake(problem)
+                && single_body::is_single_body(&frame.scenery(problem), &frame.contacts)
+            {
                 waiting.push(Waiting { contacts: frame.contacts.len(), effort, place });
             }
         }
         waiting.sort_unstable();
-        lone::solve_each(problems, frames, waiting, tally);
+        single_body::solve_each(problems, frames, waiting, tally);
     }
 
     fn finish<'a>(
@@ -115,13 +117,13 @@ impl Equations {
     /// Computes motions, and forces if at most `most` objects are awake; returns `true` in that
     /// case.
     fn end(&mut self, problem: FrameProblem, frame: &mut Frame, most: usize) -> bool {
-        let Self { prior, march, .. } = self;
+        let Self { prior, substeps, .. } = self;
         let mut motions = std::mem::take(&mut frame.motions);
         let scenery = frame.scenery(problem);
         let few = scenery.bodies.objects.len() <= most;
-        match (&scenery.bodies.objects[..], &frame.lone) {
+        match (&scenery.bodies.objects[..], &frame.single) {
             ([], _) => {}
-            (_, Some(lone)) => motions.push(lone.motion.unwrap_or(scenery.coasts[0])),
+            (_, Some(single)) => motions.push(single.motion.unwrap_or(scenery.coasts[0])),
             ([_], _) => {
                 prior.solve(scenery, problem.axis, &frame.contacts);
                 std::mem::swap(&mut motions, &mut prior.motions);
@@ -130,7 +132,7 @@ impl Equations {
                 if few {
                     prior.press(scenery, problem.axis, &frame.contacts, None);
                 }
-                march.run(scenery, &frame.contacts, problem.axis, PIECES, &mut motions);
+                substeps.run(scenery, &frame.contacts, problem.axis, PIECES, &mut motions);
             }
         }
         frame.motions = motions;
@@ -139,8 +141,8 @@ impl Equations {
 
     fn forces<'a>(&'a self, problem: FrameProblem<'a>, frame: &'a Frame) -> FrameForces<'a> {
         let Scenery { bodies, state, .. } = frame.scenery(problem);
-        match &frame.lone {
-            Some(lone) => FrameForces::alone(bodies, state, lone),
+        match &frame.single {
+            Some(single) => FrameForces::alone(bodies, state, single),
             None => FrameForces::new(bodies, state, &self.prior),
         }
     }

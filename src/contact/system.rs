@@ -11,24 +11,24 @@
 //!
 //! with contacts (f_n >= 0, no overlap) and Coulomb friction (|f_t| <= mu f_n); joints are
 //! eliminated. A depends on the length of xi, which is taken from the last iterate (iteratively
-//! reweighted least squares). At fixed weights [`super::active`] computes the forces.
+//! reweighted least squares). At fixed weights [`super::active_set`] computes the forces.
 
 use nalgebra::Vector3;
 use pushplan_kernel::{
-    Tally,
+    SolverStats,
     settings::{Quantity, SETTLED, UPDATES},
 };
 
 use crate::scene::JOINT_ARM;
 
 use super::{
-    active::ActiveSet,
-    approach::Approach,
+    active_set::ActiveSet,
     constraint::{Constraint, Tie},
     eliminated::Eliminated,
-    gain::Gain,
+    iterative::IterativeSolver,
     points::Scenery,
     unknown::Unknown,
+    warm_start::WarmStart,
 };
 
 /// Tolerance in place of [`SETTLED`] for displacements of more than [`FEW`] groups, which saves a
@@ -58,11 +58,11 @@ pub(super) struct System {
     last: Vec<Constraint>,
     follows: bool,
     before: Vec<Vector3<f64>>,
-    active: ActiveSet,
-    approach: Approach,
+    active_set: ActiveSet,
+    iterative: IterativeSolver,
     joints: Eliminated,
     /// Statistics of all systems so far.
-    pub tally: Tally,
+    pub tally: SolverStats,
 }
 
 impl System {
@@ -74,9 +74,9 @@ impl System {
     /// because its load then has time to follow the contact forces: over 700 pushes of one object
     /// the median error is 0.61 mm, against 0.69 mm otherwise. For several objects it is not
     /// larger.
-    pub fn begin(&mut self, scenery: Scenery, reach: f64, gains: Option<&[Gain]>) {
+    pub fn begin(&mut self, scenery: Scenery, reach: f64, starts: Option<&[WarmStart]>) {
         std::mem::swap(&mut self.constraints, &mut self.last);
-        let follows = gains.is_some();
+        let follows = starts.is_some();
         self.follows = follows;
         self.constraints.clear();
         self.ties.clear();
@@ -103,9 +103,9 @@ impl System {
                 continue;
             }
             unknown.twist = unknown.as_it_began(members, scenery);
-            let goes_on = match gains {
-                Some(gains) => {
-                    unknown.twist += gains[k].moved;
+            let goes_on = match starts {
+                Some(starts) => {
+                    unknown.twist += starts[k].moved;
                     true
                 }
                 None => {
@@ -132,7 +132,7 @@ impl System {
     /// Copies groups, joints, limits and pressing contacts of the solved system `other`, for
     /// another quantity. The initial motion is the solution of `other`, plus the gain from there in
     /// the last frame if `other` followed one.
-    pub fn continue_from(&mut self, other: &System, gains: &[Gain], scenery: Scenery) {
+    pub fn continue_from(&mut self, other: &System, starts: &[WarmStart], scenery: Scenery) {
         self.follows = true;
         self.unknowns.clone_from(&other.unknowns);
         self.constraints.clear();
@@ -140,7 +140,7 @@ impl System {
         self.ties.clone_from(&other.ties);
         self.unknowns.iter_mut().for_each(Unknown::turn_to_another);
         if other.follows {
-            for (unknown, gain) in self.unknowns.iter_mut().zip(gains) {
+            for (unknown, gain) in self.unknowns.iter_mut().zip(starts) {
                 unknown.twist += gain.ended;
             }
         }
@@ -177,7 +177,7 @@ impl System {
             self.answer();
             found = found && self.search();
             if !found {
-                self.approach();
+                self.iterate();
             }
             let changed = self.unknowns.iter().zip(&self.before).any(|(now, before)| {
                 let change = now.twist - before;
@@ -209,15 +209,15 @@ impl System {
     /// Computes forces and twists at fixed weights by the active-set method; returns `true` on
     /// success.
     fn search(&mut self) -> bool {
-        let Self { unknowns, constraints, ties, active, joints, tally, .. } = self;
-        active.solve(unknowns, constraints, ties, joints, tally)
+        let Self { unknowns, constraints, ties, active_set, joints, tally, .. } = self;
+        active_set.solve(unknowns, constraints, ties, joints, tally)
     }
 
     /// Computes forces and twists at fixed weights iteratively.
-    fn approach(&mut self) {
-        let Self { unknowns, constraints, ties, approach, joints, tally, .. } = self;
+    fn iterate(&mut self) {
+        let Self { unknowns, constraints, ties, iterative, joints, tally, .. } = self;
         tally.approached += 1;
         constraints.iter_mut().for_each(|constraint| joints.weigh(constraint, unknowns));
-        approach.run(unknowns, constraints, ties, joints);
+        iterative.run(unknowns, constraints, ties, joints);
     }
 }

@@ -22,11 +22,11 @@
 //! which makes their errors second order in T. A group that travels less than half of v0 T has come
 //! to rest within the frame, at t = 2 |xi| / |v0| (lengths weighted by M). Other groups move for
 //! the whole frame. Without forces this is the distance v0^2 / (2 mu g) of free sliding, for which
-//! [`super::coast`] is exact.
+//! [`super::free_sliding`] is exact.
 
 use nalgebra::{Matrix3, Vector3};
 use pushplan_kernel::{
-    Tally,
+    SolverStats,
     settings::{FOLLOWING, HALF, LEAST, Quantity, SAME},
 };
 
@@ -236,7 +236,7 @@ impl Unknown {
         scenery: Scenery,
         quantity: Quantity,
         reach: Option<f64>,
-        tally: &mut Tally,
+        tally: &mut SolverStats,
     ) {
         let Scenery { bodies, state, .. } = scenery;
         let momentum = self.momentum.unwrap_or_else(|| {

@@ -40,14 +40,15 @@ impl<M: EffectModel> EffectModel for Assuming<M> {
 
     /// Returns the trust without errors, because these were measured with true values.
     fn trust(&self, scene: &Scene, job: &Job) -> Trust {
-        match self.model.trust(scene, &told(self.assumptions, scene, job)) {
+        match self.model.trust(scene, &under_assumptions(self.assumptions, scene, job)) {
             Trust::Mine { warnings, .. } => Trust::Mine { error: None, warnings },
             Trust::NotMine => Trust::NotMine,
         }
     }
 
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
-        let jobs: Vec<Job> = jobs.iter().map(|job| told(self.assumptions, scene, job)).collect();
+        let jobs: Vec<Job> =
+            jobs.iter().map(|job| under_assumptions(self.assumptions, scene, job)).collect();
         let mut rolled = self.model.rollout(scene, &jobs, record);
         for trajectory in &mut rolled {
             trajectory.by = trajectory.by.clone().assuming(self.assumptions);
@@ -57,7 +58,7 @@ impl<M: EffectModel> EffectModel for Assuming<M> {
 }
 
 /// Returns the job under these assumptions.
-fn told(assumptions: Assumptions, scene: &Scene, job: &Job) -> Job {
+fn under_assumptions(assumptions: Assumptions, scene: &Scene, job: &Job) -> Job {
     let Assumptions { joints, friction, start } = assumptions;
     let mut job = job.clone();
     if let Some(belief) = joints {

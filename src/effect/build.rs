@@ -10,8 +10,8 @@ use crate::{
 };
 
 use super::{
-    Assuming, ByMotion, EffectModel, LeverNetwork, LeverPrior, ModelError, Network, Prior, Routed,
-    Simulated, Still, UpTo,
+    Assuming, ByMotion, CrowdLimit, EffectModel, Fallback, LeverNetwork, LeverPrior, ModelError,
+    Network, Prior, Simulated, Still,
 };
 
 /// Factory of effect models.
@@ -50,7 +50,7 @@ impl EffectModels {
     ///
     /// # Errors
     /// [`ModelError`] if it needs weights that cannot be used.
-    pub fn build(spec: &ModelSpec) -> Result<Routed, ModelError> {
+    pub fn build(spec: &ModelSpec) -> Result<Fallback, ModelError> {
         Self::fitted(spec, None)
     }
 
@@ -60,8 +60,8 @@ impl EffectModels {
     /// # Errors
     /// [`ModelError`] if it needs weights that cannot be used, or if the weights of a network
     /// differ from the fit's.
-    pub fn fitted(spec: &ModelSpec, fit: Option<&TableFit>) -> Result<Routed, ModelError> {
-        let first = Routed::new(levering(spec.first(), fit)?);
+    pub fn fitted(spec: &ModelSpec, fit: Option<&TableFit>) -> Result<Fallback, ModelError> {
+        let first = Fallback::new(levering(spec.first(), fit)?);
         spec.others().iter().try_fold(first, |routed, other| Ok(routed.or(part(other, fit)?)))
     }
 }
@@ -118,6 +118,6 @@ fn part(part: &ModelPart, fit: Option<&TableFit>) -> Result<Arc<dyn EffectModel>
     };
     Ok(match up_to {
         None => model,
-        Some(most) => Arc::new(UpTo::new(model, *most)),
+        Some(most) => Arc::new(CrowdLimit::new(model, *most)),
     })
 }

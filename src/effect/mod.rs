@@ -7,23 +7,25 @@
 mod assuming;
 mod build;
 mod by_motion;
+mod crowd_limit;
 mod error;
+mod fallback;
 mod lever;
 mod measured;
 mod model;
 mod network;
 mod prior;
-mod routed;
 mod simulated;
 mod still;
 mod trust;
-mod up_to;
 
 pub use crate::task::Job;
 pub use assuming::{Assuming, shifted_start};
 pub use build::EffectModels;
 pub use by_motion::ByMotion;
+pub use crowd_limit::CrowdLimit;
 pub use error::ModelError;
+pub use fallback::{Fallback, OutOfRange, consequence};
 pub use lever::{
     LeverInputs, LeverNetwork, LeverNetworkError, LeverPrior, LeverView, PriorSettings,
     lever_action, lever_features, lever_inputs,
@@ -32,8 +34,6 @@ pub use measured::{PRIOR_RANGES, Quantiles};
 pub use model::EffectModel;
 pub use network::{Network, without_guesses};
 pub use prior::Prior;
-pub use routed::{Outside, Routed, consequence};
 pub use simulated::Simulated;
 pub use still::Still;
 pub use trust::Trust;
-pub use up_to::UpTo;

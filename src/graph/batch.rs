@@ -5,8 +5,8 @@ use crate::geometry::Vector;
 
 use super::{
     features::{GIVEN_EVEN, NODE_EVEN, NODE_ODD, RELATION_EVEN, RELATION_ODD, given_features},
-    given::Given,
     node::Node,
+    prescribed::PrescribedNode,
     relation::Relation,
 };
 
@@ -31,7 +31,7 @@ pub struct Batch {
     /// Odd node features, [N, NODE_ODD].
     pub node_odd: Vec<f32>,
     /// Even features of bodies with prescribed motion, [K, GIVEN_EVEN]; the parts of a tool share
-    /// one row, see [`Given`].
+    /// one row, see [`PrescribedNode`].
     pub given_even: Vec<f32>,
     /// Odd features of bodies with prescribed motion, [K, GIVEN_ODD].
     pub given_odd: Vec<f32>,
@@ -90,7 +90,7 @@ impl Batch {
     }
 
     /// Adds a body with prescribed motion; returns its sender index.
-    pub(super) fn push_given(&mut self, given: &Given, axis: Vector) -> u32 {
+    pub(super) fn push_given(&mut self, given: &PrescribedNode, axis: Vector) -> u32 {
         let row = (self.given_even.len() / GIVEN_EVEN) as u32;
         let (even, odd) = given_features(given, axis);
         self.given_even.extend(even.map(bounded));

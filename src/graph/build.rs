@@ -6,8 +6,8 @@ use crate::geometry::{Vector, cross};
 use super::{
     batch::Batch,
     features::{Underside, node_features, relation_features},
-    given::Given,
     node::{Node, UNIT},
+    prescribed::PrescribedNode,
     relation::{Relation, RelationKind, add_contact, add_joint},
 };
 
@@ -54,8 +54,10 @@ impl Batch {
             let receiver = before + relation.receiver;
             let sender = match relation.sender {
                 Partner::Object(k) => (before + k) as u32,
-                Partner::Part(_) => self.given(0, frame, Given::tool),
-                Partner::Obstacle(k) => self.given(1 + k, frame, |frame| Given::obstacle(frame, k)),
+                Partner::Part(_) => self.given(0, frame, PrescribedNode::tool),
+                Partner::Obstacle(k) => {
+                    self.given(1 + k, frame, |frame| PrescribedNode::obstacle(frame, k))
+                }
             };
             let (even, odd) = relation_features(&self.nodes[receiver], relation);
             self.push_relation(receiver as u32, sender, relation.pair, even, odd);
@@ -70,7 +72,7 @@ impl Batch {
         &mut self,
         place: usize,
         frame: &FrameSolution,
-        body: impl FnOnce(&FrameSolution) -> Given,
+        body: impl FnOnce(&FrameSolution) -> PrescribedNode,
     ) -> u32 {
         match self.rows[place] {
             Some(sender) => sender,

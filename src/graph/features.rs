@@ -10,8 +10,8 @@ use crate::{
 };
 
 use super::{
-    given::Given,
     node::{Node, UNIT},
+    prescribed::PrescribedNode,
     relation::{Relation, RelationKind},
 };
 
@@ -99,8 +99,11 @@ fn flag(value: bool) -> f64 {
 }
 
 /// Returns the features of a body with prescribed motion, in the axes given by `axis`.
-pub(super) fn given_features(given: &Given, axis: Vector) -> ([f64; GIVEN_EVEN], [f64; GIVEN_ODD]) {
-    let Given { tool, half: [along, across], shift, turn, .. } = *given;
+pub(super) fn given_features(
+    given: &PrescribedNode,
+    axis: Vector,
+) -> ([f64; GIVEN_EVEN], [f64; GIVEN_ODD]) {
+    let PrescribedNode { tool, half: [along, across], shift, turn, .. } = *given;
     (
         [
             flag(tool),

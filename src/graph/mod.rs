@@ -6,8 +6,8 @@
 mod batch;
 mod build;
 mod features;
-mod given;
 mod node;
+mod prescribed;
 mod relation;
 
 pub use batch::{Batch, GIVEN, NOBODY};
@@ -15,5 +15,5 @@ pub use features::{
     GIVEN_EVEN, GIVEN_ODD, NODE_EVEN, NODE_ODD, OUTPUT_EVEN, OUTPUT_ODD, RELATION_EVEN,
     RELATION_ODD,
 };
-pub use given::Given;
 pub use node::{Correction, Node, UNIT};
+pub use prescribed::PrescribedNode;

@@ -1,7 +1,7 @@
 //! Relations: a contact point or a joint from the view of the receiver, one of its two bodies.
 
 use crate::{
-    contact::{Bodies, Contact, FrameForces, FrameSolution, PairId, Partner, Sight},
+    contact::{Bodies, Contact, ContactSide, FrameForces, FrameSolution, PairId, Partner},
     geometry::{Vector, perpendicular},
     scene::JointKind,
 };
@@ -73,9 +73,9 @@ pub(super) fn add_contact(
     relations: &mut Vec<Relation>,
 ) {
     let FrameSolution { bodies, coasts, motions, .. } = *frame;
-    for sight in contact.sights().into_iter().flatten() {
-        let Sight { receiver, sender, normal, arms, .. } = sight;
-        let sent = sight.sent(motions);
+    for side in contact.sides().into_iter().flatten() {
+        let ContactSide { receiver, sender, normal, arms, .. } = side;
+        let sent = side.sent(motions);
         let relative = sent - coasts[receiver].at(arms[0]);
         let closing = relative.dot(&normal);
         let gap = contact.gap;
@@ -85,7 +85,7 @@ pub(super) fn add_contact(
             normal,
             gap,
             friction: contact.friction,
-            overlap: sight.overlap(&coasts[receiver], motions),
+            overlap: side.overlap(&coasts[receiver], motions),
             remaining: if closing > gap.max(0.0) { 1.0 - gap.max(0.0) / closing } else { 0.0 },
             left: gap - ends.dot(&normal),
             slip: ends.dot(&perpendicular(normal)),

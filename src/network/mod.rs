@@ -26,8 +26,8 @@ pub use doubt::Doubt;
 pub use forward::{Buffers, Forward};
 pub use head::{HEAD_OUTPUTS, Head};
 pub use lever::{
-    LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverSizes, LeverTold, LeverWeights, fresh_lever,
-    fresh_lever_values, lever_layout, tanh,
+    LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverOutput, LeverSizes, LeverWeights,
+    fresh_lever, fresh_lever_values, lever_layout, tanh,
 };
 pub use normaliser::{Normaliser, Statistics};
 pub use parameters::{Layout, Parameters, layout, layout_of};

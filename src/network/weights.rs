@@ -211,12 +211,12 @@ pub fn check_config(config: Config) -> Result<(), WeightsError> {
     Ok(())
 }
 
-/// Checks that a network without propagation can have this width and inputs of the sizes `told`.
+/// Checks that a network without propagation can have this width and inputs of the sizes `sizes`.
 ///
 /// # Errors
 /// [`WeightsError::Size`] if not.
-pub fn check_widths(width: usize, told: &[usize]) -> Result<(), WeightsError> {
-    if told.iter().chain([&width]).any(|size| !(1..=4096).contains(size)) {
+pub fn check_widths(width: usize, sizes: &[usize]) -> Result<(), WeightsError> {
+    if sizes.iter().chain([&width]).any(|size| !(1..=4096).contains(size)) {
         return Err(WeightsError::Size { width, steps: 1 });
     }
     Ok(())

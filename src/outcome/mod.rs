@@ -19,5 +19,5 @@ pub use lever::{LEVER_FRAMES, LeverFault, LeverTrajectory, LeverWarning, has_sli
 pub use push_fault::PushFault;
 pub use result::{Miss, Outcome};
 pub use trajectory::{Contact, Force, Frame, Record, Spread, Trajectory};
-pub use verdict::{Disturbance, Evidence, Reason, Verdict, never_on};
+pub use verdict::{Evidence, Perturbation, Reason, Verdict, never_on};
 pub use warning::Warning;

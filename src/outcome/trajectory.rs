@@ -174,8 +174,8 @@ impl Trajectory {
 
     /// Replaces outline pieces in the contacts by the nearest parts of `tool`, because flush parts
     /// are merged in the outline.
-    pub fn tell_parts(&mut self, scene: &Scene, tool: &Tool) {
-        let mut told: Vec<Contact> = Vec::with_capacity(self.contacts.len());
+    pub fn resolve_parts(&mut self, scene: &Scene, tool: &Tool) {
+        let mut resolved: Vec<Contact> = Vec::with_capacity(self.contacts.len());
         for mut contact in std::mem::take(&mut self.contacts) {
             let at = contact.frame.min(self.frames.len().saturating_sub(1));
             if let (Body::Part(_), Some(frame)) = (contact.with, self.frames.get(at)) {
@@ -191,11 +191,11 @@ impl Trajectory {
             }
             let same =
                 |known: &Contact| known.object == contact.object && known.with == contact.with;
-            if !told.iter().any(same) {
-                told.push(contact);
+            if !resolved.iter().any(same) {
+                resolved.push(contact);
             }
         }
-        self.contacts = told;
+        self.contacts = resolved;
     }
 
     /// Returns the last recorded state.

@@ -12,11 +12,11 @@ const NEVER: usize = 4;
 /// Difference of a replay from the task as written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Disturbance {
+pub enum Perturbation {
     /// No perturbation.
     Nominal,
     /// Small random perturbation of the start poses and of every friction coefficient.
-    Disturbed {
+    Perturbed {
         /// Number of the draw, from 1. A draw of a given seed is identical in both engines.
         draw: usize,
     },
@@ -28,7 +28,7 @@ pub struct Evidence {
     /// Engine of the replay.
     pub engine: Engine,
     /// Perturbation of the replay.
-    pub disturbance: Disturbance,
+    pub perturbation: Perturbation,
     /// Final state and goal errors.
     pub outcome: Outcome,
     /// Warnings raised during the replay.
@@ -128,7 +128,7 @@ impl Verdict {
     }
 
     /// Returns `true` if the plan works as written, even if too seldom when perturbed.
-    pub fn works(&self) -> bool {
+    pub fn nominal_ok(&self) -> bool {
         matches!(self.reason, None | Some(Reason::Fragile { .. } | Reason::NeverOn { .. }))
     }
 
@@ -139,12 +139,12 @@ impl Verdict {
 
     /// Returns the nominal replay in an engine.
     pub fn nominal(&self, engine: Engine) -> Option<&Evidence> {
-        self.of(engine).find(|evidence| evidence.disturbance == Disturbance::Nominal)
+        self.of(engine).find(|evidence| evidence.perturbation == Perturbation::Nominal)
     }
 
     /// Returns the perturbed replays in an engine, in the order of their draws.
-    pub fn disturbed(&self, engine: Engine) -> impl Iterator<Item = &Evidence> + Clone {
-        self.of(engine).filter(|evidence| evidence.disturbance != Disturbance::Nominal)
+    pub fn perturbed(&self, engine: Engine) -> impl Iterator<Item = &Evidence> + Clone {
+        self.of(engine).filter(|evidence| evidence.perturbation != Perturbation::Nominal)
     }
 
     fn of(&self, engine: Engine) -> impl Iterator<Item = &Evidence> + Clone {
@@ -154,8 +154,8 @@ impl Verdict {
     /// Returns the number of perturbed replays in an engine that reach the goal, their total number
     /// and the share.
     fn share(&self, engine: Engine) -> Option<(usize, usize, f64)> {
-        let replays = self.disturbed(engine).count();
-        let reached = self.disturbed(engine).filter(|evidence| evidence.outcome.reached).count();
+        let replays = self.perturbed(engine).count();
+        let reached = self.perturbed(engine).filter(|evidence| evidence.outcome.reached).count();
         (replays > 0).then(|| (reached, replays, reached as f64 / replays as f64))
     }
 
@@ -194,7 +194,7 @@ impl Verdict {
     fn never_on(&self) -> Option<Reason> {
         self.nominal(Engine::Planar)?;
         [Engine::Spatial, Engine::Planar].into_iter().find_map(|engine| {
-            let (support, replays) = never_on(self.disturbed(engine))?;
+            let (support, replays) = never_on(self.perturbed(engine))?;
             Some(Reason::NeverOn { engine, support: support.clone(), replays })
         })
     }
@@ -206,9 +206,9 @@ pub fn never_on<'a>(
     replays: impl Iterator<Item = &'a Evidence> + Clone,
 ) -> Option<(&'static Support, usize)> {
     let on = |support| {
-        replays.clone().filter(move |evidence| match evidence.disturbance {
-            Disturbance::Disturbed { draw } => Physics::doubted(draw - 1) == Some(support),
-            Disturbance::Nominal => false,
+        replays.clone().filter(move |evidence| match evidence.perturbation {
+            Perturbation::Perturbed { draw } => Physics::doubted(draw - 1) == Some(support),
+            Perturbation::Nominal => false,
         })
     };
     let supports = Physics::PLAUSIBLE_SUPPORTS.iter();

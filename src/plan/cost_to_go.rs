@@ -116,7 +116,7 @@ impl<'a> CostToGo<'a> {
         let Pose { position, heading } = state.poses[object];
         let there = Pose { position: position + shift, heading };
         match &self.corridor {
-            Some(corridor) if !self.task.wants(object) => corridor.depth_of(object, &there),
+            Some(corridor) if !self.task.has_goal(object) => corridor.depth_of(object, &there),
             _ => {
                 let mut carried = state.clone();
                 carried.poses[object] = there;

@@ -195,7 +195,7 @@ fn extend(
     };
     let set_down = (workspace.is_placed() || depth == 0).then_some(planned.room);
     let pushed = (&node.state, planned.object);
-    if let Some(reason) = workspace.margins(planned.grip(), pushed, &push, set_down).broken() {
+    if let Some(reason) = workspace.margins(planned.grip(), pushed, &push, set_down).violation() {
         return Err(reason);
     }
     let promise = (0..=2)

@@ -36,7 +36,7 @@ pub struct Evaluation {
 impl Evaluation {
     /// Returns `true` if every push satisfies every rule.
     pub fn is_feasible(&self) -> bool {
-        self.margins.iter().all(|margins| margins.broken().is_none())
+        self.margins.iter().all(|margins| margins.violation().is_none())
     }
 
     /// Returns `true` if the outcome is valid and the motion was not blocked.

@@ -10,7 +10,7 @@
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use crate::watch::Watch;
+use crate::progress::Progress;
 
 use super::parameters::Parameters;
 use super::supports::{Ends, Supports};
@@ -57,7 +57,7 @@ pub fn harden(
     rollouts: &mut Rollouts,
     found: &[SearchResult],
     settings: HardenSettings,
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> Vec<SearchResult> {
     let (before, start) = (rollouts.used(), rollouts.situation().start.clone());
     let supports = Supports::around(rollouts.situation());
@@ -73,7 +73,7 @@ pub fn harden(
         .collect();
     while work.len() > LEFT {
         for _ in 0..ROUNDS {
-            if watch.cancelled() || rollouts.used() - before >= settings.rollouts {
+            if progress.cancelled() || rollouts.used() - before >= settings.rollouts {
                 break;
             }
             round(workspace, rollouts, &supports, &mut work);

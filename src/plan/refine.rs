@@ -18,7 +18,7 @@
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use crate::watch::Watch;
+use crate::progress::Progress;
 use crate::{scene::Situation, task::Task};
 
 use super::goal_errors::{apart, asked, beside, farthest, goal_errors, largest};
@@ -93,7 +93,7 @@ struct Work {
 }
 
 /// Refines the candidates that satisfy all rules and returns them in the given order; infeasible
-/// candidates are left out. `watch` receives the numbers of completed and total rounds, and can
+/// candidates are left out. `progress` receives the numbers of completed and total rounds, and can
 /// stop the refinement between rounds.
 pub fn refine(
     workspace: &Workspace,
@@ -101,7 +101,7 @@ pub fn refine(
     candidates: &[Candidate],
     settings: RefineSettings,
     statistics: &mut RefineStatistics,
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> Vec<Refined> {
     let before = rollouts.used();
     let mut solver = QpSolver::default();
@@ -134,10 +134,10 @@ pub fn refine(
         .collect();
     shorten(&mut work, settings.short_list, workspace, rollouts.situation());
     for round in 0..settings.rounds {
-        if watch.cancelled() {
+        if progress.cancelled() {
             break;
         }
-        watch.progress(round as u64, settings.rounds as u64);
+        progress.update(round as u64, settings.rounds as u64);
         let left = settings.rounds - round;
         let good = work.iter().filter(|w| w.is_good()).count();
         if good >= settings.enough || rollouts.used() - before >= settings.rollouts {
@@ -149,7 +149,7 @@ pub fn refine(
         }
         step((workspace, &supports), rollouts, &mut active, settings, &mut solver, statistics);
     }
-    watch.progress(settings.rounds as u64, settings.rounds as u64);
+    progress.update(settings.rounds as u64, settings.rounds as u64);
     statistics.rollouts += rollouts.used() - before;
     work.into_iter().map(|w| w.refined).collect()
 }

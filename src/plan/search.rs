@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::watch::Watch;
+use crate::progress::Progress;
 use crate::{
     outcome::{Record, Trajectory},
     scene::{Situation, State},
@@ -175,10 +175,14 @@ impl<'a> Search<'a> {
         self.depth < self.workspace.task.pushes.max_count && any
     }
 
-    /// Searches all sequences of one more push and returns the best ones, best first. `watch`
+    /// Searches all sequences of one more push and returns the best ones, best first. `progress`
     /// receives the numbers of completed and total rollouts. If it stops the search, the best
     /// results so far are returned.
-    pub fn deepen(&mut self, rollouts: &mut Rollouts, watch: &dyn Watch) -> Vec<SearchResult> {
+    pub fn deepen(
+        &mut self,
+        rollouts: &mut Rollouts,
+        progress: &dyn Progress,
+    ) -> Vec<SearchResult> {
         let before = rollouts.used();
         if self.depth > 0 {
             let (list, offers) = std::mem::take(&mut self.ends);
@@ -198,10 +202,10 @@ impl<'a> Search<'a> {
         let mut found = Vec::with_capacity(list.len());
         let mut offers = Vec::new();
         for (batch, chunk) in list.chunks(BATCH).enumerate() {
-            if watch.cancelled() {
+            if progress.cancelled() {
                 break;
             }
-            watch.progress((batch * BATCH) as u64, list.len() as u64);
+            progress.update((batch * BATCH) as u64, list.len() as u64);
             let jobs: Vec<_> = chunk.iter().map(|extension| self.job(extension)).collect();
             let trajectories = rollouts.run(&jobs, Record::Frames);
             let rated: Vec<_> = chunk
@@ -223,9 +227,9 @@ impl<'a> Search<'a> {
                 offers.extend(stops.into_iter().map(|stop| stop.of(index)));
             }
         }
-        watch.progress(list.len() as u64, list.len() as u64);
+        progress.update(list.len() as u64, list.len() as u64);
         self.depth += 1;
-        self.ends = if watch.cancelled() { Default::default() } else { (list, offers) };
+        self.ends = if progress.cancelled() { Default::default() } else { (list, offers) };
         self.statistics.rollouts += rollouts.used() - before;
         // The sort is stable, so that equal scores keep the order of enumeration.
         found.sort_by(|a, b| a.score.total_cmp(&b.score));
@@ -263,7 +267,7 @@ impl<'a> Search<'a> {
         let (task, length) = (self.workspace.task, extension.push.length);
         let Some(last) = trajectory.frames.last() else { return (None, Vec::new()) };
         let object = extension.planned.object;
-        let counts = task.wants(task.scene.thing(object));
+        let counts = task.has_goal(task.scene.thing(object));
         let mut best = match counts {
             true => (final_score(task, trajectory), length),
             // Moving an obstruction is not yet a plan.

@@ -82,7 +82,7 @@ impl Margins {
     }
 
     /// Returns the first violated rule.
-    pub fn broken(&self) -> Option<Infeasible> {
+    pub fn violation(&self) -> Option<Infeasible> {
         let reasons = [
             Infeasible::Reach,
             Infeasible::Reach,
@@ -167,7 +167,7 @@ impl Workspace<'_> {
         length: f64,
     ) -> Result<f64, Infeasible> {
         let robot = &self.task.robot;
-        if !self.task.stands(start, grip_yaw) {
+        if !self.task.is_reachable(start, grip_yaw) {
             return Err(Infeasible::Reach);
         }
         let (ahead, _) = axes(direction);
@@ -182,7 +182,9 @@ impl Workspace<'_> {
             free = free.min(t);
         }
         // An arm cannot hold the tool with this yaw everywhere.
-        while free >= MIN_LENGTH && !self.task.stands(start + ahead * (free - SLACK), grip_yaw) {
+        while free >= MIN_LENGTH
+            && !self.task.is_reachable(start + ahead * (free - SLACK), grip_yaw)
+        {
             free -= SHORTER;
         }
         if free < MIN_LENGTH {

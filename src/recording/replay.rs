@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::geometry::Pose;
 use crate::{
-    scene::{FRAME_TRAVEL, Sight},
+    scene::{FRAME_TRAVEL, ObservedPose},
     task::{COAST_FRAME, Observation, Stroke, ToolMotion},
 };
 
@@ -119,7 +119,9 @@ impl Recording {
             let poses = self.frames[frame].poses.iter().zip(&self.headings);
             observations.push(Observation {
                 strokes: replay.motion.strokes[done..=stroke].to_vec(),
-                seen: poses.map(|(pose, heading)| Some(Sight::new(pose, *heading))).collect(),
+                seen: poses
+                    .map(|(pose, heading)| Some(ObservedPose::new(pose, *heading)))
+                    .collect(),
             });
             done = stroke + 1;
         }

@@ -1,7 +1,7 @@
 //! Integration of one frame's motions.
 
 use crate::{
-    contact::{Bodies, Motion, hold},
+    contact::{Bodies, Motion, project_joints},
     scene::{State, Velocity},
     task::FrameStep,
 };
@@ -40,7 +40,7 @@ pub fn integrate(bodies: &Bodies, state: &mut State, motions: &[Motion], step: &
             state.velocities[k] = Velocity::default();
         }
     }
-    hold(bodies, state, |object| motions[object] != Motion::default());
+    project_joints(bodies, state, |object| motions[object] != Motion::default());
     let after = kinetic_energy(bodies, state);
     if coasting && after > before {
         let share = (before / after).sqrt();

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::{
-    contact::{Bodies, Tally},
+    contact::{Bodies, SolverStats},
     outcome::{Record, Trajectory},
     scene::{ModelSpec, Scene},
     task::Job,
@@ -44,7 +44,7 @@ impl Roller {
     }
 
     /// Returns the solver statistics of all frames so far.
-    pub fn tally(&self) -> Tally {
+    pub fn tally(&self) -> SolverStats {
         self.stepper.tally()
     }
 

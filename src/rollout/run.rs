@@ -352,7 +352,7 @@ impl<'a> Run<'a> {
             self.stroke = motion.strokes.len().saturating_sub(1);
             self.keep_frame(motion.strokes.last().map(|stroke| stroke.to).unwrap_or_default());
         }
-        self.trajectory.tell_parts(self.scene, &motion.tool);
+        self.trajectory.resolve_parts(self.scene, &motion.tool);
         self.trajectory
     }
 }

@@ -1,7 +1,7 @@
 //! A frame of many rollouts side by side: solution, correction by the network, integration.
 
 use crate::{
-    contact::{Frame, FrameProblem, FrameSolver, ListIndex, Motion, Tally, Touch},
+    contact::{Frame, FrameProblem, FrameSolver, ListIndex, Motion, SolverStats, Touch},
     graph::{Batch, Correction},
     outcome::Spread,
 };
@@ -72,7 +72,7 @@ impl Stepper {
     }
 
     /// Returns the solver statistics of all frames so far.
-    pub fn tally(&self) -> Tally {
+    pub fn tally(&self) -> SolverStats {
         self.solver.tally()
     }
 

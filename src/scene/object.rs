@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{ConvexPolygon, Pose, Shape};
 
-use super::planar::{is_zero, planar_only};
+use super::serde_planar::{is_zero, planar_only};
 use super::{Feet, Support};
 
 /// A movable body.

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Pose, Pose3, Shape, Solid};
 
-use super::planar::{is_zero, planar_only};
+use super::serde_planar::{is_zero, planar_only};
 
 /// A fixed cuboid: a wall, a shelf, a standoff, the floor of a tray.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

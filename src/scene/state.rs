@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Pose, Pose3, Vector};
 
-use super::planar::planar_only;
+use super::serde_planar::planar_only;
 
 /// Speed below which a body counts as resting, m/s, of the centre and of the rim. A body this slow
 /// slides v^2/(2 mu g) < 1 um further on any allowed table.

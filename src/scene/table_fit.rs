@@ -175,15 +175,15 @@ mod tests {
             }],
             pushes: 20,
         };
-        let told = |mass: f64| {
+        let fitted = |mass: f64| {
             let mut scene = scene(mass);
             fit.state(&mut scene);
             let friction = Physics::stated(&scene).friction(0, Surface::Tool, 0.0);
             (friction, scene.objects[0].support.clone())
         };
-        assert_eq!(told(0.4), (0.2, Support::Spread(0.6)));
+        assert_eq!(fitted(0.4), (0.2, Support::Spread(0.6)));
         // The fit knows nothing about another object.
-        assert_eq!(told(4.0), (0.5, Support::Even));
+        assert_eq!(fitted(4.0), (0.5, Support::Even));
     }
 
     #[test]

@@ -8,7 +8,7 @@ use thiserror::Error;
 use crate::geometry::{Pose, Shape, clearance};
 
 use super::outline::{Piece, pieces};
-use super::planar::planar_only;
+use super::serde_planar::planar_only;
 use super::{Blade, DisjointSets, Part};
 
 /// Largest gap of parts that are joined rigidly, metres.
@@ -132,7 +132,7 @@ impl Tool {
         let mut joints = Vec::new();
         for a in 0..parts.len() {
             for b in a + 1..parts.len() {
-                let said = by_hand.iter().any(|pair| *pair == [a, b] || *pair == [b, a]);
+                let stated = by_hand.iter().any(|pair| *pair == [a, b] || *pair == [b, a]);
                 // Contact points do not suffice: two crossing bars have no corner inside each
                 // other.
                 let gap = clearance(
@@ -140,7 +140,7 @@ impl Tool {
                     (&parts[b].footprint(), &parts[b].pose),
                     2.0 * JOIN_GAP,
                 );
-                if said || gap <= JOIN_GAP {
+                if stated || gap <= JOIN_GAP {
                     joints.push([a, b]);
                 }
             }

@@ -4,10 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Vector, wrap_angle};
 
-use super::planar::planar_only;
+use super::serde_planar::planar_only;
 use super::{
-    Fixed, Joint, JointKind, Mount, Mover, Object, Obstacle, PairFriction, REST_SPEED, Region,
-    State, Surface, pair_friction,
+    Fixed, Joint, JointKind, Mover, Object, Obstacle, PairFriction, REST_SPEED, Region, State,
+    Surface, WorldJoint, pair_friction,
 };
 
 /// A finite table: a rectangle along the world's axes.
@@ -44,7 +44,7 @@ pub struct Scene {
     pub joints: Vec<Joint>,
     /// Joints between objects and the world.
     #[serde(with = "planar_only", default, skip_serializing_if = "Vec::is_empty")]
-    pub mounts: Vec<Mount>,
+    pub mounts: Vec<WorldJoint>,
     /// Fixed cuboids, on the table or above it.
     pub obstacles: Vec<Obstacle>,
     /// Frictions of pairs that are not the mean of the two values.
@@ -88,7 +88,7 @@ impl Scene {
 
     /// Adds a joint between an object and the world.
     pub fn with_mount(mut self, object: usize, kind: JointKind) -> Self {
-        self.mounts.push(Mount { object, kind });
+        self.mounts.push(WorldJoint { object, kind });
         self
     }
 
@@ -133,7 +133,7 @@ impl Scene {
         let mounts = self
             .mounts
             .iter()
-            .filter_map(|mount| Some(Mount { object: place(mount.object)?, ..mount.clone() }));
+            .filter_map(|mount| Some(WorldJoint { object: place(mount.object)?, ..mount.clone() }));
         let frictions = self.frictions.iter().filter_map(|pair| {
             let with = match pair.with {
                 Surface::Object(other) => Surface::Object(place(other)?),
@@ -168,7 +168,7 @@ impl Scene {
     }
 
     /// Returns the joint that holds an object, or its compound object, to the world.
-    pub fn mount(&self, object: usize) -> Option<&Mount> {
+    pub fn mount(&self, object: usize) -> Option<&WorldJoint> {
         let thing = self.thing(object);
         self.mounts.iter().find(|mount| mount.object == thing)
     }
@@ -180,7 +180,7 @@ impl Scene {
             object.pose = *pose;
         }
         for mount in &mut scene.mounts {
-            let Mount { object, .. } = *mount;
+            let WorldJoint { object, .. } = *mount;
             let start = &self.objects[object].pose;
             let mut now = scene.objects[object].pose;
             // Observed headings do not count full turns.

@@ -16,24 +16,24 @@
 //! nothing and do not move.
 
 mod asleep;
-mod drive;
 mod footprints;
 mod groups;
+mod joint_limits;
 mod lever;
 mod parameters;
 mod planar;
+mod playback;
 mod seams;
 mod simulator;
 mod slowing;
 mod solids;
 mod solved;
 mod spatial;
-mod stops;
-mod strain;
 mod support;
 mod upright;
+mod violations;
 mod world;
 
-pub use drive::Arm;
 pub use lever::LeverSimulator;
+pub use playback::Arm;
 pub use simulator::Simulator;

@@ -29,8 +29,8 @@ use super::parameters::{
 };
 use super::seams::Seams;
 use super::slowing::{Inertia, Resistance, Twist};
-use super::strain::{Overlap, force, overlap};
 use super::support::{Pressed, Support};
+use super::violations::{Overlap, force, overlap};
 use super::world::World;
 
 /// Tool parts.

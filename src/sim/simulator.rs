@@ -3,16 +3,16 @@
 use std::sync::Arc;
 
 use crate::geometry::Pose;
-use crate::watch::{Unwatched, Watch};
+use crate::progress::{NoProgress, Progress};
 use crate::{
     outcome::{Record, Trajectory, in_turn},
     scene::{Engine, ModelKind, ModelSpec, Rate, Scene, Situation},
     task::{Job, Motion},
 };
 
-use super::drive::{Arm, drive};
 use super::lever::LeverSimulator;
 use super::planar::PlanarWorld;
+use super::playback::{Arm, playback};
 use super::spatial::SpatialWorld;
 
 /// A physics engine with its settings. It plays motions and holds no state between them.
@@ -90,21 +90,21 @@ impl Simulator {
     ///
     /// The trajectory always has at least one frame; problems are reported as warnings.
     pub fn run(&self, scene: &Scene, job: &Job, record: Record) -> Trajectory {
-        self.run_watched(scene, job, record, &Unwatched)
+        self.run_watched(scene, job, record, &NoProgress)
     }
 
-    /// Plays a job as [`Simulator::run`]; `watch` can stop it after any frame, with a warning.
+    /// Plays a job as [`Simulator::run`]; `progress` can stop it after any frame, with a warning.
     pub fn run_watched(
         &self,
         scene: &Scene,
         job: &Job,
         record: Record,
-        watch: &dyn Watch,
+        progress: &dyn Progress,
     ) -> Trajectory {
         if job.in_space() {
-            return self.in_space(scene, job, record, watch);
+            return self.in_space(scene, job, record, progress);
         }
-        self.drive(scene, job, record, (None, watch))
+        self.playback(scene, job, record, (None, progress))
     }
 
     /// Plays consecutive jobs as one trajectory, see [`in_turn`].
@@ -113,9 +113,9 @@ impl Simulator {
         scene: &Scene,
         jobs: &[Job],
         record: Record,
-        watch: &dyn Watch,
+        progress: &dyn Progress,
     ) -> Trajectory {
-        let run = |job: &Job| self.run_watched(scene, job, record, watch);
+        let run = |job: &Job| self.run_watched(scene, job, record, progress);
         let made = in_turn(&[jobs.to_vec()], record, |jobs| jobs.iter().map(run).collect());
         let standing = || Trajectory::standing(self.spec(), Pose::default(), scene.start());
         made.into_iter().next().unwrap_or_else(standing)
@@ -124,20 +124,20 @@ impl Simulator {
     /// Plays a planar job as an arm executes it: it ends where the arm cannot continue, with a
     /// warning that states the reason.
     pub fn run_by(&self, arm: &Arm, scene: &Scene, job: &Job, record: Record) -> Trajectory {
-        self.drive(scene, job, record, (Some(arm), &Unwatched))
+        self.playback(scene, job, record, (Some(arm), &NoProgress))
     }
 
-    fn drive(
+    fn playback(
         &self,
         scene: &Scene,
         job: &Job,
         record: Record,
-        by: (Option<&Arm>, &dyn Watch),
+        by: (Option<&Arm>, &dyn Progress),
     ) -> Trajectory {
         let play = match self.engine {
-            Engine::Planar => drive::<PlanarWorld>,
-            Engine::Spatial => drive::<SpatialWorld<true>>,
-            Engine::Upright => drive::<SpatialWorld<false>>,
+            Engine::Planar => playback::<PlanarWorld>,
+            Engine::Spatial => playback::<SpatialWorld<true>>,
+            Engine::Upright => playback::<SpatialWorld<false>>,
         };
         play(scene, job, self, record, by)
     }
@@ -149,11 +149,11 @@ impl Simulator {
             motions if !scene.in_space() && !motions.iter().any(Motion::is_lever) => {
                 let job = |motion: &Motion| Job::stated(scene, motion.clone());
                 let jobs: Vec<Job> = motions.iter().map(job).collect();
-                self.run_in_turn(scene, &jobs, record, &Unwatched)
+                self.run_in_turn(scene, &jobs, record, &NoProgress)
             }
             motions => {
                 let simulator = LeverSimulator { rate: self.rate };
-                let watched = (record, &Unwatched as _);
+                let watched = (record, &NoProgress as _);
                 simulator.run_all(&Situation::stated(scene), scene, motions, watched)
             }
         }
@@ -165,13 +165,19 @@ impl Simulator {
     }
 
     /// Plays a job that leaves the plane or starts out of it.
-    fn in_space(&self, scene: &Scene, job: &Job, record: Record, watch: &dyn Watch) -> Trajectory {
+    fn in_space(
+        &self,
+        scene: &Scene,
+        job: &Job,
+        record: Record,
+        progress: &dyn Progress,
+    ) -> Trajectory {
         if !self.takes(job) || !job.motion.fits(scene) {
             return Trajectory::declined(&self.spec(), job);
         }
         let Job { start, motion, physics } = job.clone();
         let situation = Situation { scene: Arc::new(scene.clone()), start, physics };
         let simulator = LeverSimulator { rate: self.rate };
-        simulator.run_all(&situation, scene, &[motion], (record, watch))
+        simulator.run_all(&situation, scene, &[motion], (record, progress))
     }
 }

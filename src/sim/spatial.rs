@@ -21,9 +21,9 @@ use super::parameters::{ALLOWED_ERROR, STIFF_CONTACT, is_articulated, needs_stif
 use super::seams::Seams;
 use super::solids::{CLEAR, FOOT, floor, foot, raised, solid, table, undersides, weighing};
 use super::solved::solved;
-use super::strain::{Overlap, force, overlap};
 use super::support::Support;
 use super::upright::{Standing, Upright};
+use super::violations::{Overlap, force, overlap};
 use super::world::World;
 
 pub(super) mod empty;

@@ -6,7 +6,7 @@ use crate::{
     task::{FrameStep, ToolMotion},
 };
 
-use super::strain::Overlap;
+use super::violations::Overlap;
 
 /// A scene in one of the engines.
 pub(super) trait World: Sized {

@@ -32,8 +32,8 @@ impl<'a> Verification<'a> {
     /// Creates the verification with counts of zero. Every plan has `perturbed` replays with
     /// perturbations.
     pub fn new(query: Query<'a>, perturbed: usize) -> Self {
-        let settings = VerifySettings { disturbed: perturbed, seed: query.planner.seed() };
-        let verifier = Verifier::new(settings).watched(query.watch);
+        let settings = VerifySettings { replays: perturbed, seed: query.planner.seed() };
+        let verifier = Verifier::new(settings).with_progress(query.progress);
         Self { query, verifier, verified: 0, perturbed: 0, promising: None }
     }
 
@@ -44,7 +44,7 @@ impl<'a> Verification<'a> {
             *promising = true;
             return;
         }
-        let Query { task, situation, watch, .. } = self.query;
+        let Query { task, situation, progress, .. } = self.query;
         let verdicts: Vec<Verdict> = indices
             .par_iter()
             .map(|&k| {
@@ -58,7 +58,7 @@ impl<'a> Verification<'a> {
             if verdict.was_stopped() {
                 continue;
             }
-            if verdict.works() {
+            if verdict.nominal_ok() {
                 working.push((Grade::of(&verdict), k));
             }
             attempts.list[k].verdict = Some(verdict);
@@ -68,7 +68,7 @@ impl<'a> Verification<'a> {
         working.sort_by(|a, b| a.0.before(&b.0, cost(a.1).cmp(&cost(b.1))));
         for (_, k) in working.into_iter().take(PERTURBED_AT_ONCE) {
             self.perturbed += 1;
-            if self.perturb(&mut attempts.list[k]) == Class::Safe || watch.cancelled() {
+            if self.perturb(&mut attempts.list[k]) == Class::Safe || progress.cancelled() {
                 break;
             }
         }
@@ -80,12 +80,12 @@ impl<'a> Verification<'a> {
     /// often than estimated, another plan may become the best. While fragile plans are not
     /// accepted, a plan that fails with one support model is dropped early.
     pub fn settle(&self, attempts: &mut Attempts, least: Class) {
-        let wanted = self.query.planner.settings().disturbed > 0;
+        let wanted = self.query.planner.settings().replays > 0;
         while let Some((grade, k)) = attempts.best
             && wanted
             && grade.class >= least
             && attempts.list[k].replays != Replays::Settled
-            && !self.query.watch.cancelled()
+            && !self.query.progress.cancelled()
         {
             let verifier = self.verifier.clone().until_clear();
             let seeking = least > Class::Fragile;
@@ -103,7 +103,7 @@ impl<'a> Verification<'a> {
         let (situation, tools, plan) = (self.query.situation, &attempt.tools, &attempt.plan);
         let nominal = self.verifier.nominal(task, situation, tools, plan);
         match nominal.passed {
-            true => self.verifier.disturb(task, situation, tools, plan, nominal),
+            true => self.verifier.perturb(task, situation, tools, plan, nominal),
             false => nominal,
         }
     }
@@ -126,7 +126,7 @@ impl<'a> Verification<'a> {
         let Query { task, situation, .. } = self.query;
         attempt.replays = replays;
         let Some(verdict) = attempt.verdict.take() else { return Class::Fails };
-        let verdict = verifier.disturb(task, situation, &attempt.tools, &attempt.plan, verdict);
+        let verdict = verifier.perturb(task, situation, &attempt.tools, &attempt.plan, verdict);
         let class = Grade::of(&verdict).class;
         attempt.verdict = Some(verdict);
         class

@@ -131,15 +131,15 @@ impl Attempt {
     /// as written, 1 if it fails, and 0 if it was not verified.
     pub fn evidence(&self) -> f64 {
         match &self.verdict {
-            Some(verdict) if verdict.works() => 2.0 + verdict.robustness.unwrap_or(0.0),
+            Some(verdict) if verdict.nominal_ok() => 2.0 + verdict.robustness.unwrap_or(0.0),
             Some(_) => 1.0,
             None => 0.0,
         }
     }
 
     /// Returns `true` if the plan works as written.
-    pub fn works(&self) -> bool {
-        self.verdict.as_ref().is_some_and(Verdict::works)
+    pub fn nominal_ok(&self) -> bool {
+        self.verdict.as_ref().is_some_and(Verdict::nominal_ok)
     }
 }
 
@@ -161,7 +161,7 @@ impl Attempts {
     }
 
     /// Returns `true` if the best attempt works as written.
-    pub fn works(&self) -> bool {
+    pub fn nominal_ok(&self) -> bool {
         self.best_class() > Class::Fails
     }
 

@@ -1,12 +1,12 @@
 //! State shared by all strategies while one task is solved.
 
 use crate::plan::{REFINABLE, Search, SearchResult, bare};
-use crate::watch::Instant;
+use crate::progress::Instant;
 
 use super::adaptive_verify::Verification;
 use super::attempts::{Attempt, Attempts};
 use super::grade::Class;
-use super::progress::Progress;
+use super::progress::Reporter;
 use super::query::Query;
 use super::refiner::Refiner;
 use super::solution::LeverStatistics;
@@ -22,7 +22,7 @@ pub(super) struct Blackboard<'a> {
     pub refiner: Refiner<'a>,
     pub verification: Verification<'a>,
     pub attempts: Attempts,
-    pub progress: Progress<'a>,
+    pub reporter: Reporter<'a>,
     pub timing: Timing,
     /// Costs of lever-ups, if the task leaves the plane.
     pub levers: Option<LeverStatistics>,
@@ -40,13 +40,13 @@ pub(super) struct Candidates {
 impl<'a> Blackboard<'a> {
     /// Creates the state before the search for pushes.
     pub fn for_pushes(query: Query<'a>, search: Search<'a>) -> Self {
-        let perturbed = query.planner.settings().disturbed;
+        let perturbed = query.planner.settings().replays;
         Self { search: Some(search), ..Self::new(query, perturbed) }
     }
 
     /// Creates the state before the search for lever-ups.
     pub fn for_levers(query: Query<'a>) -> Self {
-        let perturbed = query.planner.settings().levers.disturbed;
+        let perturbed = query.planner.settings().levers.replays;
         Self { levers: Some(LeverStatistics::default()), ..Self::new(query, perturbed) }
     }
 
@@ -58,7 +58,7 @@ impl<'a> Blackboard<'a> {
             refiner: Refiner::new(&query),
             verification: Verification::new(query, perturbed),
             attempts: Attempts::default(),
-            progress: Progress::new(query.watch),
+            reporter: Reporter::new(query.progress),
             timing: Timing::default(),
             levers: None,
         }
@@ -80,20 +80,20 @@ impl<'a> Blackboard<'a> {
             Class::Edge => depth <= self.attempts.list[k].plan.steps.len(),
             Class::Passes | Class::Safe => false,
         });
-        wanted && self.verification.promising != Some(true) && !self.query.watch.cancelled()
+        wanted && self.verification.promising != Some(true) && !self.query.progress.cancelled()
     }
 
     /// Searches for plans with one more push.
     pub fn deepen(&mut self, search: &mut Search<'a>) -> Candidates {
         let (began, pushes) = (Instant::now(), search.depth() + 1);
-        self.progress.stage_of("search", pushes);
-        let mut found = search.deepen(&mut self.refiner.screening, self.query.watch);
+        self.reporter.stage_of("search", pushes);
+        let mut found = search.deepen(&mut self.refiner.screening, self.query.progress);
         // A plan that ignores one of several goals is not yet a candidate.
         if self.query.task.goals.len() > 1 {
             found.retain(|one| bare(one.score) <= REFINABLE);
         }
         self.timing.search += began.elapsed().as_secs_f64();
-        self.progress.found(&found, self.query.tools);
+        self.reporter.found(&found, self.query.tools);
         Candidates { found, pushes, hardenable: true }
     }
 

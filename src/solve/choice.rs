@@ -3,9 +3,9 @@
 
 use crate::asset::ToolLibrary;
 use crate::outcome::{Evidence, Outcome, Verdict};
+use crate::progress::Progress;
 use crate::scene::Situation;
 use crate::task::Task;
-use crate::watch::Watch;
 
 use super::error::SolveError;
 use super::planner::Planner;
@@ -18,15 +18,15 @@ pub(super) fn solve_one_of(
     (task, situation): (&Task, &Situation),
     choices: &[Task],
     library: &ToolLibrary,
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> Result<Solution, SolveError> {
     let (nearest, others) = choices.split_first().unwrap_or((task, &[]));
-    let mut best = planner.solve_from(situation, nearest, library, watch)?;
+    let mut best = planner.solve_from(situation, nearest, library, progress)?;
     for choice in others {
-        if best.status == PlanStatus::Solved || watch.cancelled() {
+        if best.status == PlanStatus::Solved || progress.cancelled() {
             break;
         }
-        let found = planner.solve_from(situation, choice, library, watch)?;
+        let found = planner.solve_from(situation, choice, library, progress)?;
         let (mut better, other) = match rank(found.status) < rank(best.status) {
             true => (found, best),
             false => (best, found),

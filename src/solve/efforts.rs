@@ -38,7 +38,7 @@ const COARSE: Settings = Settings {
     short_list: 4,
     verified_at_once: 2,
     verify_batches: 4,
-    disturbed: 4,
+    replays: 4,
     levers: LeverSettings::DRAFT,
 };
 
@@ -54,7 +54,7 @@ const MEDIUM: Settings = Settings {
     short_list: 4,
     verified_at_once: 2,
     verify_batches: 12,
-    disturbed: 8,
+    replays: 8,
     levers: LeverSettings::STANDARD,
 };
 
@@ -72,13 +72,13 @@ impl Effort {
 
     /// Returns the budgets of the level and the number of replays that measure robustness.
     pub fn settings(self) -> Settings {
-        let (.., settings, disturbed) = self.level();
+        let (.., settings, replays) = self.level();
         let levers = match self {
             Effort::Draft => LeverSettings::DRAFT,
             Effort::Standard => LeverSettings::STANDARD,
             Effort::Thorough => LeverSettings::THOROUGH,
         };
-        Settings { disturbed, levers, ..settings }
+        Settings { replays, levers, ..settings }
     }
 
     /// Returns the effect models of the level: the analytic model screens and the network decides.

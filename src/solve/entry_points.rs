@@ -8,9 +8,9 @@ use rayon::prelude::*;
 use crate::asset::ToolLibrary;
 use crate::outcome::Warning;
 use crate::plan::alone;
+use crate::progress::{Instant, NoProgress, Progress, Until};
 use crate::scene::{Situation, Tool};
 use crate::task::Task;
-use crate::watch::{Instant, Until, Unwatched, Watch};
 
 use super::blackboard::Blackboard;
 use super::check::check;
@@ -36,7 +36,7 @@ impl Planner {
     /// # Errors
     /// Returns [`SolveError`] for invalid input only.
     pub fn solve(&self, task: &Task, library: &ToolLibrary) -> Result<Solution, SolveError> {
-        self.solve_with(task, library, &Unwatched)
+        self.solve_with(task, library, &NoProgress)
     }
 
     /// Solves tasks in parallel on the current rayon pool, with results in the order of the tasks.
@@ -50,8 +50,8 @@ impl Planner {
         tasks.par_iter().map(|task| self.solve(task, library)).collect()
     }
 
-    /// Solves a task as [`Planner::solve`] does and reports progress to `watch`. If `watch` stops
-    /// it, the best plan so far is returned. A [`Cancel`](crate::watch::Cancel) stops it from
+    /// Solves a task as [`Planner::solve`] does and reports progress to `progress`. If `progress` stops
+    /// it, the best plan so far is returned. A [`Cancel`](crate::progress::Cancel) stops it from
     /// another thread.
     ///
     /// # Errors
@@ -60,9 +60,9 @@ impl Planner {
         &self,
         task: &Task,
         library: &ToolLibrary,
-        watch: &dyn Watch,
+        progress: &dyn Progress,
     ) -> Result<Solution, SolveError> {
-        let until = Until::new(watch, self.time_limit);
+        let until = Until::new(progress, self.time_limit);
         let mut solution = self.solve_from(&stated(task), task, library, &until)?;
         meet_some_goals(self, task, library, &until, &mut solution)?;
         if solution.status == PlanStatus::NoPlan && !task.in_space() && solution.cause.is_none() {
@@ -87,11 +87,11 @@ impl Planner {
         situation: &Situation,
         task: &Task,
         library: &ToolLibrary,
-        watch: &dyn Watch,
+        progress: &dyn Progress,
     ) -> Result<Solution, SolveError> {
         let choices = task.choices(&situation.start);
         if !choices.is_empty() {
-            let until = Until::new(watch, self.time_limit);
+            let until = Until::new(progress, self.time_limit);
             return solve_one_of(self, (task, situation), &choices, library, &until);
         }
         if task.in_space() {
@@ -100,20 +100,20 @@ impl Planner {
                 None => Vec::new(),
             };
             check_levers(task, situation, &blades)?;
-            let until = Until::new(watch, self.time_limit);
-            let query = Query { planner: self, task, situation, tools: &blades, watch: &until };
+            let until = Until::new(progress, self.time_limit);
+            let query = Query { planner: self, task, situation, tools: &blades, progress: &until };
             return solve_levers(query, library);
         }
         let tools = task.tools(library)?;
         check(task, situation, &tools[..])?;
         let motion = |tool: &Arc<Tool>| typical(task, &situation.start, tool);
         self.refuse(task, situation, tools.iter().map(motion))?;
-        let until = Until::new(watch, self.time_limit);
-        solve_pushes(Query { planner: self, task, situation, tools: &tools, watch: &until })
+        let until = Until::new(progress, self.time_limit);
+        solve_pushes(Query { planner: self, task, situation, tools: &tools, progress: &until })
     }
 
     /// Returns the cause if a pushing task has no plan, as [`Planner::solve`] reports it. Returns
-    /// `None` if a plan is worth verifying, which is not done here, or if `watch` stopped it.
+    /// `None` if a plan is worth verifying, which is not done here, or if `progress` stopped it.
     ///
     /// # Errors
     /// Returns [`SolveError`] for invalid input only.
@@ -121,28 +121,28 @@ impl Planner {
         &self,
         task: &Task,
         library: &ToolLibrary,
-        watch: &dyn Watch,
+        progress: &dyn Progress,
     ) -> Result<Option<Cause>, SolveError> {
         let situation = stated(task);
         let choices = task.choices(&situation.start);
         if let Some((nearest, others)) = choices.split_first() {
             for choice in others {
-                if self.why(choice, library, watch)?.is_none() {
+                if self.why(choice, library, progress)?.is_none() {
                     return Ok(None);
                 }
             }
-            return self.why(nearest, library, watch);
+            return self.why(nearest, library, progress);
         }
         let tools = task.tools(library)?;
         check(task, &situation, &tools[..])?;
-        let query = Query { planner: self, task, situation: &situation, tools: &tools, watch };
+        let query = Query { planner: self, task, situation: &situation, tools: &tools, progress };
         let unobstructed = unobstructed(&query);
         let mut board = Blackboard::for_pushes(query, query.search());
         board.verification.promising = Some(task.reached(&situation.start));
         run(&mut board, &mut for_pushes(unobstructed.as_ref()))?;
         match board.verification.promising {
             Some(true) => Ok(None),
-            _ => Ok(relaxation::cause(self, task, library, watch)),
+            _ => Ok(relaxation::cause(self, task, library, progress)),
         }
     }
 
@@ -158,7 +158,7 @@ impl Planner {
         task: &Task,
         library: &ToolLibrary,
         least: usize,
-        watch: &dyn Watch,
+        progress: &dyn Progress,
     ) -> Result<Option<Approach>, SolveError> {
         if task.in_space() {
             return Ok(None);
@@ -167,8 +167,8 @@ impl Planner {
         let task = nearest.as_ref().unwrap_or(task);
         let tools = task.tools(library)?;
         check(task, situation, &tools[..])?;
-        let until = Until::new(watch, self.time_limit);
-        let query = Query { planner: self, task, situation, tools: &tools, watch: &until };
+        let until = Until::new(progress, self.time_limit);
+        let query = Query { planner: self, task, situation, tools: &tools, progress: &until };
         let mut board = Blackboard::for_pushes(query, query.search());
         Ok(approach(&mut board, least))
     }

@@ -69,7 +69,7 @@ impl Grade {
             evidence.warnings.iter().any(|warning| matches!(warning, Warning::HardPush { .. }))
         };
         let presses = Engine::ALL.into_iter().filter_map(|one| verdict.nominal(one)).any(presses);
-        let class = match (verdict.passed, verdict.works()) {
+        let class = match (verdict.passed, verdict.nominal_ok()) {
             (true, _) if presses => Class::Edge,
             (true, _) if robustness == 1.0 && score <= WELL_INSIDE => Class::Safe,
             (true, _) if score <= WELL_INSIDE => Class::Passes,

@@ -6,8 +6,8 @@ use std::collections::HashMap;
 use rayon::prelude::*;
 
 use crate::outcome::Verdict;
+use crate::progress::Instant;
 use crate::task::Task;
-use crate::watch::Instant;
 
 use super::attempts::{Attempt, Replays};
 use super::blackboard::Blackboard;
@@ -37,7 +37,7 @@ pub(super) fn verify_plans(board: &mut Blackboard, mut batch: LeverBatch) {
 /// Verifies the promising plans in groups for the goal of `task`, until one passes.
 pub(super) fn verify_in_groups(board: &mut Blackboard, task: &Task, plans: &mut [LeverPlan]) {
     let began = Instant::now();
-    board.progress.stage("verify lever-ups");
+    board.reporter.stage("verify lever-ups");
     let settings = board.query.planner.settings().levers;
     let kinds: Vec<Kind> = plans.iter().map(|plan| plan.kind).collect();
     let mut promising: Vec<usize> = (0..plans.len()).filter(|&k| plans[k].promising).collect();
@@ -46,7 +46,7 @@ pub(super) fn verify_in_groups(board: &mut Blackboard, task: &Task, plans: &mut 
     for round in 1..=settings.verify_batches {
         // The cause of a failure is often common to its kind.
         let group = mixed(&promising, &kinds, &verified, 2 * round, at_once);
-        if group.is_empty() || board.query.watch.cancelled() {
+        if group.is_empty() || board.query.progress.cancelled() {
             break;
         }
         promising.retain(|k| !group.contains(k));

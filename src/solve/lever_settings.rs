@@ -16,7 +16,7 @@ pub struct LeverSettings {
     /// Maximum number of batches verified.
     pub verify_batches: usize,
     /// Number of perturbed replays of every plan that works as written.
-    pub disturbed: usize,
+    pub replays: usize,
     /// Number of lever-ups followed by a search for pushes, and of places to push to before a
     /// lever-up, if the task allows both.
     pub followed: usize,
@@ -29,7 +29,7 @@ impl LeverSettings {
         doubts: 0,
         verified_at_once: 4,
         verify_batches: 1,
-        disturbed: 4,
+        replays: 4,
         followed: 2,
     };
     /// Default budgets.
@@ -38,7 +38,7 @@ impl LeverSettings {
         doubts: 4,
         verified_at_once: 8,
         verify_batches: 3,
-        disturbed: 16,
+        replays: 16,
         followed: 4,
     };
     /// Budgets of a thorough search.

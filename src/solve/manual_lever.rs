@@ -96,6 +96,6 @@ pub fn manual_lever(
         hold: rules.hold,
         retreat: rules.retreat,
     };
-    let broken = LeverRoom::new(task, tool).fault(&lever);
-    Ok((Plan::levering(&tool.name, lever), broken))
+    let violation = LeverRoom::new(task, tool).fault(&lever);
+    Ok((Plan::levering(&tool.name, lever), violation))
 }

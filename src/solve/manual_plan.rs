@@ -94,7 +94,7 @@ pub struct ManualPlan {
     /// The plan.
     pub plan: Plan,
     /// Violated rules with the index of the push. Plans found by a search violate none.
-    pub broken: Vec<(usize, Infeasible)>,
+    pub violations: Vec<(usize, Infeasible)>,
 }
 
 /// Returns the plan of `pushes` with the first of `grip_yaws` (radians) that is feasible.
@@ -133,7 +133,7 @@ fn with_yaw(
     let rules = &task.pushes;
     let (form, lift) = (rules.form, rules.lift);
     let mut plan = Plan::default();
-    let mut broken = Vec::new();
+    let mut violations = Vec::new();
     let mut state = situation.start.clone();
     for (k, asked) in pushes.iter().enumerate() {
         let previous = plan.push_steps().last().map(|step| step.push.end());
@@ -147,8 +147,8 @@ fn with_yaw(
         let set_down = (k == 0 || form == PushForm::Placed).then_some(0.0);
         let tools = std::slice::from_ref(tool);
         let workspace = Workspace { task, tools };
-        let rule = workspace.margins((0, grip_yaw), (&state, pushed), &push, set_down).broken();
-        broken.extend(rule.map(|rule| (k, rule)));
+        let rule = workspace.margins((0, grip_yaw), (&state, pushed), &push, set_down).violation();
+        violations.extend(rule.map(|rule| (k, rule)));
         let made = Plan::pushing(&tool.name, grip_yaw, form, lift, [push]);
         // The start of a chained push does not depend on the objects.
         if form == PushForm::Placed && k + 1 < pushes.len() {
@@ -156,7 +156,7 @@ fn with_yaw(
         }
         plan = plan.then(made);
     }
-    Ok(ManualPlan { plan, broken })
+    Ok(ManualPlan { plan, violations })
 }
 
 /// Returns the state after a push from `start`. It is bitwise equal to the state if all previous
@@ -206,7 +206,7 @@ fn start(
             Ok(start) => {
                 let push = Push { start, direction, length, speed };
                 let margins = workspace.margins((0, grip_yaw), (state, index), &push, Some(0.0));
-                if margins.broken().is_none() {
+                if margins.violation().is_none() {
                     return Ok((start, index));
                 }
                 first.get_or_insert(start);

@@ -1,8 +1,8 @@
 //! Plans that meet some of several goals, by highest weight.
 
 use crate::asset::ToolLibrary;
+use crate::progress::{Progress, Quiet};
 use crate::verify::{Verifier, VerifySettings};
-use crate::watch::{Quiet, Watch};
 use crate::{outcome::Outcome, task::Task};
 
 use super::error::SolveError;
@@ -22,7 +22,7 @@ pub(super) fn meet_some_goals(
     planner: &Planner,
     task: &Task,
     library: &ToolLibrary,
-    watch: &dyn Watch,
+    progress: &dyn Progress,
     solution: &mut Solution,
 ) -> Result<(), SolveError> {
     let missed = matches!(solution.status, PlanStatus::NoPlan | PlanStatus::FailedVerification);
@@ -30,11 +30,11 @@ pub(super) fn meet_some_goals(
         return Ok(());
     }
     let situation = stated(task);
-    watch.stage("plans for some of the goals");
+    progress.stage("plans for some of the goals");
     // Milestones of partial plans are not reported.
-    let quiet = Quiet(watch);
+    let quiet = Quiet(progress);
     for met in sets(task) {
-        let Some(part) = task.only(&met).filter(|_| !watch.cancelled()) else { break };
+        let Some(part) = task.only(&met).filter(|_| !progress.cancelled()) else { break };
         let found = planner.solve_from(&situation, &part, library, &quiet)?;
         if found.status != PlanStatus::Solved {
             continue;
@@ -47,7 +47,7 @@ pub(super) fn meet_some_goals(
         let mut robustness = None;
         for best in &mut solution.plans {
             robustness = best.verdict.as_ref().and_then(|verdict| verdict.robustness);
-            let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+            let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
             let (tools, plan) = (&best.tools, &best.plan);
             best.verdict = Some(verifier.nominal(task, &situation, tools, plan));
             best.outcome = Outcome::judge(&situation.scene, task, &best.predicted);

@@ -5,7 +5,9 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use crate::effect::{EffectModel, EffectModels, Job, ModelError, Outside, Routed, consequence};
+use crate::effect::{
+    EffectModel, EffectModels, Fallback, Job, ModelError, OutOfRange, consequence,
+};
 use crate::geometry::Pose;
 use crate::{
     outcome::{Outcome, Record, Trajectory, Warning, in_turn},
@@ -33,10 +35,10 @@ use super::settings::{Effort, Settings};
 /// # Ok::<(), pushplan::Error>(())
 /// ```
 pub struct Planner {
-    model: Routed,
+    model: Fallback,
     /// Screening model, if it differs from the deciding one.
-    screen: Option<Routed>,
-    outside: Outside,
+    screen: Option<Fallback>,
+    out_of_range: OutOfRange,
     settings: Settings,
     seed: u64,
     pub(super) time_limit: Option<Duration>,
@@ -47,7 +49,7 @@ pub struct Planner {
 pub struct PlannerBuilder {
     model: Arc<dyn EffectModel>,
     screen: Option<Arc<dyn EffectModel>>,
-    outside: Outside,
+    out_of_range: OutOfRange,
     settings: Settings,
     seed: u64,
     time_limit: Option<Duration>,
@@ -83,9 +85,9 @@ impl PlannerBuilder {
         self
     }
 
-    /// Sets the policy if the model is not reliable; [`Outside::Warn`] by default.
-    pub fn outside(mut self, outside: Outside) -> Self {
-        self.outside = outside;
+    /// Sets the policy if the model is not reliable; [`OutOfRange::Warn`] by default.
+    pub fn out_of_range(mut self, out_of_range: OutOfRange) -> Self {
+        self.out_of_range = out_of_range;
         self
     }
 
@@ -105,10 +107,10 @@ impl PlannerBuilder {
 
     /// Returns the planner.
     pub fn build(self) -> Planner {
-        let Self { model, screen, outside, settings, seed, time_limit, fit } = self;
-        let trusted = |model| Routed::new(model).outside(outside);
+        let Self { model, screen, out_of_range, settings, seed, time_limit, fit } = self;
+        let trusted = |model| Fallback::new(model).out_of_range(out_of_range);
         let (model, screen) = (trusted(model), screen.map(trusted));
-        Planner { model, screen, outside, settings, seed, time_limit, fit }
+        Planner { model, screen, out_of_range, settings, seed, time_limit, fit }
     }
 }
 
@@ -116,9 +118,9 @@ impl Planner {
     /// Starts building a planner that predicts with `model`.
     pub fn builder(model: impl EffectModel + 'static) -> PlannerBuilder {
         let settings = Effort::default().settings();
-        let (model, outside) = (Arc::new(model), Outside::default());
+        let (model, out_of_range) = (Arc::new(model), OutOfRange::default());
         let (screen, seed, time_limit, fit) = (None, 0, None, None);
-        PlannerBuilder { model, screen, outside, settings, seed, time_limit, fit }
+        PlannerBuilder { model, screen, out_of_range, settings, seed, time_limit, fit }
     }
 
     /// Starts building a planner with the models that `models` describes.
@@ -147,11 +149,11 @@ impl Planner {
     /// # Errors
     /// Returns [`ModelError`] as [`Self::fitted`] does.
     pub fn fitted_anew(&self, fit: &TableFit) -> Result<Self, ModelError> {
-        let Self { outside, settings, seed, time_limit, .. } = *self;
+        let Self { out_of_range, settings, seed, time_limit, .. } = *self;
         let built = Self::fitted(&self.models(), Some(fit))?
             .settings(settings)
             .seed(seed)
-            .outside(outside)
+            .out_of_range(out_of_range)
             .build();
         Ok(Self { time_limit, ..built })
     }
@@ -229,7 +231,7 @@ impl Planner {
         situation: &Situation,
         motions: impl Iterator<Item = ToolMotion>,
     ) -> Result<(), SolveError> {
-        if self.outside != Outside::Refuse {
+        if self.out_of_range != OutOfRange::Refuse {
             return Ok(());
         }
         let mut warnings = Vec::new();

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use crate::plan::SearchResult;
+use crate::progress::Progress;
 use crate::scene::Tool;
 use crate::task::Plan;
-use crate::watch::Watch;
 
 use super::attempts::{Attempt, Attempts};
 use super::grade::Class;
@@ -35,24 +35,24 @@ impl Milestone {
 }
 
 /// Progress reports to an observer, each milestone once.
-pub(super) struct Progress<'a> {
-    watch: &'a dyn Watch,
+pub(super) struct Reporter<'a> {
+    progress: &'a dyn Progress,
     /// Name of the current strategy.
     pub strategy: &'static str,
     reported: Option<Milestone>,
 }
 
-impl<'a> Progress<'a> {
-    /// Creates reports to `watch`.
-    pub fn new(watch: &'a dyn Watch) -> Self {
-        Self { watch, strategy: "", reported: None }
+impl<'a> Reporter<'a> {
+    /// Creates reports to `progress`.
+    pub fn new(progress: &'a dyn Progress) -> Self {
+        Self { progress, strategy: "", reported: None }
     }
 
     /// Reports a stage of the current strategy.
     pub fn stage(&self, stage: &str) {
         match self.strategy {
-            "" => self.watch.stage(stage),
-            strategy => self.watch.stage(&format!("{strategy}: {stage}")),
+            "" => self.progress.stage(stage),
+            strategy => self.progress.stage(&format!("{strategy}: {stage}")),
         }
     }
 
@@ -92,7 +92,7 @@ impl<'a> Progress<'a> {
     fn report(&mut self, milestone: Milestone, plan: String) {
         if self.reported.is_none_or(|before| milestone > before) {
             self.reported = Some(milestone);
-            self.watch.so_far(&format!("{plan}: {}", milestone.words()));
+            self.progress.so_far(&format!("{plan}: {}", milestone.words()));
         }
     }
 }

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use crate::plan::{FOUND_RADIUS, RefineSettings, Search, Workspace};
+use crate::progress::Progress;
 use crate::scene::{Situation, Tool};
 use crate::task::{Goal, Job, Task};
-use crate::watch::Watch;
 
 use super::planner::Planner;
 use super::typical::{error_p95, typical};
@@ -27,7 +27,7 @@ pub(super) struct Query<'a> {
     pub situation: &'a Situation,
     /// Allowed tools: for pushing, or with blades in a task of levering.
     pub tools: &'a [Arc<Tool>],
-    pub watch: &'a dyn Watch,
+    pub progress: &'a dyn Progress,
 }
 
 impl<'a> Query<'a> {

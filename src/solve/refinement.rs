@@ -17,7 +17,7 @@ pub(super) fn refined(
     aims: &[Goal],
     pushes: usize,
 ) -> Vec<usize> {
-    board.progress.stage_of("refine", pushes);
+    board.reporter.stage_of("refine", pushes);
     let refined = board.refiner.refine(&board.query, candidates, aims, pushes);
     keep(board, refined, aims)
 }
@@ -32,7 +32,7 @@ pub(super) fn refined_again(
     if board.refiner.deciding.is_none() {
         return self::refined(board, candidates, aims, pushes);
     }
-    board.progress.stage_of("refine", pushes);
+    board.reporter.stage_of("refine", pushes);
     // Replayed plans are not screened again.
     let refined = board.refiner.decide(&board.query, candidates, aims, pushes);
     keep(board, refined, aims)
@@ -44,7 +44,7 @@ fn keep(board: &mut Blackboard, mut refined: Vec<Refined>, aims: &[Goal]) -> Vec
     let query = board.query;
     let (workspace, situation, model) = (query.workspace(), query.situation, query.planner.model());
     in_order(&mut refined, &workspace, situation);
-    let aimed = query.task.aiming(aims);
+    let aimed = query.task.with_goals(aims);
     let mut worth = Vec::new();
     for refined in refined {
         // Error predicted by the network for this push, otherwise the measured error of many

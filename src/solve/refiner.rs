@@ -47,14 +47,14 @@ impl<'a> Refiner<'a> {
         let settings = query.planner.settings();
         let last = if self.deciding.is_some() { settings.decided_rounds } else { 0 };
         let all = query.refine_settings(pushes);
-        let task = query.task.aiming(aims);
+        let task = query.task.with_goals(aims);
         let screened = refine(
             &Workspace { task: &task, ..query.workspace() },
             &mut self.screening,
             candidates,
             RefineSettings { rounds: settings.refine_rounds.saturating_sub(last), ..all },
             &mut self.statistics,
-            query.watch,
+            query.progress,
         );
         if self.deciding.is_none() {
             return screened;
@@ -82,7 +82,7 @@ impl<'a> Refiner<'a> {
     ) -> Vec<Refined> {
         let settings = query.planner.settings();
         let all = query.refine_settings(pushes);
-        let task = query.task.aiming(aims);
+        let task = query.task.with_goals(aims);
         let Some(rollouts) = &mut self.deciding else { return Vec::new() };
         refine(
             &Workspace { task: &task, ..query.workspace() },
@@ -96,7 +96,7 @@ impl<'a> Refiner<'a> {
                 ..all
             },
             &mut self.statistics,
-            query.watch,
+            query.progress,
         )
     }
 }

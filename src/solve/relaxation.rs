@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use crate::asset::ToolLibrary;
 use crate::geometry::Pose;
 use crate::plan::{Search, distance_to_origin, is_behind};
-use crate::watch::{Quiet, Watch};
+use crate::progress::{Progress, Quiet};
 use crate::{
     scene::{JointKind, Obstacle, Robot, Tool},
     task::{Demand, Directions, Plan, Task, ToolChoice},
@@ -58,18 +58,18 @@ pub(super) fn cause(
     planner: &Planner,
     task: &Task,
     library: &ToolLibrary,
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> Option<Cause> {
     let tools = task.tools(library).ok()?;
     let first_look = planner.first_look();
-    let watch = &Quiet(watch);
+    let progress = &Quiet(progress);
     let found = wider(task, &tools, library).into_par_iter().find_map_first(|wider| {
         let (task, situation) = (&wider.task, &stated(&wider.task));
         let tools = &wider.tools;
-        let ways = ways(Query { planner: &first_look, task, situation, tools, watch });
+        let ways = ways(Query { planner: &first_look, task, situation, tools, progress });
         (!ways.is_empty()).then(|| (wider.cause)(&ways))
     });
-    (!watch.cancelled()).then(|| found.unwrap_or(Cause::Several))
+    (!progress.cancelled()).then(|| found.unwrap_or(Cause::Several))
 }
 
 /// Returns plans that are predicted to reach the goal, with as few pushes as possible.
@@ -78,9 +78,9 @@ fn ways(query: Query) -> Vec<Way> {
     let search = Search::new(query.workspace(), query.situation, settings.search(0.0));
     let mut board = Blackboard::for_pushes(query, search);
     while let Some(search) = board.search.as_mut().filter(|search| search.can_deepen())
-        && !query.watch.cancelled()
+        && !query.progress.cancelled()
     {
-        let found = search.deepen(&mut board.refiner.screening, query.watch);
+        let found = search.deepen(&mut board.refiner.screening, query.progress);
         let depth = search.depth();
         let chosen = board.attempts.choose(&found, settings.refined, &[], query.at_once());
         refined(&mut board, &chosen, &goals, depth);

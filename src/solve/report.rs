@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use crate::outcome::Warning;
 use crate::plan::{Search, bare};
+use crate::progress::Instant;
 use crate::scene::{Models, Tool};
 use crate::sim::LeverSimulator;
 use crate::task::{Plan, Step};
-use crate::watch::Instant;
 
 use super::arm_feasibility::joints;
 use super::attempts::Attempt;
@@ -43,7 +43,7 @@ pub(super) fn solution(mut board: Blackboard, began: Instant) -> Solution {
     let fault = board.attempts.arm_fault.filter(|_| status == PlanStatus::NoPlan);
     Solution {
         status,
-        stopped: query.watch.cancelled(),
+        stopped: query.progress.cancelled(),
         models: match statistics.levers {
             None => query.planner.models(),
             // The coarse simulation is the final model of lever-ups.
@@ -63,7 +63,7 @@ pub(super) fn solution(mut board: Blackboard, began: Instant) -> Solution {
 /// Orders plans of pushes: the best plan, then passed, untried and failed ones. If none passed,
 /// verified plans come before untried ones.
 fn ranked_pushes(board: &mut Blackboard, status: PlanStatus) -> Vec<Attempt> {
-    let best = board.attempts.best.filter(|_| board.attempts.works()).map(|(_, k)| k);
+    let best = board.attempts.best.filter(|_| board.attempts.nominal_ok()).map(|(_, k)| k);
     let rank = |index: usize, attempt: &Attempt| match (&attempt.verdict, status) {
         _ if Some(index) == best => 0,
         (Some(verdict), PlanStatus::Solved) => {

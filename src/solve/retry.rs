@@ -220,7 +220,7 @@ fn aim(goal: &Goal, aim: &Goal, verdict: &Verdict) -> Option<Goal> {
 fn mean_miss(object: usize, demand: &Demand, verdict: &Verdict) -> Option<(Vector, f64)> {
     let (mut shift, mut turn, mut engines) = (Vector::zeros(), 0.0, 0.0);
     for engine in Engine::ALL {
-        let all = verdict.nominal(engine).into_iter().chain(verdict.disturbed(engine));
+        let all = verdict.nominal(engine).into_iter().chain(verdict.perturbed(engine));
         let ends: Vec<End> = all
             .filter(|evidence| evidence.fault().is_none())
             .map(|evidence| End::resting(object, &evidence.outcome.state))

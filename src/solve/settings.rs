@@ -75,7 +75,7 @@ pub struct Settings {
     /// Maximum number of batches verified for each number of pushes.
     pub verify_batches: usize,
     /// Number of perturbed replays of the winning plan in each engine.
-    pub disturbed: usize,
+    pub replays: usize,
     /// Budgets of lever-ups; measured files of pushes may lack them.
     #[serde(default)]
     pub levers: LeverSettings,
@@ -95,8 +95,8 @@ impl Settings {
 
     /// Returns these budgets with this many perturbed replays of the winning plan, in each engine.
     #[must_use]
-    pub fn replaying(self, disturbed: usize) -> Self {
-        Self { disturbed, levers: LeverSettings { disturbed, ..self.levers }, ..self }
+    pub fn replaying(self, replays: usize) -> Self {
+        Self { replays, levers: LeverSettings { replays, ..self.levers }, ..self }
     }
 
     /// Smallest budgets that still search, refine and verify.
@@ -111,7 +111,7 @@ impl Settings {
         short_list: 1,
         verified_at_once: 1,
         verify_batches: 1,
-        disturbed: 0,
+        replays: 0,
         levers: LeverSettings::DRAFT,
     };
 

@@ -91,7 +91,7 @@ impl RankedPlan {
         match &self.verdict {
             Some(verdict) => Cow::Borrowed(verdict),
             None => {
-                let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+                let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
                 Cow::Owned(verifier.nominal(task, situation, &self.tools, &self.plan))
             }
         }
@@ -102,7 +102,7 @@ impl RankedPlan {
     /// Returns `true` if the plan as written works in both engines with every plausible support
     /// model.
     pub fn works_on_all_supports(&self, task: &Task, situation: &Situation) -> bool {
-        let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+        let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
         Physics::PLAUSIBLE_SUPPORTS.iter().all(|support| {
             let mut situation = situation.clone();
             Arc::make_mut(&mut situation.physics).support_all(&situation.scene, support);

@@ -49,7 +49,7 @@ fn next<'a>(
     strategies: &mut [Box<dyn Strategy<'a> + 'a>],
 ) -> Result<Option<Batch>, SolveError> {
     for strategy in strategies {
-        board.progress.strategy = strategy.name();
+        board.reporter.strategy = strategy.name();
         if let Some(batch) = strategy.next(board)? {
             return Ok(Some(batch));
         }

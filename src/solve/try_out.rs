@@ -2,7 +2,7 @@
 //! retries.
 
 use crate::plan::is_behind;
-use crate::watch::Instant;
+use crate::progress::Instant;
 
 use super::blackboard::{Blackboard, Candidates};
 use super::grade::Class;
@@ -37,7 +37,7 @@ fn refine_and_verify(board: &mut Blackboard, candidates: &Candidates) {
     let first = board.attempts.list.len();
     let mut queue = refined(board, &chosen, &query.goals(), *pushes);
     board.timing.refinement += began.elapsed().as_secs_f64();
-    board.progress.refined(queue.first().map(|&k| &board.attempts.list[k]));
+    board.reporter.refined(queue.first().map(|&k| &board.attempts.list[k]));
 
     let mut failed = Vec::new();
     for batch in 0..most.div_ceil(at_once) {
@@ -48,15 +48,15 @@ fn refine_and_verify(board: &mut Blackboard, candidates: &Candidates) {
         }
         let indices: Vec<usize> = queue.drain(..queue.len().min(at_once)).collect();
         let Some(&leader) = indices.first() else { break };
-        if query.watch.cancelled() {
+        if query.progress.cancelled() {
             break;
         }
         let began = Instant::now();
-        board.progress.stage_of("verify", *pushes);
-        query.watch.progress((batch * at_once) as u64, most as u64);
+        board.reporter.stage_of("verify", *pushes);
+        query.progress.update((batch * at_once) as u64, most as u64);
         board.verification.verify(&mut board.attempts, &indices);
         board.timing.verification += began.elapsed().as_secs_f64();
-        board.progress.replayed(&board.attempts);
+        board.reporter.replayed(&board.attempts);
         let safe = board.attempts.best_class() == Class::Safe;
         let enough = board.verification.perturbed - before >= most_perturbed;
         // If even the most promising plan is blocked, a few attempts suffice.

@@ -71,7 +71,7 @@ impl Task {
     /// let scene = Scene::new([Object::cylinder("can", 0.05, 0.10).at(0.62, 0.10, 0.0)]);
     /// let goal = Goal::new(0, [0.45, 0.10], 0.02);
     /// let task = Task::new("pull", scene, Robot::reaching(0.1, 0.5), goal)
-    ///     .choosing(["stick", "l-hook"])
+    ///     .with_tools(["stick", "l-hook"])
     ///     .pushing(PushRules { max_count: 2, ..PushRules::default() });
     /// assert_eq!(task.pushes.speed, 0.10);
     /// ```
@@ -117,7 +117,7 @@ impl Task {
     }
 
     /// Replaces goals by `goals`, in order; further goals of the task stay.
-    pub fn aiming(&self, goals: &[Goal]) -> Self {
+    pub fn with_goals(&self, goals: &[Goal]) -> Self {
         let mut task = self.clone();
         task.goals.iter_mut().zip(goals).for_each(|(own, goal)| *own = goal.clone());
         task
@@ -131,13 +131,13 @@ impl Task {
 
     /// Returns `true` if the end effector can be at `position` (metres), rotated by `yaw`
     /// (radians), according to cheap tests.
-    pub fn stands(&self, position: Vector, yaw: f64) -> bool {
+    pub fn is_reachable(&self, position: Vector, yaw: f64) -> bool {
         self.robot.reaches(position)
             && self.arm.as_deref().is_none_or(|arm| arm.allows(position, yaw))
     }
 
     /// Returns `true` if a goal may move an object (an index into [`Scene::objects`]).
-    pub fn wants(&self, object: usize) -> bool {
+    pub fn has_goal(&self, object: usize) -> bool {
         self.goals.iter().any(|goal| goal.movers().contains(&object))
     }
 
@@ -183,7 +183,7 @@ impl Task {
     }
 
     /// Restricts the tools to these, by name.
-    pub fn choosing<N: Into<String>>(self, tools: impl IntoIterator<Item = N>) -> Self {
+    pub fn with_tools<N: Into<String>>(self, tools: impl IntoIterator<Item = N>) -> Self {
         Self { tools: ToolChoice::Named(tools.into_iter().map(Into::into).collect()), ..self }
     }
 
@@ -193,7 +193,7 @@ impl Task {
     }
 
     /// Sets the unknown properties of the scene.
-    pub fn guessing(self, unknown: Unknowns) -> Self {
+    pub fn with_unknowns(self, unknown: Unknowns) -> Self {
         Self { unknown, ..self }
     }
 

@@ -16,8 +16,8 @@ mod motion;
 mod observation;
 mod plan;
 mod push_rules;
+mod travel;
 mod truth;
-mod way;
 
 pub use arm::{ArmReader, ArmRefusal, ArmSource, Followed, RobotArm, StatedArm, read_arms_with};
 pub use definition::{Task, ToolChoice};
@@ -35,7 +35,7 @@ pub use motion::{
 pub use observation::{Noise, Observation};
 pub use plan::{LeverStep, Plan, PushStep, Step};
 pub use push_rules::{Directions, Offsets, PushForm, PushRules};
+pub use travel::TravelPath;
 pub use truth::Truth;
-pub use way::Way;
 
 pub(crate) use arm::read_arm;

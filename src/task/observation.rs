@@ -1,6 +1,6 @@
 //! Observations of a table while a tool moves on it.
 
-use crate::scene::Sight;
+use crate::scene::ObservedPose;
 use serde::{Deserialize, Serialize};
 
 use super::Stroke;
@@ -11,7 +11,7 @@ pub struct Observation {
     /// Strokes of the tool, in order of time.
     pub strokes: Vec<Stroke>,
     /// Observation of every object of the scene; `None` if it was not observed.
-    pub seen: Vec<Option<Sight>>,
+    pub seen: Vec<Option<ObservedPose>>,
 }
 
 /// Standard deviations of independent normal observation errors.

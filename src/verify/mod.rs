@@ -5,12 +5,12 @@
 //! the plane are replayed in 3-D only. This module is independent of how plans are found.
 
 mod arm;
-mod clear;
-mod disturbance;
+mod perturbation;
 mod rules;
+mod sequential_test;
 mod space;
 mod verifier;
 
 pub use arm::joints;
-pub use rules::broken_rules;
+pub use rules::rule_violations;
 pub use verifier::{Verifier, VerifySettings};

@@ -22,7 +22,7 @@ const FRICTION: f64 = 0.1;
 /// Returns the perturbed situation: the whole scene is slightly displaced from its observed pose
 /// and all frictions differ slightly, also for the blades of `motions`. Objects in pockets move
 /// together with their pockets.
-pub(super) fn disturbed(
+pub(super) fn perturbed(
     situation: &Situation,
     motions: &mut [Motion],
     about: usize,

@@ -6,18 +6,18 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::geometry::Pose;
+use crate::progress::{NoProgress, Progress};
 use crate::sim::{LeverSimulator, Simulator};
-use crate::watch::{Unwatched, Watch};
 use crate::{
-    outcome::{Disturbance, Evidence, Outcome, Record, Trajectory, Verdict, Warning, never_on},
+    outcome::{Evidence, Outcome, Perturbation, Record, Trajectory, Verdict, Warning, never_on},
     scene::{Engine, JointTrajectory, Scene, Situation, Tool},
     task::{Job, Plan, Task, ToolMotion},
 };
 
 use super::arm::arm_faults;
-use super::clear;
-use super::disturbance::{disturbed, lifted, wary};
-use super::rules::{broken_rules, unplayable};
+use super::perturbation::{lifted, perturbed, wary};
+use super::rules::{rule_violations, unplayable};
+use super::sequential_test;
 use super::space;
 
 /// Processor time of a 2-D time step for each object, seconds: 1 us measured with one object and
@@ -36,7 +36,7 @@ const ORDINARY_ARM: f64 = 150.0;
 pub struct VerifySettings {
     /// Minimum number of perturbed replays in each engine before a decision. Plans that clearly
     /// fail in 2-D have no perturbed replays in 3-D.
-    pub disturbed: usize,
+    pub replays: usize,
     /// Seed of the perturbations.
     pub seed: u64,
 }
@@ -47,7 +47,7 @@ pub struct Verifier<'a> {
     settings: VerifySettings,
     planar: Simulator,
     spatial: Simulator,
-    watch: &'a dyn Watch,
+    progress: &'a dyn Progress,
     /// Whether replays are added until the verdict is clear.
     until_clear: bool,
     /// Whether replays end once a plan has never worked with one of the support models.
@@ -63,12 +63,12 @@ impl<'a> Verifier<'a> {
     pub fn new(settings: VerifySettings) -> Self {
         let [planar, spatial] =
             [Simulator::planar(), Simulator::spatial()].map(Simulator::retreating);
-        let watch = &Unwatched;
+        let progress = &NoProgress;
         Self {
             settings,
             planar,
             spatial,
-            watch,
+            progress,
             until_clear: false,
             giving_up: false,
             in_plane: false,
@@ -76,15 +76,15 @@ impl<'a> Verifier<'a> {
         }
     }
 
-    /// Sets a watch that can stop the replays. Stopped replays carry [`Warning::Stopped`], and the
+    /// Sets a progress observer that can stop the replays. Stopped replays carry [`Warning::Stopped`], and the
     /// plan does not pass.
-    pub fn watched(self, watch: &'a dyn Watch) -> Self {
-        Self { watch, ..self }
+    pub fn with_progress(self, progress: &'a dyn Progress) -> Self {
+        Self { progress, ..self }
     }
 
     /// Adds perturbed replays until the sequential test decides whether the required share reaches
     /// the goal, or until each engine has made 64. One decision in a hundred is wrong on average,
-    /// see `clear`.
+    /// see `sequential_test`.
     pub fn until_clear(self) -> Self {
         Self { until_clear: true, ..self }
     }
@@ -116,7 +116,7 @@ impl<'a> Verifier<'a> {
         let moving: f64 = pushing.chain(levering).sum();
         let each = [(&self.planar, PLANAR_STEP), (&self.spatial, SPATIAL_STEP)];
         let replay: f64 = each.iter().map(|(engine, cost)| moving / engine.step() * cost).sum();
-        replay * scene.objects.len() as f64 * (self.settings.disturbed + 1) as f64
+        replay * scene.objects.len() as f64 * (self.settings.replays + 1) as f64
     }
 
     /// Makes the nominal replays in both engines, or only in 3-D for plans that leave the plane.
@@ -134,7 +134,7 @@ impl<'a> Verifier<'a> {
         if let Some(fault) = unplayable(scene, tools, plan) {
             return Verdict::judge(vec![fault], Vec::new(), task.robustness);
         }
-        let mut forbidden = broken_rules(task, scene, tools, plan);
+        let mut forbidden = rule_violations(task, scene, tools, plan);
         if in_space(task, plan) {
             let evidence = self.replay_in_space(task, situation, (tools, plan), None);
             return Verdict::judge(forbidden, vec![evidence], task.robustness);
@@ -143,7 +143,7 @@ impl<'a> Verifier<'a> {
         let jobs = Job::sequence(situation, &motions);
         let mut evidence: Vec<Evidence> = [&self.spatial, &self.planar]
             .into_par_iter()
-            .map(|engine| self.replay(engine, task, scene, &jobs, Disturbance::Nominal))
+            .map(|engine| self.replay(engine, task, scene, &jobs, Perturbation::Nominal))
             .collect();
         // The 2-D engine comes first, because people compare predictions with it.
         evidence.reverse();
@@ -156,7 +156,7 @@ impl<'a> Verifier<'a> {
 
     /// Adds the perturbed replays to a verdict of [`Verifier::nominal`]. Replays that the verdict
     /// already holds are not repeated.
-    pub fn disturb(
+    pub fn perturb(
         &self,
         task: &Task,
         situation: &Situation,
@@ -169,12 +169,12 @@ impl<'a> Verifier<'a> {
             return Verdict::judge(forbidden, evidence, task.robustness);
         }
         if in_space(task, plan) {
-            let replays: Vec<Evidence> = (0..self.settings.disturbed)
+            let replays: Vec<Evidence> = (0..self.settings.replays)
                 .into_par_iter()
                 .map(|draw| {
-                    if self.watch.cancelled() {
-                        let disturbance = Disturbance::Disturbed { draw: draw + 1 };
-                        return stopped(&self.spatial, task, situation, disturbance);
+                    if self.progress.cancelled() {
+                        let perturbation = Perturbation::Perturbed { draw: draw + 1 };
+                        return stopped(&self.spatial, task, situation, perturbation);
                     }
                     self.replay_in_space(task, situation, (tools, plan), Some(draw))
                 })
@@ -189,50 +189,52 @@ impl<'a> Verifier<'a> {
         let motions: Vec<ToolMotion> =
             motions.into_iter().map(|motion| lifted(&scene, motion)).collect();
         let (nominal, replays): (Vec<Evidence>, Vec<Evidence>) =
-            evidence.into_iter().partition(|one| one.disturbance == Disturbance::Nominal);
+            evidence.into_iter().partition(|one| one.perturbation == Perturbation::Nominal);
         let (mut planar, mut spatial): (Vec<Evidence>, Vec<Evidence>) =
             replays.into_iter().partition(|one| one.engine == Engine::Planar);
         let asked = (task, situation, &scene, &motions[..]);
         // The 2-D engine comes first. If the plan fails there, the slower engine is skipped.
-        self.add_disturbed(&self.planar, asked, &mut planar);
-        let refused =
-            never(&planar, task) || clear::answer(&planar, task.robustness) == Some(false);
+        self.add_perturbed(&self.planar, asked, &mut planar);
+        let refused = never(&planar, task)
+            || sequential_test::answer(&planar, task.robustness) == Some(false);
         if !(refused || self.in_plane) {
-            self.add_disturbed(&self.spatial, asked, &mut spatial);
+            self.add_perturbed(&self.spatial, asked, &mut spatial);
         }
         let evidence = nominal.into_iter().chain(planar).chain(spatial).collect();
         Verdict::judge(forbidden, evidence, task.robustness)
     }
 
     /// Adds perturbed replays in one engine until they suffice.
-    fn add_disturbed(
+    fn add_perturbed(
         &self,
         engine: &Simulator,
         asked: (&Task, &Situation, &Scene, &[ToolMotion]),
         own: &mut Vec<Evidence>,
     ) {
-        let least = self.settings.disturbed;
+        let least = self.settings.replays;
         loop {
             let done = own.len();
             let is_clear = || {
                 let failed = self.giving_up && never(own, asked.0);
-                failed || clear::answer(own, asked.0.robustness).is_some()
+                failed || sequential_test::answer(own, asked.0.robustness).is_some()
             };
-            let goes_on = self.until_clear && least > 0 && !self.watch.cancelled();
+            let goes_on = self.until_clear && least > 0 && !self.progress.cancelled();
             let wanted = match done < least {
                 true => least,
-                false if goes_on && !is_clear() => (done + clear::LOOK).min(clear::MOST),
+                false if goes_on && !is_clear() => {
+                    (done + sequential_test::LOOK).min(sequential_test::MOST)
+                }
                 false => done,
             };
             if done >= wanted {
                 return;
             }
-            own.extend(self.disturbed(engine, asked, done..wanted));
+            own.extend(self.perturbed(engine, asked, done..wanted));
         }
     }
 
     /// Makes the perturbed replays of these draws in an engine.
-    fn disturbed(
+    fn perturbed(
         &self,
         engine: &Simulator,
         (task, situation, scene, motions): (&Task, &Situation, &Scene, &[ToolMotion]),
@@ -241,12 +243,12 @@ impl<'a> Verifier<'a> {
         draws
             .into_par_iter()
             .map(|draw| {
-                let disturbance = Disturbance::Disturbed { draw: draw + 1 };
-                if self.watch.cancelled() {
-                    return stopped(engine, task, situation, disturbance);
+                let perturbation = Perturbation::Perturbed { draw: draw + 1 };
+                if self.progress.cancelled() {
+                    return stopped(engine, task, situation, perturbation);
                 }
-                let jobs = disturbed(situation, motions, self.settings.seed, draw);
-                self.replay(engine, task, scene, &jobs, disturbance)
+                let jobs = perturbed(situation, motions, self.settings.seed, draw);
+                self.replay(engine, task, scene, &jobs, perturbation)
             })
             .collect()
     }
@@ -260,7 +262,7 @@ impl<'a> Verifier<'a> {
         plan: &Plan,
     ) -> Verdict {
         let nominal = self.nominal(task, situation, tools, plan);
-        self.disturb(task, situation, tools, plan, nominal)
+        self.perturb(task, situation, tools, plan, nominal)
     }
 
     /// Replays a plan in 3-D, as written or perturbed by this draw.
@@ -277,19 +279,19 @@ impl<'a> Verifier<'a> {
         let mut motions = plan.motions(tools).unwrap_or_default();
         let really = draw.map(|draw| {
             let wary = Situation { scene: Arc::new(wary(task, scene)), ..situation.clone() };
-            space::disturbed(&wary, &mut motions, about, (self.settings.seed, draw))
+            space::perturbed(&wary, &mut motions, about, (self.settings.seed, draw))
         });
         let really = really.as_ref().unwrap_or(situation);
         let record = if draw.is_none() { Record::Frames } else { Record::Outcome };
-        let watched = (record, self.watch);
+        let watched = (record, self.progress);
         let trajectory = LeverSimulator::default().run_all(really, scene, &motions, watched);
         // The obstacles have been displaced as well.
         let scene = Scene { obstacles: really.scene.obstacles.clone(), ..scene.clone() };
-        let disturbance = match draw {
-            None => Disturbance::Nominal,
-            Some(draw) => Disturbance::Disturbed { draw: draw + 1 },
+        let perturbation = match draw {
+            None => Perturbation::Nominal,
+            Some(draw) => Perturbation::Perturbed { draw: draw + 1 },
         };
-        evidence(&self.spatial, task, &scene, trajectory, disturbance)
+        evidence(&self.spatial, task, &scene, trajectory, perturbation)
     }
 
     /// Replays jobs in order; a job without pushes leaves everything in place.
@@ -299,12 +301,12 @@ impl<'a> Verifier<'a> {
         task: &Task,
         scene: &Scene,
         jobs: &[Job],
-        disturbance: Disturbance,
+        perturbation: Perturbation,
     ) -> Evidence {
-        let nominal = disturbance == Disturbance::Nominal;
+        let nominal = perturbation == Perturbation::Nominal;
         let record = if nominal { Record::Frames } else { Record::Outcome };
-        let trajectory = engine.run_in_turn(scene, jobs, record, self.watch);
-        evidence(engine, task, scene, trajectory, disturbance)
+        let trajectory = engine.run_in_turn(scene, jobs, record, self.progress);
+        evidence(engine, task, scene, trajectory, perturbation)
     }
 }
 
@@ -324,9 +326,9 @@ fn evidence(
     task: &Task,
     scene: &Scene,
     mut trajectory: Trajectory,
-    disturbance: Disturbance,
+    perturbation: Perturbation,
 ) -> Evidence {
-    let nominal = disturbance == Disturbance::Nominal;
+    let nominal = perturbation == Perturbation::Nominal;
     if let (Some(force), Some(limit)) = (trajectory.force, task.robot.max_force)
         && force.lasting > limit
     {
@@ -345,11 +347,12 @@ fn evidence(
         let mut movers = goals.flat_map(|goal| goal.movers());
         movers.any(|k| scene.objects.get(k).is_some_and(|object| object.name == name))
     };
-    let told = |warning: &Warning| !matches!(warning, Warning::Fell { object } if wanted(object));
-    trajectory.warnings.retain(told);
+    let reported =
+        |warning: &Warning| !matches!(warning, Warning::Fell { object } if wanted(object));
+    trajectory.warnings.retain(reported);
     Evidence {
         engine: engine.engine(),
-        disturbance,
+        perturbation,
         outcome: Outcome::judge(scene, task, &trajectory),
         warnings: trajectory.warnings.clone(),
         force: trajectory.force,
@@ -363,14 +366,14 @@ fn stopped(
     engine: &Simulator,
     task: &Task,
     situation: &Situation,
-    disturbance: Disturbance,
+    perturbation: Perturbation,
 ) -> Evidence {
     let start = situation.start.clone();
     let mut trajectory = Trajectory::standing(engine.spec(), Pose::default(), start);
     trajectory.warnings.push(Warning::Stopped);
     Evidence {
         engine: engine.engine(),
-        disturbance,
+        perturbation,
         outcome: Outcome::judge(&situation.scene, task, &trajectory),
         warnings: trajectory.warnings,
         force: None,

@@ -92,7 +92,7 @@ fn a_plan_of_an_arm_carries_its_joints_and_verifies_without_the_urdf() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     fs::remove_file(folder.join("six.urdf")).expect("the file");
     let path = at(folder, "out/push.plan.json");
-    let output = run(&["verify", &path, "--disturbed", "0"]);
+    let output = run(&["verify", &path, "--replays", "0"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
 
     let file = PlanFile::load(&path).expect("a plan");
@@ -109,7 +109,7 @@ fn a_plan_of_an_arm_carries_its_joints_and_verifies_without_the_urdf() {
     let judged = |change: &dyn Fn(&mut pushplan::scene::JointTrajectory)| {
         let mut changed = joints.clone();
         change(&mut changed);
-        let settings = VerifySettings { disturbed: 0, seed: 0 };
+        let settings = VerifySettings { replays: 0, seed: 0 };
         let situation = Situation::stated(&file.task.scene);
         let verifier = Verifier::new(settings).moving(Some(&changed));
         verifier.nominal(&file.task, &situation, &file.tools, &file.plan)

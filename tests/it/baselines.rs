@@ -54,8 +54,8 @@ fn the_network_plays_a_guessed_joint_like_a_known_one() {
 fn mistakes_change_friction_or_the_start_and_keep_joints_whole() {
     let scene = pair(JointKind::Fixed);
     let planar = Simulated::new(Simulator::planar());
-    let told = Assumptions { friction: Some(70), ..Assumptions::default() };
-    let slippery = Assuming::new(planar.clone(), told);
+    let assumptions = Assumptions { friction: Some(70), ..Assumptions::default() };
+    let slippery = Assuming::new(planar.clone(), assumptions);
     assert_eq!(slippery.spec().to_string(), "planar,friction=70%");
     assert_eq!(slippery.trust(&scene, &job(&scene)).error(), None, "measured with what is true");
     let mut lighter = scene.clone();
@@ -68,8 +68,8 @@ fn mistakes_change_friction_or_the_start_and_keep_joints_whole() {
     let expected = planar.rollout(&lighter, &[with_lighter_tool], Record::Frames).remove(0);
     assert_eq!(roll(&slippery, &scene).frames, expected.frames);
 
-    let told = Assumptions { start: Some(100), ..Assumptions::default() };
-    let moved = Assuming::new(Still, told);
+    let assumptions = Assumptions { start: Some(100), ..Assumptions::default() };
+    let moved = Assuming::new(Still, assumptions);
     assert_eq!(moved.spec().to_string(), "still,start=100um");
     let start = roll(&moved, &scene).outcome().clone();
     let off = |k: usize| start.poses[k].position - scene.objects[k].pose.position;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use pushplan::watch::{Unwatched, Watch};
+use pushplan::progress::{NoProgress, Progress};
 use pushplan_bench::store::{Form, Measured, RunManifest, Seconds, Store, StoreError, line_index};
 use serde_json::json;
 use tempfile::TempDir;
@@ -20,13 +20,13 @@ const TASKS: usize = 11;
 fn a_run_that_was_interrupted_again_and_again_leaves_the_same_bytes() {
     let folder = TempDir::new().expect("a folder");
     let (whole, broken) = (folder.path().join("whole"), folder.path().join("broken"));
-    let measured = measure(&whole, manifest(), &Unwatched).expect("a run");
+    let measured = measure(&whole, manifest(), &NoProgress).expect("a run");
     assert_eq!(measured.len(), TASKS);
 
     let mut all = Vec::new();
     for round in 0..3 {
-        let watch = Stopping::after(4);
-        match measure_counting(&broken, manifest(), &watch, &mut all) {
+        let progress = Stopping::after(4);
+        match measure_counting(&broken, manifest(), &progress, &mut all) {
             Err(StoreError::Cancelled { done, total }) => {
                 assert_eq!((done, total), (4 * (round + 1), TASKS));
             }
@@ -45,7 +45,7 @@ fn a_run_that_was_interrupted_again_and_again_leaves_the_same_bytes() {
 fn merged_shards_are_the_same_bytes_as_one_run() {
     let folder = TempDir::new().expect("a folder");
     let whole = folder.path().join("whole");
-    measure(&whole, manifest(), &Unwatched).expect("a run");
+    measure(&whole, manifest(), &NoProgress).expect("a run");
     let mut shards = shards(folder.path(), 3);
     shards.reverse();
     let merged = folder.path().join("merged");
@@ -92,14 +92,14 @@ fn shards_that_do_not_make_one_run_are_not_merged() {
     let other = folder.path().join("other-seed");
     let mut seeded = manifest();
     seeded.seed = 8;
-    measure(&other, seeded.with_shard("2/3".parse().expect("a shard")), &Unwatched)
+    measure(&other, seeded.with_shard("2/3".parse().expect("a shard")), &NoProgress)
         .expect("a shard");
     let error = refused(&[first, &other, third]).to_string();
     assert!(error.contains("seed is 8 there, 7 was asked for"), "{error}");
 
     let halves = folder.path().join("halves");
     let half = manifest().with_shard("2/2".parse().expect("a shard"));
-    measure(&halves, half, &Unwatched).expect("a shard");
+    measure(&halves, half, &NoProgress).expect("a shard");
     let error = refused(&[first, &halves]).to_string();
     assert!(error.contains("one of 2 shards, the first one of 3"), "{error}");
 
@@ -117,7 +117,7 @@ fn shards_that_do_not_make_one_run_are_not_merged() {
 fn a_torn_last_line_is_measured_again_however_much_of_it_is_there() {
     let folder = TempDir::new().expect("a folder");
     let whole = folder.path().join("whole");
-    measure(&whole, manifest(), &Unwatched).expect("a run");
+    measure(&whole, manifest(), &NoProgress).expect("a run");
     let records = read(&whole, "records.jsonl");
     let last = records.trim_end().rfind('\n').expect("several lines") + 1;
     for kept in (last + 1..records.len()).step_by(7).chain([records.len() - 1]) {
@@ -130,10 +130,10 @@ fn a_torn_last_line_is_measured_again_however_much_of_it_is_there() {
         let loaded = Store::<Record>::load(&torn).expect("a run");
         assert_eq!(loaded.finished().len(), TASKS - 1, "{kept} bytes");
 
-        let (watch, mut again) = (Stopping::after(usize::MAX), Vec::new());
-        measure_counting(&torn, manifest(), &watch, &mut again).expect("a run");
+        let (progress, mut again) = (Stopping::after(usize::MAX), Vec::new());
+        measure_counting(&torn, manifest(), &progress, &mut again).expect("a run");
         assert_eq!(again, [TASKS - 1]);
-        assert_eq!(watch.notes.lock().expect("notes").len(), 1);
+        assert_eq!(progress.notes.lock().expect("notes").len(), 1);
         assert_eq!(compared(&torn), compared(&whole), "{kept} bytes");
         assert_eq!(read(&torn, "times.jsonl"), read(&whole, "times.jsonl"), "{kept} bytes");
     }
@@ -142,7 +142,7 @@ fn a_torn_last_line_is_measured_again_however_much_of_it_is_there() {
     zeros.extend([0; 20]);
     zeros.push(b'\n');
     fs::write(whole.join("records.jsonl"), zeros).expect("a file");
-    measure(&whole, manifest(), &Unwatched).expect("a run");
+    measure(&whole, manifest(), &NoProgress).expect("a run");
     assert_eq!(read(&whole, "records.jsonl"), records);
 }
 
@@ -150,7 +150,7 @@ fn a_torn_last_line_is_measured_again_however_much_of_it_is_there() {
 fn damage_before_the_last_line_is_named_and_never_mended_in_silence() {
     let folder = TempDir::new().expect("a folder");
     let run = folder.path().join("run");
-    measure(&run, manifest(), &Unwatched).expect("a run");
+    measure(&run, manifest(), &NoProgress).expect("a run");
     let records = read(&run, "records.jsonl");
     let swapped = records.replacen("\"index\":2", "\"index\":3", 1);
     let broken = records.replacen("\"index\":2", "\"index\":", 1);
@@ -161,7 +161,7 @@ fn damage_before_the_last_line_is_named_and_never_mended_in_silence() {
         (doubled, TASKS + 1, "record 10 where no more belongs"),
     ] {
         fs::write(run.join("records.jsonl"), &text).expect("a file");
-        let error = measure(&run, manifest(), &Unwatched).expect_err("damaged").to_string();
+        let error = measure(&run, manifest(), &NoProgress).expect_err("damaged").to_string();
         let place = format!("records.jsonl:{line}: ");
         assert!(error.contains(&place) && error.contains(words), "{error}");
         assert_eq!(read(&run, "records.jsonl"), text, "a damaged file was changed");
@@ -176,7 +176,7 @@ fn another_run_in_the_folder_is_refused_with_what_differs() {
     let before = compared(folder.path());
     let mut other = manifest().with_weights(Some("00ff".into()));
     other.settings["effort"]["beam"] = 64.into();
-    let error = measure(folder.path(), other, &Unwatched).expect_err("another run");
+    let error = measure(folder.path(), other, &NoProgress).expect_err("another run");
     match &error {
         StoreError::OtherRun { differences, .. } => assert_eq!(
             differences[..],
@@ -190,7 +190,7 @@ fn another_run_in_the_folder_is_refused_with_what_differs() {
     assert_eq!(compared(folder.path()), before, "the run there was touched");
 
     fs::remove_file(folder.path().join("manifest.json")).expect("a file");
-    let error = measure(folder.path(), manifest(), &Unwatched).expect_err("no manifest");
+    let error = measure(folder.path(), manifest(), &NoProgress).expect_err("no manifest");
     assert!(matches!(error, StoreError::Stray { .. }), "{error}");
     assert!(matches!(Store::<Record>::load(folder.path()), Err(StoreError::Missing { .. })));
 }
@@ -198,7 +198,7 @@ fn another_run_in_the_folder_is_refused_with_what_differs() {
 #[test]
 fn two_processes_never_write_to_one_run() {
     let folder = TempDir::new().expect("a folder");
-    let open = || Store::<Record>::open(folder.path(), manifest(), &Unwatched);
+    let open = || Store::<Record>::open(folder.path(), manifest(), &NoProgress);
     let first = open().expect("a run");
     assert!(matches!(open(), Err(StoreError::Busy { .. })));
     drop(first);
@@ -208,8 +208,8 @@ fn two_processes_never_write_to_one_run() {
 #[test]
 fn a_record_that_would_be_read_otherwise_is_refused() {
     let folder = TempDir::new().expect("a folder");
-    let mut store = Store::open(folder.path(), manifest(), &Unwatched).expect("a run");
-    let result = store.run(&Unwatched, |index| -> Result<Measured<Record>, StoreError> {
+    let mut store = Store::open(folder.path(), manifest(), &NoProgress).expect("a run");
+    let result = store.run(&NoProgress, |index| -> Result<Measured<Record>, StoreError> {
         let value = if index == 1 { f64::NAN } else { 0.5 };
         Ok(Measured { record: (String::new(), value, None), seconds: Seconds::new() })
     });
@@ -221,9 +221,9 @@ fn a_record_that_would_be_read_otherwise_is_refused() {
 #[test]
 fn a_run_in_memory_gives_the_same_records() {
     let folder = TempDir::new().expect("a folder");
-    let kept = measure(folder.path(), manifest(), &Unwatched).expect("a run");
+    let kept = measure(folder.path(), manifest(), &NoProgress).expect("a run");
     let mut store = Store::in_memory(manifest());
-    store.run(&Unwatched, task).expect("a run");
+    store.run(&NoProgress, task).expect("a run");
     assert_eq!(store.finished(), kept);
 }
 
@@ -231,27 +231,27 @@ fn a_run_in_memory_gives_the_same_records() {
 fn tasks_side_by_side_leave_the_same_bytes_whatever_comes_first() {
     let folder = TempDir::new().expect("a folder");
     let whole = folder.path().join("whole");
-    measure(&whole, manifest(), &Unwatched).expect("a run");
+    measure(&whole, manifest(), &NoProgress).expect("a run");
     for threads in [1, 2, 5] {
         let dir = folder.path().join(format!("with {threads}"));
         let begun = Mutex::new(Vec::new());
         let done = AtomicUsize::new(0);
         let mut interrupted = 0;
         loop {
-            let watch = Stopping::after(4);
+            let progress = Stopping::after(4);
             // Every other task ends after its successor, if the successor has begun.
             let out_of_order = |index: usize| {
                 begun.lock().expect("a list").push(index);
                 let waits = threads > 1 && index.is_multiple_of(2) && index + 1 < TASKS;
-                while waits && !watch.cancelled() && done.load(Ordering::SeqCst) <= index / 2 {
+                while waits && !progress.cancelled() && done.load(Ordering::SeqCst) <= index / 2 {
                     std::thread::yield_now();
                 }
                 done.fetch_add(index % 2, Ordering::SeqCst);
-                watch.measured.fetch_add(1, Ordering::SeqCst);
+                progress.measured.fetch_add(1, Ordering::SeqCst);
                 task(index).expect("a result")
             };
-            let mut store = Store::open(&dir, manifest(), &Unwatched).expect("a store");
-            match store.run_side_by_side(&watch, threads, out_of_order) {
+            let mut store = Store::open(&dir, manifest(), &NoProgress).expect("a store");
+            match store.run_side_by_side(&progress, threads, out_of_order) {
                 Ok(()) => break,
                 Err(StoreError::Cancelled { done, total }) => {
                     assert_eq!((done, total), (store.finished().len(), TASKS));
@@ -286,22 +286,26 @@ fn task(index: usize) -> Result<Measured<Record>, StoreError> {
 
 type Tasks = Vec<pushplan_bench::store::Finished<Record>>;
 
-fn measure(dir: &Path, manifest: RunManifest, watch: &dyn Watch) -> Result<Tasks, StoreError> {
-    let mut store = Store::open(dir, manifest, watch)?;
-    store.run(watch, task)?;
+fn measure(
+    dir: &Path,
+    manifest: RunManifest,
+    progress: &dyn Progress,
+) -> Result<Tasks, StoreError> {
+    let mut store = Store::open(dir, manifest, progress)?;
+    store.run(progress, task)?;
     Ok(store.finished().to_vec())
 }
 
-/// Runs until `watch` cancels, and adds the measured indices to `all`.
+/// Runs until `progress` cancels, and adds the measured indices to `all`.
 fn measure_counting(
     dir: &Path,
     manifest: RunManifest,
-    watch: &Stopping,
+    progress: &Stopping,
     all: &mut Vec<usize>,
 ) -> Result<(), StoreError> {
-    let mut store = Store::open(dir, manifest, watch)?;
-    store.run(watch, |index| {
-        watch.measured.fetch_add(1, Ordering::Relaxed);
+    let mut store = Store::open(dir, manifest, progress)?;
+    store.run(progress, |index| {
+        progress.measured.fetch_add(1, Ordering::Relaxed);
         all.push(index);
         task(index)
     })
@@ -313,7 +317,7 @@ fn shards(folder: &Path, of: usize) -> Vec<PathBuf> {
         .map(|number| {
             let dir = folder.join(format!("shard-{number}"));
             let shard = format!("{number}/{of}").parse().expect("a shard");
-            measure(&dir, manifest().with_shard(shard), &Unwatched).expect("a run");
+            measure(&dir, manifest().with_shard(shard), &NoProgress).expect("a run");
             dir
         })
         .collect()
@@ -346,7 +350,7 @@ impl Stopping {
     }
 }
 
-impl Watch for Stopping {
+impl Progress for Stopping {
     fn note(&self, message: &str) {
         self.notes.lock().expect("notes").push(message.to_owned());
     }

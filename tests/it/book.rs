@@ -106,7 +106,8 @@ fn its_files_are_right() {
                     });
                 let [world, task, out] =
                     [&world, &task, folder.path()].map(|path| path.to_str().expect("UTF-8"));
-                let output = run(&["run", "--pushes", "1", "--world", world, task, "--out", out]);
+                let output =
+                    run(&["run", "--max-pushes", "1", "--world", world, task, "--out", out]);
                 let error = stderr(&output);
                 assert!(matches!(output.status.code(), Some(0 | 4 | 5)), "{path}: {error}");
                 worlds += 1;

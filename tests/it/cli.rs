@@ -6,7 +6,7 @@ use std::process::Stdio;
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
-use pushplan::watch::Unwatched;
+use pushplan::progress::NoProgress;
 use pushplan_bench::store::FolderLock;
 
 use crate::ROOT;
@@ -65,8 +65,8 @@ fn a_new_task_is_a_file_and_overwrites_none() {
     let first = written();
     let output = run(&["new", name, "--example", "narrow-gap"]);
     assert_eq!(output.status.code(), Some(2));
-    let said = stderr(&output);
-    assert!(said.contains("my.task.yaml is there already"), "{said}");
+    let message = stderr(&output);
+    assert!(message.contains("my.task.yaml is there already"), "{message}");
     assert_eq!(written(), first);
     let other = folder.path().join("gap.yml");
     let other = other.to_str().expect("UTF-8");
@@ -77,19 +77,19 @@ fn a_new_task_is_a_file_and_overwrites_none() {
 
 #[test]
 fn an_example_is_the_file_of_its_name() {
-    let said = |task: &[&str]| {
+    let message = |task: &[&str]| {
         let action = ["--tool", "l-hook", "--push", "can:180", "--alone", "--json"];
         let output = run(&[&["predict"], task, &action].concat());
         let mut json: Json = serde_json::from_slice(&output.stdout).expect("JSON alone");
         json["effects"][0].as_object_mut().expect("an effect").remove("seconds");
         json
     };
-    assert_eq!(said(&["--example", "pull-back"]), said(&["tasks/pull-back.yaml"]));
+    assert_eq!(message(&["--example", "pull-back"]), message(&["tasks/pull-back.yaml"]));
     for command in ["solve", "run", "predict"] {
         let output = run(&[command, "--example", "pull-bakc"]);
         assert_eq!(output.status.code(), Some(2));
-        let said = stderr(&output);
-        assert!(said.contains("pull-back") && said.contains("drive-board"), "{said}");
+        let message = stderr(&output);
+        assert!(message.contains("pull-back") && message.contains("drive-board"), "{message}");
     }
 }
 
@@ -121,8 +121,8 @@ fn a_folder_that_cannot_be_written_is_said_before_anything_is_computed() {
         let action = ["predict", "tasks/pull-back.yaml", "--tool", "stick", "--push", "can:0"];
         let output = run(&[&action[..], &out].concat());
         assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-        let said = stderr(&output);
-        assert!(said.contains("error: cannot write to the folder"), "{said}");
+        let message = stderr(&output);
+        assert!(message.contains("error: cannot write to the folder"), "{message}");
     }
     assert_eq!(files(folder.path()), ["taken"]);
 }
@@ -234,7 +234,7 @@ fn a_solved_task_leaves_a_plan_that_verifies_and_the_same_files_for_any_number_o
     let plan = plan.to_str().expect("UTF-8");
     let page = folder.path().join("verified");
     let out = page.to_str().expect("UTF-8");
-    let output = run(&["verify", plan, "--disturbed", "2", "--out", out]);
+    let output = run(&["verify", plan, "--replays", "2", "--out", out]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert_eq!(files(&page), ["pull-back.verify.html"]);
 
@@ -290,7 +290,7 @@ fn results_of_one_kind_or_task_do_not_write_over_those_of_another() {
     assert_eq!(run(&["check", &trace]).status.code(), Some(3));
 
     // Two simultaneous runs are also refused.
-    let _lock = FolderLock::take(Path::new(&out), &Unwatched).expect("a free folder");
+    let _lock = FolderLock::take(Path::new(&out), &NoProgress).expect("a free folder");
     let busy = run(&["run", "tasks/pull-back.yaml", "--world", "1", "--out", &out]);
     assert!(
         busy.status.code() == Some(1) && stderr(&busy).contains("process"),
@@ -318,20 +318,20 @@ fn check_says_why_there_is_no_plan_only_when_asked() {
     std::fs::write(&near, &text).expect("a task");
     std::fs::write(&far, format!("{text}pushes: {{max_count: 1, length: 0.06}}\n"))
         .expect("a task");
-    let said = |arguments: &[&str], code| {
+    let message = |arguments: &[&str], code| {
         let output = run(arguments);
         assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
         String::from_utf8_lossy(&output.stdout).into_owned()
     };
-    assert_eq!(said(&["check", &far], 0), format!("{far}: task, fine\n"));
-    let told = said(&["check", "--why", &far, &near, "tasks/levers/raise-plate.yaml"], 4);
+    assert_eq!(message(&["check", &far], 0), format!("{far}: task, fine\n"));
+    let text = message(&["check", "--why", &far, &near, "tasks/levers/raise-plate.yaml"], 4);
     assert!(
-        told.contains("fine\n  no plan: it takes 2 pushes, and `pushes.max_count` is 1"),
-        "{told}"
+        text.contains("fine\n  no plan: it takes 2 pushes, and `pushes.max_count` is 1"),
+        "{text}"
     );
     assert!(
-        told.contains("fine\n  a plan may reach the goal; `pushplan solve` verifies it"),
-        "{told}"
+        text.contains("fine\n  a plan may reach the goal; `pushplan solve` verifies it"),
+        "{text}"
     );
-    assert!(told.ends_with("fine\n  of tasks of levering only `pushplan solve` tells\n"), "{told}");
+    assert!(text.ends_with("fine\n  of tasks of levering only `pushplan solve` tells\n"), "{text}");
 }

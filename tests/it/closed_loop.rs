@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use pushplan::asset::{Faults, ToolLibrary, load_task, load_world};
 use pushplan::geometry::Vector;
+use pushplan::progress::{NoProgress, Progress};
 use pushplan::seeded::generator;
 use pushplan::solve::{Effort, Planner};
-use pushplan::watch::{Unwatched, Watch};
 use pushplan::{
     outcome::Warning,
-    scene::{Engine, JointKind, Physics, Sight, Support, Unknowns},
+    scene::{Engine, JointKind, ObservedPose, Physics, Support, Unknowns},
     task::{Noise, Task, ToolMotion, Truth},
 };
 use pushplan_act::act::{
@@ -45,7 +45,7 @@ fn begun(task: &Task, truth: &Truth) -> Trace {
 
 fn run(trace: &mut Trace, world: &mut dyn World) -> Result<(), ActError> {
     let (planner, library) = (planner(), library());
-    Runner::new(&planner, &library).run(trace, world, &mut |_| Ok(()), &Unwatched)
+    Runner::new(&planner, &library).run(trace, world, &mut |_| Ok(()), &NoProgress)
 }
 
 pub fn drawn(task: &Task, seed: u64) -> (Trace, SimulatedWorld) {
@@ -71,9 +71,10 @@ fn every_shipped_task_with_unknowns_is_solved_in_drawn_worlds() {
 #[test]
 fn tasks_that_say_so_need_a_probe() {
     let tasks = tasks_with_unknowns();
-    let told: Vec<&Task> = tasks.iter().filter(|task| task.description.contains("probe")).collect();
-    assert!(told.len() >= 2);
-    for task in told {
+    let probing: Vec<&Task> =
+        tasks.iter().filter(|task| task.description.contains("probe")).collect();
+    assert!(probing.len() >= 2);
+    for task in probing {
         let probed = (1..=4).any(|seed| {
             let (mut trace, mut world) = drawn(task, seed);
             run(&mut trace, &mut world).expect("it can be run");
@@ -86,8 +87,8 @@ fn tasks_that_say_so_need_a_probe() {
 /// Observer that cancels after a number of steps.
 struct After(usize, std::sync::atomic::AtomicUsize);
 
-impl Watch for After {
-    fn progress(&self, done: u64, _: u64) {
+impl Progress for After {
+    fn update(&self, done: u64, _: u64) {
         self.1.store(done as usize, std::sync::atomic::Ordering::Relaxed);
     }
 
@@ -106,7 +107,7 @@ fn a_run_that_is_stopped_goes_on_to_the_same_bits_and_threads_change_nothing() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| {
             let (mut trace, mut world) = drawn(&task, 1);
-            runner.run(&mut trace, &mut world, &mut |_| Ok(()), &Unwatched).expect("a run");
+            runner.run(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress).expect("a run");
             trace
         })
     };
@@ -130,7 +131,7 @@ pub fn interrupted(runner: &Runner, task: &Task) -> Trace {
     // The world is lost with the process; only the file remains.
     let mut again: Trace = serde_json::from_str(&kept).expect("a trace");
     let (_, mut world) = drawn(task, 1);
-    runner.run(&mut again, &mut world, &mut |_| Ok(()), &Unwatched).expect("the rest");
+    runner.run(&mut again, &mut world, &mut |_| Ok(()), &NoProgress).expect("the rest");
     again
 }
 
@@ -198,7 +199,7 @@ fn what_is_seen_late_seldom_swapped_or_wrong_is_ridden_out() {
     assert_eq!(trace.end, Some(End::Reached));
     assert!(notes(&trace.steps).contains(&Note::Swapped { between: [0, 1] }));
 
-    let far = Sight { position: Vector::new(5.0, 5.0), heading: Some(0.0) };
+    let far = ObservedPose { position: Vector::new(5.0, 5.0), heading: Some(0.0) };
     let (ended, trace) = spoilt(&task, Vec::new(), |_, looks| looks[3].seen[0] = Some(far));
     ended.expect("left out");
     assert_eq!(trace.end, Some(End::Reached));

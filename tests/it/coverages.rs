@@ -41,7 +41,7 @@ fn enough_of_the_outline_is_covered_in_every_engine() {
         let verdict = solution.plans[0].verdict.as_ref().expect("replayed");
         let share = task.goals[0].wanted_share().expect("a coverage");
         for engine in Engine::ALL {
-            for evidence in verdict.nominal(engine).into_iter().chain(verdict.disturbed(engine)) {
+            for evidence in verdict.nominal(engine).into_iter().chain(verdict.perturbed(engine)) {
                 let covered = task.goals[0].covered(&evidence.outcome.state).expect("a coverage");
                 let sound = evidence.fault().is_none();
                 assert_eq!(evidence.outcome.reached, sound && covered >= share, "{covered}");

@@ -7,7 +7,7 @@ use rayon::ThreadPoolBuilder;
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
-use pushplan::watch::Unwatched;
+use pushplan::progress::NoProgress;
 use pushplan::{Effort, PlanStatus, Planner, Task, Tool, ToolLibrary};
 use pushplan_design::{Design, DesignSettings, design};
 
@@ -32,7 +32,7 @@ fn designed(text: &str, settings: &DesignSettings) -> (Task, Design) {
     let library = ToolLibrary::embedded().unwrap();
     let task = Task::parse(text, "slot.yaml").unwrap();
     let planner = Planner::for_effort(Effort::Draft).unwrap().build();
-    let design = design(&planner, &task, &library, settings, &Unwatched).unwrap();
+    let design = design(&planner, &task, &library, settings, &NoProgress).unwrap();
     (task, design)
 }
 

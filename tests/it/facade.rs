@@ -63,7 +63,7 @@ fn a_lever_up_is_planned_verified_and_written_like_a_push() {
     let goal = Goal::of(0).with(Demand::Flipped(Flipped { flipped: true }));
     let scene = Scene::new([plate.at(0.5, 0.0, 0.0)]);
     let task = Task::new("turn", scene, Robot::reaching(0.1, 0.9), goal)
-        .choosing(["screwdriver"])
+        .with_tools(["screwdriver"])
         .levering(LeverRules { pivots: vec![Pivot::Auto], ..LeverRules::default() })
         .pushing(PushRules::none());
     let planner = Planner::for_effort(Effort::Draft).unwrap().build();

@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 
 use pushplan::effect::{EffectModel, Job, Prior, Simulated};
 use pushplan::geometry::{Pose, Shape, Vector};
+use pushplan::progress::NoProgress;
 use pushplan::recording::Recording;
 use pushplan::sim::Simulator;
-use pushplan::watch::Unwatched;
 use pushplan::{
     outcome::Record,
     scene::{Object, Part, Scene, Support, Surface, Tool},
@@ -57,7 +57,7 @@ fn recorded(simulator: &Simulator, spread: f64, friction: f64, count: usize) -> 
 
 fn fitted(model: &dyn EffectModel, trials: &[Trial]) -> Fit {
     let settings = FitSettings { values: 13, ..FitSettings::default() };
-    fit(model, trials, &settings, &Unwatched).expect("something moves")
+    fit(model, trials, &settings, &NoProgress).expect("something moves")
 }
 
 /// Asserts that the ground truth is within the posterior's width plus the error of the analytic
@@ -66,7 +66,7 @@ fn holds(fit: &Fit, spread: f64, friction: f64) {
     for (found, truth) in [(&fit.spread, spread), (&fit.friction, friction)] {
         let off = (found.mean - truth).abs();
         assert!(off < 2.0 * found.deviation + 0.045, "{truth}: {found:?}, noise {}", fit.noise);
-        assert!(found.told && found.deviation < 0.1, "{found:?}");
+        assert!(found.identified && found.deviation < 0.1, "{found:?}");
     }
     // Medians are compared, because a push near a bifurcation may have a large error even with the
     // true parameters.
@@ -103,7 +103,7 @@ fn pushes_that_move_nothing_are_no_ground_for_a_fit() {
         stroke.to.position += Vector::new(1.0, 0.0);
     }
     trials[0].truth.iter_mut().for_each(|moment| moment.poses = vec![start]);
-    assert!(fit(&Prior::default(), &trials, &FitSettings::default(), &Unwatched).is_none());
+    assert!(fit(&Prior::default(), &trials, &FitSettings::default(), &NoProgress).is_none());
 }
 
 /// Returns the end of a push of 5 cm against a box, off-centre.

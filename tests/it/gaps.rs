@@ -55,7 +55,7 @@ fn things_are_brought_to_touch_apart_and_beside_each_other_whatever_is_a_little_
             let ends: Vec<f64> = verdict
                 .nominal(engine)
                 .into_iter()
-                .chain(verdict.disturbed(engine).filter(|evidence| evidence.outcome.reached))
+                .chain(verdict.perturbed(engine).filter(|evidence| evidence.outcome.reached))
                 .map(|evidence| gap(&task, &evidence.outcome.state))
                 .collect();
             assert!(ends.len() > 4 && ends.iter().all(|gap| (min..=max).contains(gap)), "{ends:?}");

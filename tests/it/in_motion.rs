@@ -3,8 +3,8 @@
 
 use pushplan::effect::{EffectModel, EffectModels, Job, Network, Prior};
 use pushplan::geometry::{Pose, Vector};
+use pushplan::progress::NoProgress;
 use pushplan::recording::Recording;
-use pushplan::watch::Unwatched;
 use pushplan::{
     outcome::Record,
     scene::{JointKind, Object, Scene, Span, State, Velocity},
@@ -93,7 +93,7 @@ fn a_fit_begins_with_the_velocities() {
     let settings = FitSettings { values: 5, ..FitSettings::default() };
     let [with, without] = [&moving, &resting].map(|recording| {
         let trials = [Trial::of_recording(recording)];
-        fit(&*planar, &trials, &settings, &Unwatched).expect("something moves").best.mean
+        fit(&*planar, &trials, &settings, &NoProgress).expect("something moves").best.mean
     });
     assert!(with < 2e-3 && without > 1e-2, "{with} {without}");
 }

@@ -7,10 +7,10 @@ use std::sync::Arc;
 use pushplan::ToolLibrary;
 use pushplan::asset::{PlanFile, load_task};
 use pushplan::geometry::{Shape, Vector};
+use pushplan::progress::NoProgress;
 use pushplan::sim::LeverSimulator;
 use pushplan::solve::{Effort, PlanStatus, Planner};
 use pushplan::verify::{Verifier, VerifySettings};
-use pushplan::watch::Unwatched;
 use pushplan::{
     outcome::{PushFault, Reason, Record, Trajectory, Verdict, Warning},
     scene::{Engine, GRAVITY, Situation, Tool},
@@ -83,7 +83,7 @@ fn pushed(x: f64, gap: f64, length: f64) -> Plan {
 
 fn verify(task: &Task, plan: &Plan) -> Verdict {
     let situation = Situation::stated(&task.scene);
-    let verifier = Verifier::new(VerifySettings { disturbed: 4, seed: 0 });
+    let verifier = Verifier::new(VerifySettings { replays: 4, seed: 0 });
     verifier.verify(task, &situation, &tools(), plan)
 }
 
@@ -103,7 +103,7 @@ fn a_push_carries_the_plate_as_far_as_the_tool_goes() {
     let really = Situation::stated(&task.scene);
     let run = |plan: &Plan| -> Trajectory {
         let motions = plan.motions(&tools()).expect("its tools");
-        let watched = (Record::Outcome, &Unwatched as _);
+        let watched = (Record::Outcome, &NoProgress as _);
         LeverSimulator::FINE.run_all(&really, &task.scene, &motions, watched)
     };
     let rest = |found: &Trajectory| found.outcome().space.as_ref().expect("in space")[0];
@@ -122,7 +122,7 @@ fn a_push_carries_the_plate_as_far_as_the_tool_goes() {
 }
 
 #[test]
-fn the_whole_is_judged_and_disturbed_as_one() {
+fn the_whole_is_judged_and_perturbed_as_one() {
     let verdict = verify(&task(), &plan(0.02, 0.12));
     assert!(verdict.passed, "{:?}", verdict.reason);
     assert_eq!(verdict.evidence.len(), 5);
@@ -169,7 +169,7 @@ fn a_plan_pushes_levers_and_pushes_again() {
     // Pushed 8 cm away, levered up slightly at its expected position, and pushed to its goal.
     let Step::LeverUp(mut levering) = plan(0.0, 0.1).steps.remove(0) else { panic!("a lever-up") };
     let first = pushed(0.5, 0.02, 0.10);
-    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
     let situation = Situation::stated(&task().scene);
     let moved = verifier.nominal(&task(), &situation, &tools(), &first);
     let nominal = moved.nominal(Engine::Spatial).expect("a replay");

@@ -5,7 +5,7 @@ use pushplan::outcome::{LeverFault, Warning};
 use pushplan::scene::{Engine, Situation};
 use pushplan::solve::{PlanStatus, Solution};
 use pushplan::task::Task;
-use pushplan::verify::broken_rules;
+use pushplan::verify::rule_violations;
 use pushplan_export::mjcf;
 
 use crate::judged::{file, is_reached_in_mujoco, solved};
@@ -108,7 +108,7 @@ fn the_friction_of_a_pair_counts() {
     let best = solution.best().expect("a plan");
     let end = |task: &Task| {
         let situation = Situation::stated(&task.scene);
-        let settings = pushplan::verify::VerifySettings { disturbed: 0, seed: 0 };
+        let settings = pushplan::verify::VerifySettings { replays: 0, seed: 0 };
         let verifier = pushplan::verify::Verifier::new(settings);
         let verdict = verifier.verify(task, &situation, &best.tools, &best.plan);
         verdict.evidence[0].outcome.state.space.clone().expect("in space")[0]
@@ -144,7 +144,7 @@ fn nothing_lands_in_a_region_that_is_kept_out_of() {
     closed.scene.keep_out = task.scene.keep_out[..1].to_vec();
     let wall = &mut closed.scene.keep_out[0];
     (wall.tool, wall.pose) = (true, pushplan::Pose::new(0.5, 0.0, 0.0));
-    let broken = broken_rules(&closed, &closed.scene, &found.tools, &found.plan);
+    let broken = rule_violations(&closed, &closed.scene, &found.tools, &found.plan);
     let meets = LeverFault::Meets { body: "left".to_owned() };
     assert_eq!(broken, [Warning::CannotLever { step: 0, fault: meets }], "{lever:?}");
 }
@@ -162,7 +162,7 @@ fn a_plate_must_not_fall_off_the_table_and_a_can_may() {
     top.size = [0.2, 0.16];
     top.middle = narrow.scene.objects[0].pose.position - 0.6 * out;
     let verdict =
-        pushplan::verify::Verifier::new(pushplan::verify::VerifySettings { disturbed: 0, seed: 0 })
+        pushplan::verify::Verifier::new(pushplan::verify::VerifySettings { replays: 0, seed: 0 })
             .verify(&narrow, &Situation::stated(&narrow.scene), &found.tools, &found.plan);
     let off = Warning::OffTable { object: "plate".to_owned() };
     assert!(

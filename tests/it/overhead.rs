@@ -130,7 +130,7 @@ fn nothing_is_set_down_through_a_shelf() {
         .replace("min: 0.25", "min: 0")
         .replace("max: 0.95}", "max: 0.95}, hand: none, base: none");
     let (task, tool, push) = pushed(&beyond);
-    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
     let forbidden = |start: Vector| {
         let push = Push { start, length: 0.1, ..push };
         let plan = Plan::pushing(&tool.name, 0.0, PushForm::Placed, 0.002, [push]);
@@ -185,7 +185,7 @@ fn a_second_push_is_made_where_the_lifted_tool_gets_to() {
     let plan = Plan::pushing(&tool.name, 0.0, PushForm::Placed, 0.002, pushes);
     let forbidden = |text: &str| {
         let task = task(text);
-        let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+        let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
         let situation = Situation::stated(&task.scene);
         verifier.nominal(&task, &situation, std::slice::from_ref(&tool), &plan).forbidden
     };

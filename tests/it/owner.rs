@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use pushplan::asset::ToolLibrary;
 use pushplan::geometry::{Pose, Vector, wrap_angle};
+use pushplan::progress::NoProgress;
 use pushplan::sim::Simulator;
 use pushplan::solve::{Cause, Effort, PlanStatus, Planner, RankedPlan, Solution};
 use pushplan::verify::{Verifier, VerifySettings};
-use pushplan::watch::Unwatched;
 use pushplan::{
     outcome::{PushFault, Record, Verdict, Warning},
     scene::{Object, Scene, Situation, Tool},
@@ -72,12 +72,12 @@ fn run(task: &Task, truth: impl FnOnce(&mut Truth)) -> (Trace, SimulatedWorld) {
     let planner = Planner::for_effort(Effort::Draft).expect("its models").build();
     let mut real = Truth::stated(&task.scene, 1);
     truth(&mut real);
-    let settings = RunSettings { pushes: 4, samples: 4, ..RunSettings::default() };
+    let settings = RunSettings { max_pushes: 4, samples: 4, ..RunSettings::default() };
     let mut world = SimulatedWorld::new(real).pushed_with(task.robot.max_force);
     let mut trace = Trace::new(task.clone(), settings, "draft".into(), None);
     let library = library();
     let runner = Runner::new(&planner, &library);
-    runner.run(&mut trace, &mut world, &mut |_| Ok(()), &Unwatched).expect("a run");
+    runner.run(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress).expect("a run");
     (trace, world)
 }
 
@@ -172,7 +172,7 @@ fn forbidden(task: &Task, form: PushForm, lift: f64, pushes: &[([f64; 2], f64, f
         speed: 0.1,
     };
     let plan = Plan::pushing(&tool.name, 0.0, form, lift, pushes.iter().map(push));
-    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
     verifier.nominal(task, &Situation::stated(&task.scene), &[tool], &plan)
 }
 
@@ -348,7 +348,7 @@ fn what_stands_in_the_way_of_a_plan_is_named() {
         assert_eq!(found.status, PlanStatus::NoPlan, "{text}");
         let first = solution_document(&task, &found).title;
         let cause = found.cause.expect("a cause");
-        let why = planner().why(&task, &library(), &Unwatched).expect("a sound task");
+        let why = planner().why(&task, &library(), &NoProgress).expect("a sound task");
         assert_eq!(why.as_ref(), Some(&cause));
         assert!(first.starts_with(&format!("task: no plan: {cause}")), "{first}");
         // A plan must be clearly nearer to the goal than doing nothing.
@@ -371,7 +371,7 @@ fn what_stands_in_the_way_of_a_plan_is_named() {
     let Cause::Far { allowed: 0.95, needed } = cause(&away) else { panic!("it is far away") };
     assert!((1.0..1.7).contains(&needed), "{needed}");
     assert_eq!(cause(PEN), Cause::Tool { needed: "finger".into() });
-    assert_eq!(planner().why(&task(FAR), &library(), &Unwatched).expect("a sound task"), None);
+    assert_eq!(planner().why(&task(FAR), &library(), &NoProgress).expect("a sound task"), None);
 }
 
 #[test]
@@ -392,7 +392,7 @@ fn what_is_solved_is_not_fragile_when_it_is_verified() {
         let found = planner.solve(&task, &library()).expect("a sound task");
         let best = found.best().expect("a plan");
         let situation = Situation::stated(&task.scene);
-        let verifier = Verifier::new(VerifySettings { disturbed: 8, seed: 0 }).until_clear();
+        let verifier = Verifier::new(VerifySettings { replays: 8, seed: 0 }).until_clear();
         let verdict = verifier.verify(&task, &situation, &best.tools, &best.plan);
         assert_eq!(verdict.passed, found.status == PlanStatus::Solved, "{name}");
         assert_eq!(Some(&verdict.robustness), best.verdict.as_ref().map(|own| &own.robustness));

@@ -167,8 +167,8 @@ fn its_controls_work_and_nothing_leaves() {
                   .flatMap((grid) => grid.cells).length";
     assert_eq!(browser.value(counted), browser.value(wanted));
     browser.click("#grids .cell");
-    let said = browser.text("#cell");
-    assert!(said.contains("score") || said.contains("would") || said.contains("meet"), "{said}");
+    let text = browser.text("#cell");
+    assert!(text.contains("score") || text.contains("would") || text.contains("meet"), "{text}");
 
     // The command that the page offers can be run.
     let command = browser.text("#command").replacen("pushplan", crate::PROGRAM, 1);

@@ -10,8 +10,8 @@ use pushplan::plan::{
     Candidate, CandidatePush, FOUND_RADIUS, Infeasible, RefineSettings, RefineStatistics, Rollouts,
     STAND_OFF, Search, SearchSettings, Start, Workspace, evaluate, refine,
 };
+use pushplan::progress::NoProgress;
 use pushplan::sim::Simulator;
-use pushplan::watch::Unwatched;
 use pushplan::{
     scene::{Object, Obstacle, Part, Robot, Scene, Situation, Tool},
     task::{Goal, PushForm, Task},
@@ -158,7 +158,7 @@ fn a_hook_reaches_behind_an_object_and_pulls_it_back() {
     let model = planar();
     let mut rollouts = Rollouts::new(&model, Situation::stated(&task.scene));
     let mut search = Search::new(space, rollouts.situation(), SETTINGS);
-    let found = search.deepen(&mut rollouts, &Unwatched);
+    let found = search.deepen(&mut rollouts, &NoProgress);
     let best = &found[0];
     assert!(best.score < 0.3, "{best:?}");
     assert_eq!(best.candidate.pushes[0].direction, PI);
@@ -207,8 +207,8 @@ fn sharing_the_beginnings_of_chained_pushes_finds_what_trying_everything_finds()
     let model = planar();
     let mut rollouts = Rollouts::new(&model, Situation::stated(&task.scene));
     let mut search = Search::new(space, rollouts.situation(), SETTINGS);
-    search.deepen(&mut rollouts, &Unwatched);
-    let found = search.deepen(&mut rollouts, &Unwatched);
+    search.deepen(&mut rollouts, &NoProgress);
+    let found = search.deepen(&mut rollouts, &NoProgress);
     assert!(rollouts.used() <= 2 * (4 + 16));
 
     let headings = task.pushes.directions.headings();
@@ -253,8 +253,8 @@ fn a_search_finds_the_same_for_any_number_of_threads_and_within_its_budget() {
             let model = planar();
             let mut rollouts = Rollouts::new(&model, Situation::stated(&task.scene));
             let mut search = Search::new(workspace(&task, &tools), rollouts.situation(), settings);
-            let first = search.deepen(&mut rollouts, &Unwatched);
-            let second = search.deepen(&mut rollouts, &Unwatched);
+            let first = search.deepen(&mut rollouts, &NoProgress);
+            let second = search.deepen(&mut rollouts, &NoProgress);
             assert!(!search.can_deepen());
             let all = first.into_iter().chain(second);
             let list: Vec<(Candidate, f64)> = all.map(|f| (f.candidate, f.score)).collect();
@@ -304,7 +304,7 @@ fn refinement_never_makes_a_candidate_worse() {
         let mut search = Search::new(space, rollouts.situation(), SETTINGS);
         let mut found = Vec::new();
         while search.can_deepen() {
-            found = search.deepen(&mut rollouts, &Unwatched);
+            found = search.deepen(&mut rollouts, &NoProgress);
         }
         let candidates: Vec<Candidate> =
             found.iter().take(6).map(|f| f.candidate.clone()).collect();
@@ -319,7 +319,7 @@ fn refinement_never_makes_a_candidate_worse() {
         };
         let mut statistics = RefineStatistics::default();
         let refined =
-            refine(&space, &mut rollouts, &candidates, settings, &mut statistics, &Unwatched);
+            refine(&space, &mut rollouts, &candidates, settings, &mut statistics, &NoProgress);
         assert!(!refined.is_empty(), "{goal:?}");
         for one in &refined {
             assert!(one.off[1] <= one.off[0]);

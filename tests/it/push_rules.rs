@@ -7,7 +7,7 @@ use pushplan::geometry::{Pose, Vector};
 use pushplan::outcome::{LeverFault, PushFault, Warning};
 use pushplan::scene::{Obstacle, Scene, Tool};
 use pushplan::task::{LeverUp, Place, Plan, Push, PushForm, PushStep, Step, Task};
-use pushplan::verify::broken_rules;
+use pushplan::verify::rule_violations;
 
 /// Plate that may be pushed and levered.
 const TASK: &str = "
@@ -69,7 +69,7 @@ fn lever() -> LeverUp {
 fn broken(task: &Task, steps: Vec<PushStep>) -> Vec<Warning> {
     let pushing = Plan { steps: steps.into_iter().map(Step::Push).collect() };
     let levering = pushing.clone().then(Plan::levering("screwdriver", lever()));
-    let broken = |task: &Task, plan: &Plan| broken_rules(task, &task.scene, &tools(), plan);
+    let broken = |task: &Task, plan: &Plan| rule_violations(task, &task.scene, &tools(), plan);
     let alone = broken(&push_task(task), &pushing);
     let changes = |one: &Warning| matches!(one, Warning::TooManyToolChanges { .. });
     if !alone.iter().any(changes) {
@@ -123,7 +123,7 @@ fn pushes_in_a_row_and_changes_of_the_tool_are_counted() {
     // A change from the tool to a blade also counts as a tool change.
     let push = |step: PushStep| Plan { steps: vec![Step::Push(step)] };
     let plan = push(pushes().remove(0)).then(Plan::levering("screwdriver", lever()));
-    let found = broken_rules(&task, &task.scene, &tools(), &plan);
+    let found = rule_violations(&task, &task.scene, &tools(), &plan);
     assert_eq!(found, [Warning::TooManyToolChanges { changes: 1, allowed: 0 }]);
 }
 
@@ -159,7 +159,7 @@ fn pushes_that_follow_a_lever_up_are_numbered_by_their_step() {
     let mut step = pushes().remove(0);
     step.push.speed = 5.0;
     let plan = Plan::levering("screwdriver", lever()).then(Plan { steps: vec![Step::Push(step)] });
-    let found = broken_rules(&task, &task.scene, &tools(), &plan);
+    let found = rule_violations(&task, &task.scene, &tools(), &plan);
     assert_eq!(found, [Warning::ForbiddenPush { push: 1, fault: PushFault::Speed(5.0) }]);
 }
 
@@ -172,8 +172,8 @@ fn a_lever_up_that_the_scene_does_not_have_is_refused_as_such() {
         let fault = LeverFault::ForbiddenLever { what: what.to_owned() };
         [Warning::CannotLever { step: 0, fault }]
     };
-    let found = broken_rules(&task, scene, &tools(), &plan(LeverUp { plate: 9, ..lever() }));
+    let found = rule_violations(&task, scene, &tools(), &plan(LeverUp { plate: 9, ..lever() }));
     assert_eq!(found, what("object"));
     let fast = LeverUp { speed: 1.0, ..lever() };
-    assert_eq!(broken_rules(&task, scene, &tools(), &plan(fast)), what("speed"));
+    assert_eq!(rule_violations(&task, scene, &tools(), &plan(fast)), what("speed"));
 }

@@ -2,9 +2,9 @@
 //! recordings, and the pushes identify the support.
 
 use pushplan::effect::{EffectModel, Prior, Simulated};
+use pushplan::progress::NoProgress;
 use pushplan::scene::Support;
 use pushplan::sim::Simulator;
-use pushplan::watch::Unwatched;
 use pushplan_act::fit::{FitSettings, fit};
 use pushplan_act::judge::Trial;
 
@@ -23,8 +23,12 @@ fn told_its_true_support_a_model_is_near_and_told_another_it_is_not_nearer() {
             assert!(mean < 2.0e-3 && median < 1.5e-3, "{} {name}: {mean} {median}", model.spec());
             // The true support of a flat plate is unknown.
             for other in supports.iter().filter(|other| *name != "flat" && *other != truth) {
-                let told = errors(&*model, pushes, other).0;
-                assert!(mean < 1.05 * told, "{} {name}: {mean}, {other:?}: {told}", model.spec());
+                let identified = errors(&*model, pushes, other).0;
+                assert!(
+                    mean < 1.05 * identified,
+                    "{} {name}: {mean}, {other:?}: {identified}",
+                    model.spec()
+                );
             }
         }
     }
@@ -36,10 +40,10 @@ fn told_its_true_support_a_model_is_near_and_told_another_it_is_not_nearer() {
 fn ten_pushes_tell_where_the_plate_stands() {
     for (name, spread) in [("inner", 0.4), ("outer", 0.8)] {
         let trials: Vec<Trial> = pushes(name).iter().map(Trial::of_recording).collect();
-        let found = fit(&Prior::default(), &trials, &FitSettings::default(), &Unwatched);
+        let found = fit(&Prior::default(), &trials, &FitSettings::default(), &NoProgress);
         let found = found.expect("the plate moves");
         let off = (found.spread.mean - spread).abs();
-        assert!(found.spread.told && off < 0.08, "{name}: {:?}", found.spread);
+        assert!(found.spread.identified && off < 0.08, "{name}: {:?}", found.spread);
         assert!(found.best.mean < found.even.mean, "{name}: {:?} {:?}", found.best, found.even);
     }
 }

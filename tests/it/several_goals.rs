@@ -81,7 +81,7 @@ fn what_makes_no_sense_in_a_list_is_a_fault_with_its_place() {
     });
     assert!(none.contains("goals"), "{none}");
     let far = Task::parse(TWO, "two.yaml").unwrap();
-    assert!(far.aiming(&[Goal::new(0, [0.1, 0.1], 0.01)]).goals[1] == far.goals[1]);
+    assert!(far.with_goals(&[Goal::new(0, [0.1, 0.1], 0.01)]).goals[1] == far.goals[1]);
 }
 
 /// Can that can be pushed to its goal, and a block that no tool reaches.
@@ -104,7 +104,7 @@ fn where_not_all_goals_can_be_met_the_plan_is_partial_and_never_solved() {
     let partial = solution.partial.as_ref().expect("says which");
     assert_eq!(partial.met, [1]);
     let verdict = solution.plans[0].verdict.as_ref().expect("replayed");
-    assert!(!verdict.passed && !verdict.works());
+    assert!(!verdict.passed && !verdict.nominal_ok());
     // The reported goals are met in both engines.
     for evidence in &verdict.evidence {
         assert!(!evidence.outcome.reached && evidence.outcome.goals[1].error < 0.02);

@@ -104,8 +104,8 @@ pub fn slurm_submits_what_is_missing(command: &str, records: &str) {
         (output.status.code(), String::from_utf8_lossy(&output.stdout).into_owned())
     };
     let asked = format!("3 runs/all {} {command}", name());
-    let (code, told) = submit(&asked);
-    assert_eq!((code, &*told), (Some(0), "array 7: shards 1-3\njob 7: merge into runs/all\n"));
+    let (code, text) = submit(&asked);
+    assert_eq!((code, &*text), (Some(0), "array 7: shards 1-3\njob 7: merge into runs/all\n"));
     let (whole, merged) = (home.path().join("whole"), home.path().join("runs/all"));
     done(&on(command, &whole, None));
     let same = || {

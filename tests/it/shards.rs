@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use pushplan::watch::Unwatched;
+use pushplan::progress::NoProgress;
 use pushplan_bench::store::FolderLock;
 use tempfile::TempDir;
 
@@ -28,7 +28,7 @@ fn of_task_files() {
 #[test]
 fn two_commands_never_write_to_one_folder() {
     let folder = TempDir::new().expect("a folder");
-    let lock = FolderLock::take(folder.path(), &Unwatched).expect("a free folder");
+    let lock = FolderLock::take(folder.path(), &NoProgress).expect("a free folder");
     let dir = folder.path().to_str().expect("UTF-8");
     let bench =
         || run(&["bench", "tasks", "tasks/too-far.yaml", "--effort", "draft", "--out", dir]);

@@ -7,9 +7,9 @@ use std::sync::{Arc, Mutex};
 use pushplan::asset::{ToolLibrary, load_task};
 use pushplan::effect::{EffectModel, Job, Quantiles, Simulated, Trust};
 use pushplan::geometry::Vector;
+use pushplan::progress::Progress;
 use pushplan::sim::Simulator;
 use pushplan::solve::{Effort, PlanStatus, Planner, Settings, Solution};
-use pushplan::watch::Watch;
 use pushplan::{
     outcome::{Frame, Record, Trajectory},
     scene::{Engine, Joint, JointKind, ModelKind, ModelSpec, Models, Scene, Situation},
@@ -237,15 +237,15 @@ fn tasks_made_in_code_are_refused_when_they_make_no_sense() {
         assert!(planner().solve(&task, &library).is_err(), "fault {k}");
     }
     assert!(planner().solve(&task, &ToolLibrary::default()).is_err());
-    let told = Told::default();
-    assert!(planner().solve_with(&task, &library, &told).is_ok());
-    let stages = told.stages.into_inner().unwrap();
+    let recorder = Recorder::default();
+    assert!(planner().solve_with(&task, &library, &recorder).is_ok());
+    let stages = recorder.stages.into_inner().unwrap();
     for stage in ["search", "refine", "verify"] {
         assert!(stages.contains(&format!("push: {stage}, plans of 1 push")), "{stages:?}");
     }
     // Reports on the best plan so far: each contains more information, and nothing is reported
     // twice.
-    let answers = told.answers.into_inner().unwrap();
+    let answers = recorder.answers.into_inner().unwrap();
     let known: Vec<&str> = answers.iter().map(|one| one.split_once(": ").unwrap().1).collect();
     let all =
         ["a first look says that it reaches the goal", "predicted to reach the goal", "passes"];
@@ -255,12 +255,12 @@ fn tasks_made_in_code_are_refused_when_they_make_no_sense() {
 
 /// Recorder of a planner's progress reports.
 #[derive(Default)]
-struct Told {
+struct Recorder {
     stages: Mutex<Vec<String>>,
     answers: Mutex<Vec<String>>,
 }
 
-impl Watch for Told {
+impl Progress for Recorder {
     fn stage(&self, what: &str) {
         self.stages.lock().unwrap().push(what.to_owned());
     }
@@ -269,7 +269,7 @@ impl Watch for Told {
         self.answers.lock().unwrap().push(answer.to_owned());
     }
 
-    fn progress(&self, done: u64, total: u64) {
+    fn update(&self, done: u64, total: u64) {
         assert!(done <= total, "{done} of {total}");
     }
 }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use pushplan::effect::{EffectModel, EffectModels, Job, ModelError, Network, Prior};
 use pushplan::geometry::{Pose, Shape, Vector};
 use pushplan::network::Head;
-use pushplan::watch::Unwatched;
+use pushplan::progress::NoProgress;
 use pushplan::{
     outcome::Record,
     scene::{Object, Part, Scene, Support, Surface, TableFit, Tool},
@@ -56,10 +56,10 @@ fn change(half: usize) -> Head {
 
 fn learnt(network: &Network, trials: &[Trial]) -> TableFit {
     let settings = FitSettings { values: 5, ..FitSettings::default() };
-    let found = fit(&Prior::default(), trials, &settings, &Unwatched).expect("something moves");
+    let found = fit(&Prior::default(), trials, &settings, &NoProgress).expect("something moves");
     // The true support and friction are given.
     let found = pushplan_act::fit::Fit {
-        friction: pushplan_act::fit::Estimate { told: false, ..found.friction },
+        friction: pushplan_act::fit::Estimate { identified: false, ..found.friction },
         stated: pushplan_act::fit::AsStated { likelier: true, ..found.stated },
         ..found
     };
@@ -95,7 +95,7 @@ fn ends_follow_a_small_change_of_the_last_layer_as_they_are_said_to() {
     // millimetre, which is the whole effect of a change a tenth as large.
     const SHARE: f64 = 0.4;
     for trial in pushes(&network, 12) {
-        let said = pushplan_act::fit::Sensitivity::of(&network, &trial.scene, &trial.job());
+        let sensitivity = pushplan_act::fit::Sensitivity::of(&network, &trial.scene, &trial.job());
         let end = |share: f64| {
             let model = network.clone().adapted(&change.scaled(share));
             model.rollout(&trial.scene, &[trial.job()], Record::Outcome)[0].outcome().poses[0]
@@ -103,11 +103,11 @@ fn ends_follow_a_small_change_of_the_last_layer_as_they_are_said_to() {
         let (plus, minus) = (end(SHARE), end(-SHARE));
         let moved = (plus.position - minus.position) / (2.0 * SHARE);
         let follows = |k: usize| -> f64 {
-            said.rows[k].iter().zip(change.values()).map(|(a, b)| a * b).sum()
+            sensitivity.rows[k].iter().zip(change.values()).map(|(a, b)| a * b).sum()
         };
-        let said = Vector::new(follows(0), follows(1));
-        let apart = (said - moved).norm();
-        assert!(apart < 0.1 * moved.norm(), "{said:?} is said, {moved:?} m are moved");
+        let predicted = Vector::new(follows(0), follows(1));
+        let apart = (predicted - moved).norm();
+        assert!(apart < 0.1 * moved.norm(), "{predicted:?} is predicted, {moved:?} m are moved");
     }
 }
 

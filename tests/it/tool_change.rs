@@ -62,7 +62,7 @@ fn what_no_single_tool_does_two_do() {
     // Without tool changes, one of the goals is not met, and this plan breaks a rule.
     let (strict, alone) = solve(&TWO.replace("max_count: 2", "max_count: 2, tool_changes: 0"));
     assert_eq!(alone.status, PlanStatus::Partial);
-    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
     let situation = Situation::stated(&strict.scene);
     let verdict = verifier.nominal(&strict, &situation, &best.tools, &best.plan);
     assert_eq!(verdict.forbidden, [Warning::TooManyToolChanges { changes: 1, allowed: 0 }]);

@@ -6,7 +6,7 @@ use pushplan::asset::PlanFile;
 use pushplan::geometry::{Pose, Vector};
 use pushplan::verify::{Verifier, VerifySettings};
 use pushplan::{
-    outcome::{Disturbance, Evidence, Reason, Verdict, Warning},
+    outcome::{Evidence, Perturbation, Reason, Verdict, Warning},
     scene::{Engine, Obstacle, Part, Physics, Situation, Support, TableTop, Tool},
     task::{Plan, Push, PushForm, Task, ToolChoice},
 };
@@ -49,7 +49,7 @@ fn task() -> Task {
 
 #[test]
 fn a_plan_that_works_passes_with_evidence_from_both_engines() {
-    let verifier = Verifier::new(VerifySettings { disturbed: 3, seed: 1 });
+    let verifier = Verifier::new(VerifySettings { replays: 3, seed: 1 });
     // The face's front is 0.22 ahead of the grip: from 0.235 it travels 5 mm to the can.
     let good = plan(vec![push([0.235, 0.0], 0.0, 0.155)]);
     let verdict = verifier.verify(&task(), &Situation::stated(&task().scene), &[paddle()], &good);
@@ -57,7 +57,7 @@ fn a_plan_that_works_passes_with_evidence_from_both_engines() {
     assert_eq!(verdict.evidence.len(), 2 + 2 * 3);
     assert_eq!(verdict.evidence[0].engine, Engine::Planar);
     assert_eq!(verdict.evidence[1].engine, Engine::Spatial);
-    assert!(verdict.evidence[..2].iter().all(|e| e.disturbance == Disturbance::Nominal));
+    assert!(verdict.evidence[..2].iter().all(|e| e.perturbation == Perturbation::Nominal));
     assert!(verdict.evidence[..2].iter().all(|e| e.outcome.error() < 5e-3));
     assert_eq!(verdict.robustness, Some(1.0));
     // Draws differ, and equal seeds give equal draws.
@@ -67,7 +67,7 @@ fn a_plan_that_works_passes_with_evidence_from_both_engines() {
         verdict,
         verifier.verify(&task(), &Situation::stated(&task().scene), &[paddle()], &good)
     );
-    let other = Verifier::new(VerifySettings { disturbed: 3, seed: 2 });
+    let other = Verifier::new(VerifySettings { replays: 3, seed: 2 });
     assert_ne!(
         verdict,
         other.verify(&task(), &Situation::stated(&task().scene), &[paddle()], &good)
@@ -76,7 +76,7 @@ fn a_plan_that_works_passes_with_evidence_from_both_engines() {
 
 #[test]
 fn a_plan_that_stops_short_fails() {
-    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
     let short = plan(vec![push([0.235, 0.0], 0.0, 0.05)]);
     let verdict = verifier.verify(&task(), &Situation::stated(&task().scene), &[paddle()], &short);
     assert!(!verdict.passed && verdict.robustness.is_none());
@@ -85,7 +85,7 @@ fn a_plan_that_stops_short_fails() {
 
 #[test]
 fn a_tool_set_down_on_an_object_is_no_pass() {
-    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
     // The second push ignores that the first has moved the can to 0.65.
     let blind = plan(vec![push([0.235, 0.0], 0.0, 0.155), push([0.42, 0.0], 0.0, 0.01)]);
     let verdict = verifier.verify(&task(), &Situation::stated(&task().scene), &[paddle()], &blind);
@@ -98,7 +98,7 @@ fn a_tool_set_down_on_an_object_is_no_pass() {
 
 #[test]
 fn a_toppled_object_is_no_pass() {
-    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
     let mut task = task();
     // A tall thin bottle, pushed fast and at a large height.
     let text = TASK.replace("radius: 0.04, height: 0.10", "radius: 0.015, height: 0.30");
@@ -113,7 +113,7 @@ fn a_toppled_object_is_no_pass() {
 
 #[test]
 fn a_can_does_not_pass_through_a_gap_narrower_than_itself() {
-    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
     let mut task = task();
     // The can is 8 cm wide, the gap before its goal 7.5 cm.
     for (name, side) in [("left", 1.0), ("right", -1.0)] {
@@ -142,7 +142,7 @@ fn a_can_does_not_pass_through_a_gap_narrower_than_itself() {
 
 #[test]
 fn what_the_task_does_not_allow_is_said_of_any_plan() {
-    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
     let mut task = task();
     task.tools = ToolChoice::Named(vec!["stick".into()]);
     task.robot.reach_max = 0.3;
@@ -151,17 +151,17 @@ fn what_the_task_does_not_allow_is_said_of_any_plan() {
     let askew = [push([0.235, 0.0], 0.0, 0.155)];
     let askew = Plan::pushing("paddle", 0.3, PushForm::Placed, 0.002, askew);
     let verdict = verifier.verify(&task, &Situation::stated(&task.scene), &[paddle()], &askew);
-    let says = |wanted: fn(&Warning) -> bool| verdict.forbidden.iter().any(wanted);
-    assert!(says(|w| matches!(w, Warning::ForbiddenTool { .. })));
-    assert!(says(|w| matches!(w, Warning::ForbiddenYaw { .. })));
-    assert!(says(|w| matches!(w, Warning::OutOfReach { push: 0 })));
-    assert!(says(|w| matches!(w, Warning::ThroughObstacle { push: 0, .. })));
+    let forbids = |wanted: fn(&Warning) -> bool| verdict.forbidden.iter().any(wanted);
+    assert!(forbids(|w| matches!(w, Warning::ForbiddenTool { .. })));
+    assert!(forbids(|w| matches!(w, Warning::ForbiddenYaw { .. })));
+    assert!(forbids(|w| matches!(w, Warning::OutOfReach { push: 0 })));
+    assert!(forbids(|w| matches!(w, Warning::ThroughObstacle { push: 0, .. })));
     assert!(matches!(verdict.reason, Some(Reason::Forbidden(_))) && !verdict.passed);
 }
 
 #[test]
 fn a_safe_is_not_moved_by_an_arm_that_has_a_limit() {
-    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
     let text = TASK.replace("mass: 0.4", "mass: 200");
     let mut task = Task::parse(&text, "safe.yaml").unwrap();
     assert_eq!(task.scene.objects[0].mass, 200.0);
@@ -178,7 +178,7 @@ fn a_safe_is_not_moved_by_an_arm_that_has_a_limit() {
 /// other objects on it do not count as the tool's.
 #[test]
 fn what_is_fragile_is_pressed_no_harder_than_it_may() {
-    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
     let handle = "parts: [{name: handle, shape: {cuboid: {size: [0.02, 0.01, 0.1]}}, position: [-0.045, 0]}], mass";
     let weight = 0.45 * 0.4 * 9.81;
     let moved = plan(vec![push([0.21, 0.0], 0.0, 0.155)]);
@@ -200,8 +200,8 @@ fn what_is_fragile_is_pressed_no_harder_than_it_may() {
             assert_eq!((object.as_deref(), *limit), (Some("can"), 0.5 * weight));
             assert!((0.5..2.0).contains(&(needed / weight)), "{needed} N of {weight} N");
         }
-        let said = harmed.reason.map(|reason| format!("{reason:?}")).unwrap_or_default();
-        assert!(said.contains("TooMuchForce") && said.contains("can"), "{said}");
+        let reason = harmed.reason.map(|reason| format!("{reason:?}")).unwrap_or_default();
+        assert!(reason.contains("TooMuchForce") && reason.contains("can"), "{reason}");
     }
     let ahead = "{name: box, shape: {cuboid: {size: [0.04, 0.08, 0.08]}}, mass: 0.3, friction: 0.4, position: [0.42, 0]}";
     let behind = TASK
@@ -217,7 +217,7 @@ fn what_is_fragile_is_pressed_no_harder_than_it_may() {
 
 #[test]
 fn an_object_pushed_beyond_the_table_falls() {
-    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
     let mut task = task();
     task.scene.table_top = Some(TableTop { size: [1.2, 1.0], middle: Vector::zeros() });
     let off = plan(vec![push([0.235, 0.0], 0.0, 0.155)]);
@@ -231,12 +231,12 @@ fn replays_go_on_until_the_answer_is_clear_and_no_longer() {
     let counted = |aside: f64, most: usize| {
         let text = TASK.replace("[0.65, 0.0]", &format!("[0.65, {aside}]"));
         let task = Task::parse(&text, "ahead.yaml").unwrap();
-        let verifier = Verifier::new(VerifySettings { disturbed: 4, seed: 1 }).until_clear();
+        let verifier = Verifier::new(VerifySettings { replays: 4, seed: 1 }).until_clear();
         let plan = plan(vec![push([0.235, 0.0], 0.0, 0.155)]);
         let verdict = verifier.verify(&task, &Situation::stated(&task.scene), &[paddle()], &plan);
         let draws = |engine| {
-            let disturbed = verdict.disturbed(engine).map(|one| one.disturbance);
-            disturbed.collect::<Vec<_>>()
+            let perturbed = verdict.perturbed(engine).map(|one| one.perturbation);
+            perturbed.collect::<Vec<_>>()
         };
         let [planar, spatial] = [Engine::Planar, Engine::Spatial].map(draws);
         // Both engines use the same draws, up to the smaller number.
@@ -257,7 +257,7 @@ fn replays_go_on_until_the_answer_is_clear_and_no_longer() {
 fn what_fails_in_the_plane_is_not_asked_in_3d() {
     let good = plan(vec![push([0.235, 0.0], 0.0, 0.155)]);
     let verify = |task: &Task| {
-        let verifier = Verifier::new(VerifySettings { disturbed: 8, seed: 1 }).until_clear();
+        let verifier = Verifier::new(VerifySettings { replays: 8, seed: 1 }).until_clear();
         verifier.verify(task, &Situation::stated(&task.scene), &[paddle()], &good)
     };
     // The tolerance is the smallest that both engines reach unperturbed, and few perturbed replays
@@ -273,18 +273,18 @@ fn what_fails_in_the_plane_is_not_asked_in_3d() {
     let verdict = verify(&narrow);
     let planar = matches!(verdict.reason, Some(Reason::Fragile { engine: Engine::Planar, .. }));
     assert!(planar, "{:?}", verdict.reason);
-    assert_eq!(verdict.disturbed(Engine::Spatial).count(), 0);
+    assert_eq!(verdict.perturbed(Engine::Spatial).count(), 0);
 }
 
 #[test]
 fn a_support_on_which_a_plan_never_works_makes_it_fragile_by_name() {
-    let verifier = Verifier::new(VerifySettings { disturbed: 16, seed: 1 });
+    let verifier = Verifier::new(VerifySettings { replays: 16, seed: 1 });
     let good = plan(vec![push([0.235, 0.0], 0.0, 0.155)]);
     let verdict = verifier.verify(&task(), &Situation::stated(&task().scene), &[paddle()], &good);
     let fails = |replays: usize| {
         let mut left = replays;
         let failing = |mut evidence: Evidence| {
-            if let Disturbance::Disturbed { draw } = evidence.disturbance
+            if let Perturbation::Perturbed { draw } = evidence.perturbation
                 && Physics::doubted(draw - 1) == Some(&Support::Corners)
                 && evidence.engine == Engine::Spatial
                 && left > 0
@@ -302,7 +302,7 @@ fn a_support_on_which_a_plan_never_works_makes_it_fragile_by_name() {
     assert_eq!(never.robustness, Some(0.75));
     let (engine, support) = (Engine::Spatial, Support::Corners);
     assert_eq!(never.reason, Some(Reason::NeverOn { engine, support, replays: 4 }));
-    assert!(never.works() && !never.passed);
+    assert!(never.nominal_ok() && !never.passed);
     assert!(fails(3).passed);
     // The file keeps the reason.
     let file = PlanFile {

@@ -5,7 +5,7 @@ import init, * as library from './library.js';
 export { library };
 
 // Called by the library, here and in workers.
-globalThis.pushplanTold = () => {};
+globalThis.pushplanProgress = () => {};
 globalThis.pushplanSoFar = () => {};
 globalThis.pushplanFailed = (message) => console.error(message);
 

@@ -64,7 +64,7 @@ async function main() {
     if (whole) planner.cancel(whole);
     const own = wish({ effort: byId('effort').value, whole: true });
     whole = own;
-    own.told = ({ stage, done, total, soFar }) => {
+    own.progress = ({ stage, done, total, soFar }) => {
       const count = total > 0 ? `, ${done} of ${total}` : '';
       byId('stage-of-work').textContent = stage + count + (soFar ? ` (so far ${soFar})` : '');
       const bar = byId('progress');

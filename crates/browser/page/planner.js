@@ -11,7 +11,7 @@ export class Planner {
   }
 
   /**
-   * Plans for the request `wish`. Its callbacks are `told({stage, done, total, soFar})` for progress, and
+   * Plans for the request `wish`. Its callbacks are `progress({stage, done, total, soFar})` for progress, and
    * once `done({answer})` or `done({broken})`.
    */
   plan(wish) {
@@ -61,7 +61,7 @@ export class Planner {
     const { wish } = own;
     if (data.ready || !this.#workers.includes(own)) return;
     if ('stage' in data) {
-      wish?.told?.(data);
+      wish?.progress?.(data);
       return;
     }
     own.wish = null;

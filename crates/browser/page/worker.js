@@ -2,15 +2,15 @@
 
 import init, { solve } from './library.js';
 
-let told = 0;
+let reported = 0;
 let stage = '';
 let soFar = '';
-globalThis.pushplanTold = (what, done, total) => {
+globalThis.pushplanProgress = (what, done, total) => {
   stage = what || stage;
   // The page shows at most 20 updates per second.
   const now = performance.now();
-  if (!what && now - told < 50) return;
-  told = now;
+  if (!what && now - reported < 50) return;
+  reported = now;
   postMessage({ stage, done, total, soFar });
 };
 globalThis.pushplanSoFar = (plan) => { soFar = plan; };

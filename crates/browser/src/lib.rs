@@ -4,7 +4,7 @@
 //! passes them on. Drawing and dragging is implemented in `page`.
 
 mod edit;
-mod follow;
+mod progress;
 mod solve;
 mod table;
 
@@ -19,7 +19,7 @@ pub use table::{bare, edit, example, examples, look, tools};
 /// Installs a panic hook that reports the message of a panic; runs once, before anything else.
 #[wasm_bindgen(start)]
 pub fn start() {
-    std::panic::set_hook(Box::new(|panic| follow::failed(&panic.to_string())));
+    std::panic::set_hook(Box::new(|panic| progress::failed(&panic.to_string())));
 }
 
 /// Returns the shipped tools.

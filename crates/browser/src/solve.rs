@@ -6,8 +6,8 @@ use pushplan_report::{Origin, PageView, TaskSource, solution_document, solution_
 use serde_json::json;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-use crate::follow::Following;
 use crate::library;
+use crate::progress::WorkerProgress;
 
 /// A task and its solution.
 #[wasm_bindgen]
@@ -29,7 +29,7 @@ pub fn solve(text: &str, file: &str, example: &str, effort: &str) -> Result<Solv
     let effort = effort.ok_or("an effort is draft, standard or thorough")?;
     let planner = Planner::for_effort(effort).map_err(|error| error.to_string())?.build();
     let solution =
-        planner.solve_with(&task, library, &Following).map_err(|error| error.to_string())?;
+        planner.solve_with(&task, library, &WorkerProgress).map_err(|error| error.to_string())?;
     let source = match example {
         "" => TaskSource::File(file.to_owned()),
         name => TaskSource::Example(name.to_owned()),

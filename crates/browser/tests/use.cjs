@@ -120,15 +120,15 @@ async function usedAsPeopleDo(browser, address) {
     const took = await page.evaluate(() => new Promise((resolve) => {
       const since = performance.now();
       const answer = document.getElementById('answer');
-      const told = new MutationObserver(() => {
+      const observer = new MutationObserver(() => {
         if (!/draft, /.test(answer.textContent) || answer.classList.contains('old')) return;
-        told.disconnect();
+        observer.disconnect();
         resolve(performance.now() - since);
       });
       answer.textContent = '';
-      told.observe(answer, { childList: true, attributes: true });
+      observer.observe(answer, { childList: true, attributes: true });
       document.activeElement.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowDown', bubbles: true }));
-      setTimeout(() => { told.disconnect(); resolve(Infinity); }, 20000);
+      setTimeout(() => { observer.disconnect(); resolve(Infinity); }, 20000);
     }));
     latencies.push([name, took]);
   }

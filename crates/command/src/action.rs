@@ -116,7 +116,7 @@ impl ActionArgs {
         let asked = session
             .compute(|| manual_plan(task, &situation, tool, &yaws, &self.pushes))
             .map_err(|error| refused(&error, task))?;
-        for (push, rule) in &asked.broken {
+        for (push, rule) in &asked.violations {
             session.warn(&format!("push {}: {rule}; a plan would not contain it", push + 1));
         }
         Ok((asked.plan, Arc::clone(tool)))
@@ -142,12 +142,12 @@ impl ActionArgs {
             }
             None => task.blades(library)?.remove(0),
         };
-        let (plan, broken) = manual_lever(task, &tool, lever).map_err(|error| {
+        let (plan, violation) = manual_lever(task, &tool, lever).map_err(|error| {
             let advice = "edge 0 runs from the first corner to the second, counter-clockwise; of a \
                           cuboid it is that at the smallest y";
             CliError::usage(error.to_string(), advice)
         })?;
-        if let Some(rule) = &broken {
+        if let Some(rule) = &violation {
             session.warn(&format!("{rule}; a plan would not contain it"));
         }
         Ok((plan, tool))

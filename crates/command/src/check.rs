@@ -13,7 +13,7 @@ use pushplan::solve::{Effort, Planner};
 use pushplan_act::act::{ActError, Trace};
 
 use super::{
-    action::LibraryArgs, error::CliError, exit_code, follow::Following, session::Session,
+    action::LibraryArgs, error::CliError, exit_code, progress::TerminalProgress, session::Session,
     solve::solve_error,
 };
 
@@ -92,7 +92,7 @@ fn why(file: &Path, library: &ToolLibrary, session: &Session) -> Result<u8, CliE
         return Ok(exit_code::DONE);
     }
     let planner = Planner::for_effort(Effort::default())?.build();
-    let following = Following::spinner(session, "looking for a plan");
+    let following = TerminalProgress::spinner(session, "looking for a plan");
     let found = session.compute(|| planner.why(&task, library, &following));
     following.finish()?;
     match found.map_err(solve_error)? {

@@ -12,13 +12,13 @@ use pushplan_report::{Origin, design_document};
 use super::{
     error::CliError,
     exit_code,
-    follow::Following,
     form::Form,
     output::{self, ResultArgs},
+    progress::TerminalProgress,
     session::Session,
     solve::{Results, ending, share, solve_error},
     task_argument::TaskArgs,
-    words::{EFFORTS, words},
+    value_enums::{EFFORTS, possible_values},
 };
 
 /// Folder of proposed tools, within the folder of results.
@@ -51,7 +51,7 @@ pub struct DesignArgs {
     #[arg(long, hide = true)]
     random: bool,
     /// How hard to try with each of the best tools
-    #[arg(long, value_parser = words(&EFFORTS), default_value = "standard")]
+    #[arg(long, value_parser = possible_values(&EFFORTS), default_value = "standard")]
     effort: Effort,
     /// Seed of the tools, of refinement's samples and of the disturbed replays
     #[arg(long, value_name = "N", default_value_t = 0)]
@@ -82,7 +82,7 @@ pub fn run(args: &DesignArgs, session: &Session) -> Result<u8, CliError> {
     let settings = DesignSettings::looking_at(args.candidates as usize);
     let settings = DesignSettings { parts: args.parts.into(), ..settings };
     let settings = if args.random { settings.at_random() } else { settings };
-    let following = Following::spinner(session, "designing");
+    let following = TerminalProgress::spinner(session, "designing");
     let designed = session
         .compute(|| pushplan_design::design(&planner, &task, &library, &settings, &following));
     following.finish()?;

@@ -28,7 +28,7 @@ pub enum CliError {
     File(String),
     /// Request outside the model's range, with the option to refuse it.
     #[error(
-        "{0}\n  help: `--outside simulate` simulates instead, `--outside warn` predicts all the same"
+        "{0}\n  help: `--out-of-range simulate` simulates instead, `--out-of-range warn` predicts all the same"
     )]
     Refused(String),
     /// Interruption by a signal.

@@ -13,7 +13,7 @@ pub const INVALID_FILE: u8 = 3;
 pub const NO_PLAN: u8 = 4;
 /// Plans that reach the goal by prediction, but fail verification.
 pub const FAILED_VERIFICATION: u8 = 5;
-/// Request outside the model's range, with `--outside refuse`.
+/// Request outside the model's range, with `--out-of-range refuse`.
 pub const REFUSED: u8 = 6;
 /// Best plan that works as written, but too seldom under perturbations.
 pub const FRAGILE: u8 = 7;
@@ -31,7 +31,7 @@ Exit codes:
     3  a file is missing or invalid
     4  no plan found
     5  plans were found but failed verification
-    6  outside of what the model was trained on, and `--outside refuse` was given
+    6  outside of what the model was trained on, and `--out-of-range refuse` was given
     7  the plan works, but too seldom under small errors of starts and frictions
     8  the plan meets some of several goals only
   130  interrupted; finished work is saved";

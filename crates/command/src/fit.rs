@@ -12,7 +12,7 @@ use pushplan_act::judge::Trial;
 use pushplan_report::{fit_document, table_fit_section};
 
 use super::{
-    error::CliError, exit_code, follow::Following, form::Form, model, output,
+    error::CliError, exit_code, form::Form, model, output, progress::TerminalProgress,
     recordings::load_recordings, session::Session,
 };
 
@@ -74,7 +74,7 @@ pub fn run(args: &FitArgs, session: &Session) -> Result<u8, CliError> {
         recordings.iter().map(|recording| Trial::of_recording(recording)).collect();
     let law = if args.gaussian { NoiseLaw::Gaussian } else { NoiseLaw::Student };
     let settings = FitSettings { law, noise: args.noise, ..FitSettings::default() };
-    let following = Following::bar(session, "fitting");
+    let following = TerminalProgress::bar(session, "fitting");
     let found = session.compute(|| fit(&model, &trials, &settings, &following));
     following.finish()?;
     let Some(found) = found else {

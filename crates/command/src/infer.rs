@@ -4,24 +4,24 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use pushplan::progress::Count;
 use pushplan::recording::Recording;
 use pushplan::scene::{ModelSpec, Span};
-use pushplan::watch::Count;
 use pushplan_act::belief::{Belief, BeliefSettings};
 use pushplan_report::{PageView, Recipe, Setting, belief_document, recording_page};
 
 use super::{
     error::CliError,
     exit_code,
-    follow::Following,
     form::Form,
     model,
     noise::NoiseArgs,
     output,
+    progress::TerminalProgress,
     recordings::load_recordings,
     regulator::RegulatorArgs,
     session::Session,
-    words::{VIEWS, words},
+    value_enums::{VIEWS, possible_values},
 };
 
 /// Default model for the rollouts of hypotheses.
@@ -63,7 +63,7 @@ pub struct InferArgs {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// What the page shows
-    #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d")]
+    #[arg(long, value_parser = possible_values(&VIEWS), value_name = "VIEW", default_value = "2d")]
     page: PageView,
     #[command(flatten)]
     regulator: RegulatorArgs,
@@ -91,7 +91,7 @@ pub fn run(args: &InferArgs, session: &Session) -> Result<u8, CliError> {
         belief = belief.regulated(regulator);
     }
     let before = belief.probabilities();
-    let following = Following::bar(session, "inferring");
+    let following = TerminalProgress::bar(session, "inferring");
     let observations = recording.observations();
     let count = Count::new(&following, 0, observations.len());
     session.compute(|| {

@@ -5,14 +5,14 @@ use std::sync::Arc;
 
 use clap::Args;
 
-use pushplan::effect::{EffectModel, EffectModels, ModelError, Outside, Routed};
+use pushplan::effect::{EffectModel, EffectModels, Fallback, ModelError, OutOfRange};
 use pushplan::network::PredictorWeights;
 use pushplan::scene::{ModelSpec, OTHER_OBJECTS, Scene, TableFit};
 use pushplan_report::Setting;
 
 use super::error::CliError;
 use super::session::Session;
-use super::words::{OUTSIDE, words};
+use super::value_enums::{OUT_OF_RANGE, possible_values};
 
 macro_rules! help {
     ($end:literal) => {
@@ -48,7 +48,7 @@ pub const DEFAULT: &str = "network";
 ///
 /// # Errors
 /// Returns an error if a weights file is missing, damaged or not of pushplan.
-pub fn load(spec: &ModelSpec) -> Result<Routed, CliError> {
+pub fn load(spec: &ModelSpec) -> Result<Fallback, CliError> {
     Ok(EffectModels::build(spec)?)
 }
 
@@ -109,23 +109,23 @@ pub fn state(fit: &TableFit, scene: &mut Scene, session: &Session) {
 
 /// What to do where the model should not be trusted.
 #[derive(Args, Clone, Copy, Debug)]
-pub struct OutsideArgs {
+pub struct OutOfRangeArgs {
     /// What to do outside of a model's ranges, or where its own prediction shows that it went wrong
-    #[arg(long, value_parser = words(&OUTSIDE), value_name = "WHAT", default_value = "warn")]
-    outside: Outside,
+    #[arg(long, value_parser = possible_values(&OUT_OF_RANGE), value_name = "WHAT", default_value = "warn")]
+    out_of_range: OutOfRange,
 }
 
-impl OutsideArgs {
+impl OutOfRangeArgs {
     /// Returns the policy outside of a model's range.
-    pub fn outside(self) -> Outside {
-        self.outside
+    pub fn out_of_range(self) -> OutOfRange {
+        self.out_of_range
     }
 
     /// Adds the policy to the settings of a saved run, unless it is the default. Runs started
     /// before this option existed can therefore be resumed.
     pub fn note(self, settings: &mut serde_json::Value) {
-        if self.outside() != Outside::default() {
-            settings["outside"] = serde_json::json!(self.outside());
+        if self.out_of_range() != OutOfRange::default() {
+            settings["out_of_range"] = serde_json::json!(self.out_of_range());
         }
     }
 
@@ -146,6 +146,6 @@ impl OutsideArgs {
         spec: &ModelSpec,
         fit: Option<&TableFit>,
     ) -> Result<Arc<dyn EffectModel>, CliError> {
-        Ok(Arc::new(EffectModels::fitted(spec, fit)?.outside(self.outside())))
+        Ok(Arc::new(EffectModels::fitted(spec, fit)?.out_of_range(self.out_of_range())))
     }
 }

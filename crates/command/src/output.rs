@@ -9,7 +9,7 @@ use pushplan_report::{Figure, PageView};
 
 use super::action::LibraryArgs;
 use super::error::CliError;
-use super::words::{VIEWS, words};
+use super::value_enums::{VIEWS, possible_values};
 
 /// Default folder of the results.
 pub const FOLDER: &str = "plans";
@@ -21,7 +21,7 @@ pub struct ResultArgs {
     #[arg(long, value_name = "DIR", default_value = FOLDER)]
     pub out: PathBuf,
     /// What the page shows
-    #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d")]
+    #[arg(long, value_parser = possible_values(&VIEWS), value_name = "VIEW", default_value = "2d")]
     pub page: PageView,
     #[command(flatten)]
     pub library: LibraryArgs,

@@ -25,14 +25,14 @@ use super::{
     error::CliError,
     exit_code,
     form::Form,
-    model::{self, OutsideArgs},
+    model::{self, OutOfRangeArgs},
     output,
     poses::PosesArgs,
     push_argument::forms,
     recorded,
     session::Session,
     task_argument,
-    words::{VIEWS, words},
+    value_enums::{VIEWS, possible_values},
 };
 
 /// Predict what a motion does, or how well your recordings are predicted
@@ -55,7 +55,7 @@ pub struct PredictArgs {
     #[command(flatten)]
     pub table: model::TableArgs,
     #[command(flatten)]
-    pub outside: OutsideArgs,
+    pub out_of_range: OutOfRangeArgs,
     /// Only this model, without those that it is compared with
     #[arg(long)]
     pub alone: bool,
@@ -72,7 +72,7 @@ pub struct PredictArgs {
     #[arg(long, requires = "trajectories")]
     animate: bool,
     /// What the page shows
-    #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d", requires = "out")]
+    #[arg(long, value_parser = possible_values(&VIEWS), value_name = "VIEW", default_value = "2d", requires = "out")]
     page: PageView,
     /// For recordings, one table only, with a row for each folder
     #[arg(long)]
@@ -187,7 +187,7 @@ fn predict(args: &PredictArgs, asked: Asked, session: &Session) -> Result<u8, Cl
     }
     let (mut effects, mut trajectories) = (Vec::new(), Vec::new());
     for spec in specs {
-        let model = args.outside.fitted(&spec, fit.as_ref())?;
+        let model = args.out_of_range.fitted(&spec, fit.as_ref())?;
         effects.extend(session.compute(|| timed_effect(&*model, &task.scene, &job)));
         if args.poses.wanted() || args.out.is_some() {
             let jobs = std::slice::from_ref(&job);

@@ -11,10 +11,9 @@ use pushplan_report::{PoseRow, RECORDED, recorded_document, recordings_document}
 
 use super::{
     error::CliError,
-    exit_code,
-    follow::Following,
-    model, output,
+    exit_code, model, output,
     predict::PredictArgs,
+    progress::TerminalProgress,
     recordings::{RecordingSet, load_recordings},
     session::Session,
 };
@@ -28,7 +27,7 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     let mut sets = load_recordings(&args.files)?;
     let fit = args.table.load()?;
     if let Some(fit) = &fit {
-        tell(fit, &mut sets, session);
+        apply(fit, &mut sets, session);
     }
     let all: Vec<&Recording> = sets.iter().flat_map(|set| &set.recordings).collect();
     let models = models(args, &all, fit.as_ref())?;
@@ -46,7 +45,7 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     }
     let mut reports = Vec::new();
     for (title, range) in groups {
-        let following = Following::bar(session, &title);
+        let following = TerminalProgress::bar(session, &title);
         let (trials, names) = (&trials[range.clone()], names[range].to_vec());
         reports.push(session.compute(|| {
             let errors = TrialErrors::of(title, trials, &models, &following);
@@ -73,16 +72,16 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
 }
 
 /// Applies `fit` to all recordings; each kind of unfamiliar object is reported once.
-fn tell(fit: &TableFit, sets: &mut [RecordingSet], session: &Session) {
-    let mut told: Vec<String> = Vec::new();
+fn apply(fit: &TableFit, sets: &mut [RecordingSet], session: &Session) {
+    let mut reported: Vec<String> = Vec::new();
     for recording in sets.iter_mut().flat_map(|set| &mut set.recordings) {
         let strange: Vec<String> =
             fit.strange(&recording.scene).into_iter().map(str::to_owned).collect();
-        match told.contains(&strange.join(" ")) || strange.is_empty() {
+        match reported.contains(&strange.join(" ")) || strange.is_empty() {
             true => fit.state(&mut recording.scene),
             false => model::state(fit, &mut recording.scene, session),
         }
-        told.push(strange.join(" "));
+        reported.push(strange.join(" "));
     }
 }
 
@@ -94,13 +93,14 @@ fn models(
     fit: Option<&TableFit>,
 ) -> Result<Vec<Box<dyn EffectModel>>, CliError> {
     let asked = args.spec();
-    let mut models: Vec<Box<dyn EffectModel>> = vec![Box::new(args.outside.fitted(&asked, fit)?)];
+    let mut models: Vec<Box<dyn EffectModel>> =
+        vec![Box::new(args.out_of_range.fitted(&asked, fit)?)];
     if args.alone {
         return Ok(models);
     }
     if recordings.iter().any(|recording| !recording.scene.joints.is_empty()) {
         for spec in assumed(&asked) {
-            models.push(Box::new(args.outside.fitted(&spec, fit)?));
+            models.push(Box::new(args.out_of_range.fitted(&spec, fit)?));
         }
     }
     for spec in recorded_baselines(&asked) {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use pushplan::asset::{ToolLibrary, load_world};
-use pushplan::effect::{EffectModels, Outside};
+use pushplan::effect::{EffectModels, OutOfRange};
 use pushplan::solve::{Effort, Planner};
 use pushplan::{
     scene::Models,
@@ -20,16 +20,16 @@ use pushplan_report::{Recipe, Setting, run_document, run_page, table_fit_section
 use super::{
     error::CliError,
     exit_code,
-    follow::Following,
     form::Form,
     interrupt,
-    model::{self, OutsideArgs, TableArgs},
+    model::{self, OutOfRangeArgs, TableArgs},
     output::{self, ResultArgs},
+    progress::TerminalProgress,
     regulator::RegulatorArgs,
     session::Session,
     solve::{share, solve_error},
     task_argument::TaskArgs,
-    words::{EFFORTS, PROBES, words},
+    value_enums::{EFFORTS, PROBES, possible_values},
 };
 
 /// Carry out a task in a world that is only partly known: push, look, learn, plan again
@@ -48,7 +48,7 @@ was predicted, what happened, what was believed meanwhile. Pictures: <task>.run.
 
 Examples:
   pushplan run --example hidden-hinge --world 1
-  pushplan run my-task.yaml --world my-world.yaml --pushes 20 --out runs --resume"
+  pushplan run my-task.yaml --world my-world.yaml --max-pushes 20 --out runs --resume"
 )]
 pub struct RunArgs {
     #[command(flatten)]
@@ -57,7 +57,7 @@ pub struct RunArgs {
     #[arg(long, value_name = "FILE|SEED")]
     world: String,
     /// How hard to try with every plan
-    #[arg(long, value_parser = words(&EFFORTS), default_value = "draft")]
+    #[arg(long, value_parser = possible_values(&EFFORTS), default_value = "draft")]
     effort: Effort,
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
     model: Option<Models>,
@@ -70,25 +70,25 @@ pub struct RunArgs {
     #[command(flatten)]
     regulator: RegulatorArgs,
     #[command(flatten)]
-    outside: OutsideArgs,
+    out_of_range: OutOfRangeArgs,
     /// Most pushes before giving up
     #[arg(long, value_name = "N", default_value_t = 12,
           value_parser = clap::value_parser!(u16).range(1..=1000))]
-    pushes: u16,
+    max_pushes: u16,
     /// Samples of the belief under which plans are judged
     #[arg(long, value_name = "N", default_value_t = 16,
           value_parser = clap::value_parser!(u16).range(1..=1000))]
     samples: u16,
     /// Share of the samples in which a plan must reach the goal, 0 to 1
     #[arg(long, value_name = "SHARE", default_value_t = 0.8, value_parser = share)]
-    enough: f64,
+    min_success: f64,
     /// Most pushes that are made only to learn something
     #[arg(long, value_name = "N", default_value_t = 3,
           value_parser = clap::value_parser!(u16).range(0..=1000))]
-    probes: u16,
+    max_probes: u16,
     /// How these are chosen
-    #[arg(long, value_parser = words(&PROBES), value_name = "RULE", default_value = "task")]
-    rule: ProbeRule,
+    #[arg(long, value_parser = possible_values(&PROBES), value_name = "RULE", default_value = "task")]
+    probe_rule: ProbeRule,
     /// Seed of samples and plans
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
@@ -125,16 +125,16 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
     let planner = Planner::fitted(&models, fit.as_ref())?
         .effort(args.effort)
         .seed(args.seed)
-        .outside(args.outside.outside())
+        .out_of_range(args.out_of_range.out_of_range())
         .build();
     output::prepare(&args.results.out)?;
     let path = args.results.out.join(format!("{}.run.json", task.name));
     let settings = RunSettings {
-        pushes: args.pushes.into(),
+        max_pushes: args.max_pushes.into(),
         samples: args.samples.into(),
-        enough: args.enough,
-        probes: args.probes.into(),
-        rule: args.rule,
+        min_success: args.min_success,
+        max_probes: args.max_probes.into(),
+        probe_rule: args.probe_rule,
         noise: truth.noise,
         seed: args.seed,
         ..RunSettings::default()
@@ -144,8 +144,11 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
         return Err(CliError::usage(format!("{models} has no network that could learn"), advice));
     }
     let regulator = args.regulator.load()?;
-    let mut planned_by =
-        format!("{models}, effort {}, outside {}", args.effort, args.outside.outside());
+    let mut planned_by = format!(
+        "{models}, effort {}, out-of-range {}",
+        args.effort,
+        args.out_of_range.out_of_range()
+    );
     if let Some((_, digest)) = &regulator {
         planned_by += &format!(", regulator {digest}");
     }
@@ -157,7 +160,7 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
         runner = runner.regulated(regulator);
     }
     interrupt::watch();
-    let following = Following::bar(session, "pushes");
+    let following = TerminalProgress::bar(session, "pushes");
     // The lock is held until the results are written, because another run could overwrite them.
     let _alone = FolderLock::take(&args.results.out, &following)?;
     let begun = Trace::new(task, settings, planned_by, Some(truth.clone()));
@@ -186,36 +189,57 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
     args.form.show(session, &document)?;
     Ok(match trace.end {
         Some(End::Reached) => exit_code::DONE,
-        Some(End::UsedUp) => exit_code::FAILED_VERIFICATION,
-        Some(End::NoPush) | None => exit_code::NO_PLAN,
+        Some(End::BudgetExhausted) => exit_code::FAILED_VERIFICATION,
+        Some(End::NoImprovingPush) | None => exit_code::NO_PLAN,
     })
 }
 
 /// Returns the recipe that repeats the run, with the non-default settings.
 fn recipe(args: &RunArgs) -> Recipe {
     let word = |table: &[(&str, ProbeRule, &str)]| {
-        let own = table.iter().find(|(_, rule, _)| *rule == args.rule);
+        let own = table.iter().find(|(_, rule, _)| *rule == args.probe_rule);
         own.map_or(String::new(), |(word, ..)| (*word).to_owned())
     };
-    let outside = args.outside.outside();
+    let out_of_range = args.out_of_range.out_of_range();
     let usual = RunSettings::default();
     let given = [
-        (args.effort != Effort::Draft, "--effort", args.effort.to_string()),
-        (outside != Outside::Warn, "--outside", outside.to_string()),
-        (usize::from(args.pushes) != usual.pushes, "--pushes", args.pushes.to_string()),
-        (usize::from(args.samples) != usual.samples, "--samples", args.samples.to_string()),
-        (args.enough != usual.enough, "--enough", args.enough.to_string()),
-        (usize::from(args.probes) != usual.probes, "--probes", args.probes.to_string()),
-        (args.rule != usual.rule, "--rule", word(&PROBES)),
-        (args.seed != usual.seed, "--seed", args.seed.to_string()),
+        (args.effort != Effort::Draft, "--effort", Some("effort"), args.effort.to_string()),
+        (
+            out_of_range != OutOfRange::Warn,
+            "--out-of-range",
+            Some("out_of_range"),
+            out_of_range.to_string(),
+        ),
+        (
+            usize::from(args.max_pushes) != usual.max_pushes,
+            "--max-pushes",
+            Some("max_pushes"),
+            args.max_pushes.to_string(),
+        ),
+        (
+            usize::from(args.samples) != usual.samples,
+            "--samples",
+            Some("samples"),
+            args.samples.to_string(),
+        ),
+        (
+            args.min_success != usual.min_success,
+            "--min-success",
+            Some("min_success"),
+            args.min_success.to_string(),
+        ),
+        (
+            usize::from(args.max_probes) != usual.max_probes,
+            "--max-probes",
+            Some("max_probes"),
+            args.max_probes.to_string(),
+        ),
+        (args.probe_rule != usual.probe_rule, "--probe-rule", None, word(&PROBES)),
+        (args.seed != usual.seed, "--seed", Some("seed"), args.seed.to_string()),
     ];
     let given = given.into_iter().filter(|(unusual, ..)| *unusual);
     let files = [args.table.setting(), args.regulator.setting()];
-    let settings = given.map(|(_, option, value)| Setting {
-        option,
-        keyword: Some(option.trim_start_matches('-')).filter(|keyword| *keyword != "rule"),
-        value,
-    });
+    let settings = given.map(|(_, option, keyword, value)| Setting { option, keyword, value });
     let settings: Vec<Setting> = settings.chain(files.into_iter().flatten()).collect();
     args.results.library.origin(args.task.source(), args.model.clone()).run(&args.world, &settings)
 }

@@ -95,11 +95,11 @@ impl Session {
 
     /// Writes a warning to stderr.
     pub fn warn(&self, text: &str) {
-        self.say(&format!("warning: {text}"));
+        self.message(&format!("warning: {text}"));
     }
 
     /// Writes a line to stderr, separate from the results.
-    pub fn say(&self, text: &str) {
+    pub fn message(&self, text: &str) {
         if !self.quiet {
             // A failure is ignored because there is no other channel to report it.
             let _ = writeln!(std::io::stderr(), "{}", shown(text));

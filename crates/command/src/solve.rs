@@ -16,13 +16,13 @@ use pushplan_report::{Origin, PageView, plan_figures, solution_document, solutio
 use super::{
     error::CliError,
     exit_code,
-    follow::Following,
     form::Form,
-    model::{self, OutsideArgs},
+    model::{self, OutOfRangeArgs},
     output::{self, ResultArgs},
+    progress::TerminalProgress,
     session::Session,
     task_argument::TaskArgs,
-    words::{EFFORTS, words},
+    value_enums::{EFFORTS, possible_values},
 };
 
 /// Choose a tool and pushes, or a lever-up, for a task, verify them, write plan, picture and page
@@ -42,14 +42,14 @@ pub struct SolveArgs {
     #[command(flatten)]
     task: TaskArgs,
     /// How hard to try
-    #[arg(long, value_parser = words(&EFFORTS), default_value = "standard")]
+    #[arg(long, value_parser = possible_values(&EFFORTS), default_value = "standard")]
     effort: Effort,
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
     model: Option<Models>,
     #[command(flatten)]
     table: model::TableArgs,
     #[command(flatten)]
-    outside: OutsideArgs,
+    out_of_range: OutOfRangeArgs,
     /// Seed of refinement's samples and of the disturbed replays
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub seed: u64,
@@ -57,7 +57,7 @@ pub struct SolveArgs {
     /// it is not clear whether enough of them reach the goal, and none in 3-D if too few clearly do in
     /// the plane [default: 4, 8 or 16 by effort]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=10_000))]
-    pub disturbed: Option<u16>,
+    pub replays: Option<u16>,
     /// Share of the disturbed replays that must reach the goal, 0 to 1 [default: what the task
     /// says, 0.75 if nothing]
     #[arg(long, value_name = "SHARE", value_parser = share)]
@@ -86,16 +86,17 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     let models = args.model.clone().unwrap_or_else(|| effort.models());
     let planner = Planner::fitted(&models, fit.as_ref())?;
     output::prepare(&args.results.out)?;
-    let settings = match args.disturbed {
+    let settings = match args.replays {
         Some(count) => effort.settings().replaying(count.into()),
         None => effort.settings(),
     };
-    let planner = planner.settings(settings).seed(args.seed).outside(args.outside.outside());
+    let planner =
+        planner.settings(settings).seed(args.seed).out_of_range(args.out_of_range.out_of_range());
     let planner = match args.time_limit {
         Some(limit) => planner.time_limit(limit).build(),
         None => planner.build(),
     };
-    let following = Following::spinner(session, "solving");
+    let following = TerminalProgress::spinner(session, "solving");
     let solved = session.compute(|| planner.solve_with(&task, &library, &following));
     following.finish()?;
     let solution = solved.map_err(solve_error)?;

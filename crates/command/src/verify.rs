@@ -6,20 +6,20 @@ use std::time::Duration;
 use clap::Args;
 
 use pushplan::asset::PlanFile;
+use pushplan::progress::Until;
 use pushplan::scene::Situation;
 use pushplan::verify::{Verifier, VerifySettings};
-use pushplan::watch::Until;
 use pushplan_report::{PageView, Recipe, replay_warnings, verdict_document};
 
 use super::{
     error::CliError,
     exit_code,
-    follow::Following,
     form::Form,
     output, page,
+    progress::TerminalProgress,
     session::Session,
     solve::{share, time_limit},
-    words::{VIEWS, words},
+    value_enums::{VIEWS, possible_values},
 };
 
 /// Estimated duration above which replays are announced, seconds.
@@ -33,7 +33,7 @@ the goal in both simulations, and so does the share of disturbed ones that the t
 the disturbed ones fail. 5: it does not work.
 
 Example:
-  pushplan verify plans/pull-back.plan.json --disturbed 64"
+  pushplan verify plans/pull-back.plan.json --replays 64"
 )]
 pub struct VerifyArgs {
     /// The plan file; it holds the task and the tool as well
@@ -42,7 +42,7 @@ pub struct VerifyArgs {
     /// whether enough of them reach the goal, and none in 3-D if too few clearly do in the plane
     #[arg(long, value_name = "N", default_value_t = 8,
           value_parser = clap::value_parser!(u32).range(0..=100_000))]
-    disturbed: u32,
+    replays: u32,
     /// Share of the disturbed replays that must reach the goal, 0 to 1 [default: what the task
     /// says]
     #[arg(long, value_name = "SHARE", value_parser = share)]
@@ -57,7 +57,7 @@ pub struct VerifyArgs {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// What the page shows
-    #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d", requires = "out")]
+    #[arg(long, value_parser = possible_values(&VIEWS), value_name = "VIEW", default_value = "2d", requires = "out")]
     page: PageView,
     #[command(flatten)]
     form: Form,
@@ -67,17 +67,17 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     args.out.as_deref().map(output::prepare).transpose()?;
     let mut file = PlanFile::load(&args.plan)?;
     file.task.robustness = args.robustness.unwrap_or(file.task.robustness);
-    let settings = VerifySettings { disturbed: args.disturbed as usize, seed: args.seed };
+    let settings = VerifySettings { replays: args.replays as usize, seed: args.seed };
     let situation = Situation::stated(&file.task.scene);
-    let following = Following::spinner(session, "replaying");
+    let following = TerminalProgress::spinner(session, "replaying");
     let until = Until::new(&following, args.time_limit);
     let verifier =
-        Verifier::new(settings).watched(&until).until_clear().moving(file.joints.as_ref());
+        Verifier::new(settings).with_progress(&until).until_clear().moving(file.joints.as_ref());
     let seconds = verifier.seconds(&file.task.scene, &file.plan) / session.threads() as f64;
     if seconds > LONG {
         session.warn(&format!(
             "replaying this plan takes about {seconds:.0} s; Ctrl-C or `--time-limit` stops it, \
-             `--disturbed 0` makes it shorter"
+             `--replays 0` makes it shorter"
         ));
     }
     let verdict =
@@ -96,7 +96,7 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     }
     args.form.show(session, &document)?;
     written.transpose()?;
-    Ok(match (verdict.passed, verdict.works()) {
+    Ok(match (verdict.passed, verdict.nominal_ok()) {
         (true, _) => exit_code::DONE,
         (false, true) => exit_code::FRAGILE,
         (false, false) => exit_code::FAILED_VERIFICATION,

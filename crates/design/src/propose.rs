@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use pushplan::asset::ToolLibrary;
 use pushplan::plan::{CostToGo, Uncertainty};
+use pushplan::progress::Progress;
 use pushplan::scene::Tool;
 use pushplan::solve::{Class, Grade, Planner, Solution, SolveError, stated};
 use pushplan::task::{Task, ToolChoice};
-use pushplan::watch::Watch;
 
 use super::proposal::Spent;
 use super::screening::Looking;
@@ -25,11 +25,11 @@ const LONGEST_NAME: usize = 48;
 /// Proposes a tool for a pushing task that no tool of `library` solves, or that the new tool solves
 /// with more margin. Its plan is verified as for any other tool.
 ///
-/// The result is the same for any number of threads. If `watch` cancels, the best proposal so far
+/// The result is the same for any number of threads. If `progress` cancels, the best proposal so far
 /// is returned.
 ///
 /// ```
-/// use pushplan::watch::Unwatched;
+/// use pushplan::progress::NoProgress;
 /// use pushplan::{Effort, PlanStatus, Planner, Task, ToolLibrary};
 /// use pushplan_design::{DesignSettings, design};
 ///
@@ -37,7 +37,7 @@ const LONGEST_NAME: usize = 48;
 /// let task = Task::parse(include_str!("../../../tasks/pull-back.yaml"), "pull-back.yaml")?;
 /// let planner = Planner::for_effort(Effort::Draft)?.build();
 /// let settings = DesignSettings::looking_at(20);
-/// let design = design(&planner, &task, &library, &settings, &Unwatched)?;
+/// let design = design(&planner, &task, &library, &settings, &NoProgress)?;
 /// assert_eq!(design.status(), PlanStatus::Solved);
 /// # Ok::<(), pushplan::Error>(())
 /// ```
@@ -49,27 +49,27 @@ pub fn design(
     task: &Task,
     library: &ToolLibrary,
     settings: &DesignSettings,
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> Result<Design, SolveError> {
     if task.in_space() {
         let what = "tools are proposed for tasks of pushing, and this is one of levering".into();
         return Err(SolveError::BadTask { task: task.name.clone(), what });
     }
     let situation = stated(task);
-    watch.stage("the tools that there are");
+    progress.stage("the tools that there are");
     let all = Task { tools: ToolChoice::All, ..task.clone() };
-    let known = planner.solve_from(&situation, &all, library, watch)?;
+    let known = planner.solve_from(&situation, &all, library, progress)?;
     let mut design =
-        Design { known, proposal: None, spent: Spent::default(), stopped: watch.cancelled() };
+        Design { known, proposal: None, spent: Spent::default(), stopped: progress.cancelled() };
     let bar = grade(&design.known);
     if design.stopped || bar.is_some_and(|bar| bar.is_best()) {
         return Ok(design);
     }
 
-    watch.stage("looking at tools");
+    progress.stage("looking at tools");
     let (model, field) = (planner.screen(), CostToGo::new(task));
     let spread = Uncertainty::around(&situation);
-    let looking = Looking { task, situation: &situation, model, field, spread, watch };
+    let looking = Looking { task, situation: &situation, model, field, spread, progress };
     let mut seen = search(&looking, settings, planner.seed());
     design.spent = Spent {
         looked_at: seen.len(),
@@ -83,10 +83,10 @@ pub fn design(
     let mut best: Option<(Option<Grade>, Proposal)> = None;
     let finalists = kept(&seen, settings.solved, OF_A_FORM);
     for (k, one) in finalists.iter().enumerate() {
-        watch.stage("solving with the best tools");
-        watch.progress(k as u64, finalists.len() as u64);
+        progress.stage("solving with the best tools");
+        progress.update(k as u64, finalists.len() as u64);
         let tool = named(one, task, library);
-        let Some(proposal) = tool.map(|tool| solved(planner, task, tool, watch)) else {
+        let Some(proposal) = tool.map(|tool| solved(planner, task, tool, progress)) else {
             continue;
         };
         let proposal = proposal?;
@@ -95,12 +95,12 @@ pub fn design(
         if best.as_ref().is_none_or(|(best, _)| is_better(&worth, best)) {
             best = Some((worth, proposal));
         }
-        if worth.is_some_and(|grade| grade.class == Class::Safe) || watch.cancelled() {
+        if worth.is_some_and(|grade| grade.class == Class::Safe) || progress.cancelled() {
             break;
         }
     }
     design.proposal = best.filter(|(worth, _)| has_more(worth, &bar)).map(|(_, one)| one);
-    design.stopped = watch.cancelled();
+    design.stopped = progress.cancelled();
     Ok(design)
 }
 
@@ -109,12 +109,12 @@ fn solved(
     planner: &Planner,
     task: &Task,
     tool: Tool,
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> Result<Proposal, SolveError> {
     let tool = Arc::new(tool);
     let library = ToolLibrary::default().with(Arc::clone(&tool))?;
     let task = Task { tools: ToolChoice::All, ..task.clone() };
-    let solution = planner.solve_from(&stated(&task), &task, &library, watch)?;
+    let solution = planner.solve_from(&stated(&task), &task, &library, progress)?;
     Ok(Proposal { tool, solution })
 }
 

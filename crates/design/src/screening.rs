@@ -9,9 +9,9 @@ use pushplan::plan::{
     CostToGo, FOUND_RADIUS, REFINABLE, RefineSettings, RefineStatistics, Refined, Rollouts, Search,
     Uncertainty, Workspace, refine,
 };
+use pushplan::progress::{Progress, Quiet};
 use pushplan::scene::{Situation, Tool};
 use pushplan::task::Task;
-use pushplan::watch::{Quiet, Watch};
 
 use pushplan::solve::{LeverSettings, Settings, WELL_INSIDE, distinct};
 
@@ -27,7 +27,7 @@ const SETTINGS: Settings = Settings {
     short_list: 0,
     verified_at_once: 1,
     verify_batches: 0,
-    disturbed: 0,
+    replays: 0,
     levers: LeverSettings::DRAFT,
 };
 
@@ -67,14 +67,14 @@ pub(super) struct Looking<'a> {
     pub model: &'a dyn EffectModel,
     pub field: CostToGo<'a>,
     pub spread: Uncertainty,
-    pub watch: &'a dyn Watch,
+    pub progress: &'a dyn Progress,
 }
 
 impl Looking<'_> {
     /// Screens a tool.
     pub fn at(&self, tool: Tool) -> Look {
         // Many tools are screened in parallel.
-        let watch = &Quiet(self.watch);
+        let progress = &Quiet(self.progress);
         let size = tool.parts().iter().map(|part| part.footprint().area()).sum();
         let (pieces, parts) = (tool.outline().len(), tool.parts().len());
         let tools = [Arc::new(tool)];
@@ -83,8 +83,8 @@ impl Looking<'_> {
         let laid = (self.field.clone(), self.spread.clone());
         let mut search = Search::laid(workspace, self.situation, SETTINGS.search(0.0), laid);
         let (mut misses, mut pushes) = (f64::INFINITY, 0);
-        while search.can_deepen() && misses > 0.0 && !self.watch.cancelled() {
-            let found = search.deepen(&mut rollouts, watch);
+        while search.can_deepen() && misses > 0.0 && !self.progress.cancelled() {
+            let found = search.deepen(&mut rollouts, progress);
             let candidates = distinct(&found, SETTINGS.refined, 0);
             let refinable = found.first().is_some_and(|one| one.score <= REFINABLE);
             let refined = refine(
@@ -101,7 +101,7 @@ impl Looking<'_> {
                     radius: FOUND_RADIUS,
                 },
                 &mut RefineStatistics::default(),
-                watch,
+                progress,
             );
             for one in refined.iter().filter(|one| one.best.is_sound()) {
                 let missed = self.missed(&workspace, &mut rollouts, one);

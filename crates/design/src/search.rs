@@ -7,8 +7,8 @@
 use rand::Rng;
 use rayon::prelude::*;
 
+use pushplan::progress::Count;
 use pushplan::seeded::generator;
-use pushplan::watch::Count;
 
 use super::DesignSettings;
 use super::assembly::{Assembly, NUMBERS};
@@ -43,7 +43,7 @@ pub(super) struct Seen {
 /// Screens tools and returns all of them, best first.
 pub(super) fn search(looking: &Looking, settings: &DesignSettings, seed: u64) -> Vec<Seen> {
     let forms = Form::up_to(settings.parts.max(1));
-    let count = Count::new(looking.watch, 0, settings.candidates);
+    let count = Count::new(looking.progress, 0, settings.candidates);
     let mut first = traced(looking.task, &looking.field, settings.parts);
     first.truncate(settings.traced);
     first.extend(drawn_evenly(&forms, settings.drawn, seed));
@@ -52,7 +52,7 @@ pub(super) fn search(looking: &Looking, settings: &DesignSettings, seed: u64) ->
     seen.sort_by(|a, b| a.look.compare(&b.look));
     // The count includes assemblies that make no tool.
     let mut made = first.len();
-    while made < settings.candidates && !looking.watch.cancelled() {
+    while made < settings.candidates && !looking.progress.cancelled() {
         let parents = kept(&seen, PARENTS, OF_A_FORM);
         let done = (made - first.len()) as f64 / (settings.candidates - first.len()) as f64;
         let spread = SPREAD[0] * (SPREAD[1] / SPREAD[0]).powf(done);
@@ -102,7 +102,7 @@ pub(super) fn kept(seen: &[Seen], most: usize, of_a_form: usize) -> Vec<&Seen> {
 
 fn look_at(looking: &Looking, assemblies: &[Assembly], count: &Count) -> Vec<Seen> {
     let look = |assembly: &Assembly| {
-        let tool = assembly.tool("tool").filter(|_| !looking.watch.cancelled())?;
+        let tool = assembly.tool("tool").filter(|_| !looking.progress.cancelled())?;
         let look = looking.at(tool);
         count.one();
         Some(Seen { assembly: assembly.clone(), look })

@@ -1,12 +1,12 @@
 //! MJCF of the joints of objects.
 
 use pushplan::geometry::{Pose, Vector};
-use pushplan::scene::{GRAVITY, Joint, JointKind, Mount, Scene};
+use pushplan::scene::{GRAVITY, Joint, JointKind, Scene, WorldJoint};
 
 use super::xml::{Xml, numbers};
 
 /// Writes the joint between an object and the world.
-pub(super) fn mount(xml: &mut Xml, scene: &Scene, mount: &Mount) {
+pub(super) fn mount(xml: &mut Xml, scene: &Scene, mount: &WorldJoint) {
     let frame = mount.frames(&scene.objects)[1];
     hinge(xml, &mount.kind, frame, 1.0, rubbing(scene, mount));
 }
@@ -23,7 +23,7 @@ pub(super) fn joint(xml: &mut Xml, scene: &Scene, child: usize, joint: &Joint) {
 ///
 /// The object rests on the table but has only one degree of freedom. Contacts at its feet would
 /// overconstrain it in height: a drawer with 32 feet bounces.
-fn rubbing(scene: &Scene, mount: &Mount) -> f64 {
+fn rubbing(scene: &Scene, mount: &WorldJoint) -> f64 {
     let [hinge, _] = mount.frames(&scene.objects);
     let of = |k: usize| {
         let object = &scene.objects[k];

@@ -60,14 +60,14 @@ fn written(plan: &PlanFile, trajectory: &Trajectory) -> Result<Vec<u8>, mcap::Mc
         file.message(state, at, &numbers(plan, frame))?;
     }
     let outcome = Outcome::judge(&plan.task.scene, &plan.task, trajectory);
-    let said = [
+    let entries = [
         ("task", plan.task.name.clone()),
         ("tool", plan.plan.tools().join(", ")),
         ("model", trajectory.by.to_string()),
         ("reached", outcome.reached.to_string()),
         ("error_m", outcome.error().to_string()),
     ];
-    let metadata = said.map(|(key, value)| (key.to_owned(), value)).into_iter().collect();
+    let metadata = entries.map(|(key, value)| (key.to_owned(), value)).into_iter().collect();
     file.writer.write_metadata(&Metadata { name: "pushplan".to_owned(), metadata })?;
     // The format equals the plan file format, so that the attachment can be extracted and verified.
     let data = serde_json::to_vec_pretty(plan).map_err(std::io::Error::from)?;
@@ -112,7 +112,7 @@ fn entities(plan: &PlanFile) -> Vec<Json> {
     let mut found = Vec::new();
     for (index, object) in drawn(plan) {
         let name = format!("object/{}", object.name);
-        let colour = if plan.task.wants(index) { WANTED } else { OBJECT };
+        let colour = if plan.task.has_goal(index) { WANTED } else { OBJECT };
         let middle = if in_space(plan) { object.shape.height() / 2.0 } else { 0.0 };
         let mut solids = vec![(object.shape, Pose::default(), middle)];
         if in_space(plan) {

@@ -15,7 +15,7 @@
 
 mod convert;
 mod crowd;
-mod fault;
+mod diagnostic;
 pub mod foreign;
 mod mesh;
 mod mjcf;

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use pushplan::asset::{Faults, read_text};
 
-use super::fault::Ledger;
+use super::diagnostic::Ledger;
 use super::model::Model;
 use super::spliced::{Spliced, document};
 use super::xml::Source;

@@ -2,7 +2,7 @@
 
 use roxmltree::{Attribute, Node};
 
-use super::fault::Ledger;
+use super::diagnostic::Ledger;
 use super::model::Place;
 use super::spliced::Spliced;
 use crate::foreign::xml::{self, Flaw};

@@ -4,7 +4,7 @@ use crate::{
     lanes::{Lanes, Pair, Triple, Which, dot, minus, plus, times},
     object::{Inverse, Moves},
     settings::{GIVE, MIN_COMPLIANCE, OPEN, ROUNDS, TOGETHER},
-    tally::Tally,
+    stats::SolverStats,
 };
 
 /// Maximum number of contacts of a frame.
@@ -58,7 +58,7 @@ pub(crate) fn solve<const N: usize>(
     moves: &mut Moves<N>,
     contacts: &mut [Pressing<N>; MOST],
     mut of: Which<N>,
-    tally: &mut Tally,
+    tally: &mut SolverStats,
 ) -> Which<N> {
     let mut left = [[Lanes::ZERO; 2]; MOST];
     for (c, left) in contacts.iter_mut().zip(&mut left) {
@@ -274,7 +274,7 @@ fn apply<const N: usize>(to: &[Triple<N>; 2], twist: Triple<N>) -> Pair<N> {
 }
 
 #[inline(always)]
-fn count<const N: usize>(contacts: &[Pressing<N>; MOST], of: Which<N>, tally: &mut Tally) {
+fn count<const N: usize>(contacts: &[Pressing<N>; MOST], of: Which<N>, tally: &mut SolverStats) {
     for k in 0..N {
         if of.has(k) {
             tally.rounds += 1;

@@ -4,14 +4,14 @@ use nalgebra::{SVector, Vector3};
 use pulp::{Simd, WithSimd};
 
 use crate::{
-    LoneFrame, Vector,
+    SingleBodyFrame, Vector,
     forces::{self, MOST, Pressing},
     lanes::{Lanes, Which, dot, left_of, minus, norm},
     motion::Motion,
     object::{Inverse, Moves, Object},
     settings::{HALF, JOINT_ARM, Quantity, SETTLED, UPDATES, WHOLE},
-    solution::LoneSolution,
-    tally::Tally,
+    solution::SingleBodySolution,
+    stats::SolverStats,
     touching::{Follows, Look, Touching},
 };
 
@@ -26,7 +26,7 @@ pub(crate) struct Frames<'a, const N: usize> {
 impl<'a, const N: usize> Frames<'a, N> {
     /// Sets frame `k`.
     #[inline(always)]
-    pub fn set(&mut self, k: usize, frame: &LoneFrame<'a>) {
+    pub fn set(&mut self, k: usize, frame: &SingleBodyFrame<'a>) {
         let object = &mut self.object;
         self.present.set(k, true);
         object.feet[k] = Some(frame.feet);
@@ -79,13 +79,13 @@ impl<'a, const N: usize> Frames<'a, N> {
 
     /// Solves all frames in vectors of a kind. An entry is `None` if the contact forces were not
     /// found.
-    pub fn by(&self, simd: impl Simd, tally: &mut Tally) -> [Option<LoneSolution>; N] {
+    pub fn by(&self, simd: impl Simd, tally: &mut SolverStats) -> [Option<SingleBodySolution>; N] {
         simd.vectorize(Solving { frames: self, tally })
     }
 
     /// Returns the displacements, the contact forces, and the frames in which these were found.
     #[inline(always)]
-    fn displace(&self, tally: &mut Tally) -> (Moves<N>, [Pressing<N>; MOST], Which<N>) {
+    fn displace(&self, tally: &mut SolverStats) -> (Moves<N>, [Pressing<N>; MOST], Which<N>) {
         let Self { present, object, contacts } = self;
         let mut moves = Moves::begin(object);
         let mut pressing = [Pressing::default(); MOST];
@@ -137,7 +137,7 @@ impl<'a, const N: usize> Frames<'a, N> {
         ended: &Moves<N>,
         pressed: &[Pressing<N>; MOST],
         found: &mut Which<N>,
-        tally: &mut Tally,
+        tally: &mut SolverStats,
     ) -> Moves<N> {
         let Self { object, contacts, .. } = self;
         let (mut moves, mut pressing) = (*ended, *pressed);
@@ -181,7 +181,7 @@ impl<'a, const N: usize> Frames<'a, N> {
         moves: &mut Moves<N>,
         pressing: &mut [Pressing<N>; MOST],
         of: Which<N>,
-        tally: &mut Tally,
+        tally: &mut SolverStats,
     ) -> Settled<N> {
         tally.updates += of.count();
         let before = moves.twist;
@@ -215,11 +215,11 @@ fn set<const K: usize, const N: usize>(
 /// Frames that are solved in the processor's widest vectors.
 struct Solving<'a, 'b, const N: usize> {
     frames: &'b Frames<'a, N>,
-    tally: &'b mut Tally,
+    tally: &'b mut SolverStats,
 }
 
 impl<const N: usize> WithSimd for Solving<'_, '_, N> {
-    type Output = [Option<LoneSolution>; N];
+    type Output = [Option<SingleBodySolution>; N];
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Self::Output {
@@ -238,7 +238,7 @@ impl<const N: usize> WithSimd for Solving<'_, '_, N> {
         let end = frames.release(&ended, &presses, &mut found, tally);
         let mut solutions = [None; N];
         for (k, place) in solutions.iter_mut().enumerate().filter(|&(k, _)| found.has(k)) {
-            let mut solution = LoneSolution::default();
+            let mut solution = SingleBodySolution::default();
             let duration = object.duration.0[k];
             let at =
                 |lanes: &[Lanes<N>; 3]| Vector3::new(lanes[0].0[k], lanes[1].0[k], lanes[2].0[k]);

@@ -15,22 +15,22 @@ mod feet;
 mod forces;
 mod frames;
 mod lanes;
-mod lone;
 mod motion;
 mod object;
 pub mod settings;
+mod single_body;
 mod solution;
-mod tally;
+mod stats;
 mod touching;
 mod turn;
 
 pub use drag::Drag;
 pub use feet::{Feet, MAX_FEET};
 pub use forces::MOST;
-pub use lone::{LoneContact, LoneFrame, MANY, batch, solve};
 pub use motion::Motion;
-pub use solution::{Effort, LoneSolution};
-pub use tally::Tally;
+pub use single_body::{MANY, SingleBodyContact, SingleBodyFrame, batch, solve};
+pub use solution::{Effort, SingleBodySolution};
+pub use stats::SolverStats;
 pub use touching::Follows;
 pub use turn::{Turn, sines};
 

@@ -6,7 +6,7 @@ use crate::{
     feet::Feet,
     lanes::{Lanes, Pair, Triple, Turns, Which, minus, norm, plus, times},
     settings::{FOLLOWING, LEAST, Quantity, SAME},
-    tally::Tally,
+    stats::SolverStats,
 };
 
 /// The object of each frame.
@@ -24,7 +24,7 @@ pub(crate) struct Object<'a, const N: usize> {
     pub radius: Lanes<N>,
     pub round: Which<N>,
     /// Mean distance c of the support's points from the centre, metres, and (c / rho)^2: see
-    /// [`crate::LoneFrame`].
+    /// [`crate::SingleBodyFrame`].
     pub support: Lanes<N>,
     pub spin: Lanes<N>,
     /// Shift, metres, and rotation of the object if it coasts.
@@ -199,7 +199,7 @@ impl<const N: usize> Moves<N> {
         quantity: Quantity,
         turn: &Turns<N>,
         of: Which<N>,
-        tally: &mut Tally,
+        tally: &mut SolverStats,
     ) {
         let before = self.pressing;
         let pressed = [self.pressed[0], self.pressed[1]];

@@ -6,7 +6,7 @@ use crate::{forces::MOST, lanes::Lanes, motion::Motion, object::Inverse};
 
 /// Motion of the object and forces on it.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct LoneSolution {
+pub struct SingleBodySolution {
     /// Motion of the object; `None` if it has no active contact and coasts.
     pub motion: Option<Motion>,
     /// Forces of its contacts along their normals, N.
@@ -22,7 +22,7 @@ pub struct LoneSolution {
 /// next frame of a push usually takes as much work.
 pub type Effort = [u32; 3];
 
-impl LoneSolution {
+impl SingleBodySolution {
     /// Returns the shift and rotation of the object due to a force and torque.
     pub fn moved(&self, pressed: &Vector3<f64>) -> Vector3<f64> {
         let pressed = [pressed.x, pressed.y, pressed.z].map(|value| Lanes([value]));

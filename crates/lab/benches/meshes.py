@@ -148,7 +148,7 @@ def task_of(name, model, data):
     goal = next(goal for goal in goals if 0.4 < np.hypot(*goal) < 0.62)
     keys["goal"] = {"object": task.objects[0], "position": goal.tolist(), "tolerance": TOLERANCE}
     keys["robot"] = {"reach": {"min": 0.3, "max": 0.9}}
-    return pushplan.Task.of(keys), shift, [str(note.message).split(": ", 1)[-1] for note in notes]
+    return pushplan.Task.from_dict(keys), shift, [str(note.message).split(": ", 1)[-1] for note in notes]
 
 
 def own_solids(text, name, model, data, shift):

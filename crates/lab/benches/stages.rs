@@ -14,8 +14,8 @@ use pushplan::plan::{
     FOUND_RADIUS, QpProblem, QpSolver, RefineSettings, RefineStatistics, Rollouts, Search,
     SearchSettings, Workspace, refine,
 };
+use pushplan::progress::NoProgress;
 use pushplan::sim::Simulator;
-use pushplan::watch::Unwatched;
 use pushplan::{
     outcome::Record,
     scene::{ModelKind, Physics, Situation, State},
@@ -176,7 +176,7 @@ fn planning(criterion: &mut Criterion) {
     let settings = SearchSettings { offsets: 5, beam: 1, rollouts: 500, kept: 8, model_error: 0.0 };
     let search = || {
         let mut rollouts = Rollouts::new(&model, Situation::stated(&task.scene));
-        Search::new(workspace, rollouts.situation(), settings).deepen(&mut rollouts, &Unwatched)
+        Search::new(workspace, rollouts.situation(), settings).deepen(&mut rollouts, &NoProgress)
     };
     criterion.bench_function("search of 500 pushes", |b| b.iter(search));
 
@@ -194,7 +194,7 @@ fn planning(criterion: &mut Criterion) {
         b.iter(|| {
             let mut rollouts = Rollouts::new(&model, Situation::stated(&task.scene));
             let mut statistics = RefineStatistics::default();
-            refine(&workspace, &mut rollouts, &best, settings, &mut statistics, &Unwatched)
+            refine(&workspace, &mut rollouts, &best, settings, &mut statistics, &NoProgress)
         });
     });
 }

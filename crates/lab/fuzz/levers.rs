@@ -37,7 +37,7 @@ pub fn task(task: Task) {
         doubts: 0,
         verified_at_once: 1,
         verify_batches: 0,
-        disturbed: 0,
+        replays: 0,
         followed: 0,
     };
     let Ok(tools) = task.blades(&library) else { return };
@@ -48,7 +48,7 @@ pub fn task(task: Task) {
     let planner = Planner::builder(Simulated::new(Simulator::planar())).settings(settings).build();
     // Pushes have their own target, and pushing tools cannot lever.
     let blades = tools.iter().map(|tool| tool.name.clone());
-    let alone = task.clone().pushing(pushplan::PushRules::none()).choosing(blades);
+    let alone = task.clone().pushing(pushplan::PushRules::none()).with_tools(blades);
     match planner.solve(&alone, &library) {
         Ok(solution) => {
             for ranked in &solution.plans {
@@ -65,7 +65,7 @@ pub fn plan(file: PlanFile) {
     let span: f64 = pushing.chain(levering).sum();
     let small = file.task.scene.objects.len() + file.task.scene.obstacles.len() < CROWD;
     if span < LONGEST && small {
-        let verifier = Verifier::new(VerifySettings { disturbed: 1, seed: 1 });
+        let verifier = Verifier::new(VerifySettings { replays: 1, seed: 1 });
         let situation = Situation::stated(&file.task.scene);
         let verdict = verifier.verify(&file.task, &situation, &file.tools, &file.plan);
         assert!(verdict.evidence.iter().all(|evidence| evidence.outcome.error().is_finite()));

@@ -65,7 +65,7 @@ pub fn task(task: Task) {
         // The simulator has its own tests; here it would take all the time.
         verified_at_once: 1,
         verify_batches: 0,
-        disturbed: 0,
+        replays: 0,
         ..Settings::FIRST_LOOK
     };
     let planner = Planner::builder(Prior::default()).settings(budgets).build();

@@ -51,7 +51,7 @@ __version__: str
 _Path = str | os.PathLike[str]
 _Floats = npt.NDArray[np.float64]
 _Effort = Literal["draft", "standard", "thorough"]
-_Outside = Literal["warn", "simulate", "refuse"]
+_OutOfRange = Literal["warn", "simulate", "refuse"]
 _Status = Literal["solved", "fragile", "partial", "no_plan", "failed_verification"]
 
 @final
@@ -84,7 +84,7 @@ class Tool:
     @staticmethod
     def parse(text: str, name: str = "tool") -> Tool: ...
     @staticmethod
-    def of(mapping: ToolFile) -> Tool: ...
+    def from_dict(mapping: ToolFile) -> Tool: ...
     @property
     def name(self) -> str: ...
     @property
@@ -127,7 +127,7 @@ class Task:
     @staticmethod
     def parse(text: str, name: str = "task") -> Task: ...
     @staticmethod
-    def of(mapping: TaskFile) -> Task: ...
+    def from_dict(mapping: TaskFile) -> Task: ...
     @property
     def name(self) -> str: ...
     @property
@@ -279,7 +279,7 @@ class Plan:
     @property
     def verdict(self) -> Verdict | None: ...
     @property
-    def broken(self) -> list[str]: ...
+    def violations(self) -> list[str]: ...
     def graph(self, frame: int) -> dict[str, Any] | None: ...
     def save(self, path: _Path) -> None: ...
     def to_dict(self) -> dict[str, Any]: ...
@@ -315,7 +315,7 @@ class Verdict:
     @property
     def passed(self) -> bool: ...
     @property
-    def works(self) -> bool: ...
+    def nominal_ok(self) -> bool: ...
     @property
     def robustness(self) -> float | None: ...
     @property
@@ -339,7 +339,7 @@ class Solution:
     @property
     def solved(self) -> bool: ...
     @property
-    def stopped(self) -> bool: ...
+    def timed_out(self) -> bool: ...
     @property
     def best(self) -> Plan | None: ...
     @property
@@ -397,7 +397,7 @@ class Recording:
     @staticmethod
     def parse(text: str, name: str = "recording") -> Recording: ...
     @staticmethod
-    def of(mapping: dict[str, Any]) -> Recording: ...
+    def from_dict(mapping: dict[str, Any]) -> Recording: ...
     @property
     def name(self) -> str: ...
     @property
@@ -446,7 +446,7 @@ class Run:
     def __eq__(self, other: object, /) -> bool: ...
     def __reduce__(self) -> tuple[Any, ...]: ...
     @property
-    def end(self) -> Literal["reached", "used_up", "no_push"]: ...
+    def end(self) -> Literal["reached", "budget_exhausted", "no_improving_push"]: ...
     @property
     def reached(self) -> bool: ...
     @property
@@ -469,12 +469,12 @@ def run(
     *,
     effort: _Effort = "draft",
     model: str | None = None,
-    outside: _Outside = "warn",
+    out_of_range: _OutOfRange = "warn",
     seed: int = 0,
-    pushes: int = 12,
+    max_pushes: int = 12,
     samples: int = 16,
-    enough: float = 0.8,
-    probes: int = 3,
+    min_success: float = 0.8,
+    max_probes: int = 3,
     noise: tuple[float, float] | None = None,
     fit: TableFit | None = None,
     regulator: bool = True,
@@ -486,9 +486,9 @@ def solve(
     *,
     effort: _Effort = "standard",
     model: str | None = None,
-    outside: _Outside = "warn",
+    out_of_range: _OutOfRange = "warn",
     seed: int = 0,
-    disturbed: int | None = None,
+    replays: int | None = None,
     robustness: float | None = None,
     time_limit: float | None = None,
     fit: TableFit | None = None,
@@ -500,9 +500,9 @@ def solve_all(
     *,
     effort: _Effort = "standard",
     model: str | None = None,
-    outside: _Outside = "warn",
+    out_of_range: _OutOfRange = "warn",
     seed: int = 0,
-    disturbed: int | None = None,
+    replays: int | None = None,
     robustness: float | None = None,
     time_limit: float | None = None,
     fit: TableFit | None = None,
@@ -519,12 +519,12 @@ def design(
     threads: int = 0,
 ) -> Design: ...
 def predict(
-    plan: Plan, model: str = "network", *, outside: _Outside = "warn", threads: int = 0
+    plan: Plan, model: str = "network", *, out_of_range: _OutOfRange = "warn", threads: int = 0
 ) -> Trajectory: ...
 def verify(
     plan: Plan,
     *,
-    disturbed: int = 8,
+    replays: int = 8,
     seed: int = 0,
     robustness: float | None = None,
     time_limit: float | None = None,
@@ -538,7 +538,7 @@ def rollout(
     grip_yaw: npt.ArrayLike | None = None,
     start: npt.ArrayLike | None = None,
     model: str = "network",
-    outside: _Outside = "warn",
+    out_of_range: _OutOfRange = "warn",
     record: Literal["frames", "outcome"] = "frames",
     tools: ToolLibrary | None = None,
     threads: int = 0,

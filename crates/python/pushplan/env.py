@@ -108,8 +108,8 @@ class _TableEnv(gymnasium.Env[_Action, _Action]):
         refused, reached = None, False
         try:
             plan = planned()
-            if plan.broken:
-                refused = plan.broken[0]
+            if plan.violations:
+                refused = plan.violations[0]
             else:
                 trajectory = predict(plan, self.model)
                 self._last = plan
@@ -137,7 +137,7 @@ class _TableEnv(gymnasium.Env[_Action, _Action]):
                 mapping["goal"]["position"] = [float(x + aside[0]), float(y + aside[1])]
             try:
                 # The rules of task files decide which placements are valid.
-                return Task.of(mapping)
+                return Task.from_dict(mapping)
             except FileError:
                 continue
         return self._given

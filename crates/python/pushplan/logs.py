@@ -106,7 +106,7 @@ def read_csv(
     FileError
         If the scene or the pusher is invalid.
     """
-    return Recording.of(
+    return Recording.from_dict(
         _mapping(path, scene, pusher, time, poses, (length, angle, clock), (start, end))
     )
 
@@ -158,7 +158,7 @@ def read_mcap(
     if topics is None:
         if scene is not None or pusher is not None:
             raise ValueError("`scene` and `pusher` need `topics` (ROS 2 bag); leave them out for a file of `pushplan export`")
-        return Recording.of(_bags.own(path))
+        return Recording.from_dict(_bags.own(path))
     if scene is None or pusher is None:
         raise ValueError("a ROS 2 bag contains only poses: set `scene` and `pusher`")
     names = [_PUSHER, *(str(thing["name"]) for thing in scene["objects"])]
@@ -176,7 +176,7 @@ def read_mcap(
         poses = np.column_stack([poses[:, :2], np.degrees(np.unwrap(poses[:, 2]))])
         bodies[name] = np.column_stack([np.interp(stamps, times, column) for column in poses.T])
     times, lines = stamps - stamps[0], np.arange(1, len(stamps) + 1)
-    return Recording.of(_recorded(path, (scene, pusher), (times, lines), bodies, "m", (start, end)))
+    return Recording.from_dict(_recorded(path, (scene, pusher), (times, lines), bodies, "m", (start, end)))
 
 
 def write_json(path: str | Path, csv_path: str | Path, **stated: Any) -> None:
@@ -184,7 +184,7 @@ def write_json(path: str | Path, csv_path: str | Path, **stated: Any) -> None:
     units = (stated.pop("length"), stated.pop("angle", "deg"), stated.pop("clock", "s"))
     cut = (stated.pop("start", None), stated.pop("end", None))
     mapping = _mapping(csv_path, units=units, cut=cut, **stated)
-    Recording.of(mapping)
+    Recording.from_dict(mapping)
     Path(path).write_text(json.dumps(mapping))
 
 

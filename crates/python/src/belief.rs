@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use numpy::{PyArray1, PyArray2, PyArray3};
+use pushplan::progress::Progress;
 use pushplan::recording::Recording;
-use pushplan::watch::Watch;
 use pushplan::{
     scene::{Span, Velocity},
     task::Noise,
@@ -16,7 +16,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyAny;
 
 use crate::mapping::Text;
-use crate::{arrays, errors, json, words, work};
+use crate::{arguments, arrays, errors, json, work};
 
 /// Recording of one scene: poses of pusher and objects, frame by frame.
 #[pyclass(name = "Recording", module = "pushplan", frozen)]
@@ -73,7 +73,7 @@ impl PyRecording {
     /// TypeError
     ///     If the mapping contains other types than a file.
     #[staticmethod]
-    fn of(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
+    fn from_dict(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
         Text::of(mapping)?.read(py, "recording", Recording::parse).map(Self)
     }
 
@@ -259,11 +259,11 @@ pub fn infer(
         ));
     }
     let ranges: Vec<Span> = mass_ranges.iter().map(|(low, high)| Span::new(*low, *high)).collect();
-    let model = words::model(py, model, Default::default())?;
+    let model = arguments::model(py, model, Default::default())?;
     let regulator = shipped_regulator()?;
     let recording = &recording.0;
     let settings = BeliefSettings::new(Noise { position: noise, heading: heading_noise });
-    let belief = work::run(py, words::threads(threads)?, |cancel| {
+    let belief = work::run(py, arguments::threads(threads)?, |cancel| {
         let (tool, lift) = (recording.tool.clone(), recording.lift);
         let mut belief = Belief::new(&recording.scene, tool, lift, settings)
             .moving(&recording.velocities)

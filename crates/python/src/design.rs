@@ -13,7 +13,7 @@ use crate::solution::PySolution;
 use crate::solve::Asked;
 use crate::task::PyTask;
 use crate::tool::{PyTool, PyToolLibrary, given};
-use crate::{errors, json, words, work};
+use crate::{arguments, errors, json, work};
 
 /// Result of `design`: the proposed tool, and the solution with the existing tools.
 #[pyclass(name = "Design", module = "pushplan", frozen)]
@@ -29,7 +29,7 @@ impl PyDesign {
     /// `Solution.status` for the values.
     #[getter]
     fn status(&self) -> &'static str {
-        words::status(self.design.status())
+        arguments::status(self.design.status())
     }
 
     /// Proposed tool; the nearest one if no tool solves the task. `None` if no proposal is better
@@ -127,12 +127,12 @@ pub fn design(
         );
         return Err(PyValueError::new_err(message));
     }
-    let (model, disturbed, time_limit, fit) = (None, None, None, None);
-    let asked = Asked { effort, model, outside: "warn", seed, disturbed, time_limit, fit };
+    let (model, replays, time_limit, fit) = (None, None, None, None);
+    let asked = Asked { effort, model, out_of_range: "warn", seed, replays, time_limit, fit };
     let planner = asked.planner(py)?;
     let library = given(py, tools.as_ref())?;
     let settings = DesignSettings { parts, ..DesignSettings::looking_at(candidates) };
-    let (stated, threads) = (Arc::clone(&task.task), words::threads(threads)?);
+    let (stated, threads) = (Arc::clone(&task.task), arguments::threads(threads)?);
     let designed = work::run(py, threads, |cancel| {
         pushplan_design::design(&planner, &stated, &library, &settings, cancel)
     })?;

@@ -15,7 +15,7 @@ use crate::solve::predicted;
 use crate::task::PyTask;
 use crate::tool::PyTool;
 use crate::trajectory::PyTrajectory;
-use crate::{errors, words, work};
+use crate::{arguments, errors, work};
 
 // Defaults are literals, because Python shows them; the friction must equal `Wanted::FRICTION`.
 const _: () = assert!(Wanted::FRICTION == 0.5);
@@ -219,8 +219,8 @@ pub fn export_mcap(
     let trajectory = match &trajectory {
         Some(known) => known.get().trajectory.clone(),
         None => {
-            let model = words::model(py, model, words::outside("warn")?)?;
-            work::run(py, words::threads(threads)?, |_| predicted(&model, &plan.file))?
+            let model = arguments::model(py, model, arguments::out_of_range("warn")?)?;
+            work::run(py, arguments::threads(threads)?, |_| predicted(&model, &plan.file))?
         }
     };
     let objects = plan.file.task.scene.objects.len();

@@ -1,13 +1,14 @@
 //! Python package `pushplan`: the library with NumPy arrays, exceptions and notebook support.
 //!
 //! This is a thin layer; all computation, decisions and texts are in the library. Arguments are
-//! converted to the library's types (`mapping`, `words`, `push`, `arrays`). Long work runs without
-//! the GIL and stops at Ctrl-C (`work`). Results become attributes with units. The Python side,
-//! `crates/python/pushplan`, holds the code that is simpler in Python: exceptions, types of files,
-//! the Gymnasium environment.
+//! converted to the library's types (`mapping`, `arguments`, `push`, `arrays`). Long work runs
+//! without the GIL and stops at Ctrl-C (`work`). Results become attributes with units. The Python
+//! side, `crates/python/pushplan`, holds the code that is simpler in Python: exceptions, types of
+//! files, the Gymnasium environments.
 
 use pyo3::prelude::*;
 
+mod arguments;
 mod arrays;
 mod belief;
 mod command;
@@ -30,7 +31,6 @@ mod task;
 mod tool;
 mod trajectory;
 mod verdict;
-mod words;
 mod work;
 
 #[pymodule]

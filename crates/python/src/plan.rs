@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use pushplan::asset::PlanFile;
 use pushplan::solve::{ManualPush, manual_plan};
-use pushplan::verify::{VerifySettings, broken_rules};
+use pushplan::verify::{VerifySettings, rule_violations};
 use pushplan::{Job, RankedPlan, Task, Trajectory, Verdict, Verifier};
 use pushplan::{
     outcome::Warning,
@@ -36,7 +36,7 @@ pub struct PyPlan {
     /// Source of the task.
     source: TaskSource,
     trajectory: Option<Trajectory>,
-    broken: Vec<String>,
+    violations: Vec<String>,
 }
 
 #[pymethods]
@@ -135,14 +135,15 @@ impl PyPlan {
             work::run(py, 0, |_| manual_plan(&task.task, &situation, &tool, &yaws, &pushes))?;
         let asked = asked.map_err(|error| errors::action(py, &error.to_string()))?;
         let rules =
-            broken_rules(&task.task, &task.task.scene, std::slice::from_ref(&tool), &asked.plan);
+            rule_violations(&task.task, &task.task.scene, std::slice::from_ref(&tool), &asked.plan);
         let forms = rules.iter().filter(|rule| {
             matches!(rule, Warning::ForbiddenPush { .. } | Warning::TooManyPushes { .. })
         });
-        let margins = asked.broken.iter().map(|(push, rule)| format!("push {}: {rule}", push + 1));
-        let broken: Vec<String> = margins.chain(forms.map(Warning::to_string)).collect();
+        let margins =
+            asked.violations.iter().map(|(push, rule)| format!("push {}: {rule}", push + 1));
+        let violations: Vec<String> = margins.chain(forms.map(Warning::to_string)).collect();
         let file = PlanFile::new(Task::clone(&task.task), vec![tool], asked.plan);
-        Ok(Self { file, source: task.source(), trajectory: None, broken })
+        Ok(Self { file, source: task.source(), trajectory: None, violations })
     }
 
     /// Task of the plan.
@@ -270,8 +271,8 @@ impl PyPlan {
 
     /// Rules of the task that the pushes violate. Plans from `solve` violate none.
     #[getter]
-    fn broken(&self) -> Vec<String> {
-        self.broken.clone()
+    fn violations(&self) -> Vec<String> {
+        self.violations.clone()
     }
 
     /// Writes the plan file (JSON) for `Plan.load` and the command `pushplan verify`.
@@ -361,18 +362,18 @@ impl PyPlan {
             joints: ranked.joints.clone(),
         };
         let trajectory = Some(ranked.predicted.clone());
-        Self { file, source: source.clone(), trajectory, broken: Vec::new() }
+        Self { file, source: source.clone(), trajectory, violations: Vec::new() }
     }
 
     fn read(file: PlanFile) -> Self {
         let source = TaskSource::File(format!("{}.yaml", file.task.name));
-        Self { file, source, trajectory: None, broken: Vec::new() }
+        Self { file, source, trajectory: None, violations: Vec::new() }
     }
 
     /// Replays the unperturbed plan in both engines.
     fn replayed(&self) -> Verdict {
         let PlanFile { task, tools, plan, .. } = &self.file;
-        let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+        let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
         verifier.nominal(task, &Situation::stated(&task.scene), tools, plan)
     }
 

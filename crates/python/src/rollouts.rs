@@ -5,7 +5,7 @@ use std::sync::Arc;
 use numpy::ndarray::Axis;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArray4};
 use pushplan::effect::EffectModel;
-use pushplan::watch::{Cancel, Watch};
+use pushplan::progress::{Cancel, Progress};
 use pushplan::{Job, Outcome, Push, Record, Task, ToolMotion, Trajectory, Vector};
 use pushplan::{outcome::Warning, scene::Situation, task::PushForm};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
@@ -16,7 +16,7 @@ use crate::arrays::{self, Numbers};
 use crate::push::MOST;
 use crate::task::PyTask;
 use crate::tool::{PyToolLibrary, tool};
-use crate::{words, work};
+use crate::{arguments, work};
 
 /// Number of candidates between two checks for cancellation: tens of milliseconds with the analytic
 /// model.
@@ -112,7 +112,7 @@ impl Rollouts {
 /// >>> best = pushes[rolled.errors.argmin()]
 #[pyfunction]
 #[pyo3(signature = (task, tool, pushes, *, grip_yaw = None, start = None, model = "network",
-                    outside = "warn", record = "frames", tools = None, threads = 0))]
+                    out_of_range = "warn", record = "frames", tools = None, threads = 0))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn rollout(
     py: Python<'_>,
@@ -122,13 +122,13 @@ pub fn rollout(
     grip_yaw: Option<Numbers<'_>>,
     start: Option<Numbers<'_>>,
     model: &str,
-    outside: &str,
+    out_of_range: &str,
     record: &str,
     tools: Option<Py<PyToolLibrary>>,
     threads: usize,
 ) -> PyResult<Rollouts> {
     let tool = self::tool(py, tool, tools.as_ref())?;
-    let model = words::model(py, model, words::outside(outside)?)?;
+    let model = arguments::model(py, model, arguments::out_of_range(out_of_range)?)?;
     let record = match record {
         "frames" => Record::Frames,
         "outcome" => Record::Outcome,
@@ -141,7 +141,7 @@ pub fn rollout(
     let pushes = candidates(&pushes)?;
     let yaws = yaws(grip_yaw.as_ref(), pushes.len())?;
     let starts = starts(start.as_ref(), &task, pushes.len())?;
-    let threads = words::threads(threads)?;
+    let threads = arguments::threads(threads)?;
     let packed = work::run(py, threads, |cancel| {
         let (rules, scene) = (&task.pushes, &task.scene);
         let placed = rules.form == PushForm::Placed;

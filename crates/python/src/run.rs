@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use numpy::PyArray2;
-use pushplan::scene::Sight;
+use pushplan::scene::ObservedPose;
 use pushplan::{Noise, Tool, ToolMotion, Vector};
 use pushplan_act::act::{ActError, End, Look, SimulatedWorld, World, WorldError};
 use pushplan_act::{RunSettings, Runner, Trace, hidden};
@@ -20,7 +20,7 @@ use crate::solve::{Asked, stated};
 use crate::table_fit::PyTableFit;
 use crate::task::PyTask;
 use crate::tool::{PyTool, PyToolLibrary, given};
-use crate::{errors, json, page, words, work};
+use crate::{arguments, errors, json, page, work};
 
 /// Motion that a world executes. The robot sets the tool down at the start of the first stroke,
 /// moves it along all strokes, waits until the objects rest, and lifts it.
@@ -82,8 +82,8 @@ impl PyRun {
     fn end(&self) -> &'static str {
         match self.0.end {
             Some(End::Reached) => "reached",
-            Some(End::UsedUp) => "used_up",
-            Some(End::NoPush) | None => "no_push",
+            Some(End::BudgetExhausted) => "budget_exhausted",
+            Some(End::NoImprovingPush) | None => "no_improving_push",
         }
     }
 
@@ -210,9 +210,9 @@ impl PyRun {
 ///     If an argument is invalid. The function also raises the errors of `solve` and any
 ///     exception of `world`, which ends the run.
 #[pyfunction]
-#[pyo3(signature = (task, world, tools = None, *, effort = "draft", model = None, outside = "warn",
-                    seed = 0, pushes = 12, samples = 16, enough = 0.8, probes = 3, noise = None,
-                    fit = None, regulator = true, threads = 0))]
+#[pyo3(signature = (task, world, tools = None, *, effort = "draft", model = None, out_of_range = "warn",
+                    seed = 0, max_pushes = 12, samples = 16, min_success = 0.8,
+                    max_probes = 3, noise = None, fit = None, regulator = true, threads = 0))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn run(
     py: Python<'_>,
@@ -221,20 +221,21 @@ pub fn run(
     tools: Option<Py<PyToolLibrary>>,
     effort: &str,
     model: Option<&str>,
-    outside: &str,
+    out_of_range: &str,
     seed: u64,
-    pushes: usize,
+    max_pushes: usize,
     samples: usize,
-    enough: f64,
-    probes: usize,
+    min_success: f64,
+    max_probes: usize,
     noise: Option<(f64, f64)>,
     fit: Option<Py<PyTableFit>>,
     regulator: bool,
     threads: usize,
 ) -> PyResult<PyRun> {
     let fit = fit.as_ref().map(|fit| &fit.get().0);
-    let (disturbed, time_limit) = (None, None);
-    let planner = Asked { effort, model, outside, seed, disturbed, time_limit, fit }.planner(py)?;
+    let (replays, time_limit) = (None, None);
+    let planner =
+        Asked { effort, model, out_of_range, seed, replays, time_limit, fit }.planner(py)?;
     let library = given(py, tools.as_ref())?;
     let mut runner = Runner::new(&planner, &library)
         .learning(fit.cloned())
@@ -242,7 +243,7 @@ pub fn run(
     if regulator {
         runner = runner.regulated(shipped_regulator()?);
     }
-    if !(0.0..=1.0).contains(&enough) || !(1..=1000).contains(&samples) || pushes > 1000 {
+    if !(0.0..=1.0).contains(&min_success) || !(1..=1000).contains(&samples) || max_pushes > 1000 {
         let message =
             "`min_success` must be 0 to 1, `samples` 1 to 1000 and `max_pushes` at most 1000";
         return Err(PyValueError::new_err(message));
@@ -256,7 +257,8 @@ pub fn run(
         }
         None => defaults.noise,
     };
-    let settings = RunSettings { pushes, samples, enough, probes, noise, seed, ..defaults };
+    let settings =
+        RunSettings { max_pushes, samples, min_success, max_probes, noise, seed, ..defaults };
     let mut place = match world.extract::<u64>() {
         Ok(number) => {
             let truth = hidden(&task.task, &library, number);
@@ -273,10 +275,11 @@ pub fn run(
             return Err(PyTypeError::new_err(message));
         }
     };
-    let planned_by = format!("{}, effort {effort}, outside {outside}", model.unwrap_or("default"));
+    let planned_by =
+        format!("{}, effort {effort}, out-of-range {out_of_range}", model.unwrap_or("default"));
     let stated = stated(Arc::clone(&task.task), fit);
     let mut trace = Trace::new(stated.as_ref().clone(), settings, planned_by, None);
-    let threads = words::threads(threads)?;
+    let threads = arguments::threads(threads)?;
     let ran = work::run(py, threads, |cancel| {
         runner.run(&mut trace, &mut place, &mut |_| Ok(()), cancel)
     })?;
@@ -371,7 +374,7 @@ impl World for Place {
 }
 
 /// Converts an array `[objects, 3]` to observations.
-fn sights(array: &Bound<'_, PyAny>) -> PyResult<Vec<Option<Sight>>> {
+fn sights(array: &Bound<'_, PyAny>) -> PyResult<Vec<Option<ObservedPose>>> {
     let numbers: Numbers<'_> = array.extract()?;
     let numbers = numbers.as_array();
     if numbers.ndim() != 2 || numbers.shape()[1] != 3 {
@@ -385,7 +388,7 @@ fn sights(array: &Bound<'_, PyAny>) -> PyResult<Vec<Option<Sight>>> {
         let [x, y, heading] = [0, 1, 2].map(|column| numbers[[k, column]]);
         let heading = heading.is_finite().then_some(heading);
         let seen = x.is_finite() && y.is_finite();
-        seen.then_some(Sight { position: Vector::new(x, y), heading })
+        seen.then_some(ObservedPose { position: Vector::new(x, y), heading })
     };
     Ok((0..numbers.shape()[0]).map(sight).collect())
 }

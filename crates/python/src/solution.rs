@@ -13,7 +13,7 @@ use serde_json::json;
 
 use crate::plan::PyPlan;
 use crate::task::PyTask;
-use crate::{json, page, words, work};
+use crate::{arguments, json, page, work};
 
 /// Result of `solve`: status, ranked plans and statistics of the search.
 #[pyclass(name = "Solution", module = "pushplan", frozen)]
@@ -36,7 +36,7 @@ impl PySolution {
     /// - `"failed_verification"`: every plan that the planner replayed was rejected.
     #[getter]
     fn status(&self) -> &'static str {
-        words::status(self.solution.status)
+        arguments::status(self.solution.status)
     }
 
     /// Whether the first plan passes verification.
@@ -47,7 +47,7 @@ impl PySolution {
 
     /// Whether the time limit ended the search early; the plans are then the best found so far.
     #[getter]
-    fn stopped(&self) -> bool {
+    fn timed_out(&self) -> bool {
         self.solution.stopped
     }
 

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use pushplan::asset::PlanFile;
-use pushplan::effect::{EffectModel, Routed};
+use pushplan::effect::{EffectModel, Fallback};
+use pushplan::progress::{Cancel, Until};
 use pushplan::verify::VerifySettings;
-use pushplan::watch::{Cancel, Until};
 use pushplan::{
     Job, Planner, Pose, Record, Simulator, Solution, SolveError, Task, ToolLibrary, Trajectory,
     Verifier,
@@ -25,7 +25,7 @@ use crate::task::PyTask;
 use crate::tool::{PyToolLibrary, given};
 use crate::trajectory::PyTrajectory;
 use crate::verdict::PyVerdict;
-use crate::{errors, words, work};
+use crate::{arguments, errors, work};
 
 /// Chooses a tool and pushes that solve a task, and verifies the plans.
 ///
@@ -83,8 +83,8 @@ use crate::{errors, words, work};
 /// >>> solution = pushplan.solve(task, effort="draft")
 /// >>> print(solution.status, solution.best)
 #[pyfunction]
-#[pyo3(signature = (task, tools = None, *, effort = "standard", model = None, outside = "warn",
-                    seed = 0, disturbed = None, robustness = None, time_limit = None, fit = None,
+#[pyo3(signature = (task, tools = None, *, effort = "standard", model = None, out_of_range = "warn",
+                    seed = 0, replays = None, robustness = None, time_limit = None, fit = None,
                     threads = 0))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn solve(
@@ -93,20 +93,20 @@ pub fn solve(
     tools: Option<Py<PyToolLibrary>>,
     effort: &str,
     model: Option<&str>,
-    outside: &str,
+    out_of_range: &str,
     seed: u64,
-    disturbed: Option<usize>,
+    replays: Option<usize>,
     robustness: Option<f64>,
     time_limit: Option<f64>,
     fit: Option<Py<PyTableFit>>,
     threads: usize,
 ) -> PyResult<PySolution> {
     let fit = fit.as_ref().map(|fit| &fit.get().0);
-    let asked = Asked { effort, model, outside, seed, disturbed, time_limit, fit };
+    let asked = Asked { effort, model, out_of_range, seed, replays, time_limit, fit };
     let planner = asked.planner(py)?;
     let library = given(py, tools.as_ref())?;
     let stated = stated(task.robust(robustness)?, fit);
-    let threads = words::threads(threads)?;
+    let threads = arguments::threads(threads)?;
     let solved = work::run(py, threads, |cancel| planner.solve_with(&stated, &library, cancel))?;
     solution(py, stated, task.source(), solved, &planner)
 }
@@ -138,8 +138,8 @@ pub fn stated(task: Arc<Task>, fit: Option<&TableFit>) -> Arc<Task> {
 /// PushplanError or ValueError
 ///     For the first task that `solve` would reject.
 #[pyfunction]
-#[pyo3(signature = (tasks, tools = None, *, effort = "standard", model = None, outside = "warn",
-                    seed = 0, disturbed = None, robustness = None, time_limit = None, fit = None,
+#[pyo3(signature = (tasks, tools = None, *, effort = "standard", model = None, out_of_range = "warn",
+                    seed = 0, replays = None, robustness = None, time_limit = None, fit = None,
                     threads = 0))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn solve_all(
@@ -148,22 +148,22 @@ pub fn solve_all(
     tools: Option<Py<PyToolLibrary>>,
     effort: &str,
     model: Option<&str>,
-    outside: &str,
+    out_of_range: &str,
     seed: u64,
-    disturbed: Option<usize>,
+    replays: Option<usize>,
     robustness: Option<f64>,
     time_limit: Option<f64>,
     fit: Option<Py<PyTableFit>>,
     threads: usize,
 ) -> PyResult<Vec<PySolution>> {
     let fit = fit.as_ref().map(|fit| &fit.get().0);
-    let asked = Asked { effort, model, outside, seed, disturbed, time_limit, fit };
+    let asked = Asked { effort, model, out_of_range, seed, replays, time_limit, fit };
     let planner = asked.planner(py)?;
     let library = given(py, tools.as_ref())?;
     let stated: PyResult<Vec<Arc<Task>>> =
         tasks.iter().map(|task| Ok(stated(task.get().robust(robustness)?, fit))).collect();
     let stated = stated?;
-    let threads = words::threads(threads)?;
+    let threads = arguments::threads(threads)?;
     let solved = work::run(py, threads, |cancel| solve_each(&planner, &stated, &library, cancel))?;
     let results = stated.into_iter().zip(&tasks).zip(solved);
     results
@@ -184,29 +184,29 @@ fn solve_each(
 pub struct Asked<'a> {
     pub effort: &'a str,
     pub model: Option<&'a str>,
-    pub outside: &'a str,
+    pub out_of_range: &'a str,
     pub seed: u64,
-    pub disturbed: Option<usize>,
+    pub replays: Option<usize>,
     pub time_limit: Option<f64>,
     pub fit: Option<&'a TableFit>,
 }
 
 impl Asked<'_> {
     pub fn planner(&self, py: Python<'_>) -> PyResult<Planner> {
-        let effort = words::effort(self.effort)?;
+        let effort = arguments::effort(self.effort)?;
         let models = match self.model {
-            Some(text) => words::models(py, text)?,
+            Some(text) => arguments::models(py, text)?,
             None => effort.models(),
         };
         let planner =
             Planner::fitted(&models, self.fit).map_err(|error| errors::model(py, &error))?;
-        let outside = words::outside(self.outside)?;
-        let settings = match self.disturbed {
+        let out_of_range = arguments::out_of_range(self.out_of_range)?;
+        let settings = match self.replays {
             Some(count) => effort.settings().replaying(count),
             None => effort.settings(),
         };
-        let builder = planner.settings(settings).seed(self.seed).outside(outside);
-        Ok(match words::limit(self.time_limit)? {
+        let builder = planner.settings(settings).seed(self.seed).out_of_range(out_of_range);
+        Ok(match arguments::limit(self.time_limit)? {
             Some(limit) => builder.time_limit(limit).build(),
             None => builder.build(),
         })
@@ -251,20 +251,20 @@ fn solution(
 /// ValueError
 ///     If `out_of_range` or `threads` has an invalid value.
 #[pyfunction]
-#[pyo3(signature = (plan, model = "network", *, outside = "warn", threads = 0))]
+#[pyo3(signature = (plan, model = "network", *, out_of_range = "warn", threads = 0))]
 pub fn predict(
     py: Python<'_>,
     plan: &PyPlan,
     model: &str,
-    outside: &str,
+    out_of_range: &str,
     threads: usize,
 ) -> PyResult<PyTrajectory> {
     let file = &plan.file;
-    let spec = words::spec(py, model)?;
+    let spec = arguments::spec(py, model)?;
     // The fit applies only to the network that made the plan.
     let fit = file.fit.as_ref().filter(|_| file.model.as_ref() == Some(&spec));
-    let model = words::fitted(py, &spec, words::outside(outside)?, fit)?;
-    let trajectory = work::run(py, words::threads(threads)?, |_| predicted(&model, file))?;
+    let model = arguments::fitted(py, &spec, arguments::out_of_range(out_of_range)?, fit)?;
+    let trajectory = work::run(py, arguments::threads(threads)?, |_| predicted(&model, file))?;
     if trajectory.warnings.contains(&Warning::Refused) {
         let message = format!(
             "`out_of_range` is \"refuse\", and the plan is outside the validity range of the model \
@@ -277,7 +277,7 @@ pub fn predict(
 }
 
 /// Predicts a plan with a model; the trajectory includes the warnings.
-pub fn predicted(model: &Routed, file: &PlanFile) -> Trajectory {
+pub fn predicted(model: &Fallback, file: &PlanFile) -> Trajectory {
     let scene = &file.task.scene;
     let motions = file.plan.motions(&file.tools).unwrap_or_default();
     let jobs: Vec<Job> = match &motions[..] {
@@ -339,31 +339,33 @@ pub fn predicted(model: &Routed, file: &PlanFile) -> Trajectory {
 /// >>> verdict = pushplan.verify(solution.best, replays=32)
 /// >>> print(verdict.passed, verdict.robustness)
 #[pyfunction]
-#[pyo3(signature = (plan, *, disturbed = 8, seed = 0, robustness = None, time_limit = None,
+#[pyo3(signature = (plan, *, replays = 8, seed = 0, robustness = None, time_limit = None,
                     threads = 0))]
 pub fn verify(
     py: Python<'_>,
     plan: &PyPlan,
-    disturbed: usize,
+    replays: usize,
     seed: u64,
     robustness: Option<f64>,
     time_limit: Option<f64>,
     threads: usize,
 ) -> PyResult<PyVerdict> {
-    if disturbed > 100_000 {
-        let message = format!("`replays` must be at most 100000, found {disturbed}");
+    if replays > 100_000 {
+        let message = format!("`replays` must be at most 100000, found {replays}");
         return Err(pyo3::exceptions::PyValueError::new_err(message));
     }
     let mut file = plan.file.clone();
     let task = PyTask { task: Arc::new(file.task.clone()), source: None };
     file.task = Task::clone(&*task.robust(robustness)?);
-    let settings = VerifySettings { disturbed, seed };
-    let limit = words::limit(time_limit)?;
-    let verdict = work::run(py, words::threads(threads)?, |cancel| {
+    let settings = VerifySettings { replays, seed };
+    let limit = arguments::limit(time_limit)?;
+    let verdict = work::run(py, arguments::threads(threads)?, |cancel| {
         let until = Until::new(cancel, limit);
         let situation = Situation::stated(&file.task.scene);
-        let verifier =
-            Verifier::new(settings).watched(&until).until_clear().moving(file.joints.as_ref());
+        let verifier = Verifier::new(settings)
+            .with_progress(&until)
+            .until_clear()
+            .moving(file.joints.as_ref());
         verifier.verify(&file.task, &situation, &file.tools, &file.plan)
     })?;
     Ok(PyVerdict { file, verdict })

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use pushplan::TableFit;
 use pushplan::effect::{EffectModels, Network, Prior};
-use pushplan::watch::Unwatched;
+use pushplan::progress::NoProgress;
 use pushplan_act::fit::{Basis, FitSettings, HeadSettings, learn};
 use pushplan_act::judge::Trial;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyAny;
 
 use crate::belief::PyRecording;
-use crate::{errors, json, words, work};
+use crate::{arguments, errors, json, work};
 
 /// Table fit: friction, support and a change of the network's last layer, from recordings of one
 /// table. It is an argument of `solve` and `run`, and a result of `fit` and `run`.
@@ -143,9 +143,9 @@ pub fn fit(
     let network = Network::new(weights);
     let trials: Vec<Trial> =
         recordings.iter().map(|one| Trial::of_recording(&one.get().0)).collect();
-    let learnt = work::run(py, words::threads(threads)?, |_| {
+    let learnt = work::run(py, arguments::threads(threads)?, |_| {
         let settings = FitSettings::default();
-        let found = pushplan_act::fit::fit(&Prior::default(), &trials, &settings, &Unwatched)?;
+        let found = pushplan_act::fit::fit(&Prior::default(), &trials, &settings, &NoProgress)?;
         Some(learn(&network, &trials, &Basis::from(&found), &HeadSettings::default()))
     })?;
     match learnt {

@@ -127,7 +127,7 @@ impl PyTask {
     /// TypeError
     ///     If the mapping contains other types than a file.
     #[staticmethod]
-    fn of(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
+    fn from_dict(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
         let task = Text::of(mapping)?.read(py, "task", Task::parse)?;
         Ok(Self { task: Arc::new(task), source: None })
     }

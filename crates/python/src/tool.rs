@@ -77,7 +77,7 @@ impl PyTool {
     /// >>> bar = {"name": "bar", "size": [0.2, 0.04, 0.05], "position": [0.1, 0]}
     /// >>> tool = pushplan.Tool.from_dict({"name": "short-stick", "parts": [bar]})
     #[staticmethod]
-    fn of(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
+    fn from_dict(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
         Ok(Self(Arc::new(Text::of(mapping)?.read(py, "tool", Tool::parse)?)))
     }
 

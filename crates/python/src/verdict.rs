@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use numpy::PyArray2;
 use pushplan::asset::PlanFile;
-use pushplan::outcome::{Disturbance, Evidence, Warning};
+use pushplan::outcome::{Evidence, Perturbation, Warning};
 use pushplan::{Task, Verdict};
 use pushplan_report::{
     Origin, PageView, TaskSource, replay_warnings, verdict_document, verdict_page,
@@ -15,7 +15,7 @@ use pyo3::types::PyAny;
 use serde_json::json;
 
 use crate::trajectory::PyTrajectory;
-use crate::{arrays, json, page, words};
+use crate::{arguments, arrays, json, page};
 
 /// Verdict on a plan after nominal and perturbed replays in the 2-D and the 3-D engine.
 #[pyclass(name = "Verdict", module = "pushplan", frozen)]
@@ -36,8 +36,8 @@ impl PyVerdict {
 
     /// Whether the nominal replays reach the goal, even if too few perturbed replays do.
     #[getter]
-    fn works(&self) -> bool {
-        self.verdict.works()
+    fn nominal_ok(&self) -> bool {
+        self.verdict.nominal_ok()
     }
 
     /// Share of the perturbed replays that reach the goal, 0 to 1, in the engine with the lower
@@ -133,15 +133,15 @@ impl PyReplay {
     /// Engine of the replay: `"planar"` (2-D) or `"3d"`.
     #[getter]
     fn engine(&self) -> &'static str {
-        words::engine(self.evidence.engine)
+        arguments::engine(self.evidence.engine)
     }
 
     /// Number of the perturbation, from 1, equal in both engines; `None` for a nominal replay.
     #[getter]
     fn draw(&self) -> Option<usize> {
-        match self.evidence.disturbance {
-            Disturbance::Nominal => None,
-            Disturbance::Disturbed { draw } => Some(draw),
+        match self.evidence.perturbation {
+            Perturbation::Nominal => None,
+            Perturbation::Perturbed { draw } => Some(draw),
         }
     }
 

@@ -43,7 +43,7 @@ def recorded(task: pushplan.Task) -> dict[str, Any]:
 
 def test_a_joint_is_found(root: Path, command: Any, tmp_path: Path) -> None:
     task = pushplan.Task.load(root / "tasks/jointed-pair.yaml")
-    recording = pushplan.Recording.of(recorded(task))
+    recording = pushplan.Recording.from_dict(recorded(task))
     assert recording.objects == task.objects and len(recording) == len(recording.times)
     assert np.allclose(recording.poses[0], task.start)
     belief = pushplan.infer(recording)
@@ -57,7 +57,7 @@ def test_a_joint_is_found(root: Path, command: Any, tmp_path: Path) -> None:
     assert found["kind"] == stated["kind"]
     # The believed scene can be used for planning.
     keys: Any = {**task.to_dict(), "scene": belief.scene()}
-    assert pushplan.Task.of(keys).objects == task.objects
+    assert pushplan.Task.from_dict(keys).objects == task.objects
 
 
 def test_beliefs_are_those_of_the_command(root: Path, command: Any, tmp_path: Path) -> None:
@@ -91,7 +91,7 @@ def test_faults_of_recordings_name_their_keys(root: Path) -> None:
     keys = recorded(pushplan.Task.load(root / "tasks/jointed-pair.yaml"))
     keys["frames"][3]["objects"] = keys["frames"][3]["objects"][:1]
     with pytest.raises(pushplan.FileError) as raised:
-        pushplan.Recording.of(keys)
+        pushplan.Recording.from_dict(keys)
     assert raised.value.faults[0].key is not None
     assert raised.value.faults[0].key.startswith("frames[3].objects")
     with pytest.raises(ValueError, match="0 to 0.5"):

@@ -55,7 +55,7 @@ def test_faults_of_a_mapping_name_its_keys(task: pushplan.Task) -> None:
     keys["goal"]["tolerance"] = np.float64(5.0)
     keys["robot"]["reach"]["max"] = "far"
     with pytest.raises(pushplan.FileError) as raised:
-        pushplan.Task.of(keys)
+        pushplan.Task.from_dict(keys)
     assert {fault.key for fault in raised.value.faults} == {
         "scene.objects[0].mass",
         "scene.objects[0].colour",
@@ -68,7 +68,7 @@ def test_faults_of_a_mapping_name_its_keys(task: pushplan.Task) -> None:
 
 def test_what_no_file_can_hold_is_refused(task: pushplan.Task) -> None:
     keys: Any = task.to_dict()
-    build: Any = pushplan.Task.of
+    build: Any = pushplan.Task.from_dict
     with pytest.raises(TypeError, match="robustness: expected numbers"):
         build({**keys, "robustness": {0.5}})
     with pytest.raises(TypeError, match="keys must be strings"):
@@ -86,12 +86,12 @@ def test_what_no_file_can_hold_is_refused(task: pushplan.Task) -> None:
 def test_mappings_and_files_are_the_same_task(root: Path) -> None:
     for path in sorted(root.glob("tasks/*.yaml")):
         task = pushplan.Task.load(path)
-        again = pushplan.Task.of(task.to_dict())
+        again = pushplan.Task.from_dict(task.to_dict())
         assert again.to_dict() == task.to_dict(), path
         assert pushplan.Task.parse(task.to_yaml()).to_dict() == task.to_dict(), path
     for name in pushplan.ToolLibrary.shipped().names:
         tool = pushplan.ToolLibrary.shipped()[name]
-        assert pushplan.Tool.of(tool.to_dict()) == tool
+        assert pushplan.Tool.from_dict(tool.to_dict()) == tool
 
 
 def test_examples_are_the_shipped_tasks(root: Path) -> None:
@@ -109,11 +109,11 @@ def test_examples_are_the_shipped_tasks(root: Path) -> None:
 def test_arrays_are_taken_as_lists(task: pushplan.Task) -> None:
     keys: Any = task.to_dict()
     keys["goal"]["position"] = np.array([0.6, 0.14])
-    assert pushplan.Task.of(keys).goal_position == (0.6, 0.14)
+    assert pushplan.Task.from_dict(keys).goal_position == (0.6, 0.14)
 
 
 def test_a_tool_of_ones_own_is_chosen_from() -> None:
-    tool = pushplan.Tool.of(
+    tool = pushplan.Tool.from_dict(
         {
             "name": "long-hook",
             "friction": 0.4,
@@ -131,7 +131,7 @@ def test_a_tool_of_ones_own_is_chosen_from() -> None:
     with pytest.raises(KeyError, match="no tool is called `spoon`"):
         library["spoon"]
     with pytest.raises(pushplan.FileError, match="separate pieces"):
-        pushplan.Tool.of(
+        pushplan.Tool.from_dict(
             {
                 "name": "apart",
                 "friction": 0.4,

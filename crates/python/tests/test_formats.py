@@ -219,7 +219,7 @@ def test_the_command_writes_the_same_recording(
 def test_a_trajectory_of_another_task_is_refused(task: pushplan.Task, tmp_path: Path) -> None:
     other: Any = task.to_dict()
     other["scene"]["objects"].append({**other["scene"]["objects"][0], "name": "more", "position": [0.3, 0.4]})
-    predicted = pushplan.predict(plan(pushplan.Task.of(other)))
+    predicted = pushplan.predict(plan(pushplan.Task.from_dict(other)))
     with pytest.raises(ValueError, match="of another task"):
         pushplan.export_mcap(plan(task), tmp_path / "x.mcap", trajectory=predicted)
     assert not (tmp_path / "x.mcap").exists()
@@ -246,7 +246,7 @@ def test_data_are_read_by_numpy_and_are_what_the_engines_say(
         count = data["objects"][episode]
         assert [o["mass"] for o in scene["objects"]] == data["mass"][episode, :count].tolist()
         name, place = scene["objects"][0]["name"], scene["objects"][0]["position"]
-        task = pushplan.Task.of({
+        task = pushplan.Task.from_dict({
             "scene": scene,
             "robot": {"reach": {"max": 10}},
             "tools": "all",
@@ -264,7 +264,7 @@ def test_data_are_read_by_numpy_and_are_what_the_engines_say(
         poses = data["pose"][first:behind, :count]
         # Headings in files are within a full turn, headings in the data count turns.
         rolled = pushplan.rollout(
-            task, pushplan.Tool.of(tool), pushes[None], grip_yaw=stroke[0, 2], start=poses[0], model=model
+            task, pushplan.Tool.from_dict(tool), pushes[None], grip_yaw=stroke[0, 2], start=poses[0], model=model
         )
         assert rolled.frames[0] == behind - first
         off.append(np.abs(rolled.poses[0] - poses).max())

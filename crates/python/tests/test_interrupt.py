@@ -24,7 +24,7 @@ def solve(task: pushplan.Task) -> None:
 
 def verify(task: pushplan.Task) -> None:
     push = pushplan.Push([0.47, 0.02], np.pi)
-    pushplan.verify(pushplan.Plan.of(task, "l-hook", [push]), disturbed=100_000)
+    pushplan.verify(pushplan.Plan.of(task, "l-hook", [push]), replays=100_000)
 
 
 def rollout(task: pushplan.Task) -> None:
@@ -68,7 +68,7 @@ def test_other_threads_run_meanwhile(task: pushplan.Task) -> None:
 
     ticking = threading.Thread(target=tick)
     ticking.start()
-    pushplan.verify(pushplan.solve(task).best, disturbed=64)  # type: ignore[arg-type]
+    pushplan.verify(pushplan.solve(task).best, replays=64)  # type: ignore[arg-type]
     done.set()
     ticking.join()
     assert len(ticks) > 10

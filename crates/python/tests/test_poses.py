@@ -119,7 +119,7 @@ def drawn(rng: np.random.Generator) -> tuple[Any, Any]:
 
 
 def test_rendered_tags_are_found_within_what_is_said(tmp_path: Path) -> None:
-    task = pushplan.Task.of(TASK)
+    task = pushplan.Task.from_dict(TASK)
     # Not in the set from which poses.PIXELS was chosen.
     rng = np.random.default_rng(1000)
     squares = []
@@ -143,7 +143,7 @@ def test_rendered_tags_are_found_within_what_is_said(tmp_path: Path) -> None:
 
 
 def test_an_object_that_is_not_seen_stays_and_is_named(tmp_path: Path) -> None:
-    task = pushplan.Task.of(TASK)
+    task = pushplan.Task.from_dict(TASK)
     eye, at = drawn(np.random.default_rng(6))
     there = camera().at(eye, looking(eye))
     turned = [[math.cos(a), -math.sin(a)] for a in [at[0, 2]]]

@@ -117,7 +117,7 @@ def context() -> Iterator[None]:
 
 
 def started(stuck: bool = False) -> tuple[Any, Turning, Robot, Turning]:
-    task = pushplan.Task.of(TASK)
+    task = pushplan.Task.from_dict(TASK)
     planner = ros.Node(task, effort="draft")
     robot = Robot(task, stuck)
     return planner, Turning(planner.node), robot, Turning(robot.node)
@@ -171,7 +171,7 @@ def test_a_task_with_one_of_two_goals_met_is_not_reached() -> None:
         {"object": "can", "position": [0.45, 0.1], "tolerance": 0.02},
         {"object": "cup", "position": [0.55, -0.1], "tolerance": 0.02},
     ]
-    task = pushplan.Task.of(two)
+    task = pushplan.Task.from_dict(two)
 
     # A node that receives the start and makes no plan, without a context of rclpy.
     still: Any = ros.Node.__new__(ros.Node)

@@ -57,7 +57,7 @@ def test_a_number_draws_a_world_and_says_the_same_each_time(root: Path, tmp_path
 def test_a_drawn_world_says_where_the_arm_gave_up(root: Path) -> None:
     text = (root / "tasks" / "pull-back.yaml").read_text()
     weak = pushplan.Task.parse(text.replace("robot: {", "robot: {max_force: 0.1, "), "weak")
-    ran = pushplan.run(weak, 1, pushes=2)
+    ran = pushplan.run(weak, 1, max_pushes=2)
     assert not ran.reached
     assert any("ended early" in note for note in ran.notes)
 

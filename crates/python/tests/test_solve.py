@@ -83,16 +83,16 @@ def test_efforts_differ_and_unknown_words_are_refused(task: pushplan.Task) -> No
 def test_a_time_limit_returns_the_best_so_far(root: Path) -> None:
     task = pushplan.Task.load(root / "tasks/narrow-gap.yaml")
     solution = pushplan.solve(task, effort="thorough", time_limit=0.05)
-    assert solution.stopped and not solution.solved
+    assert solution.timed_out and not solution.solved
 
 
 def test_a_model_can_be_told_to_refuse(task: pushplan.Task) -> None:
     keys = task.to_dict()
     # Far faster than any push on which the model was measured.
-    fast = pushplan.Task.of({**keys, "pushes": {"speed": 1.0}})
+    fast = pushplan.Task.from_dict({**keys, "pushes": {"speed": 1.0}})
     assert pushplan.solve(fast, model="network", effort="draft").warnings
     with pytest.raises(pushplan.RefusedError) as refused:
-        pushplan.solve(fast, model="network", outside="refuse")
+        pushplan.solve(fast, model="network", out_of_range="refuse")
     assert any("speed" in warning for warning in refused.value.warnings)
 
 
@@ -103,8 +103,8 @@ def test_verdicts_are_those_of_the_command(
     assert best is not None
     path = tmp_path / "best.plan.json"
     best.save(path)
-    ran = command("verify", path, "--disturbed", 5, "--seed", 2, "--json")
-    verdict = pushplan.verify(pushplan.Plan.load(path), disturbed=5, seed=2)
+    ran = command("verify", path, "--replays", 5, "--seed", 2, "--json")
+    verdict = pushplan.verify(pushplan.Plan.load(path), replays=5, seed=2)
     assert verdict.to_dict() == json.loads(ran.stdout)
     # At least five perturbed replays in each engine, and more until the verdict is clear.
     assert len(verdict.replays) >= 12 and verdict.passed and verdict.robustness == 1.0
@@ -133,7 +133,7 @@ def test_what_solving_gives_can_be_pickled(task: pushplan.Task) -> None:
     solution = pushplan.solve(task, effort="draft")
     assert again(solution).to_dict() == solution.to_dict()
     assert solution.best is not None
-    verdict = pushplan.verify(solution.best, disturbed=1)
+    verdict = pushplan.verify(solution.best, replays=1)
     assert (again(verdict).passed, again(verdict).reason) == (verdict.passed, verdict.reason)
     trajectory = pushplan.predict(solution.best)
     assert (again(trajectory).poses == trajectory.poses).all()
@@ -154,12 +154,12 @@ def test_what_is_the_same_compares_equal_and_what_is_not_does_not(task: pushplan
         (task, pushplan.Task.example("pull-back")),
         (best, missed),
         (solution, other),
-        (pushplan.verify(best, disturbed=1), pushplan.verify(missed, disturbed=0)),
+        (pushplan.verify(best, replays=1), pushplan.verify(missed, replays=0)),
         (push, shorter),
         (pushplan.predict(best), pushplan.predict(best, "planar")),
         (best.tool, missed.tool),
         (library, pushplan.ToolLibrary.of([best.tool])),
-        (pushplan.run(task, 1, pushes=1), pushplan.run(task, 2, pushes=1)),
+        (pushplan.run(task, 1, max_pushes=1), pushplan.run(task, 2, max_pushes=1)),
     ]:
         for same in (pickle.loads(pickle.dumps(value)), copy.copy(value), copy.deepcopy(value)):
             assert value == same and not value != same
@@ -180,7 +180,7 @@ def test_a_forked_process_has_threads_of_its_own(task: pushplan.Task) -> None:
 
 
 def test_a_lever_up_is_solved_verified_and_written_like_a_push(tmp_path: Path) -> None:
-    task = pushplan.Task.of(
+    task = pushplan.Task.from_dict(
         {
             "name": "turn",
             "scene": {
@@ -206,7 +206,7 @@ def test_a_lever_up_is_solved_verified_and_written_like_a_push(tmp_path: Path) -
     best = solution.best
     assert best is not None and best.levers
     assert [list(step) for step in best.steps] == [["lever_up"]]
-    verdict = pushplan.verify(best, disturbed=2)
+    verdict = pushplan.verify(best, replays=2)
     assert verdict.passed
     [replay, *_] = verdict.replays
     trajectory = replay.trajectory

@@ -53,7 +53,7 @@ pub(super) fn bystanders<'a>(
         }
         found
     };
-    let others = task.scene.things().filter(|(k, _)| !task.wants(*k));
+    let others = task.scene.things().filter(|(k, _)| !task.has_goal(*k));
     let mut moved: Vec<Bystander> =
         others.map(of).filter(|one| one.moved > MOVED || one.fell).collect();
     moved.sort_by(|a, b| b.moved.total_cmp(&a.moved));

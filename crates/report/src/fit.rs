@@ -35,7 +35,7 @@ pub fn fit_document(fit: &Fit, objects: &[&str]) -> Document {
             ("90 % interval", Right, &|(_, it)| {
                 format!("{:.3} to {:.3}", it.interval.low, it.interval.high)
             }),
-            ("the recordings", Left, &|(_, it)| says(it).to_owned()),
+            ("the recordings", Left, &|(_, it)| identification(it).to_owned()),
         ],
     );
     let share = |error: &SupportError| {
@@ -117,8 +117,8 @@ pub fn table_fit_section(fit: &TableFit) -> Section {
     }
 }
 
-fn says(estimate: &Estimate) -> &'static str {
-    match (estimate.told, estimate.at_the_end) {
+fn identification(estimate: &Estimate) -> &'static str {
+    match (estimate.identified, estimate.at_the_end) {
         (true, false) => "tell it",
         (true, true) => "tell it, but the best value is the end of the range",
         (false, _) => "hardly tell it: the posterior is nearly as wide as the range",

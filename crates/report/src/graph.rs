@@ -1,7 +1,7 @@
 //! The interaction graph at one instant, for inspection: objects, tool parts and obstacles are
 //! nodes, linked by their relations.
 //!
-//! The network uses a cheaper form, [`pushplan::graph::Given`]: the parts of a tool share one row
+//! The network uses a cheaper form, [`pushplan::graph::PrescribedNode`]: the parts of a tool share one row
 //! because the fixed joints between them give all parts the same message. A test compares both
 //! forms.
 
@@ -154,10 +154,10 @@ fn relations(
     let (frame, _) = solver.solve_with_forces(problem);
     let own = |awake: usize| frame.bodies.objects[awake].index.0;
     let mut relations = Vec::new();
-    for sight in frame.contacts.iter().flat_map(|contact| contact.sights()).flatten() {
-        let receiver = own(sight.receiver);
-        let at = state.poses[receiver].position + sight.arms[0];
-        let sender = match sight.sender {
+    for side in frame.contacts.iter().flat_map(|contact| contact.sides()).flatten() {
+        let receiver = own(side.receiver);
+        let at = state.poses[receiver].position + side.arms[0];
+        let sender = match side.sender {
             Partner::Object(other) => own(other),
             Partner::Obstacle(k) => objects + parts.len() + frame.bodies.obstacles[k].index,
             Partner::Part(_) => {

@@ -10,6 +10,7 @@ mod belief;
 mod bystanders;
 mod chart;
 mod design;
+mod detours;
 mod document;
 mod fit;
 mod graph;
@@ -32,7 +33,6 @@ mod table;
 mod tools;
 mod trajectory;
 mod verdict;
-mod ways;
 
 pub use bars::{BarChart, Bars};
 pub use belief::belief_document;

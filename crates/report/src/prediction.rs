@@ -71,7 +71,7 @@ fn effect_table(task: &Task, effects: &[TimedEffect]) -> Table {
     let mut rows = Vec::new();
     for k in task.scene.things().map(|(k, _)| k) {
         let ends = effects.iter().map(|effect| effect.trajectory.outcome());
-        if task.wants(k) || ends.into_iter().any(|end| moved(end, k) >= STILL) {
+        if task.has_goal(k) || ends.into_iter().any(|end| moved(end, k) >= STILL) {
             rows.extend(effects.iter().map(|effect| (k, effect, effect.trajectory.outcome())));
         }
     }

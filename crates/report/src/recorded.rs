@@ -18,8 +18,8 @@ pub fn recorded_document(reports: &[RecordedErrors]) -> Document {
     let notes = if before.is_empty() { vec![LEGEND.to_owned()] } else { Vec::new() };
     let mut sections = vec![Section { table: recorded_table(newest), ..Section::default() }];
     // A combined report has no table by recording, because earlier reports contain the recordings.
-    let told = |name| before.iter().any(|report| report.names.contains(name));
-    if newest.names.len() > 1 && !newest.names.iter().any(told) {
+    let reported = |name| before.iter().any(|report| report.names.contains(name));
+    if newest.names.len() > 1 && !newest.names.iter().any(reported) {
         sections.extend(newest.errors.models.first().map(|model| Section {
             title: format!("{} by recording, beside the error that it expects", model.model),
             table: each_table(&newest.names, &model.each),

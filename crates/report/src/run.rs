@@ -72,8 +72,8 @@ pub fn headline(trace: &Trace) -> String {
     };
     let end = match trace.end {
         Some(End::Reached) => "reached",
-        Some(End::UsedUp) => "given up, all pushes are used up",
-        Some(End::NoPush) => "given up, no push brings it nearer",
+        Some(End::BudgetExhausted) => "given up, all pushes are used up",
+        Some(End::NoImprovingPush) => "given up, no push brings it nearer",
         None => "not finished",
     };
     let off = |what: &str, state: Option<State>| {

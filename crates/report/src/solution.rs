@@ -9,12 +9,12 @@ use pushplan::{
 };
 
 use super::bystanders::{self, bystanders};
+use super::detours::detours;
 use super::document::{Document, Section};
 use super::number::seconds;
 use super::plan_text::{goal_line, plan_line, plan_sections, point};
 use super::table::{Align, Table};
 use super::verdict::{outcome_section, verdict_line};
-use super::ways::ways;
 
 /// Returns a report on a solved task, or on the nearest plan.
 pub fn solution_document(task: &Task, solution: &Solution) -> Document {
@@ -32,7 +32,7 @@ pub fn solution_document(task: &Task, solution: &Solution) -> Document {
         outcomes.lines.extend(share.map(|share| {
             format!("{:.0} % of the disturbed replays meet the goals that are met", 100.0 * share)
         }));
-        outcomes.lines.extend(ways(task, &best.plan, &best.tools));
+        outcomes.lines.extend(detours(task, &best.plan, &best.tools));
         sections.push(outcomes);
     }
     if solution.statistics.levers.is_some() {

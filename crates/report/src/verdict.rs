@@ -89,7 +89,7 @@ pub(super) fn verdict_line(task: &Task, verdict: Option<&Verdict>) -> String {
                 [one] => format!("the {one} simulation"),
                 _ => "both simulations".to_owned(),
             };
-            format!("passed: reaches the goal in {simulations}{}", disturbed(verdict))
+            format!("passed: reaches the goal in {simulations}{}", perturbed(verdict))
         }
         Some(Reason::Forbidden(what)) => format!("failed: {what}"),
         Some(Reason::GoesWrong { engine, fault }) => {
@@ -158,11 +158,11 @@ fn resting(support: &Support) -> String {
 }
 
 /// Formats the share of perturbed replays that reach the goal.
-fn disturbed(verdict: &Verdict) -> String {
+fn perturbed(verdict: &Verdict) -> String {
     let mut found = Vec::new();
     for engine in Engine::ALL {
-        let count = verdict.disturbed(engine).count();
-        let reached = verdict.disturbed(engine).filter(|e| e.outcome.reached).count();
+        let count = verdict.perturbed(engine).count();
+        let reached = verdict.perturbed(engine).filter(|e| e.outcome.reached).count();
         if count > 0 {
             found.push(format!("{reached} of {count} in the {} one", engine_name(engine)));
         }
@@ -189,7 +189,7 @@ pub(super) fn nominal(verdict: &Verdict) -> impl Iterator<Item = &Evidence> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use pushplan::{outcome::Disturbance, scene::State};
+    use pushplan::{outcome::Perturbation, scene::State};
 
     #[test]
     fn a_warning_of_both_engines_is_said_once() {
@@ -198,7 +198,7 @@ mod tests {
         let outcome = Outcome { state: State::default(), goals: Vec::new(), reached: false };
         let evidence = |engine, warnings| Evidence {
             engine,
-            disturbance: Disturbance::Nominal,
+            perturbation: Perturbation::Nominal,
             outcome: outcome.clone(),
             warnings,
             force: None,

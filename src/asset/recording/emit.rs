@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::{Value as Json, json};
 
-use crate::asset::fault::{Fault, Faults};
+use crate::asset::diagnostic::{Fault, Faults};
 use crate::asset::saved::{SCHEMA_VERSION, emit};
 use crate::asset::write_atomic;
 use crate::geometry::Pose;

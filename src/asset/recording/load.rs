@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::asset::fault::Faults;
+use crate::asset::diagnostic::Faults;
 use crate::asset::node::{Content, Node};
 use crate::asset::shapes::shape;
 use crate::asset::strict::{Ledger, check};
@@ -97,15 +97,15 @@ fn complete(object: &mut Node, pose: &Node, ledger: &mut Ledger) {
     let id = object.id;
     let [Some(x), Some(y), yaw] = [0, 1, 2].map(|k| pose.items().get(k)) else { return };
     let position = Node { id: pose.id, content: Content::List(vec![x.clone(), y.clone()]) };
-    if let Some(said) = object.get("position") {
+    if let Some(stated) = object.get("position") {
         let differs = |k: usize, found: &Node| {
-            let said = said.items().get(k).and_then(Node::number);
+            let stated = stated.items().get(k).and_then(Node::number);
             // Positions that differ by less than a tenth of the contact distance count as equal.
-            matches!((said, found.number()), (Some(a), Some(b)) if (a - b).abs() > 1e-3)
+            matches!((stated, found.number()), (Some(a), Some(b)) if (a - b).abs() > 1e-3)
         };
         if differs(0, x) || differs(1, y) {
             let message = "the object starts elsewhere in the first frame";
-            ledger.fault(said, message, "leave `position` out: the first frame says where it is");
+            ledger.fault(stated, message, "leave `position` out: the first frame says where it is");
         }
     }
     let Content::Map(pairs) = &mut object.content else { return };

@@ -11,8 +11,8 @@ use crate::asset::task::{
 use crate::geometry::Shape;
 use crate::{
     scene::{
-        Blade, DisjointSets, Hand, Joint, JointKind, Mount, Object, Obstacle, PairFriction, Robot,
-        Scene, Span, TableTop, Tool,
+        Blade, DisjointSets, Hand, Joint, JointKind, Object, Obstacle, PairFriction, Robot, Scene,
+        Span, TableTop, Tool, WorldJoint,
     },
     task::{Directions, Offsets, PushForm, PushRules, Task},
 };
@@ -133,7 +133,8 @@ pub(in crate::asset) fn scene(scene: &Scene) -> Json {
         }
         fields
     };
-    let mount = |mount: &Mount| joined([&scene.objects[mount.object].name, WORLD], &mount.kind);
+    let mount =
+        |mount: &WorldJoint| joined([&scene.objects[mount.object].name, WORLD], &mount.kind);
     let joints = scene.joints.iter().filter(|joint| !scene.is_seam(joint)).map(joint);
     let mut table = json!({"friction": scene.table_friction});
     if let Some(TableTop { size, middle }) = scene.table_top {

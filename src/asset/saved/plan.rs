@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::asset::fault::Faults;
+use crate::asset::diagnostic::Faults;
 use crate::asset::read_text;
 use crate::asset::table_fit::Whole;
 use crate::{

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::asset::fault::{Fault, Faults, Place};
+use crate::asset::diagnostic::{Fault, Faults, Place};
 use crate::asset::node::Node;
 use crate::asset::spec::Value;
 use crate::asset::strict::{Ledger, check};

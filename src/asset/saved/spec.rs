@@ -51,7 +51,7 @@ const TOOLS: Key = Key::required(
     "The tools that the steps name, as in tool files.",
 );
 
-static OF_TOOL_FILE: Value = Value::Told { by: tool_of_file, of: &TOOLS_OF_FILES };
+static OF_TOOL_FILE: Value = Value::Dependent { by: tool_of_file, of: &TOOLS_OF_FILES };
 static TOOLS_OF_FILES: [&Value; 1] = [&TOOL_FILE];
 
 fn tool_of_file(_: &Node) -> &'static Value {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::asset::fault::Faults;
+use crate::asset::diagnostic::Faults;
 use crate::asset::node::Node;
 use crate::asset::read_text;
 use crate::{

@@ -106,8 +106,8 @@ const FRAGILE: Value = Value::Map(&[
     Key::required("wanted", SHARE, "Share that was asked for."),
 ]);
 
-const DISTURBED: Key = Key::required(
-    "disturbed",
+const PERTURBED: Key = Key::required(
+    "perturbed",
     Value::Map(&[Key::required("draw", DRAW, "Number of the draw, from 1.")]),
     "Starts and frictions were, by little and at random.",
 );
@@ -115,8 +115,8 @@ const DISTURBED: Key = Key::required(
 const EVIDENCE: Value = Value::Map(&[
     Key::required("engine", ENGINE, "Which engine replayed it."),
     Key::required(
-        "disturbance",
-        Value::Either(&[Value::Word(&["nominal"]), Value::Variant(&[DISTURBED])]),
+        "perturbation",
+        Value::Either(&[Value::Word(&["nominal"]), Value::Variant(&[PERTURBED])]),
         "What was changed: `nominal` for nothing.",
     ),
     Key::required("outcome", OUTCOME, "Where it ended."),

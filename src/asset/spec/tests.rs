@@ -13,7 +13,7 @@ fn walk(value: &Value, visit: &mut impl FnMut(&Value)) {
         Value::Map(keys) | Value::Variant(keys) => {
             keys.iter().for_each(|key| walk(&key.value, visit));
         }
-        Value::Told { of, .. } => of.iter().for_each(|value| walk(value, visit)),
+        Value::Dependent { of, .. } => of.iter().for_each(|value| walk(value, visit)),
         Value::Either(values) => values.iter().for_each(|value| walk(value, visit)),
         _ => {}
     }

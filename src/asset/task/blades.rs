@@ -1,6 +1,6 @@
 //! Blade checks for tasks that allow lever-ups: a blade must exist and fit below the edge.
 
-use crate::asset::fault::did_you_mean;
+use crate::asset::diagnostic::did_you_mean;
 use crate::asset::library::ToolLibrary;
 use crate::asset::node::Node;
 use crate::asset::strict::Ledger;

@@ -1,6 +1,6 @@
 //! Bodies of a scene in a file: their footprints, heights and names.
 
-use crate::asset::fault::did_you_mean;
+use crate::asset::diagnostic::did_you_mean;
 use crate::asset::node::Node;
 use crate::asset::shapes::{placed, shape};
 use crate::asset::strict::Ledger;

@@ -14,7 +14,7 @@ use crate::{
 
 use super::keep::KEPT_WITHIN;
 use super::tools::{costs, tools};
-use super::{frictions, goals, joints, keep, levers, mounts, obstacles, parts};
+use super::{frictions, goals, joints, keep, levers, obstacles, parts, world_joints};
 
 /// Builds the task; returns `None` if a required value is missing or faulty.
 pub(super) fn task(root: &Node, file: &str, arm: Option<Arc<dyn RobotArm>>) -> Option<Task> {
@@ -75,7 +75,7 @@ pub(super) fn scene(node: &Node) -> Option<Scene> {
     let obstacles: Vec<Obstacle> =
         items("obstacles").map(obstacles::obstacle).collect::<Option<_>>()?;
     let fixed = node.get("obstacles").map(Node::items).unwrap_or_default();
-    let moving = |joint| mounts::moving(joint, nodes, fixed);
+    let moving = |joint| world_joints::moving(joint, nodes, fixed);
     let mut scene = Scene {
         table_friction: match node.get("table") {
             Some(table) => number_or(table, "friction", Scene::FRICTION)?,

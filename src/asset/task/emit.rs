@@ -1,6 +1,6 @@
 //! Conversion of a task and its scene to the form of a file.
 
-use crate::asset::fault::{Fault, Faults};
+use crate::asset::diagnostic::{Fault, Faults};
 use crate::asset::saved::emit;
 use crate::{scene::Scene, task::Task};
 

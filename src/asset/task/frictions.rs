@@ -1,6 +1,6 @@
 //! Pair frictions in a task file: parsing, and their consistency rules.
 
-use crate::asset::fault::did_you_mean;
+use crate::asset::diagnostic::did_you_mean;
 use crate::asset::node::Node;
 use crate::asset::spec::{Key, Range, Value};
 use crate::asset::strict::Ledger;

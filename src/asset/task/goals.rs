@@ -17,7 +17,7 @@ mod region;
 
 use serde_json::{Map, Value as Json, json};
 
-use crate::asset::fault::one_of;
+use crate::asset::diagnostic::one_of;
 use crate::asset::node::{Content, Node};
 use crate::asset::spec::{Key, Range, Value};
 use crate::asset::strict::Ledger;

@@ -9,10 +9,10 @@ use crate::asset::spec::{ANGLE_LIMIT, Key, POSITION, Range, SHIFT_LIMIT, Value, 
 use crate::asset::strict::Ledger;
 use crate::asset::take::{angle_of, name_of, vector};
 use crate::geometry::{Footprint, Pose, Vector, clearance};
-use crate::scene::{DisjointSets, Joint, JointKind, Mount, Object, Span};
+use crate::scene::{DisjointSets, Joint, JointKind, Object, Span, WorldJoint};
 
 use super::bodies::{body, known_object};
-use super::mounts;
+use super::world_joints;
 
 /// Maximum number of objects in one jointed group.
 const GROUP: usize = 12;
@@ -100,10 +100,10 @@ pub(in crate::asset) fn joint(node: &Node, objects: &[Object]) -> Option<Joint> 
 }
 
 /// Returns the joint to the world; `None` if a required value is missing or faulty.
-pub(super) fn mount(joint: &Node, object: &Node, objects: &[Object]) -> Option<Mount> {
+pub(super) fn mount(joint: &Node, object: &Node, objects: &[Object]) -> Option<WorldJoint> {
     let name = object.text()?;
     let object = objects.iter().position(|object| object.name == name)?;
-    Some(Mount { object, kind: kind_of(joint)? })
+    Some(WorldJoint { object, kind: kind_of(joint)? })
 }
 
 /// Returns the kind of a joint; `None` if a required value is missing or faulty.
@@ -145,8 +145,8 @@ pub(super) fn check(joints: &[Node], objects: &[Node], obstacles: &[Node], ledge
     for node in joints {
         check_keys(node, ledger);
         check_limits(node, ledger);
-        if let Some(name) = mounts::moving(node, objects, obstacles) {
-            mounts::check(node, ledger);
+        if let Some(name) = world_joints::moving(node, objects, obstacles) {
+            world_joints::check(node, ledger);
             let Some(object) = known_object(name, objects, obstacles, ledger) else { continue };
             let index = objects.iter().position(|other| other.id == object.id);
             groups.hold(index.unwrap_or_default(), node, name_of(object).unwrap_or("?"), ledger);

@@ -9,7 +9,7 @@ use crate::{
 };
 
 use crate::asset::arm;
-use crate::asset::fault::{Fault, Faults, did_you_mean};
+use crate::asset::diagnostic::{Fault, Faults, did_you_mean};
 use crate::asset::library::ToolLibrary;
 use crate::asset::node::Node;
 use crate::asset::strict::{Ledger, check};

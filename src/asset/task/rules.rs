@@ -1,7 +1,7 @@
 //! Rules that span several keys of a task file.
 
 use crate::asset::arm;
-use crate::asset::fault::did_you_mean;
+use crate::asset::diagnostic::did_you_mean;
 use crate::asset::node::Node;
 use crate::asset::shapes;
 use crate::asset::shapes::shape;

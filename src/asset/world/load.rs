@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::asset::fault::{Faults, did_you_mean};
+use crate::asset::diagnostic::{Faults, did_you_mean};
 use crate::asset::node::Node;
 use crate::asset::read_text;
 use crate::asset::strict::{Ledger, check};

@@ -111,6 +111,6 @@ fn what_closes_a_loop_is_left_out() {
     ties.push(last);
     let mut joints = Eliminated::default();
     joints.hang(unknowns.len(), &ties);
-    assert_eq!(joints.limbs.len(), 4);
+    assert_eq!(joints.links.len(), 4);
     assert_eq!(joints.mechanism, [0, 1, 0, 3, 0, 0, 0]);
 }

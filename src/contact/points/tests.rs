@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::{
-    contact::coast::coast,
+    contact::free_sliding::coast,
     geometry::Pose,
     scene::{Object, Obstacle, Part, Physics, Scene, Tool},
 };

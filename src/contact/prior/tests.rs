@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::{
-    contact::{bodies::Bodies, coast::coast, points::find_contacts},
+    contact::{bodies::Bodies, free_sliding::coast, points::find_contacts},
     geometry::{Pose, Shape, Turn, cross},
     scene::{Joint, JointKind, Object, Obstacle, Part, Physics, Scene, State, Support, Tool},
     task::FrameStep,

@@ -2,7 +2,9 @@
 
 use super::*;
 use crate::{
-    contact::{AwakeIndex, Bodies, ListIndex, PairId, Pairs, Partner, SceneIndex, coast::coast},
+    contact::{
+        AwakeIndex, Bodies, ListIndex, PairId, Pairs, Partner, SceneIndex, free_sliding::coast,
+    },
     geometry::{Pose, Vector},
     scene::{Body, GRAVITY, Object, Part, Physics, Scene, Tool},
     task::FrameStep,

@@ -56,9 +56,9 @@ fn corners(job: &LeverJob, view: &LeverView) -> Vec<f32> {
     let (count, most) = (outline.len(), LeverFeatures::CORNERS);
     // Missing corners are replaced by the last one, at which the levered edge begins.
     let nth = |k: usize| if count > most { k * count / most } else { k.min(count - 1) };
-    let mut told: Vec<f32> = (0..most).flat_map(|k| pair(outline[nth(k)])).collect();
-    told.extend(pair(view.point(job, Vector::zeros())));
-    told
+    let mut values: Vec<f32> = (0..most).flat_map(|k| pair(outline[nth(k)])).collect();
+    values.extend(pair(view.point(job, Vector::zeros())));
+    values
 }
 
 fn support(job: &LeverJob, view: &LeverView) -> Vec<f32> {

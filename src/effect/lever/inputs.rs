@@ -1,6 +1,6 @@
 //! Inputs of the lever-up network, and the baseline that it corrects.
 
-use crate::network::{LEVER_POSE, LeverSizes, LeverTold};
+use crate::network::{LEVER_POSE, LeverOutput, LeverSizes};
 use crate::{
     outcome::{Ending, LEVER_FRAMES, LeverTrajectory, LeverWarning},
     scene::LeverFeatures,
@@ -45,40 +45,41 @@ impl LeverInputs {
     }
 
     /// Converts a pose into the units of predictions.
-    pub fn told(seen: [f64; LEVER_POSE]) -> [f32; LEVER_POSE] {
+    pub fn in_units(seen: [f64; LEVER_POSE]) -> [f32; LEVER_POSE] {
         std::array::from_fn(|k| (seen[k] / unit(k)) as f32)
     }
 
     /// Converts predictions into a pose.
-    pub fn seen(told: &[f32]) -> [f64; LEVER_POSE] {
-        std::array::from_fn(|k| f64::from(told[k]) * unit(k))
+    pub fn seen(predicted: &[f32]) -> [f64; LEVER_POSE] {
+        std::array::from_fn(|k| f64::from(predicted[k]) * unit(k))
     }
 
     /// Combines a network prediction with the baseline that it corrects.
     pub fn answer(
         &self,
-        told: &LeverTold,
+        predicted: &LeverOutput,
         job: &LeverJob,
         prior: Option<&LeverTrajectory>,
     ) -> LeverTrajectory {
         let view = LeverView::new(job);
-        let pose = |base: &[f32], told: &[f32]| {
-            let sum: Vec<f32> = base.iter().zip(told).map(|(base, told)| base + told).collect();
+        let pose = |base: &[f32], predicted: &[f32]| {
+            let sum: Vec<f32> =
+                base.iter().zip(predicted).map(|(base, predicted)| base + predicted).collect();
             view.pose(&Self::seen(&sum))
         };
         let (frames, rest) = self.base.split_at(LEVER_FRAMES * LEVER_POSE);
         let lift = frames
             .chunks_exact(LEVER_POSE)
-            .zip(told.poses.chunks_exact(LEVER_POSE))
-            .map(|(base, told)| pose(base, told))
+            .zip(predicted.poses.chunks_exact(LEVER_POSE))
+            .map(|(base, predicted)| pose(base, predicted))
             .collect();
-        let slips = told.end[0] > 0.0;
+        let slips = predicted.end[0] > 0.0;
         let endings = [Ending::Back, Ending::Flipped, Ending::Leaning];
-        let best = (0..3).max_by(|a, b| told.end[1 + a].total_cmp(&told.end[1 + b]));
+        let best = (0..3).max_by(|a, b| predicted.end[1 + a].total_cmp(&predicted.end[1 + b]));
         LeverTrajectory {
             lift,
             held: prior.map_or_else(|| vec![!slips; LEVER_FRAMES], |prior| prior.held.clone()),
-            rest: pose(rest, &told.end[4..]),
+            rest: pose(rest, &predicted.end[4..]),
             ending: best.map_or(Ending::Back, |best| endings[best]),
             warnings: if slips { vec![LeverWarning::Slipped] } else { Vec::new() },
         }
@@ -95,7 +96,7 @@ pub fn lever_inputs(
     let view = LeverView::new(job);
     let mut still = lever_action(job).to_vec();
     still.extend(lever_features(features, job, &view));
-    let start = LeverInputs::told(view.see(&job.scene.plates[job.lever.plate].start()));
+    let start = LeverInputs::in_units(view.see(&job.scene.plates[job.lever.plate].start()));
     let (mut moving, mut base) = (Vec::new(), Vec::new());
     for frame in 0..LEVER_FRAMES {
         let share = (frame + 1) as f64 / LEVER_FRAMES as f64;
@@ -105,9 +106,9 @@ pub fn lever_inputs(
             base.extend(start);
             continue;
         };
-        let told = LeverInputs::told(view.see(&prior.lift[frame]));
-        base.extend(told);
-        moving.extend(told);
+        let predicted = LeverInputs::in_units(view.see(&prior.lift[frame]));
+        base.extend(predicted);
+        moving.extend(predicted);
         moving.push(is(prior.held[frame]));
         moving.extend(view.tip(job, share, &prior.lift[frame]).map(|x| (x / TIP) as f32));
     }
@@ -115,7 +116,7 @@ pub fn lever_inputs(
         base.extend(start);
         return LeverInputs { still, moving, base };
     };
-    let rest = LeverInputs::told(view.see(&prior.rest));
+    let rest = LeverInputs::in_units(view.see(&prior.rest));
     still.push(is(prior.slipped()));
     still.extend([Ending::Back, Ending::Flipped, Ending::Leaning].map(|e| is(prior.ending == e)));
     still.extend(rest);

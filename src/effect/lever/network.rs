@@ -81,8 +81,8 @@ impl LeverNetwork {
 
     fn predict(&self, job: &LeverJob, prior: Option<&LeverTrajectory>) -> LeverTrajectory {
         let inputs = lever_inputs(self.features, job, prior);
-        let told = self.cell.predict(&inputs.still, &inputs.moving);
-        inputs.answer(&told, job, prior)
+        let predicted = self.cell.predict(&inputs.still, &inputs.moving);
+        inputs.answer(&predicted, job, prior)
     }
 
     /// Returns a name that distinguishes the networks of a comparison.

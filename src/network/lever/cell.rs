@@ -27,7 +27,7 @@ pub struct LeverCell {
 
 /// Output of the network for a lever-up, added to the analytic model.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LeverTold {
+pub struct LeverOutput {
     /// Pose in every frame: [T, 9].
     pub poses: Vec<f32>,
     /// Slip, endings, and pose at rest.
@@ -53,7 +53,7 @@ impl LeverCell {
 
     /// Predicts from features `still`, `[S]`, of the lever-up, and `moving`, `[T, M]`, of its
     /// frames.
-    pub fn predict(&self, still: &[f32], moving: &[f32]) -> LeverTold {
+    pub fn predict(&self, still: &[f32], moving: &[f32]) -> LeverOutput {
         let (still, moving) = (scaled(&self.still, still), scaled(&self.moving, moving));
         Arch::new().dispatch(Run { cell: self, still: &still, moving: &moving })
     }
@@ -73,14 +73,14 @@ struct Run<'a> {
 
 // Uses the widest vectors of the processor, see `network/parity.rs`; the bits are the same on any.
 impl WithSimd for Run<'_> {
-    type Output = LeverTold;
+    type Output = LeverOutput;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> LeverTold {
+    fn with_simd<S: Simd>(self, _: S) -> LeverOutput {
         let Self { cell, still, moving } = self;
         let width = cell.sizes.width;
-        let mut told = cell.get("gates.bias").to_vec();
-        multiply(still, cell.get("gates.still"), &mut told);
+        let mut constant = cell.get("gates.bias").to_vec();
+        multiply(still, cell.get("gates.still"), &mut constant);
         let of_last = cell.sizes.feedback.then(|| cell.get("gates.pose"));
         let [of_moving, of_hidden] = ["gates.moving", "gates.hidden"].map(|name| cell.get(name));
         let (of_pose, pose_bias) = (cell.get("pose.hidden"), cell.get("pose.bias"));
@@ -89,7 +89,7 @@ impl WithSimd for Run<'_> {
         let mut poses = Vec::new();
         let mut pose = [0.0; LEVER_POSE];
         for frame in moving.chunks_exact(cell.sizes.moving.max(1)) {
-            gates.copy_from_slice(&told);
+            gates.copy_from_slice(&constant);
             multiply(frame, of_moving, &mut gates);
             multiply(&hidden, of_hidden, &mut gates);
             if let Some(of_last) = of_last {
@@ -112,7 +112,7 @@ impl WithSimd for Run<'_> {
         let mut end = [0.0; LEVER_ENDS];
         end.copy_from_slice(cell.get("end.told_bias"));
         multiply(&last, cell.get("end.told"), &mut end);
-        LeverTold { poses, end }
+        LeverOutput { poses, end }
     }
 }
 

@@ -21,7 +21,7 @@ mod cell;
 mod layout;
 
 pub use card::{LeverCard, LeverWeights};
-pub use cell::{LeverCell, LeverTold, tanh};
+pub use cell::{LeverCell, LeverOutput, tanh};
 pub use layout::{
     LEVER_ENDS, LEVER_POSE, LeverSizes, fresh_lever, fresh_lever_values, lever_layout,
 };

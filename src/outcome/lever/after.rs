@@ -4,8 +4,8 @@
 use crate::geometry::{ConvexPolygon, Pose, Pose3, Vector, Vector3, clearance};
 use crate::{
     scene::{
-        Body, Joint, MAX_FEET, Mount, Object, Obstacle, PairFriction, Plate, Scene, State, Support,
-        Surface, Unknowns, Whole, carries,
+        Body, Joint, MAX_FEET, Object, Obstacle, PairFriction, Plate, Scene, State, Support,
+        Surface, Unknowns, Whole, WorldJoint, carries,
     },
     task::{Demand, Ending, Goal, PushRules, Task},
 };
@@ -202,7 +202,7 @@ impl Left {
         let mounts = now
             .mounts
             .iter()
-            .filter_map(|mount| Some(Mount { object: place(mount.object)?, ..mount.clone() }));
+            .filter_map(|mount| Some(WorldJoint { object: place(mount.object)?, ..mount.clone() }));
         let before = fixed.len();
         let frictions = now.frictions.iter().filter_map(|pair| {
             let with = match pair.with {

@@ -9,7 +9,7 @@ impl Warning {
     pub(super) fn fact(&self) -> String {
         match self {
             Warning::OutsideRange { of, quantity, value, low, high } => {
-                let value = told_apart(*value, [*low, *high]);
+                let value = distinguished(*value, [*low, *high]);
                 format!("{of}: {quantity} = {value} is outside the model's range {low} to {high}")
             }
             Warning::Declined { model } => format!("`{model}` does not take this motion"),
@@ -37,22 +37,22 @@ impl fmt::Display for Warning {
         match self {
             Warning::OutsideRange { .. } | Warning::Declined { .. } => write!(
                 f,
-                "{}; predictions may be wrong, `--outside simulate` simulates instead",
+                "{}; predictions may be wrong, `--out-of-range simulate` simulates instead",
                 self.fact()
             ),
             Warning::Pressed { .. } => write!(
                 f,
-                "{}; its motion is then unpredictable, `--outside simulate` simulates instead",
+                "{}; its motion is then unpredictable, `--out-of-range simulate` simulates instead",
                 self.fact()
             ),
             Warning::Doubtful { .. } => write!(
                 f,
-                "{}, says the model itself; `--outside simulate` simulates instead",
+                "{}, says the model itself; `--out-of-range simulate` simulates instead",
                 self.fact()
             ),
             Warning::Overlap { .. } | Warning::LooseJoint { .. } => write!(
                 f,
-                "{}, which cannot happen on a table; `--outside simulate` simulates instead",
+                "{}, which cannot happen on a table; `--out-of-range simulate` simulates instead",
                 self.fact()
             ),
             Warning::Differs { object, distance } => write!(
@@ -66,7 +66,7 @@ impl fmt::Display for Warning {
             }
             Warning::Refused => write!(
                 f,
-                "no prediction was made; `--outside simulate` simulates instead, `--outside warn` \
+                "no prediction was made; `--out-of-range simulate` simulates instead, `--out-of-range warn` \
                  predicts all the same"
             ),
             Warning::Guessed { unknown } => write!(
@@ -163,14 +163,18 @@ impl fmt::Display for Warning {
                 "{object} toppled; its pose on the table means little; push lower or slower"
             ),
             Warning::NotFinite => {
-                write!(f, "{} and was stopped; `--outside simulate` simulates instead", self.fact())
+                write!(
+                    f,
+                    "{} and was stopped; `--out-of-range simulate` simulates instead",
+                    self.fact()
+                )
             }
         }
     }
 }
 
 /// Formats `value` with four decimals, or with as many as distinguish it from these bounds.
-fn told_apart(value: f64, bounds: [f64; 2]) -> String {
+fn distinguished(value: f64, bounds: [f64; 2]) -> String {
     let same = |text: &str| text.parse().is_ok_and(|shown: f64| bounds.contains(&shown));
     let short = (4..12).map(|digits| format!("{value:.digits$}")).find(|text| !same(text));
     let text = short.unwrap_or_else(|| value.to_string());

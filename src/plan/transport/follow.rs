@@ -8,7 +8,7 @@ use crate::plan::{
     Candidate, CandidatePush, Evaluation, RefineSettings, RefineStatistics, Rollouts, Search,
     SearchSettings, Workspace, kinds, refine,
 };
-use crate::watch::Watch;
+use crate::progress::Progress;
 use crate::{
     outcome::Record,
     scene::{Situation, State},
@@ -66,7 +66,7 @@ pub fn follow(
     legs: &[Leg],
     (models, settings): ([&dyn EffectModel; 2], FollowSettings),
     used: &mut [usize; 2],
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> Followed {
     let mut followed =
         Followed { candidate: Candidate::default(), legs: 0, state: situation.start.clone() };
@@ -81,7 +81,7 @@ pub fn follow(
             0 => 0.0,
             _ => room(&situation.scene, leg.object, &now.start, &others, error),
         };
-        let Some(best) = push(&own, &now, first_room, (models, settings), used, watch) else {
+        let Some(best) = push(&own, &now, first_room, (models, settings), used, progress) else {
             break;
         };
         if best.score > LOST {
@@ -130,11 +130,11 @@ fn push(
     first_room: f64,
     (models, settings): ([&dyn EffectModel; 2], FollowSettings),
     used: &mut [usize; 2],
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> Option<Evaluation> {
     let mut screening = Rollouts::new(models[0], now.clone());
     let mut search = Search::new(*workspace, now, settings.search).with_first_room(first_room);
-    let found = search.deepen(&mut screening, watch);
+    let found = search.deepen(&mut screening, progress);
     let chosen = kinds(&found, settings.candidates);
     let candidates: Vec<Candidate> = match chosen.len() {
         0 => return None,
@@ -146,14 +146,20 @@ fn push(
     };
     let mut statistics = RefineStatistics::default();
     let mut refined =
-        refine(workspace, &mut screening, &candidates, settings.refine, &mut statistics, watch);
+        refine(workspace, &mut screening, &candidates, settings.refine, &mut statistics, progress);
     used[0] += screening.used();
     if !std::ptr::addr_eq(models[0], models[1]) {
         let candidates: Vec<Candidate> =
             refined.iter().map(|one| one.best.candidate.clone()).collect();
         let mut deciding = Rollouts::new(models[1], now.clone());
-        refined =
-            refine(workspace, &mut deciding, &candidates, settings.decide, &mut statistics, watch);
+        refined = refine(
+            workspace,
+            &mut deciding,
+            &candidates,
+            settings.decide,
+            &mut statistics,
+            progress,
+        );
         used[1] += deciding.used();
     }
     let moved = |one: &Evaluation| {

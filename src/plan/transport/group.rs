@@ -280,7 +280,7 @@ fn free(
 ) -> Vec<bool> {
     let (task, scene, state) = (workspace.task, &*situation.scene, &situation.start);
     let lattice = &group.lattice;
-    let stands = |place| task.stands(lattice.position(place) + effector, yaw);
+    let stands = |place| task.is_reachable(lattice.position(place) + effector, yaw);
     let mut free: Vec<bool> =
         (0..lattice.count()).map(|place| group.clear[place] >= 0.0 && stands(place)).collect();
     let parts = workspace.task.pushes.lift;

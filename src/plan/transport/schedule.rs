@@ -66,7 +66,7 @@ impl Transport<'_> {
             }
             *known = node.cost;
             if self.wanting(&node.places).is_empty() {
-                found.push(self.told(&node.moves));
+                found.push(self.legs_of(&node.moves));
                 if found.len() == count {
                     break;
                 }
@@ -206,7 +206,7 @@ impl Transport<'_> {
         Some(child)
     }
 
-    fn told(&self, moves: &[(usize, PathSegment)]) -> Vec<Leg> {
+    fn legs_of(&self, moves: &[(usize, PathSegment)]) -> Vec<Leg> {
         let leg = |&(k, stretch): &(usize, PathSegment)| {
             let group = &self.groups[k];
             let arrived = group.goal.filter(|(_, goal)| *goal == stretch.to);

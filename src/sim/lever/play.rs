@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use crate::geometry::{Pose, Pose3, Vector};
-use crate::watch::Watch;
+use crate::progress::Progress;
 use crate::{
     outcome::{
         Ending, Frame, LEVER_FRAMES, LeverTrajectory, LeverWarning, Lift, Trajectory, Warning,
@@ -15,7 +15,7 @@ use crate::{
 };
 
 use super::super::spatial::TOPPLED;
-use super::super::strain::Strain;
+use super::super::violations::Violations;
 use super::scenery::Scenery;
 use super::world::LeverWorld;
 
@@ -72,7 +72,7 @@ pub(super) fn play_all(
     motions: &[Motion],
     longest: f64,
     film: Option<Film>,
-    (mut trajectory, watch): (Trajectory, &dyn Watch),
+    (mut trajectory, progress): (Trajectory, &dyn Progress),
 ) -> Trajectory {
     let first = motions.first().and_then(|motion| match motion {
         Motion::Lever(motion) => {
@@ -85,7 +85,7 @@ pub(super) fn play_all(
         if game.trouble.is_some() {
             break;
         }
-        if watch.cancelled() {
+        if progress.cancelled() {
             game.trouble = Some(Warning::Stopped);
             break;
         }
@@ -108,7 +108,7 @@ pub(super) fn play_all(
     }
     trajectory.warnings.extend(game.trouble.take());
     game.judge_end(motions, &mut trajectory);
-    trajectory.force = Some(game.strain.force());
+    trajectory.force = Some(game.violations.force());
     let state = game.state();
     let frames = game.film.map(|film| film.frames).unwrap_or_default();
     trajectory.frames = frames.into_iter().map(|(frame, _)| frame).collect();
@@ -175,7 +175,7 @@ struct Game {
     /// Number of consecutive steps with the force of a jam.
     strained: usize,
     most: f64,
-    strain: Strain,
+    violations: Violations,
     /// Last finite poses.
     last: Vec<Pose3>,
     film: Option<Film>,
@@ -214,7 +214,7 @@ impl Game {
             trouble: None,
             strained: 0,
             most: JAM + 2.0 * mass * GRAVITY,
-            strain: Strain::new(&scenery.scene, false),
+            violations: Violations::new(&scenery.scene, false),
             last: scenery.starts.clone(),
             scenery: Arc::clone(scenery),
             film,
@@ -257,7 +257,7 @@ impl Game {
         let warnings = &mut trajectory.warnings;
         warnings.extend(fell.map(|k| Warning::Toppled { object: name(*k) }));
         warnings.extend(scene.fallen(&state, &toppled));
-        warnings.extend(self.strain.too_hard(scene));
+        warnings.extend(self.violations.too_hard(scene));
         let hangs = |k: &usize| scene.has_left(*k, &state) && !self.world.has_fallen(*k);
         let hanging = scene.things().map(|(k, _)| k).filter(hangs);
         warnings.extend(hanging.map(|k| Warning::Hangs { object: name(k) }));
@@ -359,7 +359,7 @@ impl Game {
         let is_finite = force.is_finite() && found.iter().all(Pose3::is_finite);
         if is_finite {
             self.last = found;
-            self.strain.press(|of| self.world.force_on_tool(of));
+            self.violations.press(|of| self.world.force_on_tool(of));
         }
         if !is_finite || self.strained >= LASTING {
             self.trouble = Some(Warning::Strained);

@@ -3,7 +3,7 @@
 use std::num::NonZeroU16;
 use std::sync::Arc;
 
-use crate::watch::Watch;
+use crate::progress::Progress;
 use crate::{
     outcome::{Frame, LeverTrajectory, Record, Trajectory},
     scene::{Engine, LeverScene, ModelKind, ModelSpec, Rate, Scene, Situation},
@@ -62,12 +62,12 @@ impl LeverSimulator {
         really: &Situation,
         planned: &Scene,
         motions: &[Motion],
-        (record, watch): (Record, &dyn Watch),
+        (record, progress): (Record, &dyn Progress),
     ) -> Trajectory {
         let scenery = Arc::new(Scenery::new(really, planned));
         let film = Film { frames: Vec::new(), interval: FRAME };
         let film = (record == Record::Frames).then_some(film);
-        let began = (Trajectory::new(self.spec()), watch);
+        let began = (Trajectory::new(self.spec()), progress);
         play_all(&scenery, motions, self.rate.step(), film, began)
     }
 

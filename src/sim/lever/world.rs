@@ -21,7 +21,7 @@ use super::super::solved::solved;
 use super::super::spatial::empty::empty_world;
 use super::super::spatial::joints::{Anchored, add_joints};
 use super::super::spatial::place::brink;
-use super::super::strain::force;
+use super::super::violations::force;
 use super::fresh::fresh_contacts;
 use super::place::{from_rapier, in_one_hemisphere, to_rapier};
 use super::scenery::Scenery;

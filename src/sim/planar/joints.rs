@@ -4,7 +4,7 @@ use rapier2d::prelude::{GenericJointBuilder, JointAxesMask, JointAxis, Real, Rig
 
 use crate::geometry::Vector;
 use crate::scene::{JointKind, Physics, Scene};
-use crate::sim::stops::{within, zero};
+use crate::sim::joint_limits::{within, zero};
 
 use super::{PlanarWorld, to_rapier};
 

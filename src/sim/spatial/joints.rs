@@ -9,7 +9,7 @@ use rapier3d_f64::prelude::{
 
 use crate::geometry::Pose;
 use crate::scene::{Joint, JointKind, Scene};
-use crate::sim::stops::{within, zero};
+use crate::sim::joint_limits::{within, zero};
 
 use super::place::{LOCAL, to_rapier};
 

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::geometry::{Pose, wrap_angle};
-use crate::outcome::{Disturbance, Evidence, Outcome};
+use crate::outcome::{Evidence, Outcome, Perturbation};
 use crate::scene::State;
 use crate::task::Facing;
 
@@ -14,7 +14,7 @@ fn the_next_aim_lies_as_far_on_the_other_side_as_the_last_replay_ended() {
         let outcome = Outcome { goals: Vec::new(), reached: false, state };
         let evidence = Evidence {
             engine: Engine::Spatial,
-            disturbance: Disturbance::Nominal,
+            perturbation: Perturbation::Nominal,
             outcome,
             warnings: Vec::new(),
             force: None,

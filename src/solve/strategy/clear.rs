@@ -76,7 +76,7 @@ impl<'a> Clear<'a> {
             Unobstructed { workspace, situation, rollouts, search }
         });
         if one.search.can_deepen() {
-            board.progress.stage("search for obstructions");
+            board.reporter.stage("search for obstructions");
             let before = one.rollouts.used();
             self.waiting.extend(one.deepen(board));
             board.refiner.count([one.rollouts.used() - before, 0]);
@@ -92,7 +92,7 @@ impl<'a> Clear<'a> {
 impl Unobstructed<'_> {
     /// Searches plans of one more push, and returns the swept regions of obstructed plans.
     fn deepen(&mut self, board: &Blackboard) -> Vec<Clearing> {
-        let found = self.search.deepen(&mut self.rollouts, board.query.watch);
+        let found = self.search.deepen(&mut self.rollouts, board.query.progress);
         let near = |k: &usize| !is_behind(found[*k].score) && found[*k].score <= NEAR;
         let near = kinds(&found, KINDS).into_iter().filter(near);
         let candidates: Vec<_> = near.map(|k| found[k].candidate.clone()).collect();

@@ -1,11 +1,11 @@
 //! Hardening of plans against unknown support, if the best plan works, but not nearly always.
 
 use crate::plan::{HardenSettings, harden};
+use crate::progress::Instant;
 use crate::solve::SolveError;
 use crate::solve::blackboard::{Blackboard, Candidates};
 use crate::solve::grade::{Class, Grade};
 use crate::solve::solving::{Batch, Strategy};
-use crate::watch::Instant;
 
 /// Seed bit that separates the samples of hardening from the samples of refinement.
 const HARDENING: u64 = 1 << 14;
@@ -22,10 +22,10 @@ impl<'a> Strategy<'a> for Harden {
         let Some(Candidates { found, pushes, .. }) = board.searched.take() else { return Ok(None) };
         let shaky = |(grade, _): &(Grade, usize)| grade.class > Class::Fails && !grade.is_steady();
         let query = board.query;
-        if query.watch.cancelled() || !board.attempts.best.as_ref().is_some_and(shaky) {
+        if query.progress.cancelled() || !board.attempts.best.as_ref().is_some_and(shaky) {
             return Ok(None);
         }
-        board.progress.stage_of("search", pushes);
+        board.reporter.stage_of("search", pushes);
         let began = Instant::now();
         let settings = HardenSettings {
             kinds: 2 * query.planner.settings().refined,
@@ -33,7 +33,7 @@ impl<'a> Strategy<'a> for Harden {
             seed: query.refine_settings(pushes).seed ^ HARDENING,
         };
         let rollouts = &mut board.refiner.screening;
-        let found = harden(&query.workspace(), rollouts, &found, settings, query.watch);
+        let found = harden(&query.workspace(), rollouts, &found, settings, query.progress);
         board.timing.search += began.elapsed().as_secs_f64();
         Ok(Some(Batch::Pushes(Candidates { found, pushes, hardenable: false })))
     }

@@ -7,6 +7,7 @@ use crate::plan::{
     FollowSettings, Followed, Groups, Leg, RefineSettings, Search, SearchResult,
     Transport as Carrier, evaluate, follow,
 };
+use crate::progress::Instant;
 use crate::scene::Tool;
 use crate::solve::SolveError;
 use crate::solve::arm_feasibility::arm_fault;
@@ -14,7 +15,6 @@ use crate::solve::blackboard::{Blackboard, Candidates};
 use crate::solve::refiner::SCREENED_RADIUS;
 use crate::solve::solving::{Batch, Strategy};
 use crate::task::Plan;
-use crate::watch::Instant;
 
 /// Length of the usual search's plans at which the search for legs begins.
 const FIRST: usize = 3;
@@ -76,7 +76,7 @@ impl<'a> Strategy<'a> for Transport {
             }
         }
         while let Some((pair, legs)) = self.open.pop_front() {
-            if !board.wants_longer(legs.len()) || board.query.watch.cancelled() {
+            if !board.wants_longer(legs.len()) || board.query.progress.cancelled() {
                 self.open.clear();
                 break;
             }
@@ -126,7 +126,7 @@ fn legs(board: &Blackboard, most: usize, count: usize) -> Vec<Legs> {
         return Vec::new();
     };
     let Some(groups) = Groups::of(&workspace, situation) else { return Vec::new() };
-    board.progress.stage("search for legs");
+    board.reporter.stage("search for legs");
     let longest = LONGEST * board.query.task.pushes.length;
     let carrier = |pair: &(usize, f64)| {
         Some((*pair, Carrier::new(workspace, situation, &groups, *pair, longest)?))
@@ -160,7 +160,7 @@ fn followed(board: &mut Blackboard, pair: (usize, f64), legs: &[Leg]) -> Option<
     let mut used = [0; 2];
     let (workspace, situation) = (query.workspace(), query.situation);
     let followed =
-        follow(&workspace, situation, pair, legs, (models, settings), &mut used, query.watch);
+        follow(&workspace, situation, pair, legs, (models, settings), &mut used, query.progress);
     board.refiner.count(used);
     Some(followed)
 }

@@ -10,7 +10,7 @@ use super::{clearance, lever, push, reach, tools};
 
 /// Returns every violation of a rule when `plan` is executed in `scene` with its tools, found by
 /// name in `library`.
-pub fn broken_rules(
+pub fn rule_violations(
     task: &Task,
     scene: &Scene,
     library: &[Arc<Tool>],

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::geometry::{Footprint, Pose, clearance, swept_clearance};
 use crate::outcome::Warning;
 use crate::scene::{Fixed, Mover, Scene, Tool};
-use crate::task::{Plan, PushStep, Step, Task, Way};
+use crate::task::{Plan, PushStep, Step, Task, TravelPath};
 
 use super::{SLACK, tools};
 
@@ -64,9 +64,9 @@ pub(super) fn blocked_ways(
     let way = |(before, pair): (usize, &[Step])| {
         let [Step::Push(from), Step::Push(to)] = pair else { return None };
         let tool = tools::named(library, &pair[0]).filter(|_| from.tool == to.tool)?;
-        match task.way_between(scene, tool, [from, to])? {
-            Way::Blocked(obstacle) => Some(Warning::NoWay { push: before + 1, obstacle }),
-            Way::Straight | Way::Around { .. } => None,
+        match task.path_between(scene, tool, [from, to])? {
+            TravelPath::Blocked(obstacle) => Some(Warning::NoWay { push: before + 1, obstacle }),
+            TravelPath::Straight | TravelPath::Around { .. } => None,
         }
     };
     plan.steps.windows(2).enumerate().filter_map(way).collect()

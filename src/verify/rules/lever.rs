@@ -66,7 +66,7 @@ fn outside_of_rules(task: &Task, lever: &LeverUp) -> Vec<LeverFault> {
     let within = |value: f64, [low, high]: [f64; 2]| value >= low - SLACK && value <= high + SLACK;
     let allowed = [
         (task.levers.is_some(), "motion"),
-        (task.wants(lever.plate), "object"),
+        (task.has_goal(lever.plate), "object"),
         (within(lever.depth, rules.depth), "depth"),
         (within(lever.angle, rules.angle), "angle"),
         (pivot, "pivot"),

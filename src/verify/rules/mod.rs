@@ -12,7 +12,7 @@ mod push;
 mod reach;
 mod tools;
 
-pub use book::broken_rules;
+pub use book::rule_violations;
 pub(super) use playable::unplayable;
 
 /// Slack for rounding, metres and radians.

@@ -80,7 +80,7 @@ fn cycles_are_found_through_re_exports() {
     files.read_exports();
     assert_eq!(files.cycles(), [["m/a", "m/b"]]);
     assert_eq!(type_of("impl<'a> Search<'a> {").as_deref(), Some("Search"));
-    assert_eq!(type_of("impl Watch for Quiet<'_> {"), None);
+    assert_eq!(type_of("impl Progress for Quiet<'_> {"), None);
 }
 
 impl Files {

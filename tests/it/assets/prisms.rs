@@ -37,9 +37,9 @@ fn refused(text: &str, place: &str, words: &str) {
     let at = text.find(place).expect("the place is there");
     let line = text[..at].matches('\n').count() + 1;
     let column = at - text[..at].rfind('\n').map_or(0, |end| end + 1) + 1;
-    let said = Task::parse(text, "t.yaml").unwrap_err().to_string();
-    assert!(said.starts_with(&format!("t.yaml:{line}:{column}: error: {words}")), "{said}");
-    assert_eq!(said.matches("error:").count(), 1, "{said}");
+    let message = Task::parse(text, "t.yaml").unwrap_err().to_string();
+    assert!(message.starts_with(&format!("t.yaml:{line}:{column}: error: {words}")), "{message}");
+    assert_eq!(message.matches("error:").count(), 1, "{message}");
 }
 
 #[test]
@@ -123,8 +123,11 @@ friction: 0.4
 parts:
   - {name: head, shape: {prism: {corners: [[0, 0], [0.1, 0.1], [0.05, 0], [0.1, -0.1]], height: 0.05}}, position: [0, 0]}
 ";
-    let said = Tool::parse(part, "t.yaml").unwrap_err().to_string();
-    assert!(said.contains("t.yaml:5:64: error: the outline turns inwards at corner 3"), "{said}");
+    let message = Tool::parse(part, "t.yaml").unwrap_err().to_string();
+    assert!(
+        message.contains("t.yaml:5:64: error: the outline turns inwards at corner 3"),
+        "{message}"
+    );
     Tool::parse(&part.replace("[0.05, 0]", "[0.12, 0]"), "t.yaml").unwrap();
 }
 

@@ -7,7 +7,7 @@ use pushplan::asset::{
 use pushplan::geometry::{Pose, Vector};
 use pushplan::{
     outcome::{
-        Contact, Disturbance, Evidence, Force, Frame, Miss, Outcome, Spread, Trajectory, Verdict,
+        Contact, Evidence, Force, Frame, Miss, Outcome, Perturbation, Spread, Trajectory, Verdict,
         Warning,
     },
     scene::{Body, Engine, HeadSpread, ModelKind, Narrowed, TableFit, Tool},
@@ -34,15 +34,15 @@ pub fn plan_file(name: &str) -> PlanFile {
     let outcome = Outcome { state: task.scene.start(), goals: goals.collect(), reached: false };
     let evidence = Evidence {
         engine: Engine::Spatial,
-        disturbance: Disturbance::Nominal,
+        perturbation: Perturbation::Nominal,
         outcome: outcome.clone(),
         warnings: vec![Warning::NotAtRest { waited: 3.0 }],
         trajectory: None,
         force: Some(Force { peak: 9.6, lasting: 0.7 }),
     };
-    let disturbed =
-        Evidence { disturbance: Disturbance::Disturbed { draw: 2 }, ..evidence.clone() };
-    let verdict = Verdict::judge(Vec::new(), vec![evidence, disturbed], 0.75);
+    let perturbed =
+        Evidence { perturbation: Perturbation::Perturbed { draw: 2 }, ..evidence.clone() };
+    let verdict = Verdict::judge(Vec::new(), vec![evidence, perturbed], 0.75);
     PlanFile {
         joints: None,
         task,

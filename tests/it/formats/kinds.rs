@@ -126,12 +126,12 @@ fn only_what_was_chosen_may_refuse() {
     );
     let (task, notes) = taken(&text, &body("block")).expect("as the advice says");
     assert_eq!(task.scene.objects.len(), 1);
-    for said in [
+    for note in [
         "left out, with all that hangs on them: upper",
         "has a spring, and 1 other faults",
         "`post` is passed over",
     ] {
-        assert!(notes.contains(said), "{notes}");
+        assert!(notes.contains(note), "{notes}");
     }
 }
 

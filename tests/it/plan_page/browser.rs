@@ -164,9 +164,9 @@ impl Browser {
     /// Returns the console messages since the page was opened, including faults. Messages of the
     /// browser on its graphics are excluded, because they change with its version.
     pub fn complaints(&self) -> Vec<String> {
-        let heard = ["Runtime.consoleAPICalled", "Runtime.exceptionThrown", "Log.entryAdded"];
+        let methods = ["Runtime.consoleAPICalled", "Runtime.exceptionThrown", "Log.entryAdded"];
         let of = |event: &&Json| {
-            heard.iter().any(|method| event["method"] == *method)
+            methods.iter().any(|method| event["method"] == *method)
                 && event["params"]["entry"]["source"] != "rendering"
         };
         self.events.iter().filter(of).map(Json::to_string).collect()

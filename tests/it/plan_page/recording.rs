@@ -67,9 +67,9 @@ fn a_recording_is_played_with_what_is_believed_of_it() {
         for step in belief.history().iter().step_by(3) {
             let time = recording.frames[observed[step.observations - 1]].time;
             follow(&mut browser, &format!("t={time}"));
-            let said = browser.text("#belief figure output");
+            let text = browser.text("#belief figure output");
             let none = format!("none {:.1} %", (1e3 * step.probabilities[0][0]).round() / 10.0);
-            assert!(said.contains(&none), "after {}: {said}, {none}", step.observations);
+            assert!(text.contains(&none), "after {}: {text}, {none}", step.observations);
         }
         browser.click("#play");
         assert_eq!(browser.complaints(), Vec::<String>::new());

@@ -2,7 +2,7 @@
 
 use pushplan::asset::ToolLibrary;
 use pushplan::geometry::Pose;
-use pushplan::watch::Unwatched;
+use pushplan::progress::NoProgress;
 use pushplan::{Effort, Planner};
 use pushplan::{outcome::Trajectory, scene::State, task::Goal};
 use pushplan_act::act::{
@@ -55,11 +55,11 @@ fn a_run_is_played_with_what_was_predicted_and_believed() {
     for (k, shares) in shares.enumerate() {
         let time = (starts[k] + 1e-3).min(starts[starts.len() - 1]);
         follow(&mut browser, &format!("t={time}"));
-        let said = beliefs(&mut browser);
+        let text = beliefs(&mut browser);
         // Rounded to a tenth of a per cent through thousandths.
         let none = format!("none {:.1} %", (1e3 * shares[0]).round() / 10.0);
-        assert!(said.contains(&none), "after {k} pushes: {said}, {none}");
-        assert!(said.contains("really "), "{said}");
+        assert!(text.contains(&none), "after {k} pushes: {text}, {none}");
+        assert!(text.contains("really "), "{text}");
     }
     let numbers = trace.task.scene.objects.len() * 2 + 1;
     let figures = number(&browser.value("document.querySelectorAll('#belief figure').length"));
@@ -145,7 +145,7 @@ fn run(name: &str, seed: u64) -> Trace {
     let mut trace = Trace::new(task, settings, "draft".into(), Some(truth.clone()));
     let mut world = SimulatedWorld::new(truth);
     let runner = Runner::new(&planner, &library);
-    runner.run(&mut trace, &mut world, &mut |_| Ok(()), &Unwatched).expect("a run");
+    runner.run(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress).expect("a run");
     assert!(trace.steps.iter().all(|step: &Step| step.pushes > 0));
     trace
 }

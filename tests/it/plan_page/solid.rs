@@ -29,8 +29,8 @@ fn things_stand_in_3d_where_they_were_computed() {
     let (task, solution) = solved("tasks/turn-the-box.yaml");
     let file = written_with(PageView::Solid, &folder, "turn-the-box", (&task, &solution));
     browser.open(&file, "t=0.5");
-    let said = browser.value("solid.begun.then(() => byId('solid-words').textContent)");
-    assert!(said.as_str().is_some_and(|said| said.starts_with("Drag")), "{said}");
+    let text = browser.value("solid.begun.then(() => byId('solid-words').textContent)");
+    assert!(text.as_str().is_some_and(|text| text.starts_with("Drag")), "{text}");
     assert_eq!(
         browser.value("[byId('solid').hidden, byId('stage').hidden]").to_string(),
         "[false,true]"
@@ -107,8 +107,8 @@ fn a_browser_that_cannot_draw_in_3d_says_so() {
     let (task, solution): (Task, Solution) = solved("tasks/pull-back.yaml");
     let file = written_with(PageView::Solid, &folder, "pull-back", (&task, &solution));
     browser.open(&file, "t=0.5");
-    let said = browser.value("solid.begun.then(() => byId('solid-words').textContent)");
-    assert!(said.as_str().is_some_and(|said| said.contains("needs WebGL 2")), "{said}");
+    let text = browser.value("solid.begun.then(() => byId('solid-words').textContent)");
+    assert!(text.as_str().is_some_and(|text| text.contains("needs WebGL 2")), "{text}");
     assert_eq!(
         browser.value("[byId('solid').hidden, byId('stage').hidden]").to_string(),
         "[true,false]"

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use crate::belief::Belief;
 use pushplan::geometry::Vector;
+use pushplan::progress::Progress;
 use pushplan::solve::{Approach, ManualPush, ManualStart, SolveError, manual_plan};
-use pushplan::watch::Watch;
 use pushplan::{
     scene::{Situation, Tool},
     task::{Plan, Push, PushForm, Task},
@@ -64,14 +64,14 @@ impl Runner<'_> {
         &self,
         trace: &Trace,
         (belief, samples): (&Belief, &Samples),
-        watch: &dyn Watch,
+        progress: &dyn Progress,
     ) -> Result<Decision, ActError> {
         let Trace { task, settings, steps, .. } = trace;
         let model = self.planner.model();
         if let Some((plan, tool)) = steps.last().and_then(|last| rest(task, &samples.now, last)) {
             let plans = [(plan, vec![Arc::clone(&tool)])];
             let chance = Chance::of(&samples.reach(model, task, &plans)[0]);
-            if chance.share >= settings.enough {
+            if chance.share >= settings.min_success {
                 let [(plan, _)] = plans;
                 return Ok(Decision::Do { why: Why::Rest, plan, tool, chance });
             }
@@ -79,34 +79,34 @@ impl Runner<'_> {
         // The first pushes of a long plan are searched for separately because the cost of a search
         // must not grow with the remaining distance.
         if task.pushes.max_count > AT_ONCE
-            && let Some(decision) = self.approach(task, samples, AT_ONCE + 1, watch)?
+            && let Some(decision) = self.approach(task, samples, AT_ONCE + 1, progress)?
         {
             return Ok(decision);
         }
         let mut near = task.clone();
         near.pushes.max_count = near.pushes.max_count.min(MOST_AT_ONCE);
         let planned = &near;
-        let Some(mut judged) = self.plans(planned, &samples.now, samples, watch)? else {
+        let Some(mut judged) = self.plans(planned, &samples.now, samples, progress)? else {
             return Ok(Decision::Done);
         };
         let sure = |judged: &Judged| {
-            judged.best().is_some_and(|(_, chance)| chance.share >= settings.enough)
+            judged.best().is_some_and(|(_, chance)| chance.share >= settings.min_success)
         };
         // If no plan works in enough samples, plans are added for samples in which none works.
         let mut tried = Vec::new();
-        while tried.len() < settings.others && !sure(&judged) && !watch.cancelled() {
+        while tried.len() < settings.others && !sure(&judged) && !progress.cancelled() {
             let missed = |s: &usize| judged.reach.iter().all(|plan| !plan[*s].reached);
             let mut samples_left = (0..samples.physics.len()).filter(|s| !tried.contains(s));
             let Some(sample) = samples_left.find(missed) else { break };
             let physics = Arc::clone(&samples.physics[sample]);
             let other = Situation { physics, ..samples.now.clone() };
-            if let Some(more) = self.plans(planned, &other, samples, watch)? {
+            if let Some(more) = self.plans(planned, &other, samples, progress)? {
                 judged.plans.extend(more.plans);
                 judged.reach.extend(more.reach);
             }
             tried.push(sample);
         }
-        if !sure(&judged) && probes(steps) < settings.probes && pays(&judged.reach) {
+        if !sure(&judged) && probes(steps) < settings.max_probes && pays(&judged.reach) {
             let tools = task.tools(self.library).map_err(SolveError::from)?;
             let known = (tools.as_slice(), judged.reach.as_slice());
             let index = steps.len() as u64;
@@ -122,12 +122,12 @@ impl Runner<'_> {
         let best = judged.best();
         // A plan that reaches the goal in no sample may be a dead end; an approach is not.
         if best.is_none_or(|(_, chance)| chance.share == 0.0)
-            && let Some(decision) = self.approach(task, samples, 1, watch)?
+            && let Some(decision) = self.approach(task, samples, 1, progress)?
         {
             return Ok(decision);
         }
         let Some(((plan, tools), chance)) = best else { return Ok(Decision::Nothing) };
-        let why = if chance.share >= settings.enough { Why::Plan } else { Why::Best };
+        let why = if chance.share >= settings.min_success { Why::Plan } else { Why::Best };
         let helps = chance.share > 0.0 || chance.score < (1.0 - NEARER) * nothing;
         let (plan, tool) = (plan.clone(), Arc::clone(&tools[0]));
         Ok(if helps { Decision::Do { why, plan, tool, chance } } else { Decision::Nothing })
@@ -139,9 +139,9 @@ impl Runner<'_> {
         task: &Task,
         samples: &Samples,
         least: usize,
-        watch: &dyn Watch,
+        progress: &dyn Progress,
     ) -> Result<Option<Decision>, ActError> {
-        let quiet = Quiet(watch);
+        let quiet = Quiet(progress);
         let found = self.planner.approach(&samples.now, task, self.library, least, &quiet)?;
         let Some(Approach { plan, tool, .. }) = found else { return Ok(None) };
         let plans = [(plan, vec![Arc::clone(&tool)])];
@@ -156,9 +156,9 @@ impl Runner<'_> {
         task: &Task,
         situation: &Situation,
         samples: &Samples,
-        watch: &dyn Watch,
+        progress: &dyn Progress,
     ) -> Result<Option<Judged>, ActError> {
-        let quiet = Quiet(watch);
+        let quiet = Quiet(progress);
         let solution = self.planner.solve_from(situation, task, self.library, &quiet)?;
         if solution.best().is_some_and(|best| best.plan.is_empty() && best.outcome.reached) {
             return Ok(None);
@@ -175,9 +175,9 @@ impl Runner<'_> {
 }
 
 /// Passes on cancellation only, because progress of planning is not progress of the run.
-struct Quiet<'a>(&'a dyn Watch);
+struct Quiet<'a>(&'a dyn Progress);
 
-impl Watch for Quiet<'_> {
+impl Progress for Quiet<'_> {
     fn cancelled(&self) -> bool {
         self.0.cancelled()
     }
@@ -215,5 +215,5 @@ fn rest(task: &Task, now: &Situation, last: &Step) -> Option<(Plan, Arc<Tool>)> 
     let pushes: Vec<ManualPush> = left.iter().map(asked).collect();
     let tool = Arc::new(last.tool.clone());
     let asked = manual_plan(task, now, &tool, &[grip_yaw], &pushes).ok()?;
-    asked.broken.is_empty().then_some((asked.plan, tool))
+    asked.violations.is_empty().then_some((asked.plan, tool))
 }

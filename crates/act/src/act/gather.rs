@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use pushplan::geometry::Vector;
 use pushplan::{
-    scene::{FRAME_TRAVEL, Scene, Sight, State},
+    scene::{FRAME_TRAVEL, ObservedPose, Scene, State},
     task::{Observation, Stroke, ToolMotion},
 };
 
@@ -197,7 +197,11 @@ impl Gatherer {
     ///
     /// # Errors
     /// [`ActError::Objects`] if the observation has another number of objects.
-    pub fn sights(&mut self, look: &Look, gone: f64) -> Result<Vec<Option<Sight>>, ActError> {
+    pub fn sights(
+        &mut self,
+        look: &Look,
+        gone: f64,
+    ) -> Result<Vec<Option<ObservedPose>>, ActError> {
         let (expected, found) = (self.last.len(), look.seen.len());
         if expected != found {
             return Err(ActError::Objects { expected, found });
@@ -205,7 +209,7 @@ impl Gatherer {
         self.travelled.iter_mut().for_each(|travelled| *travelled += gone);
         let mut seen = look.seen.clone();
         for (object, sight) in seen.iter_mut().enumerate() {
-            let is_place = |sight: &Sight| {
+            let is_place = |sight: &ObservedPose| {
                 let heading = sight.heading.is_none_or(f64::is_finite);
                 heading && sight.position.iter().all(|x| x.is_finite())
             };
@@ -216,7 +220,7 @@ impl Gatherer {
         }
         self.change_back(&mut seen);
         for (object, sight) in seen.iter_mut().enumerate() {
-            let Some(Sight { position, .. }) = *sight else { continue };
+            let Some(ObservedPose { position, .. }) = *sight else { continue };
             let most = SWING * self.travelled[object] + SLIDE;
             if (position - self.last[object]).norm() > most {
                 *sight = None;
@@ -237,11 +241,11 @@ impl Gatherer {
     }
 
     /// Swaps back objects that were mistaken for each other.
-    fn change_back(&mut self, seen: &mut [Option<Sight>]) {
+    fn change_back(&mut self, seen: &mut [Option<ObservedPose>]) {
         for a in 0..seen.len() {
             for b in a + 1..seen.len() {
                 let [Some(one), Some(other)] = [seen[a], seen[b]] else { continue };
-                let off = |object: usize, sight: Sight| {
+                let off = |object: usize, sight: ObservedPose| {
                     let from = |place: Vector| (sight.position - place).norm();
                     from(self.last[object]).min(from(self.predicted[object]))
                 };

@@ -15,7 +15,7 @@
 //! let mut world = SimulatedWorld::new(truth);
 //! let mut trace = Trace::new(task, RunSettings::default(), "draft".into(), None);
 //! let runner = Runner::new(&planner, &library);
-//! runner.run(&mut trace, &mut world, &mut |_| Ok(()), &pushplan::internals::watch::Unwatched)?;
+//! runner.run(&mut trace, &mut world, &mut |_| Ok(()), &pushplan::internals::progress::NoProgress)?;
 //! assert!(trace.task.goals[0].reached(world.state()));
 //! # Ok::<(), pushplan::Error>(())
 //! ```

@@ -6,11 +6,11 @@ use crate::belief::{Belief, BeliefRegulator, BeliefSettings, generator};
 use pushplan::asset::{Faults, ToolLibrary};
 use pushplan::effect::{ModelError, Prior};
 use pushplan::geometry::Pose;
+use pushplan::progress::Progress;
 use pushplan::solve::{Planner, SolveError};
-use pushplan::watch::Watch;
 use pushplan::{
     outcome::{Record, Trajectory},
-    scene::{Scene, Sight, Situation, State, TableFit, Tool},
+    scene::{ObservedPose, Scene, Situation, State, TableFit, Tool},
     task::{Goal, Job, Observation, Plan, Push, PushForm},
 };
 
@@ -74,13 +74,13 @@ impl<'a> Runner<'a> {
     /// run resumes from there and yields bit-identical results.
     ///
     /// # Errors
-    /// If the run cannot continue or is cancelled by `watch`; the trace holds the finished steps.
+    /// If the run cannot continue or is cancelled by `progress`; the trace holds the finished steps.
     pub fn run(
         &self,
         trace: &mut Trace,
         world: &mut dyn World,
         keep: &mut dyn FnMut(&Trace) -> Result<(), Faults>,
-        watch: &dyn Watch,
+        progress: &dyn Progress,
     ) -> Result<(), ActError> {
         if trace.first.is_none() {
             trace.first = Some(world.look()?.with_parts(&trace.task.scene));
@@ -106,27 +106,27 @@ impl<'a> Runner<'a> {
             world.restore(saved);
         }
         while trace.end.is_none() {
-            if watch.cancelled() {
+            if progress.cancelled() {
                 return Err(ActError::Stopped { pushes: trace.pushes() });
             }
             let planner = learnt.as_ref().unwrap_or(self.planner);
             let now = Runner { planner, ..self.clone() };
-            let decision = now.next(trace, &belief, watch)?;
+            let decision = now.next(trace, &belief, progress)?;
             // A decision under a time limit would not be reproducible.
-            if watch.cancelled() {
+            if progress.cancelled() {
                 return Err(ActError::Stopped { pushes: trace.pushes() });
             }
             match decision {
                 Decision::Done => trace.end = Some(End::Reached),
-                Decision::Nothing => trace.end = Some(End::NoPush),
-                Decision::Do { .. } if trace.steps.len() >= trace.settings.pushes => {
-                    trace.end = Some(End::UsedUp);
+                Decision::Nothing => trace.end = Some(End::NoImprovingPush),
+                Decision::Do { .. } if trace.steps.len() >= trace.settings.max_pushes => {
+                    trace.end = Some(End::BudgetExhausted);
                 }
                 Decision::Do { why, plan, tool, chance } => {
                     let step = now.step(trace, &mut belief, world, (why, plan, tool, chance))?;
                     trace.steps.push(step);
                     learnt = self.learnt(trace, &start)?;
-                    watch.progress(trace.steps.len() as u64, trace.settings.pushes as u64);
+                    progress.update(trace.steps.len() as u64, trace.settings.max_pushes as u64);
                 }
             }
             keep(trace)?;
@@ -164,7 +164,7 @@ impl<'a> Runner<'a> {
             }
         }
         let poses = seen.iter().zip(&stated.poses).map(|(sight, stated)| match sight {
-            Some(Sight { position, heading }) => Pose {
+            Some(ObservedPose { position, heading }) => Pose {
                 position: *position,
                 heading: heading.map_or(stated.heading, |heading| near(heading, stated.heading)),
             },
@@ -189,7 +189,7 @@ impl<'a> Runner<'a> {
         &self,
         trace: &Trace,
         belief: &Belief,
-        watch: &dyn Watch,
+        progress: &dyn Progress,
     ) -> Result<Decision, ActError> {
         let Trace { task, settings, steps, .. } = trace;
         let now = belief.situation();
@@ -200,7 +200,7 @@ impl<'a> Runner<'a> {
         let mut rng = generator(settings.seed, steps.len() as u64);
         let physics = (0..settings.samples.max(1)).map(|_| Arc::new(belief.sample(&mut rng)));
         let samples = Samples { physics: physics.collect(), now };
-        self.decide(trace, (belief, &samples), watch)
+        self.decide(trace, (belief, &samples), progress)
     }
 
     /// Carries out the first push of a plan, or all pushes of a chained plan, and updates the
@@ -354,7 +354,7 @@ fn rests(
         rest = Some(now);
     }
     for (object, _) in last.seen.iter().enumerate().filter(|(_, sight)| sight.is_none()) {
-        if task.wants(object) {
+        if task.has_goal(object) {
             let object = task.scene.objects[object].name.clone();
             return Err(ActError::Lost { object, looks: LOOKS });
         }

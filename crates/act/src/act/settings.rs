@@ -11,17 +11,17 @@ use super::probe::ProbeRule;
 #[serde(deny_unknown_fields)]
 pub struct RunSettings {
     /// Maximum number of pushes; an indivisible plan of chained pushes counts as one.
-    pub pushes: usize,
+    pub max_pushes: usize,
     /// Number of belief samples under which plans are judged. The standard error of a share of 16
     /// samples is about 0.1.
     pub samples: usize,
     /// Share of the samples in which a plan must reach the goal to be carried out without
     /// exploration.
-    pub enough: f64,
+    pub min_success: f64,
     /// Maximum number of exploratory pushes.
-    pub probes: usize,
+    pub max_probes: usize,
     /// Rule for choosing exploratory pushes.
-    pub rule: ProbeRule,
+    pub probe_rule: ProbeRule,
     /// Maximum number of samples planned for individually if no plan is good enough. Each is a
     /// sample in which no plan reaches the goal.
     pub others: usize,
@@ -34,11 +34,11 @@ pub struct RunSettings {
 impl Default for RunSettings {
     fn default() -> Self {
         Self {
-            pushes: 12,
+            max_pushes: 12,
             samples: 16,
-            enough: 0.8,
-            probes: 3,
-            rule: ProbeRule::Task,
+            min_success: 0.8,
+            max_probes: 3,
+            probe_rule: ProbeRule::Task,
             others: 3,
             noise: Truth::NOISE,
             seed: 0,

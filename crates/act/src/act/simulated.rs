@@ -8,7 +8,7 @@ use pushplan::geometry::Vector;
 use pushplan::sim::{Arm, Simulator};
 use pushplan::{
     outcome::{Record, Trajectory, Warning},
-    scene::{Physics, Rate, Sight, State},
+    scene::{ObservedPose, Physics, Rate, State},
     task::{COAST_FRAME, Job, Stroke, Task, ToolMotion, Truth},
 };
 
@@ -54,7 +54,7 @@ impl SimulatedWorld {
             let off = Vector::new(normal(&mut rng), normal(&mut rng)) * noise.position;
             let heading = pose.heading + noise.heading * normal(&mut rng);
             let position = pose.position + off;
-            Some(Sight { position, heading: self.truth.headings.then_some(heading) })
+            Some(ObservedPose { position, heading: self.truth.headings.then_some(heading) })
         });
         Look { time, seen: seen.collect() }
     }

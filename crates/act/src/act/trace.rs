@@ -129,9 +129,9 @@ pub enum End {
     /// The goal is reached according to the observations.
     Reached,
     /// The budget of pushes is exhausted.
-    UsedUp,
+    BudgetExhausted,
     /// No push brings the object nearer to the goal.
-    NoPush,
+    NoImprovingPush,
 }
 
 impl Step {

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use pushplan::{
-    scene::{Scene, Sight, State, Tool},
+    scene::{ObservedPose, Scene, State, Tool},
     task::ToolMotion,
 };
 
@@ -65,7 +65,7 @@ pub struct Look {
     pub time: f64,
     /// Observed pose of every object of the scene, `None` if the object is not observed. Parts of
     /// compound objects may be omitted.
-    pub seen: Vec<Option<Sight>>,
+    pub seen: Vec<Option<ObservedPose>>,
 }
 
 impl Look {

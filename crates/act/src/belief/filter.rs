@@ -13,19 +13,19 @@ use pushplan::{
 };
 
 use super::{
-    chance::LOGISTIC,
+    distributions::LOGISTIC,
     group::{Push, has_unseen_headings, is_lifted},
+    importance::Stretch,
     joints::{carried, likeliest, of_types},
-    look::{Looked, Told},
     masses::Masses,
     pair::{JointType, PairBelief},
+    pair_likelihood::{PairEvidence, WindowEvidence},
     particles::Particles,
     regulation::{BeliefRegulator, Regulation},
+    regulator_features::{Circumstances, Draft, RegulatorFeatures, Together, features},
     relative::{relative, spread},
     settings::BeliefSettings,
-    testimony::{Circumstances, Draft, Testimony, Together, features},
-    track::{ARM, Track},
-    weighing::Stretch,
+    state_filter::{ARM, StateFilter},
 };
 
 /// Number of observations per window. Shorter windows are dominated by noise; in longer ones errors
@@ -45,7 +45,7 @@ pub struct Belief {
     pub(super) settings: BeliefSettings,
     /// Pairs as the filter estimates them.
     pub(super) pairs: Vec<PairBelief>,
-    pub(super) track: Track,
+    pub(super) track: StateFilter,
     /// Known joints, at the poses stated in the scene.
     pub(super) known: Vec<Joint>,
     pub(super) particles: Particles,
@@ -84,7 +84,7 @@ impl Belief {
         let known = scene.seams().collect();
         let scene = Scene { joints: Vec::new(), ..scene.clone() };
         let particles = Particles::new(scene.objects.len(), Unknowns::NONE, 0);
-        let track = Track::new(scene.start(), settings.noise);
+        let track = StateFilter::new(scene.start(), settings.noise);
         let doubt = gap_deviation(settings.noise);
         let pairs = pairs_within(&scene, JOINABLE + BEYOND * doubt)
             .into_iter()
@@ -125,8 +125,8 @@ impl Belief {
 
     /// Returns the features of all windows recorded by a [listening](BeliefRegulator::listening)
     /// regulator.
-    pub fn heard(&self) -> &[Testimony] {
-        self.regulation.as_ref().map_or(&[], |regulation| &regulation.heard)
+    pub fn recorded(&self) -> &[RegulatorFeatures] {
+        self.regulation.as_ref().map_or(&[], |regulation| &regulation.recorded)
     }
 
     /// Returns the features recorded for pushes before their joints were inferred jointly.
@@ -193,36 +193,38 @@ impl Belief {
         self.seen += window.len();
         let open = assumed.is_none();
         let mut map = assumed.unwrap_or_else(|| self.filtered_map());
-        let Some(mut looked) = self.look(model, window, &map) else { return };
+        let Some(mut window_evidence) = self.look(model, window, &map) else { return };
         if open && has_unseen_headings(window) {
             // Without headings the evidence about a pair depends on the motion of its group. The
             // window is therefore evaluated again with the joints that it supports.
             let mut pairs = self.pairs.clone();
-            weigh(&mut pairs, &looked.told, self.settings.tempering);
+            weigh(&mut pairs, &window_evidence.pairs, self.settings.tempering);
             map = self.with_known(likeliest(&self.scene, &pairs, &self.track.state));
             let Some(again) = self.look(model, window, &map) else { return };
-            looked = again;
+            window_evidence = again;
         }
-        weigh(&mut self.pairs, &looked.told, self.settings.tempering);
+        weigh(&mut self.pairs, &window_evidence.pairs, self.settings.tempering);
         self.weigh_numbers(model, window);
         let played = (self.scene_now(), self.job(window, map));
-        self.learn(window, &looked);
-        for (pair, told) in self.pairs.iter_mut().zip(&looked.told) {
-            pair.learn_stops(&told.instants, &told.doubts);
+        self.learn(window, &window_evidence);
+        for (pair, pair_evidence) in self.pairs.iter_mut().zip(&window_evidence.pairs) {
+            pair.learn_stops(&pair_evidence.instants, &pair_evidence.doubts);
         }
-        let of = |(pair, told): (&PairBelief, &Told)| {
-            told.judged.as_ref().map(|judged| pair.by_type(&judged.evidence))
+        let of = |(pair, pair_evidence): (&PairBelief, &PairEvidence)| {
+            pair_evidence.judged.as_ref().map(|judged| pair.by_type(&judged.evidence))
         };
-        let evidence = self.pairs.iter().zip(&looked.told).map(of).collect();
-        self.regulate(played, window, &looked);
+        let evidence = self.pairs.iter().zip(&window_evidence.pairs).map(of).collect();
+        self.regulate(played, window, &window_evidence);
         let probabilities = self.probabilities();
         self.history.push(Step { observations: self.seen, probabilities, evidence });
     }
 
     /// Updates the state estimate and the geometry of all hypotheses with a window.
-    pub(super) fn learn(&mut self, window: &[Observation], looked: &Looked) {
-        self.track.follow(&looked.base, window);
-        for (pair, Told { instants, ends, .. }) in self.pairs.iter_mut().zip(&looked.told) {
+    pub(super) fn learn(&mut self, window: &[Observation], window_evidence: &WindowEvidence) {
+        self.track.follow(&window_evidence.base, window);
+        for (pair, PairEvidence { instants, ends, .. }) in
+            self.pairs.iter_mut().zip(&window_evidence.pairs)
+        {
             pair.learn(instants);
             let between = pair.between;
             pair.recount(&ends.map(|ends| {
@@ -246,18 +248,23 @@ impl Belief {
 
     /// Lets the regulator, if any, correct the filter's result for a window. `played` is the
     /// rollout job with the most probable physics, in the scene before the window.
-    fn regulate(&mut self, played: (Scene, Job), window: &[Observation], looked: &Looked) {
+    fn regulate(
+        &mut self,
+        played: (Scene, Job),
+        window: &[Observation],
+        window_evidence: &WindowEvidence,
+    ) {
         let Some(mut regulation) = self.regulation.take() else { return };
         let (scene, job) = (&played.0, &played.1);
         let now = self.filtered_map();
         let seen = |k: usize| {
             window.iter().any(|one| one.seen[k].is_some_and(|sight| sight.heading.is_some()))
         };
-        let of = |(p, (pair, told)): (usize, (&PairBelief, &Told))| {
+        let of = |(p, (pair, pair_evidence)): (usize, (&PairBelief, &PairEvidence))| {
             let around = Circumstances {
                 noise: self.settings.noise,
                 windows: self.history.len(),
-                moved: pair.between.map(|k| looked.moved[k]),
+                moved: pair.between.map(|k| window_evidence.moved[k]),
                 worked: self.worked(pair.between),
                 headings: pair.between.map(seen),
                 cylinders: pair.between.map(|k| self.scene.objects[k].shape.is_cylinder()),
@@ -265,10 +272,10 @@ impl Belief {
                 follows: follows(&now, pair),
             };
             let together = self.together.as_ref().map(|together| &together[p]);
-            told.judged.as_ref().map(|judged| features(pair, judged, &around, together))
+            pair_evidence.judged.as_ref().map(|judged| features(pair, judged, &around, together))
         };
-        let told = self.pairs.iter().zip(&looked.told).enumerate();
-        let evidence: Vec<_> = told.map(of).collect();
+        let pair_evidence = self.pairs.iter().zip(&window_evidence.pairs).enumerate();
+        let evidence: Vec<_> = pair_evidence.map(of).collect();
         let filtered = self.pairs.iter().map(|pair| pair.filtered(follows(&now, pair))).collect();
         let pairs: Vec<[usize; 2]> = self.pairs().collect();
         regulation.take((scene, job), &pairs, &evidence, filtered);
@@ -350,9 +357,9 @@ pub(super) fn joint_of(physics: &Physics, between: [usize; 2]) -> Option<&Joint>
 }
 
 /// Updates the pairs with the evidence of a window, raised to the power `tempering`.
-pub(super) fn weigh(pairs: &mut [PairBelief], told: &[Told], tempering: f64) {
-    for (pair, told) in pairs.iter_mut().zip(told) {
-        if let Some(judged) = &told.judged {
+pub(super) fn weigh(pairs: &mut [PairBelief], pair_evidence: &[PairEvidence], tempering: f64) {
+    for (pair, pair_evidence) in pairs.iter_mut().zip(pair_evidence) {
+        if let Some(judged) = &pair_evidence.judged {
             pair.weigh(&judged.evidence, tempering);
         }
     }

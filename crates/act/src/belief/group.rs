@@ -23,7 +23,7 @@ use super::{
     filter::{Belief, follows, joint_of, weigh},
     joints::of_types,
     pair::{JointType, PairBelief},
-    testimony::Together,
+    regulator_features::Together,
 };
 
 /// Maximum number of windows that are replayed.
@@ -142,7 +142,7 @@ impl Belief {
         };
         let mut most = score(&logs);
         let mut played = Played(vec![(best.clone(), most)]);
-        let mut order = self.told(windows.len());
+        let mut order = self.informative(windows.len());
         let share = |p: usize| marginals[p][best[p] as usize];
         order.sort_by(|&one, &other| share(one).total_cmp(&share(other)));
         'search: for _ in 0..SWEEPS {
@@ -175,12 +175,12 @@ impl Belief {
 
     /// Returns the pairs for which the last `windows` were informative. The other objects did not
     /// move, so their joints have no effect.
-    fn told(&self, windows: usize) -> Vec<usize> {
-        let told = |p: &usize| {
+    fn informative(&self, windows: usize) -> Vec<usize> {
+        let informative = |p: &usize| {
             let mut steps = self.history.iter().rev().take(windows);
             steps.any(|step| step.evidence[*p].is_some())
         };
-        (0..self.pairs.len()).filter(told).collect()
+        (0..self.pairs.len()).filter(informative).collect()
     }
 
     /// Returns `types` with one pair changed to `kind`. If this closes a loop, each other joint is
@@ -233,9 +233,11 @@ impl Belief {
         let mut logs = Vec::with_capacity(windows.len());
         for (k, window) in windows.iter().enumerate() {
             let map = played.physics_as(types, learnt);
-            let Some((looked, places)) = played.look_at(model, window, &map) else { break };
-            for (pair, told) in played.pairs.iter().zip(&looked.told) {
-                if let Some(judged) = &told.judged {
+            let Some((window_evidence, places)) = played.look_at(model, window, &map) else {
+                break;
+            };
+            for (pair, pair_evidence) in played.pairs.iter().zip(&window_evidence.pairs) {
+                if let Some(judged) = &pair_evidence.judged {
                     log += self.settings.tempering * pair.log_density(&judged.evidence);
                 }
             }
@@ -244,8 +246,8 @@ impl Belief {
             if least.get(k).is_some_and(|least| log < *least) {
                 break;
             }
-            weigh(&mut played.pairs, &looked.told, self.settings.tempering);
-            played.learn(window, &looked);
+            weigh(&mut played.pairs, &window_evidence.pairs, self.settings.tempering);
+            played.learn(window, &window_evidence);
         }
         logs
     }

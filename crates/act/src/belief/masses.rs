@@ -16,8 +16,8 @@ use pushplan::{
 };
 
 use super::{
-    chance::{generator, weighted},
     density::log_sum,
+    distributions::{generator, weighted},
 };
 
 /// Maximum number of assignments kept: all assignments of four objects and three ranges.

@@ -12,45 +12,45 @@
 //! assignments of joints are replayed and compared (`group`).
 //!
 //! A joint that stays in place although a rollout continues has reached a limit, which is learnt
-//! (`stops`). Predictions are medians over sampled physics (`foreseen`).
+//! (`joint_limits`). Predictions are medians over sampled physics (`prediction`).
 //!
 //! A [`BeliefRegulator`] may correct the filter: a recurrent network on features of every window
-//! and pair (`testimony`).
+//! and pair (`regulator_features`).
 //!
 //! Unknown masses, frictions and supports are represented by particles, weighed after every push
 //! under the most probable joints. Masses in a few separate ranges are handled by `masses`.
 
-mod about;
-mod chance;
 mod density;
+mod distributions;
 mod filter;
 mod fit;
-mod foreseen;
+mod from_task;
 mod group;
+mod importance;
+mod joint_limits;
 mod joints;
-mod look;
 mod masses;
 mod median;
 mod pair;
+mod pair_likelihood;
 mod particles;
+mod prediction;
 mod regulation;
+mod regulator_features;
 mod relative;
 mod rolled;
 mod sample;
 mod settings;
-mod stops;
-mod testimony;
-mod track;
-mod weighing;
+mod state_filter;
 mod window;
 
-pub use chance::{generator, normal};
+pub use distributions::{generator, normal};
 pub use filter::{Belief, Step};
+pub use joint_limits::NO_STOP;
 pub use joints::carried;
 pub use masses::{MassRatio, MassShares};
 pub use pair::JointType;
 pub use particles::Numbers;
 pub use regulation::{BeliefRegulator, RegulatorError};
+pub use regulator_features::{Draft, EVIDENCE, RegulatorFeatures};
 pub use settings::BeliefSettings;
-pub use stops::NO_STOP;
-pub use testimony::{Draft, EVIDENCE, Testimony};

@@ -15,8 +15,8 @@ use crate::regulator::LEAST;
 use super::{
     density::log_sum,
     fit::Fit,
+    joint_limits::JointLimits,
     relative::relative,
-    stops::Stops,
     window::{Doubt, Instant},
 };
 
@@ -91,12 +91,12 @@ const FOLLOWS: f64 = 0.2;
 pub(super) struct Hypothesis {
     pub log: f64,
     pub fit: Fit,
-    pub stops: Stops,
+    pub stops: JointLimits,
 }
 
 impl Hypothesis {
     fn new(log: f64, fit: Fit) -> Self {
-        Self { log, fit, stops: Stops::new() }
+        Self { log, fit, stops: JointLimits::new() }
     }
 }
 

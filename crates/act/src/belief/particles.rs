@@ -13,8 +13,8 @@ use serde::{Deserialize, Serialize};
 
 use pushplan::scene::{Physics, Scene, Support, Unknowns};
 
-use super::chance::{LOGISTIC, generator, normal};
 use super::density::log_sum;
+use super::distributions::{LOGISTIC, generator, normal};
 
 /// Number of particles; the sampling error of means is then below the error of the effect model.
 const COUNT: usize = 48;
@@ -105,7 +105,7 @@ impl Particles {
 
     /// Returns `physics` with the parameters of a sampled particle.
     pub fn sample(&self, scene: &Scene, physics: Physics, rng: &mut impl Rng) -> Physics {
-        match self.all.get(super::chance::weighted(rng, &self.weights())) {
+        match self.all.get(super::distributions::weighted(rng, &self.weights())) {
             Some(particle) => self.put(scene, physics, &particle.place, true),
             None => physics,
         }

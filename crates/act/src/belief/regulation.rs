@@ -15,7 +15,7 @@ use pushplan::{
 
 use crate::regulator::{Memory, Regulator, RegulatorWeights};
 
-use super::testimony::{Draft, EVIDENCE, Testimony};
+use super::regulator_features::{Draft, EVIDENCE, RegulatorFeatures};
 
 /// Error of creating a regulator.
 #[derive(Debug, Error)]
@@ -98,7 +98,7 @@ pub(super) struct Regulation {
     /// Probabilities of [`JointType::ALL`] for every pair; `None` if not corrected.
     pub shares: Vec<Option<[f64; 4]>>,
     /// Recorded windows of a listening regulator, and first versions of repeated pushes.
-    pub heard: Vec<Testimony>,
+    pub recorded: Vec<RegulatorFeatures>,
     pub drafts: Vec<Draft>,
 }
 
@@ -108,7 +108,7 @@ impl Regulation {
             by,
             memory: Memory::default(),
             shares: Vec::new(),
-            heard: Vec::new(),
+            recorded: Vec::new(),
             drafts: Vec::new(),
         }
     }
@@ -117,8 +117,8 @@ impl Regulation {
     /// again. Earlier drafts are kept too.
     pub fn keep(&mut self, first: &Self) {
         self.drafts.clone_from(&first.drafts);
-        let after = self.heard.len();
-        let windows = first.heard[after..].to_vec();
+        let after = self.recorded.len();
+        let windows = first.recorded[after..].to_vec();
         if !windows.is_empty() {
             self.drafts.push(Draft { after, windows });
         }
@@ -134,8 +134,8 @@ impl Regulation {
         evidence: &[Option<[f32; EVIDENCE]>],
         filtered: Vec<[f64; 4]>,
     ) {
-        let told: Vec<bool> = evidence.iter().map(Option::is_some).collect();
-        if !told.contains(&true) {
+        let informative: Vec<bool> = evidence.iter().map(Option::is_some).collect();
+        if !informative.contains(&true) {
             return;
         }
         let effects = self.by.network.effects(scene, job, pairs);
@@ -145,11 +145,11 @@ impl Regulation {
             features.extend(effects.iter().map(|x| if evidence.is_some() { *x } else { 0.0 }));
         }
         let Some(cell) = &self.by.cell else {
-            self.heard.push(Testimony { features, told, filtered });
+            self.recorded.push(RegulatorFeatures { features, informative, filtered });
             return;
         };
         let objects = scene.objects.len();
-        let corrections = cell.step(&features, &told, (pairs, objects), &mut self.memory);
+        let corrections = cell.step(&features, &informative, (pairs, objects), &mut self.memory);
         self.shares.resize(pairs.len(), None);
         for ((shares, correction), filtered) in
             self.shares.iter_mut().zip(corrections).zip(&filtered)

@@ -9,7 +9,7 @@ use pushplan::{
 };
 
 use super::{
-    chance::{normal, weighted},
+    distributions::{normal, weighted},
     filter::Belief,
     fit::Fit,
     joints::carried,

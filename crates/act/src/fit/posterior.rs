@@ -25,7 +25,7 @@ pub struct Estimate {
     pub interval: Span,
     /// Whether the recordings identify the parameter: the posterior standard deviation is less than
     /// 0.6 times the deviation of the uniform prior.
-    pub told: bool,
+    pub identified: bool,
     /// Whether the best value is at the end of the prior range.
     pub at_the_end: bool,
 }
@@ -91,7 +91,7 @@ fn estimate(axis: Axis, shares: Vec<f64>, best: f64, prior: Span) -> Estimate {
             quantile(axis, &shares, 0.5 - INTERVAL / 2.0).max(prior.low),
             quantile(axis, &shares, 0.5 + INTERVAL / 2.0).min(prior.high),
         ),
-        told: deviation < AS_WIDE * flat,
+        identified: deviation < AS_WIDE * flat,
         at_the_end: end(prior.low) || end(prior.high),
     }
 }
@@ -124,7 +124,7 @@ mod tests {
         let posterior = Posterior::of(grid, &logs);
         let spread = posterior.spread(Span::new(0.2, 1.0));
         assert!((spread.mean - 0.6).abs() < 1e-3 && (spread.best - 0.6).abs() < 1e-9, "{spread:?}");
-        assert!((spread.deviation - 0.05).abs() < 1e-3 && spread.told && !spread.at_the_end);
+        assert!((spread.deviation - 0.05).abs() < 1e-3 && spread.identified && !spread.at_the_end);
         assert!((spread.interval.low - (0.6 - 1.645 * 0.05)).abs() < 2e-3, "{spread:?}");
         assert!((spread.interval.high - (0.6 + 1.645 * 0.05)).abs() < 2e-3, "{spread:?}");
         let friction = posterior.friction(Span::new(0.0, 1.0));
@@ -137,6 +137,9 @@ mod tests {
         let grid =
             Grid { spread: Axis::over(prior, 21), friction: Axis::over(Span::new(0.0, 1.0), 21) };
         let posterior = Posterior::of(grid, &vec![0.0; grid.len()]);
-        assert!(!posterior.spread(prior).told && !posterior.friction(Span::new(0.0, 1.0)).told);
+        assert!(
+            !posterior.spread(prior).identified
+                && !posterior.friction(Span::new(0.0, 1.0)).identified
+        );
     }
 }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::judge::{Comparison, Trial, mean, percentile};
 use pushplan::effect::EffectModel;
-use pushplan::watch::{Count, Watch};
+use pushplan::progress::{Count, Progress};
 use pushplan::{
     outcome::Record,
     scene::{ModelSpec, Span, Support, Surface},
@@ -116,19 +116,19 @@ pub struct Fit {
 
 impl Fit {
     /// Returns the spread if the recordings identify it better than the stated supports do.
-    pub fn told_spread(&self) -> Option<f64> {
-        (self.spread.told && !self.stated.likelier).then_some(self.spread.best)
+    pub fn identified_spread(&self) -> Option<f64> {
+        (self.spread.identified && !self.stated.likelier).then_some(self.spread.best)
     }
 
-    /// Returns the friction for [`Self::told_spread`], otherwise for the supports as stated.
-    pub fn told_friction(&self) -> f64 {
-        if self.told_spread().is_some() { self.friction.best } else { self.stated.friction }
+    /// Returns the friction for [`Self::identified_spread`], otherwise for the supports as stated.
+    pub fn identified_friction(&self) -> f64 {
+        if self.identified_spread().is_some() { self.friction.best } else { self.stated.friction }
     }
 }
 
 /// Fits a common spread and pusher friction to recordings.
 ///
-/// `watch` receives the number of finished recordings, first for the rough grid and then for the
+/// `progress` receives the number of finished recordings, first for the rough grid and then for the
 /// fine one. Masses and the table's friction are as stated because they do not affect slow pushes.
 /// Returns `None` if no object moves.
 ///
@@ -143,7 +143,7 @@ pub fn fit(
     model: &dyn EffectModel,
     trials: &[Trial],
     settings: &FitSettings,
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> Option<Fit> {
     let FitSettings { values, law, .. } = *settings;
     let moves: Vec<Vec<bool>> = trials.iter().map(|trial| moving(model, trial)).collect();
@@ -159,24 +159,25 @@ pub fn fit(
         return None;
     }
     let widths = Widths::of(settings.noise, mean(&motions));
-    let look = |what: &str, told: Vec<(Option<Support>, f64)>| -> Vec<Vec<Ended>> {
-        watch.stage(what);
-        let count = Count::new(watch, 0, trials.len());
+    let look = |what: &str, hypotheses: Vec<(Option<Support>, f64)>| -> Vec<Vec<Ended>> {
+        progress.stage(what);
+        let count = Count::new(progress, 0, trials.len());
         let by_trial: Vec<Vec<Vec<Ended>>> = trials
             .par_iter()
             .zip(&moves)
             .map(|(trial, moves)| {
-                let ends = ends(model, trial, moves, &told);
+                let ends = ends(model, trial, moves, &hypotheses);
                 count.one();
                 ends
             })
             .collect();
         let of = |cell: usize| by_trial.iter().flat_map(|cells| cells[cell].clone()).collect();
-        (0..told.len()).map(of).collect()
+        (0..hypotheses.len()).map(of).collect()
     };
     let over = |what: &str, grid: Grid| {
-        let told = grid.cells().map(|[spread, mu]| (Some(Support::Spread(spread)), mu)).collect();
-        let cells = look(what, told);
+        let hypotheses =
+            grid.cells().map(|[spread, mu]| (Some(Support::Spread(spread)), mu)).collect();
+        let cells = look(what, hypotheses);
         let found: Vec<(f64, f64)> =
             cells.iter().map(|cell| widths.log_density(law, &residuals(cell))).collect();
         let logs: Vec<f64> = found.iter().map(|(log, _)| *log).collect();
@@ -193,9 +194,9 @@ pub fn fit(
         over("finely", grid.around(|cell| rough.probabilities[cell] > UNLIKELY * most));
 
     let rested = |support: Option<Support>| {
-        let told: Vec<(Option<Support>, f64)> =
+        let hypotheses: Vec<(Option<Support>, f64)> =
             grid.friction.values().map(|friction| (support.clone(), friction)).collect();
-        let cells = look("even, on corners and as stated", told);
+        let cells = look("even, on corners and as stated", hypotheses);
         let log = |cell: &Vec<Ended>| widths.log_density(law, &residuals(cell)).0;
         let logs: Vec<f64> = cells.iter().map(log).collect();
         let likeliest = (0..logs.len()).max_by(|&a, &b| logs[a].total_cmp(&logs[b])).unwrap_or(0);
@@ -260,10 +261,10 @@ fn ends(
     model: &dyn EffectModel,
     trial: &Trial,
     moves: &[bool],
-    told: &[(Option<Support>, f64)],
+    hypotheses: &[(Option<Support>, f64)],
 ) -> Vec<Vec<Ended>> {
     let stated = trial.job();
-    let jobs: Vec<Job> = told
+    let jobs: Vec<Job> = hypotheses
         .iter()
         .map(|(support, friction)| {
             let mut physics = (*stated.physics).clone();

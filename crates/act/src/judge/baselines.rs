@@ -13,8 +13,8 @@ pub const SHIFTED_START: Assumptions =
 /// Returns the 2-D engine with too little and with too much friction.
 pub fn mistaken_frictions() -> [ModelSpec; 2] {
     FRICTION.map(|percent| {
-        let told = Assumptions { friction: Some(percent), ..Assumptions::default() };
-        ModelSpec::of(ModelKind::PLANAR).assuming(told)
+        let assumptions = Assumptions { friction: Some(percent), ..Assumptions::default() };
+        ModelSpec::of(ModelKind::PLANAR).assuming(assumptions)
     })
 }
 

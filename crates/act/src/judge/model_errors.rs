@@ -7,8 +7,8 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use pushplan::effect::{Assuming, EffectModel, Simulated};
+use pushplan::progress::{Count, Progress};
 use pushplan::sim::Simulator;
-use pushplan::watch::{Count, Watch};
 
 use super::baselines::SHIFTED_START;
 use super::comparison::Comparison;
@@ -34,20 +34,20 @@ pub struct TrialErrors {
 }
 
 impl TrialErrors {
-    /// Computes the errors of `models` on `trials`; `watch` receives the number of finished
+    /// Computes the errors of `models` on `trials`; `progress` receives the number of finished
     /// rollouts.
     pub fn of(
         title: String,
         trials: &[Trial],
         models: &[Box<dyn EffectModel>],
-        watch: &dyn Watch,
+        progress: &dyn Progress,
     ) -> Self {
         let frames: usize = trials.iter().map(|trial| trial.truth.len()).sum();
         Self {
             title,
             trajectories: trials.len(),
             frames: frames as f64 / trials.len().max(1) as f64,
-            models: models.iter().map(|model| model_errors(&**model, trials, watch)).collect(),
+            models: models.iter().map(|model| model_errors(&**model, trials, progress)).collect(),
         }
     }
 }
@@ -129,11 +129,11 @@ pub struct CurvePoint {
     pub motion: f64,
 }
 
-/// Computes the errors of `model` on `trials` on all threads of the current rayon pool; `watch`
+/// Computes the errors of `model` on `trials` on all threads of the current rayon pool; `progress`
 /// receives the number of finished trajectories.
-fn model_errors(model: &dyn EffectModel, trials: &[Trial], watch: &dyn Watch) -> ModelErrors {
-    watch.stage(&model.spec().to_string());
-    let count = Count::new(watch, 0, trials.len());
+fn model_errors(model: &dyn EffectModel, trials: &[Trial], progress: &dyn Progress) -> ModelErrors {
+    progress.stage(&model.spec().to_string());
+    let count = Count::new(progress, 0, trials.len());
     let judged: Vec<Judged> = trials
         .par_iter()
         .map(|trial| {
@@ -167,11 +167,11 @@ fn model_errors(model: &dyn EffectModel, trials: &[Trial], watch: &dyn Watch) ->
 
 /// Returns the mean final difference of the 2-D engine to itself with slightly shifted starts,
 /// metres. No model can be expected to have smaller errors. Returns `None` without objects.
-pub fn own_spread(trials: &[Trial], watch: &dyn Watch) -> Option<f64> {
+pub fn own_spread(trials: &[Trial], progress: &dyn Progress) -> Option<f64> {
     let planar = Simulated::new(Simulator::planar());
     let shifted = Assuming::new(planar.clone(), SHIFTED_START);
-    watch.stage("own spread");
-    let count = Count::new(watch, 0, trials.len());
+    progress.stage("own spread");
+    let count = Count::new(progress, 0, trials.len());
     let apart: Vec<Vec<f64>> = trials
         .par_iter()
         .map(|trial| {

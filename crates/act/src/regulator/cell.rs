@@ -71,12 +71,12 @@ impl Regulator {
 
     /// Updates the hidden state with a window and returns the corrections.
     ///
-    /// `features` are [P, F] for `pairs` of this many `objects`. Pairs for which `told` is `false`
+    /// `features` are [P, F] for `pairs` of this many `objects`. Pairs for which `informative` is `false`
     /// are neither updated nor corrected (`None`).
     pub fn step(
         &self,
         features: &[f32],
-        told: &[bool],
+        informative: &[bool],
         (pairs, objects): (&[[usize; 2]], usize),
         memory: &mut Memory,
     ) -> Vec<Option<Correction>> {
@@ -84,7 +84,7 @@ impl Regulator {
         memory.hidden.resize(pairs.len() * h, 0.0);
         let before = memory.hidden.clone();
         let messages = messages(&before, (pairs, objects), h);
-        for p in (0..pairs.len()).filter(|p| told[*p]) {
+        for p in (0..pairs.len()).filter(|p| informative[*p]) {
             let row: Vec<f32> = features[p * f..][..f]
                 .iter()
                 .enumerate()
@@ -116,7 +116,7 @@ impl Regulator {
             multiply(&hidden, self.get("head.logits"), &mut outputs);
             Correction::of(&outputs)
         };
-        (0..pairs.len()).map(|p| told[p].then(|| correction(p))).collect()
+        (0..pairs.len()).map(|p| informative[p].then(|| correction(p))).collect()
     }
 
     /// Returns a parameter whose presence was checked when the weights were read.

@@ -5,7 +5,7 @@ use std::fs::{File, OpenOptions};
 use std::io::{BufReader, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-use pushplan::watch::Watch;
+use pushplan::progress::Progress;
 
 use super::error::StoreError;
 use super::form::{Form, Next};
@@ -28,7 +28,7 @@ pub struct Journal {
 
 impl Journal {
     /// Creates a run in the folder `dir`, or resumes the existing one: `look` receives its records,
-    /// in order. A torn end is dropped with a note to `watch`.
+    /// in order. A torn end is dropped with a note to `progress`.
     ///
     /// # Errors
     /// Returns an error if the folder holds a run with another manifest (the error lists the
@@ -38,10 +38,10 @@ impl Journal {
         dir: &Path,
         manifest: RunManifest,
         form: Form,
-        watch: &dyn Watch,
+        progress: &dyn Progress,
         look: &mut Look,
     ) -> Result<Self, StoreError> {
-        let lock = FolderLock::take(dir, watch)?;
+        let lock = FolderLock::take(dir, progress)?;
         let path = dir.join(form.file());
         match RunManifest::load(dir)? {
             Some(there) if there != manifest => {
@@ -59,7 +59,7 @@ impl Journal {
             .open(&path)
             .map_err(StoreError::io("write", &path))?;
         if read.torn {
-            watch.note(&format!(
+            progress.note(&format!(
                 "{} is incomplete after record {}; the rest is made again",
                 path.display(),
                 read.count

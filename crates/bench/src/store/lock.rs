@@ -4,7 +4,7 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
-use pushplan::watch::Watch;
+use pushplan::progress::Progress;
 
 use super::error::StoreError;
 
@@ -26,12 +26,12 @@ pub struct FolderLock {
 
 impl FolderLock {
     /// Creates the folder if it does not exist, and locks it. If the file system does not support
-    /// locks, or not across machines, `watch` receives a note.
+    /// locks, or not across machines, `progress` receives a note.
     ///
     /// # Errors
     /// Returns [`StoreError::Busy`] if another process holds the lock, and [`StoreError::Io`] if
     /// the folder cannot be created or written.
-    pub fn take(dir: &Path, watch: &dyn Watch) -> Result<Self, StoreError> {
+    pub fn take(dir: &Path, progress: &dyn Progress) -> Result<Self, StoreError> {
         fs::create_dir_all(dir).map_err(StoreError::io("create", dir))?;
         let path = dir.join(LOCK);
         loop {
@@ -47,11 +47,11 @@ impl FolderLock {
             let before = writer(&mut file);
             match locked {
                 Ok(()) if !is_at(&file, &path) => continue,
-                Ok(()) => note_another_machine(dir, before, watch),
+                Ok(()) => note_another_machine(dir, before, progress),
                 Err(TryLockError::WouldBlock) => {
                     return Err(StoreError::Busy { path: dir.to_owned(), writer: before });
                 }
-                Err(TryLockError::Error(_)) => note_no_locks(dir, before, watch),
+                Err(TryLockError::Error(_)) => note_no_locks(dir, before, progress),
             }
             // The name of the writer is informative; the lock does not need it.
             let _ = file
@@ -126,10 +126,10 @@ fn is_at(_: &File, path: &Path) -> bool {
 
 /// Notes a lock file with the name of another machine. Its process ended abnormally, or its lock is
 /// not visible from here.
-fn note_another_machine(dir: &Path, before: Option<String>, watch: &dyn Watch) {
+fn note_another_machine(dir: &Path, before: Option<String>, progress: &dyn Progress) {
     let here = format!(" on {}", host());
     if let Some(writer) = before.filter(|writer| !writer.ends_with(&here)) {
-        watch.note(&format!(
+        progress.note(&format!(
             "{} was last written to by {writer}, which did not say that it has ended; if it still \
              runs, stop one of the two, as locks do not reach across machines there",
             dir.display()
@@ -137,9 +137,9 @@ fn note_another_machine(dir: &Path, before: Option<String>, watch: &dyn Watch) {
     }
 }
 
-fn note_no_locks(dir: &Path, before: Option<String>, watch: &dyn Watch) {
+fn note_no_locks(dir: &Path, before: Option<String>, progress: &dyn Progress) {
     let last = before.map_or(String::new(), |writer| format!(" (last to write was {writer})"));
-    watch.note(&format!(
+    progress.note(&format!(
         "the file system of {} has no locks: make sure that only one pushplan writes there{last}",
         dir.display()
     ));
@@ -150,12 +150,12 @@ mod tests {
     use std::sync::Mutex;
 
     use super::*;
-    use pushplan::watch::Unwatched;
+    use pushplan::progress::NoProgress;
 
     #[derive(Default)]
     struct Notes(Mutex<Vec<String>>);
 
-    impl Watch for Notes {
+    impl Progress for Notes {
         fn note(&self, message: &str) {
             self.0.lock().expect("notes").push(message.to_owned());
         }
@@ -164,10 +164,10 @@ mod tests {
     #[test]
     fn the_lock_names_host_and_process_and_leaves_nothing_behind() {
         let folder = tempfile::tempdir().expect("a folder");
-        let lock = FolderLock::take(folder.path(), &Unwatched).expect("a free folder");
+        let lock = FolderLock::take(folder.path(), &NoProgress).expect("a free folder");
         let text = fs::read_to_string(folder.path().join(LOCK)).expect("the lock");
         assert_eq!(text, format!("process {} on {}\n", std::process::id(), host()));
-        let error = FolderLock::take(folder.path(), &Unwatched).expect_err("a locked folder");
+        let error = FolderLock::take(folder.path(), &NoProgress).expect_err("a locked folder");
         assert!(error.to_string().contains(text.trim_end()), "{error}");
         assert_eq!(writer_of(folder.path()).as_deref(), Some(text.trim_end()));
         drop(lock);
@@ -178,7 +178,7 @@ mod tests {
     #[test]
     fn a_lock_left_behind_is_taken_and_told_if_it_is_of_another_machine() {
         let folder = tempfile::tempdir().expect("a folder");
-        for (left, told) in [
+        for (left, note) in [
             (format!("process 1 on {}\n", host()), None),
             ("process 7 on elsewhere\n".to_owned(), Some("process 7 on elsewhere")),
             (String::new(), None),
@@ -188,8 +188,8 @@ mod tests {
             let notes = Notes::default();
             drop(FolderLock::take(folder.path(), &notes).expect("a free folder"));
             let notes = notes.0.into_inner().expect("notes");
-            assert_eq!(notes.len(), usize::from(told.is_some()), "{left:?}: {notes:?}");
-            assert!(told.is_none_or(|told| notes[0].contains(told)), "{notes:?}");
+            assert_eq!(notes.len(), usize::from(note.is_some()), "{left:?}: {notes:?}");
+            assert!(note.is_none_or(|note| notes[0].contains(note)), "{notes:?}");
         }
     }
 }

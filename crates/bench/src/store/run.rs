@@ -9,7 +9,7 @@ use std::thread;
 
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
-use pushplan::watch::Watch;
+use pushplan::progress::Progress;
 
 use super::error::StoreError;
 use super::form::Form;
@@ -59,15 +59,19 @@ impl<R: Serialize + DeserializeOwned> Store<R> {
     }
 
     /// Creates a run in the folder `dir`, or resumes the existing one. A torn last line is dropped
-    /// with a note to `watch`, and its task is measured again.
+    /// with a note to `progress`, and its task is measured again.
     ///
     /// # Errors
     /// Returns the errors of [`Journal::open`].
-    pub fn open(dir: &Path, manifest: RunManifest, watch: &dyn Watch) -> Result<Self, StoreError> {
+    pub fn open(
+        dir: &Path,
+        manifest: RunManifest,
+        progress: &dyn Progress,
+    ) -> Result<Self, StoreError> {
         let mut records = Vec::new();
         let journal = {
             let look = &mut reading(&mut records);
-            Journal::open(dir, manifest.clone(), Form::Lines, watch, look)?
+            Journal::open(dir, manifest.clone(), Form::Lines, progress, look)?
         };
         let indices: Vec<usize> = manifest.indices().take(records.len()).collect();
         let times = read_times(dir)?;
@@ -95,25 +99,25 @@ impl<R: Serialize + DeserializeOwned> Store<R> {
     /// receives the task's index.
     ///
     /// # Errors
-    /// Returns the first error of `measure`, an error of saving, or a cancellation by `watch`,
+    /// Returns the first error of `measure`, an error of saving, or a cancellation by `progress`,
     /// which is polled before every task. Finished tasks are saved in all cases.
     pub fn run<E: From<StoreError>>(
         &mut self,
-        watch: &dyn Watch,
+        progress: &dyn Progress,
         mut measure: impl FnMut(usize) -> Result<Measured<R>, E>,
     ) -> Result<(), E> {
         let left: Vec<usize> = self.manifest.indices().skip(self.finished.len()).collect();
         let total = self.manifest.indices().len();
-        let tell = |done: usize| watch.progress(done as u64, total as u64);
-        tell(self.finished.len());
+        let report = |done: usize| progress.update(done as u64, total as u64);
+        report(self.finished.len());
         for index in left {
-            if watch.cancelled() {
+            if progress.cancelled() {
                 let done = self.finished.len();
                 return Err(StoreError::Cancelled { done, total }.into());
             }
             let measured = measure(index)?;
             self.keep(index, measured)?;
-            tell(self.finished.len());
+            report(self.finished.len());
         }
         Ok(())
     }
@@ -122,11 +126,11 @@ impl<R: Serialize + DeserializeOwned> Store<R> {
     /// themselves. Results are saved in order, each as soon as all earlier ones are available.
     ///
     /// # Errors
-    /// Returns an error of saving, or a cancellation by `watch`, which is polled before every task.
+    /// Returns an error of saving, or a cancellation by `progress`, which is polled before every task.
     /// Running tasks are then completed and saved.
     pub fn run_side_by_side(
         &mut self,
-        watch: &dyn Watch,
+        progress: &dyn Progress,
         threads: usize,
         measure: impl Fn(usize) -> Measured<R> + Sync,
     ) -> Result<(), StoreError>
@@ -135,7 +139,7 @@ impl<R: Serialize + DeserializeOwned> Store<R> {
     {
         let left: Vec<usize> = self.manifest.indices().skip(self.finished.len()).collect();
         let total = self.manifest.indices().len();
-        watch.progress(self.finished.len() as u64, total as u64);
+        progress.update(self.finished.len() as u64, total as u64);
         let next = AtomicUsize::new(0);
         let (sender, receiver) = mpsc::channel();
         thread::scope(|scope| {
@@ -145,7 +149,7 @@ impl<R: Serialize + DeserializeOwned> Store<R> {
             for _ in 0..threads.clamp(1, left.len().max(1)) {
                 let (sender, next, left, measure) = (sender.clone(), &next, &left, &measure);
                 scope.spawn(move || {
-                    while !watch.cancelled() {
+                    while !progress.cancelled() {
                         let k = next.fetch_add(1, Ordering::Relaxed);
                         let Some(index) = left.get(k) else { return };
                         if sender.send((k, measure(*index))).is_err() {
@@ -168,7 +172,7 @@ impl<R: Serialize + DeserializeOwned> Store<R> {
                     waiting.insert(k, measured);
                 };
                 self.keep(*index, measured)?;
-                watch.progress(self.finished.len() as u64, total as u64);
+                progress.update(self.finished.len() as u64, total as u64);
             }
             Ok(())
         })

@@ -7,7 +7,7 @@ use clap::Args;
 use crate::{
     action::LibraryArgs,
     error::CliError,
-    model::{self, OutsideArgs},
+    model::{self, OutOfRangeArgs},
 };
 use pushplan::effect::EffectModel;
 use pushplan::scene::{ModelKind, ModelSpec, Models};
@@ -19,7 +19,7 @@ pub struct Common {
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
     model: Option<Models>,
     #[command(flatten)]
-    pub outside: OutsideArgs,
+    pub out_of_range: OutOfRangeArgs,
     #[command(flatten)]
     pub library: LibraryArgs,
 }
@@ -35,7 +35,7 @@ impl Common {
     /// # Errors
     /// Returns the errors of [`model::load`].
     pub fn load_model(&self) -> Result<Arc<dyn EffectModel>, CliError> {
-        self.outside.load(&self.model_or_network())
+        self.out_of_range.load(&self.model_or_network())
     }
 
     /// Returns a planner with the given models, otherwise with the models of the effort.
@@ -44,7 +44,7 @@ impl Common {
     /// Returns an error if the weights cannot be used.
     pub fn planner(&self, effort: Effort) -> Result<PlannerBuilder, CliError> {
         let planner = Planner::with_models(&self.models(effort))?;
-        Ok(planner.effort(effort).outside(self.outside.outside()))
+        Ok(planner.effort(effort).out_of_range(self.out_of_range.out_of_range()))
     }
 
     /// Returns the given model, otherwise the network, for commands that do not plan.

@@ -7,7 +7,8 @@ use clap::Args;
 use serde::{Serialize, de::DeserializeOwned};
 
 use crate::{
-    error::CliError, follow::Following, form::Form, interrupt, model, output, session::Session,
+    error::CliError, form::Form, interrupt, model, output, progress::TerminalProgress,
+    session::Session,
 };
 use pushplan::scene::{ModelSpec, Tool};
 use pushplan_bench::store::{Measured, RunManifest, Shard, Store, StoreError, digest};
@@ -75,14 +76,14 @@ impl KeepArgs {
         &self,
         session: &Session,
         manifest: RunManifest,
-        run: impl FnOnce(&mut Store<R>, &Following<'_>) -> Result<(), CliError>,
+        run: impl FnOnce(&mut Store<R>, &TerminalProgress<'_>) -> Result<(), CliError>,
     ) -> Result<Store<R>, CliError> {
         let manifest = match self.shard {
             Some(shard) => manifest.with_shard(shard),
             None => manifest,
         };
         interrupt::watch();
-        let following = Following::bar(session, "tasks");
+        let following = TerminalProgress::bar(session, "tasks");
         let mut store = match &self.out {
             Some(dir) => Store::open(dir, manifest, &following)?,
             None => Store::in_memory(manifest),

@@ -59,8 +59,8 @@ impl PageArgs {
             let message = format!("the plan uses the tool `{}`, which is not here", plan.tool());
             CliError::usage(message, "give the --tools or --more-tools of the run")
         })?;
-        let disturbed = run.settings["budget"]["disturbed"].as_u64().unwrap_or(0) as usize;
-        let verifier = Verifier::new(VerifySettings { disturbed, seed }).until_clear();
+        let replays = run.settings["budget"]["replays"].as_u64().unwrap_or(0) as usize;
+        let verifier = Verifier::new(VerifySettings { replays, seed }).until_clear();
         let situation = Situation::stated(&task.scene);
         let verdict = session
             .compute(|| verifier.verify(&task, &situation, std::slice::from_ref(tool), &plan));

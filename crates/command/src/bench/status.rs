@@ -28,7 +28,7 @@ pub fn run(args: &StatusArgs, session: &Session) -> Result<(), CliError> {
     for shard in status.shards.iter().filter(|shard| !shard.is_complete()) {
         let writer =
             shard.writer.as_ref().map_or(String::new(), |who| format!(", locked by {who}"));
-        session.say(&format!(
+        session.message(&format!(
             "shard {}: {} of {} tasks in {}{writer}",
             shard.shard,
             shard.done,

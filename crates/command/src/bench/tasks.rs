@@ -9,7 +9,7 @@ use crate::{
     error::CliError,
     session::Session,
     solve::solve_error,
-    words::{EFFORTS, words},
+    value_enums::{EFFORTS, possible_values},
 };
 use pushplan::asset::load_task;
 use pushplan::solve::Effort;
@@ -32,7 +32,7 @@ pub struct TasksArgs {
     #[arg(required = true, value_name = "TASK")]
     tasks: Vec<PathBuf>,
     /// How hard to try
-    #[arg(long, value_parser = words(&EFFORTS), default_value = "standard")]
+    #[arg(long, value_parser = possible_values(&EFFORTS), default_value = "standard")]
     effort: Effort,
     /// Seed of refinement's samples and of the disturbed replays
     #[arg(long, value_name = "N", default_value_t = 0)]
@@ -62,7 +62,7 @@ impl Suite for TasksArgs {
             "files": tasks.iter().map(|task| &task.name).collect::<Vec<_>>(),
             "content": value_digest(&tasks)?,
         });
-        self.common.outside.note(&mut settings);
+        self.common.out_of_range.note(&mut settings);
         let manifest = RunManifest::new(Self::NAME, tasks.len(), self.seed, &models.to_string())
             .with_weights(weights_digest(&models.decided)?)
             .with_settings(settings);

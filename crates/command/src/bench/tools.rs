@@ -7,10 +7,10 @@ use serde_json::json;
 
 use crate::{
     error::CliError,
-    model::OutsideArgs,
+    model::OutOfRangeArgs,
     session::Session,
     solve::solve_error,
-    words::{EFFORTS, LAYOUTS, words},
+    value_enums::{EFFORTS, LAYOUTS, possible_values},
 };
 use pushplan::asset::write_atomic;
 use pushplan::scene::{ModelKind, ModelSpec, Models};
@@ -32,15 +32,15 @@ pub struct ToolsArgs {
     #[arg(long, value_name = "MODEL")]
     model: Option<Models>,
     #[command(flatten)]
-    outside: OutsideArgs,
+    out_of_range: OutOfRangeArgs,
     /// Where the cylinder starts
-    #[arg(long, value_parser = words(&LAYOUTS), default_value = "grid")]
+    #[arg(long, value_parser = possible_values(&LAYOUTS), default_value = "grid")]
     layout: Layout,
     /// The pushes
     #[arg(long, value_enum, default_value_t)]
     form: FormName,
     /// How hard the planner tries
-    #[arg(long, value_parser = words(&EFFORTS), default_value = "standard")]
+    #[arg(long, value_parser = possible_values(&EFFORTS), default_value = "standard")]
     effort: Effort,
     /// Number of tasks of single pushes
     #[arg(long, value_name = "N", default_value_t = 10_000,
@@ -87,7 +87,7 @@ pub fn run(args: &SuiteArgs<ToolsArgs>, session: &Session) -> Result<(), CliErro
             "leave --out out, or --form single",
         ));
     }
-    let model = tools.outside.load(&tools.spec())?;
+    let model = tools.out_of_range.load(&tools.spec())?;
     let spinner = session.spinner("pushing");
     let report = session.compute(|| single_pushes(&model, tools.seed, tools.tasks as usize));
     spinner.finish_and_clear();
@@ -115,14 +115,14 @@ impl Suite for ToolsArgs {
         let goals = GoalSet::shipped(layout)
             .map_err(|error| CliError::unexpected("the shipped goals are broken", &error))?;
         let spec = self.spec();
-        let model = self.outside.load(&spec)?;
+        let model = self.out_of_range.load(&spec)?;
         let effort = self.effort;
         let models = self.model.clone().unwrap_or_else(|| effort.models());
         let planner = Planner::with_models(&models)?
             // Perturbed replays measure the robustness of a plan without affecting its choice.
-            .settings(Settings { disturbed: 0, ..effort.settings() })
+            .settings(Settings { replays: 0, ..effort.settings() })
             .seed(self.seed)
-            .outside(self.outside.outside())
+            .out_of_range(self.out_of_range.out_of_range())
             .build();
         let mut settings = json!({
             "layout": layout,
@@ -130,7 +130,7 @@ impl Suite for ToolsArgs {
             "planner": format!("effort {effort} with {}", planner.models()),
             "budget": planner.settings(),
         });
-        self.outside.note(&mut settings);
+        self.out_of_range.note(&mut settings);
         let manifest = RunManifest::new(Self::NAME, goals.len(), self.seed, &spec.to_string())
             .with_weights(weights_digest(&spec)?)
             .with_settings(settings);

@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 
-use crate::fault::Ledger;
+use crate::diagnostic::Ledger;
 use crate::model::{Outline, Solid};
 use pushplan::geometry::{
     ConvexPolygon, MAX_CORNERS, PolygonError, Pose, Shape, Vector, cross, planar_hull,

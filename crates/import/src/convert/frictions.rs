@@ -1,6 +1,6 @@
 //! Pair frictions for pairs whose coefficient in the file is not the mean of the two values.
 
-use crate::fault::Ledger;
+use crate::diagnostic::Ledger;
 use crate::model::{Model, Solid};
 use pushplan::scene::{PairFriction, Scene, Surface};
 

@@ -1,6 +1,6 @@
 //! Selection of the wanted bodies, and of the bodies fixed to each other.
 
-use crate::fault::Ledger;
+use crate::diagnostic::Ledger;
 use crate::model::{Model, Motion};
 
 use super::joints::may_mount;

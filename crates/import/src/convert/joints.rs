@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
-use crate::fault::Ledger;
+use crate::diagnostic::Ledger;
 use crate::model::{Body, Model, Motion, Place};
 use pushplan::geometry::Vector;
-use pushplan::scene::{Joint, JointKind, Mount, Span};
+use pushplan::scene::{Joint, JointKind, Span, WorldJoint};
 
 use super::groups::held_by;
 use super::objects::Draft;
@@ -52,7 +52,7 @@ pub(super) fn joints(
 }
 
 /// Returns the joints of objects to the world.
-pub(super) fn mounts(model: &Model, drafts: &[Draft<'_>], ledger: &mut Ledger) -> Vec<Mount> {
+pub(super) fn mounts(model: &Model, drafts: &[Draft<'_>], ledger: &mut Ledger) -> Vec<WorldJoint> {
     let mut found = Vec::new();
     for (object, draft) in drafts.iter().enumerate() {
         let Body { name, place, motion, .. } = &model.bodies[draft.group];
@@ -60,7 +60,7 @@ pub(super) fn mounts(model: &Model, drafts: &[Draft<'_>], ledger: &mut Ledger) -
         if !hangs || *motion == Motion::Free || motion.is_planar() {
             continue;
         }
-        found.extend(kind(motion, name, *place, ledger).map(|kind| Mount { object, kind }));
+        found.extend(kind(motion, name, *place, ledger).map(|kind| WorldJoint { object, kind }));
     }
     found
 }

@@ -1,6 +1,6 @@
 //! Conversion of bodies to objects, before they are placed on a table.
 
-use crate::fault::Ledger;
+use crate::diagnostic::Ledger;
 use crate::model::{Model, Motion, Place, Solid};
 use pushplan::geometry::Pose;
 use pushplan::scene::{Joint, JointKind, Object, Scene, Whole};

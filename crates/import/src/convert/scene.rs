@@ -1,11 +1,11 @@
 //! Conversion of a model to a scene, with the goals stated in the file.
 
-use crate::fault::Ledger;
+use crate::diagnostic::Ledger;
 use crate::model::Model;
 use pushplan::asset::Faults;
 use pushplan::geometry::Vector;
 use pushplan::{
-    scene::{Joint, JointKind, Mount, Robot, Scene},
+    scene::{Joint, JointKind, Robot, Scene, WorldJoint},
     task::{Goal, Task},
 };
 
@@ -89,7 +89,7 @@ pub fn objects(
             .collect(),
         mounts: mounts
             .into_iter()
-            .map(|mount| Mount { kind: shifted(mount.kind, wanted.shift), ..mount })
+            .map(|mount| WorldJoint { kind: shifted(mount.kind, wanted.shift), ..mount })
             .collect(),
         frictions,
         ..empty(&statics, wanted.shift)

@@ -1,6 +1,6 @@
 //! Fixed bodies: the table and the obstacles on it.
 
-use crate::fault::Ledger;
+use crate::diagnostic::Ledger;
 use crate::model::{Model, Outline, Solid};
 use pushplan::geometry::{Pose, Vector, clearance};
 use pushplan::scene::{Object, Obstacle, Robot, Scene, TableTop};

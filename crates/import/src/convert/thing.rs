@@ -1,6 +1,6 @@
 //! Conversion of bodies fixed to each other to one object, compound if it has several solids.
 
-use crate::fault::Ledger;
+use crate::diagnostic::Ledger;
 use crate::model::{Body, Model, Outline, Solid};
 use pushplan::geometry::{Pose, Shape, Vector};
 use pushplan::scene::{Object, Support, Whole, bearings, hanging};

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::fault::Ledger;
+use crate::diagnostic::Ledger;
 use crate::model::{Model, Motion};
 use pushplan::asset::{Faults, MAX_PARTS, named_after};
 use pushplan::geometry::{ConvexPolygon, Shape};
@@ -60,8 +60,8 @@ fn chosen(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Option<usize> 
     let candidates: Vec<usize> = match &wanted.bodies[..] {
         // The body named `tool`, possibly held by an arm, or the only body.
         [] => {
-            let said = |body: &usize| model.name_of(*body) == Model::TOOL && solid(body);
-            match (1..model.bodies.len()).find(said) {
+            let is_tool = |body: &usize| model.name_of(*body) == Model::TOOL && solid(body);
+            match (1..model.bodies.len()).find(is_tool) {
                 Some(tool) => vec![tool],
                 None => model.children(0).filter(solid).collect(),
             }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{Isometry3, Point3, Vector3};
 
-use crate::fault::Ledger;
+use crate::diagnostic::Ledger;
 use crate::model::{Outline, Solid};
 use pushplan::geometry::{MAX_CORNERS, Pose, Vector, centroid, cross, planar_hull};
 

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{Point3, Vector3};
 
-use crate::fault::Ledger;
+use crate::diagnostic::Ledger;
 use crate::model::{Body, Model, Outline, Solid, Weight};
 use pushplan::geometry::Vector;
 

@@ -4,8 +4,8 @@ use std::time::Instant;
 
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::geometry::wrap_angle;
+use pushplan::internals::progress::NoProgress;
 use pushplan::internals::solve::{Planner, SolveError};
-use pushplan::internals::watch::Unwatched;
 use pushplan::internals::{
     scene::{Scene, Situation, State},
     task::{Goal, Task, Truth},
@@ -70,7 +70,7 @@ impl RandomSuite {
         let mut world =
             SimulatedWorld::new(hidden.truth.clone()).pushed_with(hidden.task.robot.max_force);
         let runner = Runner::new(planner, library);
-        let ran = runner.run(&mut trace, &mut world, &mut |_| Ok(()), &Unwatched);
+        let ran = runner.run(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress);
         let seconds = began.elapsed().as_secs_f64();
         if let Err(ActError::Solve(error)) = ran {
             return Err(RandomError::Solve(error));
@@ -111,7 +111,7 @@ fn once(
     for (object, pose) in scene.objects.iter_mut().zip(&start.poses) {
         object.pose = *pose;
     }
-    let solution = planner.solve_from(&Situation::stated(&scene), task, library, &Unwatched)?;
+    let solution = planner.solve_from(&Situation::stated(&scene), task, library, &NoProgress)?;
     let best = solution.best().filter(|best| !best.plan.is_empty());
     let sound = best.is_none_or(|best| world.act(&best.plan.motion(best.tool())).is_ok());
     Ok(Left::of(&task.goals[0], world.state(), sound))

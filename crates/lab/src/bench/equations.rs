@@ -4,7 +4,7 @@
 use std::num::NonZeroU16;
 
 use pushplan::internals::asset::ToolLibrary;
-use pushplan::internals::contact::Tally;
+use pushplan::internals::contact::SolverStats;
 use pushplan::internals::effect::{EffectModel, Prior, Simulated};
 use pushplan::internals::rollout::{RollSettings, Roller};
 use pushplan::internals::sim::Simulator;
@@ -51,7 +51,7 @@ pub struct EquationCost {
     /// Processor time of a push in the 2-D engine at 1/120 s, seconds.
     pub rival: f64,
     /// Counts of the work on all pushes.
-    pub tally: Tally,
+    pub tally: SolverStats,
     /// Matrix-product rate of this machine, operations per second.
     pub peak: f64,
 }

@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 use super::suite::{Suite, SuiteKind};
 
 /// Perturbation of the start for the spread of the 2-D ground truth, metres.
-pub const DISTURBANCE: f64 = 1e-4;
+pub const PERTURBATION: f64 = 1e-4;
 
 /// A suite with its ground truths.
 #[derive(Clone, Debug)]
@@ -142,7 +142,7 @@ impl HeldOut {
         self.judge("planar, start off by 0.1 mm", |trial, index| {
             let mut rng = generator(self.seed ^ 0xD157, index as u64);
             let job = trial.job();
-            let start = shifted_start(&job.start, &job.physics, DISTURBANCE, &mut rng);
+            let start = shifted_start(&job.start, &job.physics, PERTURBATION, &mut rng);
             let job = Job { start, ..job };
             Comparison::new(trial, Simulator::planar().run(&trial.scene, &job, Record::Outcome))
         })

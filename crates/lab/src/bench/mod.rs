@@ -37,7 +37,7 @@ pub use crowd::{CrowdFamily, CrowdReport, CrowdSet};
 pub use equations::{EquationCost, equation_costs};
 pub use evaluation::{Evaluated, by_kind};
 pub use far::{FAR_COUNTS, FarCost, far_costs};
-pub use heldout::{DISTURBANCE, ErrorRow, HeldOut, HeldOutErrors, HeldOutReport};
+pub use heldout::{ErrorRow, HeldOut, HeldOutErrors, HeldOutReport, PERTURBATION};
 pub use inference::{InferenceCost, inference_costs};
 pub use lever::{
     ConvergenceReport, ConvergenceRow, DriveReport, DriveRow, LeverBaseline, LeverRecord,

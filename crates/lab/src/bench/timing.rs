@@ -136,7 +136,7 @@ pub fn search_costs(
         short_list: 0,
         verified_at_once: 1,
         verify_batches: 1,
-        disturbed: 0,
+        replays: 0,
     };
     let mut task = task.clone();
     task.pushes.max_count = 1;

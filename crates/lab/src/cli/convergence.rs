@@ -4,8 +4,8 @@ use clap::Args;
 use pushplan_command::error::CliError;
 use pushplan_command::form::Form;
 use pushplan_command::session::Session;
-use pushplan_command::words::words;
-use pushplan_learn::cli::words::LEVER_PRESETS;
+use pushplan_command::value_enums::possible_values;
+use pushplan_learn::cli::value_enums::LEVER_PRESETS;
 use pushplan_learn::dataset::LeverPreset;
 
 use crate::bench::convergence;
@@ -15,7 +15,7 @@ use crate::report::convergence_document;
 #[derive(Args, Debug)]
 pub struct ConvergenceArgs {
     /// Families of lever-ups [default: levers, levers-varied and hdd]
-    #[arg(value_parser = words(&LEVER_PRESETS), value_name = "FAMILY")]
+    #[arg(value_parser = possible_values(&LEVER_PRESETS), value_name = "FAMILY")]
     families: Vec<LeverPreset>,
     /// Number of lever-ups of each family, every one of another shape
     #[arg(long, value_name = "N", default_value_t = 256,

@@ -7,9 +7,9 @@ use pushplan::internals::effect::{LeverPrior, PriorSettings};
 use pushplan::internals::scene::LeverFeatures;
 use pushplan::internals::sim::LeverSimulator;
 use pushplan_command::error::CliError;
-use pushplan_command::follow::Following;
 use pushplan_command::form::Form;
 use pushplan_command::interrupt;
+use pushplan_command::progress::TerminalProgress;
 use pushplan_command::session::Session;
 use pushplan_learn::cli::generate::data_error;
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverPreset};
@@ -58,7 +58,7 @@ pub fn run(args: &HddArgs, session: &Session) -> Result<(), CliError> {
     interrupt::watch();
     let draw = |seed, episodes| {
         let config = LeverConfig { seed, episodes, preset: LeverPreset::Drive };
-        let following = Following::bar(session, "simulating");
+        let following = TerminalProgress::bar(session, "simulating");
         let drawn = session.compute(|| LeverDataset::in_memory(&config, &following));
         following.finish()?;
         drawn.map_err(data_error)

@@ -10,8 +10,8 @@ use pushplan_command::error::CliError;
 use pushplan_command::model;
 use pushplan_command::regulator::RegulatorArgs;
 use pushplan_command::session::Session;
-use pushplan_command::words::{ENGINES, words};
-use pushplan_learn::cli::words::JOINTS;
+use pushplan_command::value_enums::{ENGINES, possible_values};
+use pushplan_learn::cli::value_enums::JOINTS;
 use pushplan_learn::dataset::JointRule;
 use pushplan_report::Document;
 use serde_json::json;
@@ -21,7 +21,7 @@ use crate::bench::{
     update_times,
 };
 use crate::cli::kept::cases_of;
-use crate::cli::words::{FAMILIES, SIGHTINGS};
+use crate::cli::value_enums::{FAMILIES, SIGHTINGS};
 use crate::report::joints_document;
 
 /// Infer joints from observed crowds, and predict the rest of the way under each belief
@@ -33,16 +33,16 @@ use crate::report::joints_document;
 {}", keep::HELP))]
 pub struct JointsArgs {
     /// Families of scenes [default: sparse and dense]
-    #[arg(long, num_args = 1.., value_parser = words(&FAMILIES), value_name = "FAMILY")]
+    #[arg(long, num_args = 1.., value_parser = possible_values(&FAMILIES), value_name = "FAMILY")]
     on: Vec<CrowdFamily>,
     /// Numbers of objects
     #[arg(long, value_name = "N", num_args = 1.., default_value = "9")]
     objects: Vec<usize>,
     /// Joints between near neighbours
-    #[arg(long, value_parser = words(&JOINTS[1..]), default_value = "mixed")]
+    #[arg(long, value_parser = possible_values(&JOINTS[1..]), default_value = "mixed")]
     joints: JointRule,
     /// How things are seen; may be given several times [default: in all ways]
-    #[arg(long, num_args = 1.., value_parser = words(&SIGHTINGS), value_name = "HOW")]
+    #[arg(long, num_args = 1.., value_parser = possible_values(&SIGHTINGS), value_name = "HOW")]
     seen: Vec<Sighting>,
     /// Trajectories of each
     #[arg(long, value_name = "N", default_value_t = 200,
@@ -52,7 +52,7 @@ pub struct JointsArgs {
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
     /// Engine of the trajectories
-    #[arg(long, value_parser = words(&ENGINES), value_name = "ENGINE", default_value = "planar")]
+    #[arg(long, value_parser = possible_values(&ENGINES), value_name = "ENGINE", default_value = "planar")]
     engine: Engine,
     /// Mislead the observer: friction values of objects 0.6 times, of the table 1.3 times what they
     /// are, 0.6 kg for every mass

@@ -3,13 +3,13 @@
 use clap::Args;
 use pushplan::internals::effect::LeverPrior;
 use pushplan_command::error::CliError;
-use pushplan_command::follow::Following;
 use pushplan_command::form::Form;
 use pushplan_command::interrupt;
+use pushplan_command::progress::TerminalProgress;
 use pushplan_command::session::Session;
-use pushplan_command::words::words;
+use pushplan_command::value_enums::possible_values;
 use pushplan_learn::cli::generate::data_error;
-use pushplan_learn::cli::words::LEVER_PRESETS;
+use pushplan_learn::cli::value_enums::LEVER_PRESETS;
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverPreset};
 
 use crate::bench::point_report;
@@ -19,7 +19,7 @@ use crate::report::lever_points_document;
 #[derive(Args, Debug)]
 pub struct LeverPointsArgs {
     /// Families of lever-ups [default: disc and pcb]
-    #[arg(value_parser = words(&LEVER_PRESETS), value_name = "FAMILY")]
+    #[arg(value_parser = possible_values(&LEVER_PRESETS), value_name = "FAMILY")]
     families: Vec<LeverPreset>,
     /// Number of lever-ups of each family
     #[arg(long, value_name = "N", default_value_t = 100,
@@ -39,7 +39,7 @@ pub fn run(args: &LeverPointsArgs, session: &Session) -> Result<(), CliError> {
     let mut reports = Vec::new();
     for preset in families {
         let config = LeverConfig { seed: args.seed, episodes: args.cases, preset: *preset };
-        let following = Following::bar(session, "simulating");
+        let following = TerminalProgress::bar(session, "simulating");
         let drawn = session.compute(|| LeverDataset::in_memory(&config, &following));
         following.finish()?;
         let drawn = drawn.map_err(data_error)?;

@@ -14,7 +14,7 @@ use pushplan_command::error::CliError;
 use pushplan_command::model;
 use pushplan_command::session::Session;
 use pushplan_command::solve::solve_error;
-use pushplan_command::words::{EFFORTS, words};
+use pushplan_command::value_enums::{EFFORTS, possible_values};
 use pushplan_report::Document;
 use serde_json::json;
 
@@ -38,7 +38,7 @@ pub struct LeverTasksArgs {
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
     /// How hard to try
-    #[arg(long, value_parser = words(&EFFORTS), default_value = "standard")]
+    #[arg(long, value_parser = possible_values(&EFFORTS), default_value = "standard")]
     effort: Effort,
     #[arg(long, value_name = "MODEL", help = model::HELP_FOR_LEVERS)]
     model: Option<ModelSpec>,

@@ -8,13 +8,13 @@ use pushplan::internals::effect::{LeverNetwork, LeverPrior, PriorSettings};
 use pushplan::internals::sim::LeverSimulator;
 use pushplan::internals::{outcome::LeverTrajectory, scene::LeverFeatures, task::LeverJob};
 use pushplan_command::error::CliError;
-use pushplan_command::follow::Following;
 use pushplan_command::form::Form;
 use pushplan_command::interrupt;
+use pushplan_command::progress::TerminalProgress;
 use pushplan_command::session::Session;
-use pushplan_command::words::words;
+use pushplan_command::value_enums::possible_values;
 use pushplan_learn::cli::generate::data_error;
-use pushplan_learn::cli::words::LEVER_PRESETS;
+use pushplan_learn::cli::value_enums::LEVER_PRESETS;
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPart, LeverPreset};
 use pushplan_learn::lever_model::{LeverModel, SimulatedLevers};
 
@@ -25,7 +25,7 @@ use crate::report::levers_document;
 #[derive(Args, Debug)]
 pub struct LeversArgs {
     /// Families of lever-ups [default: levers and levers-varied]
-    #[arg(value_parser = words(&LEVER_PRESETS), value_name = "FAMILY")]
+    #[arg(value_parser = possible_values(&LEVER_PRESETS), value_name = "FAMILY")]
     families: Vec<LeverPreset>,
     /// Number of lever-ups of each family
     #[arg(long, value_name = "N", default_value_t = 2000,
@@ -74,7 +74,7 @@ pub fn run(args: &LeversArgs, session: &Session) -> Result<(), CliError> {
     for preset in families {
         let draw = |(seed, episodes)| {
             let config = LeverConfig { seed, episodes, preset: *preset };
-            let following = Following::bar(session, "simulating");
+            let following = TerminalProgress::bar(session, "simulating");
             let drawn = session.compute(|| LeverDataset::in_memory(&config, &following));
             following.finish()?;
             drawn.map_err(data_error)

@@ -9,14 +9,14 @@ use pushplan_command::bench::suite::{Cases, Measure, Run, Suite, only};
 use pushplan_command::error::CliError;
 use pushplan_command::model;
 use pushplan_command::session::Session;
-use pushplan_command::words::words;
+use pushplan_command::value_enums::possible_values;
 use pushplan_learn::dataset::{Controlled, MassSetup};
 use pushplan_report::Document;
 use serde_json::json;
 
 use crate::bench::{MassRecord, MassSuite, Sighting, summarise_masses};
 use crate::cli::kept::cases_of;
-use crate::cli::words::{CONTROLLED, SIGHTINGS};
+use crate::cli::value_enums::{CONTROLLED, SIGHTINGS};
 use crate::report::masses_document;
 
 /// Tell which of three ranges masses are in, from pushes in which objects touch
@@ -37,10 +37,10 @@ pub struct MassesArgs {
           value_parser = clap::value_parser!(u8).range(2..=12))]
     crowds: Vec<u8>,
     /// Nine cylinders that are always arranged and pushed alike; only their masses differ
-    #[arg(long, num_args = 1.., value_parser = words(&CONTROLLED), value_name = "SETUP")]
+    #[arg(long, num_args = 1.., value_parser = possible_values(&CONTROLLED), value_name = "SETUP")]
     controlled: Vec<Controlled>,
     /// How things are seen; may be given several times [default: exact, fine and coarse]
-    #[arg(long, num_args = 1.., value_parser = words(&SIGHTINGS), value_name = "HOW")]
+    #[arg(long, num_args = 1.., value_parser = possible_values(&SIGHTINGS), value_name = "HOW")]
     seen: Vec<Sighting>,
     /// Friction values of the objects and the table are unknown, too
     #[arg(long)]

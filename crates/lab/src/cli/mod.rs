@@ -20,6 +20,6 @@ mod run;
 mod tasks;
 mod tradeoff;
 mod train;
-mod words;
+mod value_enums;
 
 pub use app::run;

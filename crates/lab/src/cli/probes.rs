@@ -10,7 +10,7 @@ use pushplan_command::bench::suite::{Cases, Measure, Run, Suite, only};
 use pushplan_command::error::CliError;
 use pushplan_command::model;
 use pushplan_command::session::Session;
-use pushplan_command::words::{PROBES, words};
+use pushplan_command::value_enums::{PROBES, possible_values};
 use pushplan_report::Document;
 use serde_json::json;
 
@@ -26,13 +26,13 @@ predict four other pushes of 20 cm.
 
 Examples:
   pushplan-lab probes --count 100
-  pushplan-lab probes --rule information random --objects 9
+  pushplan-lab probes --probe-rule information random --objects 9
 
 {}", keep::HELP))]
 pub struct ProbesArgs {
     /// How pushes are chosen; several may be given [default: all but task, which needs one]
-    #[arg(long, num_args = 1.., value_parser = words(&PROBES), value_name = "RULE")]
-    rule: Vec<ProbeRule>,
+    #[arg(long, num_args = 1.., value_parser = possible_values(&PROBES), value_name = "RULE")]
+    probe_rule: Vec<ProbeRule>,
     /// Number of objects in a scene
     #[arg(long, value_name = "N", default_value_t = 6,
           value_parser = clap::value_parser!(u8).range(2..=12))]
@@ -58,7 +58,7 @@ impl Suite for ProbesArgs {
         _: &KeepArgs,
         _: &'a Session,
     ) -> Result<Cases<'a, ProbeRecord>, CliError> {
-        let rules = match &self.rule[..] {
+        let rules = match &self.probe_rule[..] {
             [] => &[
                 ProbeRule::Information,
                 ProbeRule::Random,
@@ -68,7 +68,7 @@ impl Suite for ProbesArgs {
             some => some,
         };
         if rules.contains(&ProbeRule::Task) {
-            let help = "ask for information, random, uncertain or motion; `pushplan-lab run --rule task` has tasks";
+            let help = "ask for information, random, uncertain or motion; `pushplan-lab run --probe-rule task` has tasks";
             return Err(CliError::usage("there is no task here that a probe could serve", help));
         }
         let suite = ProbeSuite::new(self.objects.into(), rules, self.seed);

@@ -11,7 +11,7 @@ use pushplan_command::bench::suite::{Cases, Measure, Run, Suite};
 use pushplan_command::error::CliError;
 use pushplan_command::session::Session;
 use pushplan_command::solve::solve_error;
-use pushplan_command::words::{EFFORTS, words};
+use pushplan_command::value_enums::{EFFORTS, possible_values};
 use pushplan_report::Document;
 
 use crate::bench::{RandomError, RandomRecord};
@@ -37,7 +37,7 @@ pub struct RandomArgs {
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     count: u32,
     /// How hard to try
-    #[arg(long, value_parser = words(&EFFORTS), default_value = "standard")]
+    #[arg(long, value_parser = possible_values(&EFFORTS), default_value = "standard")]
     effort: Effort,
     /// Also write the tasks to this folder, for `pushplan solve`
     #[arg(long, value_name = "DIR")]

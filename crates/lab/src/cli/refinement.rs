@@ -10,7 +10,7 @@ use pushplan_command::bench::suite::{Cases, Measure, Run, Suite, only};
 use pushplan_command::error::CliError;
 use pushplan_command::session::Session;
 use pushplan_command::solve::solve_error;
-use pushplan_command::words::{EFFORTS, words};
+use pushplan_command::value_enums::{EFFORTS, possible_values};
 use pushplan_report::Document;
 use serde_json::json;
 
@@ -28,7 +28,7 @@ pub struct RefinementArgs {
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     tasks: u32,
     /// How hard to try otherwise
-    #[arg(long, value_parser = words(&EFFORTS), default_value = "standard")]
+    #[arg(long, value_parser = possible_values(&EFFORTS), default_value = "standard")]
     effort: Effort,
     /// Seed of the tasks
     #[arg(long, value_name = "N", default_value_t = 7)]
@@ -47,7 +47,7 @@ impl Suite for RefinementArgs {
         let library = self.common.library.load()?;
         let effort = self.effort;
         let models = self.common.models(effort);
-        let budget = Settings { disturbed: 0, ..effort.settings() };
+        let budget = Settings { replays: 0, ..effort.settings() };
         let planner = |settings| -> Result<Planner, CliError> {
             Ok(self.common.planner(effort)?.settings(settings).build())
         };
@@ -60,7 +60,7 @@ impl Suite for RefinementArgs {
             "budget": with.settings(),
             "tools": tools_digest(library.iter())?,
         });
-        self.common.outside.note(&mut settings);
+        self.common.out_of_range.note(&mut settings);
         let manifest = RunManifest::new(Self::NAME, count, self.seed, &models.to_string())
             .with_weights(weights_digest(&models.decided)?)
             .with_settings(settings);

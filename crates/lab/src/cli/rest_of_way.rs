@@ -5,24 +5,24 @@ use std::path::PathBuf;
 
 use clap::Args;
 use pushplan::internals::effect::EffectModel;
+use pushplan::internals::progress::Count;
 use pushplan::internals::recording::Recording;
 use pushplan::internals::scene::ModelSpec;
-use pushplan::internals::watch::Count;
 use pushplan_command::error::CliError;
-use pushplan_command::follow::Following;
 use pushplan_command::form::Form;
 use pushplan_command::model;
-use pushplan_command::model::OutsideArgs;
+use pushplan_command::model::OutOfRangeArgs;
 use pushplan_command::noise::NoiseArgs;
+use pushplan_command::progress::TerminalProgress;
 use pushplan_command::recordings::load_recordings;
 use pushplan_command::regulator::RegulatorArgs;
 use pushplan_command::session::Session;
-use pushplan_command::words::words;
+use pushplan_command::value_enums::possible_values;
 
 use crate::bench::{Asked, BeliefRecord, JointMethod, belief_steps, follow};
 use crate::report::recorded_joints_document;
 
-use super::words::TOLD;
+use super::value_enums::JOINT_METHODS;
 
 /// Predict the rest of recordings under different beliefs about their joints
 #[derive(Args, Debug)]
@@ -31,12 +31,12 @@ pub struct RestOfWayArgs {
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// What the model is told about the joints from first contact on
-    #[arg(long, required = true, num_args = 1.., value_parser = words(&TOLD), value_name = "HOW")]
+    #[arg(long, required = true, num_args = 1.., value_parser = possible_values(&JOINT_METHODS), value_name = "HOW")]
     joints: Vec<JointMethod>,
     #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]
     model: ModelSpec,
     #[command(flatten)]
-    outside: OutsideArgs,
+    out_of_range: OutOfRangeArgs,
     #[command(flatten)]
     noise: NoiseArgs,
     #[command(flatten)]
@@ -49,13 +49,13 @@ pub fn run(args: &RestOfWayArgs, session: &Session) -> Result<(), CliError> {
     let sets = load_recordings(&args.files)?;
     let recordings: Vec<&Recording> = sets.iter().flat_map(|set| &set.recordings).collect();
     let asked = |method: &JointMethod| args.joints.contains(method);
-    let told: Vec<JointMethod> = JointMethod::ALL.into_iter().filter(asked).collect();
-    let model = args.outside.load(&args.model)?;
-    let regulator = match told.contains(&JointMethod::Regulator) {
+    let methods: Vec<JointMethod> = JointMethod::ALL.into_iter().filter(asked).collect();
+    let model = args.out_of_range.load(&args.model)?;
+    let regulator = match methods.contains(&JointMethod::Regulator) {
         true => args.regulator.load()?.map(|(regulator, _)| regulator),
         false => None,
     };
-    let following = Following::bar(session, "inferring");
+    let following = TerminalProgress::bar(session, "inferring");
     let count = Count::new(&following, 0, recordings.len());
     let records: Vec<BeliefRecord> = session.compute(|| {
         let of = |recording: &&Recording| {
@@ -71,5 +71,5 @@ pub fn run(args: &RestOfWayArgs, session: &Session) -> Result<(), CliError> {
     following.finish()?;
     let steps = belief_steps(&records.iter().collect::<Vec<_>>());
     let spec = model.spec().to_string();
-    args.form.show(session, &recorded_joints_document(&spec, recordings.len(), &steps, &told))
+    args.form.show(session, &recorded_joints_document(&spec, recordings.len(), &steps, &methods))
 }

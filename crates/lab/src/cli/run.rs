@@ -9,7 +9,7 @@ use pushplan_command::bench::keep::KeepArgs;
 use pushplan_command::bench::suite::{Cases, Measure, Run, Suite};
 use pushplan_command::error::CliError;
 use pushplan_command::session::Session;
-use pushplan_command::words::{EFFORTS, ENGINES, PROBES, words};
+use pushplan_command::value_enums::{EFFORTS, ENGINES, PROBES, possible_values};
 use pushplan_report::Document;
 use serde_json::json;
 
@@ -23,7 +23,7 @@ use crate::report::closed_document;
 #[derive(Args, Debug)]
 #[command(after_help = format!("Examples:
   pushplan-lab run --count 200 --out runs/closed
-  pushplan-lab run --kind cluster --count 50 --rule random
+  pushplan-lab run --kind cluster --count 50 --probe-rule random
 
 {}", keep::HELP))]
 pub struct RunArgs {
@@ -34,10 +34,10 @@ pub struct RunArgs {
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     count: u32,
     /// How hard to try with every plan
-    #[arg(long, value_parser = words(&EFFORTS), default_value = "draft")]
+    #[arg(long, value_parser = possible_values(&EFFORTS), default_value = "draft")]
     effort: Effort,
     /// Engine of the worlds
-    #[arg(long, value_parser = words(&ENGINES), default_value = "planar")]
+    #[arg(long, value_parser = possible_values(&ENGINES), default_value = "planar")]
     engine: Engine,
     /// Tolerance of the goals as a share of the usual 2 cm
     #[arg(long, value_name = "SHARE", default_value_t = 1.0, value_parser = tolerance)]
@@ -45,14 +45,14 @@ pub struct RunArgs {
     /// Most pushes of a run
     #[arg(long, value_name = "N", default_value_t = 12,
           value_parser = clap::value_parser!(u16).range(1..=1000))]
-    pushes: u16,
+    max_pushes: u16,
     /// Most pushes of a run that are made only to learn something
     #[arg(long, value_name = "N", default_value_t = 3,
           value_parser = clap::value_parser!(u16).range(0..=1000))]
-    probes: u16,
+    max_probes: u16,
     /// How these are chosen
-    #[arg(long, value_parser = words(&PROBES), value_name = "RULE", default_value = "task")]
-    rule: ProbeRule,
+    #[arg(long, value_parser = possible_values(&PROBES), value_name = "RULE", default_value = "task")]
+    probe_rule: ProbeRule,
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
@@ -79,9 +79,9 @@ impl Suite for RunArgs {
         }
         let planner = common.planner(self.effort)?.build();
         let settings = RunSettings {
-            pushes: self.pushes.into(),
-            probes: self.probes.into(),
-            rule: self.rule,
+            max_pushes: self.max_pushes.into(),
+            max_probes: self.max_probes.into(),
+            probe_rule: self.probe_rule,
             ..RunSettings::default()
         };
         let world = HiddenWorld { engine: self.engine, tolerance: self.tolerance };

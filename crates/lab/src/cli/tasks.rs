@@ -11,13 +11,13 @@ use pushplan_command::bench::common::Common;
 use pushplan_command::bench::keep::{tools_digest, weights_digest};
 use pushplan_command::error::CliError;
 use pushplan_command::session::Session;
-use pushplan_command::words::words;
+use pushplan_command::value_enums::possible_values;
 use pushplan_command::{interrupt, output};
 use serde_json::json;
 
 use crate::bench::{RandomSuite, TaskKind};
 
-use super::words::KINDS;
+use super::value_enums::KINDS;
 
 /// Random tasks, and what solves them.
 #[derive(Args, Debug)]
@@ -28,7 +28,7 @@ pub struct TasksArgs {
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
     /// Only tasks of this kind; may be given several times [default: all, in turn]
-    #[arg(long = "kind", value_parser = words(&KINDS), value_name = "KIND")]
+    #[arg(long = "kind", value_parser = possible_values(&KINDS), value_name = "KIND")]
     kinds: Vec<&'static [TaskKind]>,
 }
 
@@ -59,7 +59,7 @@ impl TasksArgs {
             "tasks_version": RandomSuite::VERSION,
             "tools": tools_digest(suite.tools().iter())?,
         });
-        self.common.outside.note(&mut settings);
+        self.common.out_of_range.note(&mut settings);
         Ok(RunManifest::new(name, count, self.seed, &models.to_string())
             .with_weights(weights_digest(&models.decided)?)
             .with_settings(settings))

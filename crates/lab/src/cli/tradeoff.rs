@@ -3,13 +3,13 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use pushplan::internals::watch::Watch;
+use pushplan::internals::progress::Progress;
 use pushplan_bench::store::{RunManifest, Seconds, Shard, Store};
 use pushplan_command::action::LibraryArgs;
 use pushplan_command::bench::weights_digest;
 use pushplan_command::error::CliError;
-use pushplan_command::follow::Following;
 use pushplan_command::form::Form;
+use pushplan_command::progress::TerminalProgress;
 use pushplan_command::session::Session;
 use pushplan_command::{exit_code, interrupt, output};
 
@@ -140,7 +140,7 @@ fn measure(
     manifest: RunManifest,
 ) -> Result<Store<Unit>, CliError> {
     interrupt::watch();
-    let following = Following::bar(session, "units");
+    let following = TerminalProgress::bar(session, "units");
     let mut store: Store<Unit> = match &args.out {
         Some(folder) => Store::open(folder, manifest, &following)?,
         None => Store::in_memory(manifest),

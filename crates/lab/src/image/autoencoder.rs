@@ -4,7 +4,7 @@ use std::fmt;
 
 use candle_core::{Result as CandleResult, Tensor};
 use pushplan::internals::network::{Card, Layout, Parameters, Weights, WeightsError, check_widths};
-use pushplan::internals::watch::Watch;
+use pushplan::internals::progress::Progress;
 use pushplan_bench::store::FolderLock;
 use pushplan_learn::dataset::DatasetError;
 use pushplan_learn::train::{Descent, TrainError, Trainable, Trainer, drawn, gradients_of};
@@ -21,7 +21,7 @@ const AT_ONCE: usize = 64;
 
 /// Trains an autoencoder of the images of `settings` in the folder `code` of a run, and returns its
 /// weights. It trains on the first and is evaluated on the second images, in as many steps as the
-/// network itself, and resumes from its own checkpoint there. Returns `None` if `watch` cancelled
+/// network itself, and resumes from its own checkpoint there. Returns `None` if `progress` cancelled
 /// the training.
 ///
 /// # Errors Returns a [`TrainError`]; files saved before remain.
@@ -29,11 +29,11 @@ pub(super) fn code(
     settings: &ImageSettings,
     (examples, held_out): (&[Seen], &[Seen]),
     folder: &FolderLock,
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> Result<Option<Parameters>, TrainError> {
     let path = folder.path().join("code");
-    let folder = FolderLock::take(&path, watch).map_err(DatasetError::from)?;
-    Trainer::open(Task { settings, examples, held_out }, &folder)?.run(watch)?;
+    let folder = FolderLock::take(&path, progress).map_err(DatasetError::from)?;
+    Trainer::open(Task { settings, examples, held_out }, &folder)?.run(progress)?;
     let last = match Weights::<CodeCard>::load(path.join("last.safetensors")) {
         Err(WeightsError::Unreadable(_)) => return Ok(None),
         last => last?,

@@ -121,7 +121,7 @@ impl ImageGraph {
     /// Returns the contribution of images [B, rows, columns, 1] to the gates: [B, 4 H].
     ///
     /// # Errors Returns errors of candle.
-    pub fn told(&self, images: &Tensor) -> Result<Tensor> {
+    pub fn contribution(&self, images: &Tensor) -> Result<Tensor> {
         image_codes(&self.sizes, |name| &self.values[name], images)?
             .matmul(&self.values["gates.image"])
     }

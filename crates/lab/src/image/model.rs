@@ -31,8 +31,8 @@ impl ImageNetwork {
         let card = &weights.card;
         let (mut memory, sizes) = (card.memory.clone(), card.image);
         let LeverSizes { width, feedback, .. } = memory.sizes;
-        let told = LeverInputs::sizes(LeverFeatures::Nothing, memory.prior, width);
-        if (LeverSizes { feedback, ..told }) != memory.sizes
+        let expected = LeverInputs::sizes(LeverFeatures::Nothing, memory.prior, width);
+        if (LeverSizes { feedback, ..expected }) != memory.sizes
             || [sizes.rows, sizes.columns] != card.features.extents()
         {
             return Err(LeverNetworkError::Inputs);
@@ -75,8 +75,8 @@ impl LeverModel for ImageNetwork {
     }
 
     fn rollout(&self, jobs: &[LeverJob]) -> Vec<LeverTrajectory> {
-        let said = self.prior.as_ref().map(|prior| prior.rollout(jobs));
-        let said = |k: usize| said.as_ref().map(|said| &said[k]);
-        jobs.par_iter().enumerate().map(|(k, job)| self.predict(job, said(k))).collect()
+        let predicted = self.prior.as_ref().map(|prior| prior.rollout(jobs));
+        let predicted = |k: usize| predicted.as_ref().map(|predicted| &predicted[k]);
+        jobs.par_iter().enumerate().map(|(k, job)| self.predict(job, predicted(k))).collect()
     }
 }

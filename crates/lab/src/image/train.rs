@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use pushplan::internals::network::{Parameters, Statistics};
-use pushplan::internals::watch::Watch;
+use pushplan::internals::progress::Progress;
 use pushplan_bench::store::FolderLock;
 use pushplan_learn::dataset::LeverEpisode;
 use pushplan_learn::train::{
@@ -45,12 +45,12 @@ pub fn train_image(
     episodes: &[LeverEpisode],
     held_out: &[LeverEpisode],
     folder: &FolderLock,
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> Result<Option<PathBuf>, TrainError> {
     let examples = Seen::all(settings, episodes);
     let code = if settings.features == ImageFeatures::ImageCode {
         let judged = Seen::all(settings, held_out);
-        let Some(code) = code(settings, (&examples, &judged), folder, watch)? else {
+        let Some(code) = code(settings, (&examples, &judged), folder, progress)? else {
             return Ok(None);
         };
         code
@@ -58,7 +58,7 @@ pub fn train_image(
         Parameters::default()
     };
     let held_out = settings.memory.judged_on(held_out);
-    Trainer::open(Task { settings, examples, code, held_out }, folder)?.run(watch)
+    Trainer::open(Task { settings, examples, code, held_out }, folder)?.run(progress)
 }
 
 struct Task<'a> {
@@ -116,10 +116,10 @@ impl Trainable for Task<'_> {
         let sizes = memory.sizes();
         let as_it_is = self.settings.features == ImageFeatures::ImageCode;
         let graph = ImageGraph::new((&sizes, &image), weights, as_it_is)?;
-        let told = graph.told(&images(&drawn, &image)?)?;
+        let contribution = graph.contribution(&images(&drawn, &image)?)?;
         let examples: Vec<&LeverExample> = drawn.iter().map(|seen| &seen.example).collect();
         let batch = LeverBatch::new(&examples, scales, &sizes)?;
-        gradients_of(&batch.loss(graph.memory(), Some(&told))?, graph.variables())
+        gradients_of(&batch.loss(graph.memory(), Some(&contribution))?, graph.variables())
     }
 
     fn score(&self, weights: &ImageWeights) -> LeverScore {

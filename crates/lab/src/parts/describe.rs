@@ -86,7 +86,7 @@ pub(super) fn describe(
     let mut blade = f64::INFINITY;
     let mut found = Vec::new();
     for (k, part) in parts.iter().enumerate() {
-        let mut tell = |near: Near, other: Other| {
+        let mut add = |near: Near, other: Other| {
             let (even, odd) = relation(&near, k == 0, &going, &other);
             graphs.relation((k, None), even, odd);
         };
@@ -95,7 +95,7 @@ pub(super) fn describe(
                 && let Some(near) = near(&part.solid, &fixed.solid, reach, &mut found)
             {
                 let surface = Vector3::zeros();
-                tell(near, Other { blade: false, table: j == 0, surface, rub: fixed.rub });
+                add(near, Other { blade: false, table: j == 0, surface, rub: fixed.rub });
             }
         }
         if part.may_meet(&around_blade, reach)
@@ -104,7 +104,7 @@ pub(super) fn describe(
             blade = blade.min(near.gaps[0]);
             // Motion of the blade's point that is at the contact.
             let surface = blades[1].pose.point(blades[0].pose.local_point(near.at)) - near.at;
-            tell(near, Other { blade: true, table: false, surface, rub: bodies.rub });
+            add(near, Other { blade: true, table: false, surface, rub: bodies.rub });
         }
     }
     blade

@@ -81,7 +81,7 @@ impl Examples {
             let Track { course, truth } = &self.tracks[k];
             let state = match self.visited.get(k) {
                 Some(states) if rng.random_bool(0.5) => states[step],
-                _ => disturbed(truth, step, &mut rng),
+                _ => perturbed(truth, step, &mut rng),
             };
             course.describe(&state, step, &mut drawn.graphs);
             drawn.wanted.extend(course.wanted(&state, step, truth[step + 1]));
@@ -155,7 +155,7 @@ fn exactly(truth: &[(Vector3, Turn3)], step: usize) -> PartState {
 }
 
 /// Returns the true state with its present and previous poses perturbed.
-fn disturbed(truth: &[(Vector3, Turn3)], step: usize, rng: &mut Pcg64) -> PartState {
+fn perturbed(truth: &[(Vector3, Turn3)], step: usize, rng: &mut Pcg64) -> PartState {
     let [least, most] = NOISE;
     let size = least * (most / least).powf(rng.random::<f64>());
     let mut aside = |(centre, turn): (Vector3, Turn3)| {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use candle_core::{Device, Result, Tensor};
 use pushplan::internals::network::{Forward, Normaliser, Parameters};
-use pushplan::internals::watch::Watch;
+use pushplan::internals::progress::Progress;
 use pushplan_bench::store::FolderLock;
 use pushplan_learn::dataset::LeverEpisode;
 use pushplan_learn::network::{Inputs, Predictor};
@@ -29,11 +29,11 @@ pub fn train_parts(
     episodes: &[LeverEpisode],
     held_out: &[LeverEpisode],
     folder: &FolderLock,
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> std::result::Result<Option<PathBuf>, TrainError> {
     let examples = Examples::new(episodes, settings.prior);
     let held_out = held_out.iter().filter(|episode| episode.is_sound()).cloned().collect();
-    Trainer::open(Task { settings, examples, held_out }, folder)?.run(watch)
+    Trainer::open(Task { settings, examples, held_out }, folder)?.run(progress)
 }
 
 struct Task<'a> {
@@ -112,9 +112,9 @@ impl Trainable for Task<'_> {
 
 /// Returns the mean distance between outputs and targets.
 fn loss(scales: &Normaliser, network: &Predictor, drawn: &Drawn) -> Result<Tensor> {
-    let said = network.forward(&Inputs::new(drawn.graphs.rows(), scales)?)?;
+    let predicted = network.forward(&Inputs::new(drawn.graphs.rows(), scales)?)?;
     let firsts = drawn.graphs.firsts();
-    let said = said.index_select(&Tensor::new(firsts, &Device::Cpu)?, 0)?;
+    let predicted = predicted.index_select(&Tensor::new(firsts, &Device::Cpu)?, 0)?;
     let wanted = Tensor::from_slice(&drawn.wanted, (firsts.len(), 6), &Device::Cpu)?;
-    ((said - wanted)?.sqr()?.sum(1)? + NEAR * NEAR)?.sqrt()?.mean_all()
+    ((predicted - wanted)?.sqr()?.sum(1)? + NEAR * NEAR)?.sqrt()?.mean_all()
 }

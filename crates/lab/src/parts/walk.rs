@@ -57,9 +57,9 @@ impl<'a> Walk<'a> {
         self.calm = if rests { self.calm + 1 } else { 0 };
     }
 
-    fn go_on(&mut self, said: (&[f32], &[f32])) {
+    fn go_on(&mut self, predicted: (&[f32], &[f32])) {
         let Self { course, state, step, .. } = self;
-        let next = course.moved(state, *step, said);
+        let next = course.moved(state, *step, predicted);
         if next.is_finite() {
             *state = next;
         }

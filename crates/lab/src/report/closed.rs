@@ -52,9 +52,9 @@ pub fn closed_document(runs: &[ClosedRun]) -> Document {
 fn name(run: &RunManifest) -> String {
     let settings = &run.settings["run"];
     let word = |key: &str| settings[key].as_str().unwrap_or_default().to_owned();
-    match settings["probes"].as_u64() {
+    match settings["max_probes"].as_u64() {
         Some(0) => "no probes".to_owned(),
-        _ => format!("probes by {}", word("rule")),
+        _ => format!("probes by {}", word("probe_rule")),
     }
 }
 
@@ -185,8 +185,8 @@ fn rows(runs: &[ClosedRun]) -> Table {
     for (run, Finished { index, record, .. }) in tasks {
         let end = match record.end {
             Some(End::Reached) => "reached",
-            Some(End::UsedUp) => "used up",
-            Some(End::NoPush) => "no push",
+            Some(End::BudgetExhausted) => "used up",
+            Some(End::NoImprovingPush) => "no push",
             None => "broken off",
         };
         let mut cells = vec![

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use pushplan::internals::effect::{Assuming, EffectModel, EffectModels, ModelError, Routed};
+use pushplan::internals::effect::{Assuming, EffectModel, EffectModels, Fallback, ModelError};
 use pushplan::internals::scene::{ModelKind, ModelSpec, SpecError};
 
 use super::{Follow, Projection};
@@ -31,7 +31,7 @@ pub fn spec(text: &str) -> Result<ModelSpec, SpecError> {
 /// Builds the model of `spec`.
 ///
 /// # Errors [`ModelError`] if it needs weights that cannot be used.
-pub fn load(spec: &ModelSpec) -> Result<Routed, ModelError> {
+pub fn load(spec: &ModelSpec) -> Result<Fallback, ModelError> {
     let part = spec.first();
     let model: Arc<dyn EffectModel> = match &part.kind {
         kind if *kind == Projection::KIND => Arc::new(Projection),
@@ -39,7 +39,7 @@ pub fn load(spec: &ModelSpec) -> Result<Routed, ModelError> {
         _ => return EffectModels::build(spec),
     };
     Ok(match part.assumptions.are_none() {
-        true => Routed::new(model),
-        false => Routed::new(Arc::new(Assuming::new(model, part.assumptions))),
+        true => Fallback::new(model),
+        false => Fallback::new(Arc::new(Assuming::new(model, part.assumptions))),
     })
 }

@@ -1,8 +1,8 @@
 //! Errors on crowds: the ground truth has none, no motion has the motion as error, and the command
 //! writes its measurements.
 
+use pushplan::progress::NoProgress;
 use pushplan::recording::Recording;
-use pushplan::watch::Unwatched;
 use pushplan::{
     effect::{Assuming, EffectModel, Simulated, Still},
     scene::{Assumptions, JointBelief},
@@ -22,11 +22,11 @@ fn set(family: CrowdFamily, objects: usize) -> CrowdSet {
 }
 
 fn trials(family: CrowdFamily, objects: usize, count: usize) -> Vec<Trial> {
-    set(family, objects).draw(3, count, &Unwatched)
+    set(family, objects).draw(3, count, &NoProgress)
 }
 
 fn measured(model: impl EffectModel + 'static, trials: &[Trial]) -> ModelErrors {
-    TrialErrors::of(String::new(), trials, &[Box::new(model)], &Unwatched).models.remove(0)
+    TrialErrors::of(String::new(), trials, &[Box::new(model)], &NoProgress).models.remove(0)
 }
 
 #[test]
@@ -74,7 +74,7 @@ fn sets_differ_from_each_other_and_from_training_and_threads_change_nothing() {
     let sets =
         [CrowdFamily::Sparse, CrowdFamily::SparseLine, CrowdFamily::Dense].map(CrowdSet::all);
     assert!(sets.iter().all(|sets| sets.len() == 12));
-    let first = |set: &CrowdSet| set.draw(3, 1, &Unwatched).remove(0).scene;
+    let first = |set: &CrowdSet| set.draw(3, 1, &NoProgress).remove(0).scene;
     let scenes: Vec<_> = sets[2].iter().map(first).collect();
     for (k, scene) in scenes.iter().enumerate() {
         assert!(scenes[..k].iter().all(|other| other.objects != scene.objects));
@@ -109,10 +109,10 @@ const NO_JOINTS: Assumptions =
 #[test]
 fn reports_become_tables_and_curves_and_survive_json() {
     let set = set(CrowdFamily::Dense, 6);
-    let drawn = set.draw(3, 3, &Unwatched);
+    let drawn = set.draw(3, 3, &NoProgress);
     let models: Vec<Box<dyn EffectModel>> =
         vec![Box::new(Projection), Box::new(Assuming::new(Projection, NO_JOINTS)), Box::new(Still)];
-    let report = CrowdReport::of((&set, 3), &drawn, &models, &Unwatched);
+    let report = CrowdReport::of((&set, 3), &drawn, &models, &NoProgress);
     let text = serde_json::to_string(&report).unwrap();
     let back: CrowdReport = serde_json::from_str(&text).unwrap();
     assert_eq!(serde_json::to_string(&back).unwrap(), text);

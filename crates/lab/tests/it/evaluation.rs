@@ -79,7 +79,7 @@ fn one_and_two_threads_give_the_same_report_and_it_survives_json() {
 
 #[test]
 fn random_tasks_are_solvable_and_refinement_never_makes_a_prediction_worse() {
-    let settings = Settings { disturbed: 0, ..Effort::Draft.settings() };
+    let settings = Settings { replays: 0, ..Effort::Draft.settings() };
     // The tool retreats before it is lifted, as in verification.
     let truth = || Simulated::new(Simulator::planar().retreating());
     let planner = |settings| Planner::builder(truth()).settings(settings).build();

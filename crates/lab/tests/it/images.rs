@@ -8,9 +8,9 @@ use std::sync::Arc;
 use candle_core::{Device, Tensor};
 use pushplan::effect::LeverInputs;
 use pushplan::network::{
-    Card, LEVER_ENDS, LeverCard, LeverSizes, LeverTold, Parameters, Statistics, WeightsError,
+    Card, LEVER_ENDS, LeverCard, LeverOutput, LeverSizes, Parameters, Statistics, WeightsError,
 };
-use pushplan::watch::{Unwatched, Watch};
+use pushplan::progress::{NoProgress, Progress};
 use pushplan::{
     outcome::LEVER_FRAMES,
     scene::{LeverFeatures, LeverScene},
@@ -35,7 +35,7 @@ use crate::until::Until;
 
 fn episodes(preset: LeverPreset, seed: u64, count: u64) -> Vec<LeverEpisode> {
     let config = LeverConfig { seed, episodes: count, preset };
-    LeverDataset::in_memory(&config, &Unwatched).expect("lever-ups").episodes().to_vec()
+    LeverDataset::in_memory(&config, &NoProgress).expect("lever-ups").episodes().to_vec()
 }
 
 /// Returns random weights, large enough to matter.
@@ -84,19 +84,19 @@ fn what_predicts_computes_what_training_differentiates() {
                 before: Vec::new(),
             };
             let image = tensor(&image, &[1, sizes.rows, sizes.columns, 1]);
-            let beside = graph.told(&image).expect("a code");
+            let beside = graph.contribution(&image).expect("a code");
             let (poses, end) =
                 graph.memory().forward(&tensors, Some(&beside)).expect("predictions");
             assert_eq!(poses.len(), LEVER_FRAMES);
-            let row = |told: &Tensor| told.to_vec2::<f32>().expect("a row").concat();
+            let row = |output: &Tensor| output.to_vec2::<f32>().expect("a row").concat();
             let end: [f32; LEVER_ENDS] = row(&end).try_into().expect("an end");
-            let told = LeverTold { poses: poses.iter().flat_map(row).collect(), end };
-            let wanted = inputs.answer(&told, &job, None);
-            let said = network.rollout(&[job]).remove(0);
-            for (a, b) in said.lift.iter().zip(&wanted.lift) {
+            let output = LeverOutput { poses: poses.iter().flat_map(row).collect(), end };
+            let wanted = inputs.answer(&output, &job, None);
+            let predicted = network.rollout(&[job]).remove(0);
+            for (a, b) in predicted.lift.iter().zip(&wanted.lift) {
                 assert!((a.position - b.position).norm() < 1e-5 && a.angle_to(b) < 1e-3);
             }
-            assert_eq!(said.ending, wanted.ending);
+            assert_eq!(predicted.ending, wanted.ending);
         }
     }
 }
@@ -182,16 +182,16 @@ fn training_resumes_to_the_same_bits() {
         (with(ImageFeatures::ContextImage, true), "LSTM, shape context CNN, fed back"),
     ];
     for (settings, name) in of {
-        let train = |folder: &Path, watch: &dyn Watch| {
-            let lock = FolderLock::take(folder, &Unwatched).expect("a lock");
-            train_image(&settings, &data, &held_out, &lock, watch).expect("training")
+        let train = |folder: &Path, progress: &dyn Progress| {
+            let lock = FolderLock::take(folder, &NoProgress).expect("a lock");
+            train_image(&settings, &data, &held_out, &lock, progress).expect("training")
         };
         let [whole, parts] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
-        let best = train(whole.path(), &Unwatched).expect("weights");
+        let best = train(whole.path(), &NoProgress).expect("weights");
         // The autoencoder counts its own steps.
         train(parts.path(), &Until::new(40));
         train(parts.path(), &Until::new(20));
-        train(parts.path(), &Unwatched);
+        train(parts.path(), &NoProgress);
         let checkpoint = |folder: &tempfile::TempDir| {
             fs::read(folder.path().join("checkpoint.safetensors")).expect("a checkpoint")
         };

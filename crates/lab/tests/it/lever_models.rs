@@ -5,8 +5,8 @@ use std::sync::Arc;
 use pushplan::effect::{LeverInputs, LeverNetwork, LeverPrior};
 use pushplan::geometry::{Pose, Pose3, Vector};
 use pushplan::network::{LeverCard, LeverWeights, Parameters, Statistics, lever_layout};
+use pushplan::progress::NoProgress;
 use pushplan::sim::LeverSimulator;
-use pushplan::watch::Unwatched;
 use pushplan::{
     scene::{LeverFeatures, LeverScene},
     task::{LeverJob, Place},
@@ -21,7 +21,7 @@ use rand_pcg::Pcg64;
 
 fn episodes(preset: LeverPreset, seed: u64, count: u64) -> LeverDataset {
     let config = LeverConfig { seed, episodes: count, preset };
-    LeverDataset::in_memory(&config, &Unwatched).expect("lever-ups")
+    LeverDataset::in_memory(&config, &NoProgress).expect("lever-ups")
 }
 
 /// Returns random weights, large enough to matter.
@@ -104,11 +104,11 @@ pub fn is_symmetric(model: &dyn LeverModel, preset: LeverPreset, most: f64) {
     let jobs: Vec<LeverJob> = drawn.episodes().iter().map(LeverEpisode::job).collect();
     let by = Pose::new(-0.2, 0.4, 2.5);
     let elsewhere = Pose3::upright(by, 0.0);
-    let told = model.rollout(&jobs);
+    let predicted = model.rollout(&jobs);
     let behind = model.rollout(&jobs.iter().map(mirrored).collect::<Vec<_>>());
     let beside = model.rollout(&jobs.iter().map(|job| moved(job, by)).collect::<Vec<_>>());
-    for (k, told) in told.iter().enumerate() {
-        let all = told.lift.iter().chain([&told.rest]);
+    for (k, predicted) in predicted.iter().enumerate() {
+        let all = predicted.lift.iter().chain([&predicted.rest]);
         let behind = behind[k].lift.iter().chain([&behind[k].rest]);
         let beside = beside[k].lift.iter().chain([&beside[k].rest]);
         for ((pose, behind), beside) in all.zip(behind).zip(beside) {

@@ -3,8 +3,8 @@
 use pushplan::network::{
     Config, LeverWeights, Normaliser, Parameters, PredictorWeights, WeightsError,
 };
+use pushplan::progress::NoProgress;
 use pushplan::task::LeverJob;
-use pushplan::watch::Unwatched;
 use pushplan_lab::bench::load_lever;
 use pushplan_lab::parts::{LeverCourse, LeverParts, PARTS, PartGraphs, PartsCard, PartsWeights};
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
@@ -14,7 +14,7 @@ use super::lever_models::is_symmetric;
 
 fn jobs(preset: LeverPreset, count: u64) -> Vec<LeverJob> {
     let config = LeverConfig { seed: 4, episodes: count, preset };
-    let set = LeverDataset::in_memory(&config, &Unwatched).expect("lever-ups");
+    let set = LeverDataset::in_memory(&config, &NoProgress).expect("lever-ups");
     set.episodes().iter().map(LeverEpisode::job).collect()
 }
 

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use pushplan::effect::LeverPrior;
 use pushplan::network::{Buffers, Config, Forward, Normaliser, Parameters};
+use pushplan::progress::{NoProgress, Progress};
 use pushplan::task::LeverJob;
-use pushplan::watch::{Unwatched, Watch};
 use pushplan_bench::store::FolderLock;
 use pushplan_lab::bench::load_lever;
 use pushplan_lab::parts::{
@@ -25,7 +25,7 @@ const CONFIG: Config = Config { width: 32, steps: 2 };
 
 fn episodes(seed: u64, count: u64) -> Vec<LeverEpisode> {
     let config = LeverConfig { seed, episodes: count, preset: LeverPreset::Drive };
-    LeverDataset::in_memory(&config, &Unwatched).expect("lever-ups").episodes().to_vec()
+    LeverDataset::in_memory(&config, &NoProgress).expect("lever-ups").episodes().to_vec()
 }
 
 /// Returns the graphs of first steps.
@@ -68,8 +68,8 @@ fn what_is_wanted_of_a_step_leads_where_it_should() {
         let course = LeverCourse::new(&a.job(), prior).expect("cuboids");
         let (from, to) = (course.see(&a.trajectory.lift[4]), course.see(&b.trajectory.lift[9]));
         let state = PartState::at(from);
-        let told = course.wanted(&state, 4, to);
-        let found = course.moved(&state, 4, (&told[..3], &told[3..]));
+        let predicted = course.wanted(&state, 4, to);
+        let found = course.moved(&state, 4, (&predicted[..3], &predicted[3..]));
         assert!(found.apart(to) < 1e-6, "{} m", found.apart(to));
     }
 }
@@ -87,10 +87,11 @@ fn settings(prior: bool) -> PartsSettings {
 /// Returns the mean error over the rotation, metres.
 fn error(model: &dyn LeverModel, episodes: &[LeverEpisode]) -> f64 {
     let jobs: Vec<LeverJob> = episodes.iter().map(LeverEpisode::job).collect();
-    let told = model.rollout(&jobs);
-    let off = episodes.iter().zip(&jobs).zip(&told);
-    let sum: f64 =
-        off.map(|((episode, job), told)| lever_error(job, &episode.trajectory, told).lift).sum();
+    let predicted = model.rollout(&jobs);
+    let off = episodes.iter().zip(&jobs).zip(&predicted);
+    let sum: f64 = off
+        .map(|((episode, job), predicted)| lever_error(job, &episode.trajectory, predicted).lift)
+        .sum();
     sum / episodes.len() as f64
 }
 
@@ -103,20 +104,20 @@ fn fresh(prior: bool, data: &[LeverEpisode]) -> LeverParts {
 #[test]
 fn training_learns_resumes_to_the_same_bits_and_predicts() {
     let (data, held_out) = (episodes(1, 32), episodes(2, 12));
-    let train = |folder: &Path, settings: &PartsSettings, watch: &dyn Watch| {
-        let lock = FolderLock::take(folder, &Unwatched).expect("a lock");
-        train_parts(settings, &data, &held_out, &lock, watch).expect("training");
+    let train = |folder: &Path, settings: &PartsSettings, progress: &dyn Progress| {
+        let lock = FolderLock::take(folder, &NoProgress).expect("a lock");
+        train_parts(settings, &data, &held_out, &lock, progress).expect("training");
         fs::read(folder.join("checkpoint.safetensors")).expect("a checkpoint")
     };
     let settings = settings(false);
     let [whole, parts] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
     let single = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool");
-    let wanted = single.install(|| train(whole.path(), &settings, &Unwatched));
+    let wanted = single.install(|| train(whole.path(), &settings, &NoProgress));
     // Stopped before examples come from rollouts, then between two evaluations.
     for steps in [40, 240] {
         assert!(train(parts.path(), &settings, &Until::new(steps)) != wanted);
     }
-    assert!(train(parts.path(), &settings, &Unwatched) == wanted);
+    assert!(train(parts.path(), &settings, &NoProgress) == wanted);
 
     let network = load_lever(&whole.path().join("best.safetensors")).expect("weights");
     assert_eq!(network.name(), "propagation network, parts");
@@ -125,8 +126,8 @@ fn training_learns_resumes_to_the_same_bits_and_predicts() {
     assert!(learned < 0.3 * still, "{learned} {still}");
 
     let other = PartsSettings { seed: 2, ..settings };
-    let lock = FolderLock::take(whole.path(), &Unwatched).expect("a lock");
-    assert!(train_parts(&other, &data, &held_out, &lock, &Unwatched).is_err());
+    let lock = FolderLock::take(whole.path(), &NoProgress).expect("a lock");
+    assert!(train_parts(&other, &data, &held_out, &lock, &NoProgress).is_err());
 }
 
 #[test]
@@ -137,8 +138,9 @@ fn a_correction_begins_as_its_prior_and_is_saved_with_it() {
     // Its steps differ, because it is evaluated at other times.
     assert!(untrained < 2.0 * prior + 1e-4, "{untrained} {prior}");
     let folder = tempfile::tempdir().expect("a folder");
-    let lock = FolderLock::take(folder.path(), &Unwatched).expect("a lock");
-    let best = train_parts(&settings(true), &data, &held_out, &lock, &Unwatched).expect("training");
+    let lock = FolderLock::take(folder.path(), &NoProgress).expect("a lock");
+    let best =
+        train_parts(&settings(true), &data, &held_out, &lock, &NoProgress).expect("training");
     let network = load_lever(&best.expect("weights")).expect("weights");
     assert_eq!(network.name(), "prior + propagation network, parts");
 }

@@ -28,7 +28,7 @@ fn the_plan_that_made_an_everyday_task_solves_it_and_the_task_is_of_its_kind() {
 fn are_solved_by_their_plans(kinds: &[TaskKind], each: usize, is_of_its_kind: fn(&SuiteTask)) {
     let library = ToolLibrary::embedded().expect("the shipped tools");
     let suite = RandomSuite::new(&library, 7, kinds);
-    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
     let mut counts: BTreeMap<TaskKind, usize> = BTreeMap::new();
     for index in 0..each * kinds.len() {
         let made = suite.task(index).expect("a task");

@@ -14,7 +14,7 @@ fn of_random_tasks() {
 
 #[test]
 fn of_closed_loops() {
-    shards_make_the_same_bytes("run --kind pull --count 2 --effort draft --pushes 4", 2);
+    shards_make_the_same_bytes("run --kind pull --count 2 --effort draft --max-pushes 4", 2);
     shards_make_the_same_bytes("run --kind pair --count 2 -q", 2);
 }
 
@@ -37,7 +37,7 @@ fn of_masses() {
 
 #[test]
 fn of_probes() {
-    shards_make_the_same_bytes("probes --count 1 --objects 4 --rule information random", 2);
+    shards_make_the_same_bytes("probes --count 1 --objects 4 --probe-rule information random", 2);
 }
 
 #[test]

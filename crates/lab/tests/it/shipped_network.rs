@@ -1,7 +1,7 @@
 //! Requirements of a shipped network, in addition to small errors on the suites of pushes.
 
 use pushplan::asset::ToolLibrary;
-use pushplan::effect::{EffectModel, EffectModels, Job, Prior, Routed};
+use pushplan::effect::{EffectModel, EffectModels, Fallback, Job, Prior};
 use pushplan::sim::Simulator;
 use pushplan::{
     outcome::Record,
@@ -12,7 +12,7 @@ use pushplan_lab::bench::{Suite, SuiteKind};
 
 use crate::recorded_pushes::{SUPPORTS, errors, pushes};
 
-fn network() -> Routed {
+fn network() -> Fallback {
     EffectModels::build(&ModelKind::NETWORK.into()).unwrap()
 }
 

@@ -1,9 +1,9 @@
 //! Speed against accuracy: coarser levels keep the interface of the finer ones.
 
-use pushplan::watch::Watch;
+use pushplan::progress::Progress;
 use pushplan::{
     asset::ToolLibrary,
-    effect::{EffectModel, EffectModels, Job, Routed},
+    effect::{EffectModel, EffectModels, Fallback, Job},
     outcome::Record,
     scene::{ModelSpec, Models},
     solve::{Effort, Settings},
@@ -15,7 +15,7 @@ use pushplan_lab::bench::{
 };
 use pushplan_lab::report::tradeoff_document;
 
-fn model(spec: &str) -> Routed {
+fn model(spec: &str) -> Fallback {
     EffectModels::build(&spec.parse().unwrap()).unwrap()
 }
 
@@ -68,7 +68,7 @@ fn tiny<'a>(library: &'a ToolLibrary, again: &str) -> TradeOff<'a> {
 #[test]
 fn every_level_is_measured_and_an_interrupted_run_goes_on() {
     struct Quiet;
-    impl Watch for Quiet {}
+    impl Progress for Quiet {}
     let library = ToolLibrary::embedded().unwrap();
     let folder = tempfile::TempDir::new().unwrap();
     let file = folder.path().join("again.safetensors").display().to_string();
@@ -143,10 +143,10 @@ fn every_effort_is_a_measured_level_that_no_other_makes_needless() {
             let first = |spec: &ModelSpec| ModelSpec::of(spec.first().kind.clone());
             let models = Models { screened: first(&screened), decided: first(&decided) };
             assert_eq!(models, level.models(), "{effort}");
-            let Settings { disturbed, levers, .. } = level.settings;
-            let pushing = Settings { disturbed, levers, ..effort.settings() };
+            let Settings { replays, levers, .. } = level.settings;
+            let pushing = Settings { replays, levers, ..effort.settings() };
             assert_eq!(pushing, level.settings, "{effort}");
-            assert!(effort.settings().disturbed >= disturbed, "{effort}");
+            assert!(effort.settings().replays >= replays, "{effort}");
             row
         })
         .collect();
@@ -248,10 +248,10 @@ fn what_models_say_of_their_errors_is_what_was_measured() {
         for (suite, measured) in suites.iter().zip(&row.suites) {
             let case = &suite.cases[0];
             let job = Job::stated(&case.scene, case.motion.clone());
-            let said = model(name).trust(&case.scene, &job).error().expect("it was measured");
+            let expected = model(name).trust(&case.scene, &job).error().expect("it was measured");
             let measured = measured.position.as_ref().unwrap();
-            assert!((said.median - measured.median).abs() < 0.5e-5, "{name}: {said:?}");
-            assert!((said.p95 - measured.p95).abs() < 0.5e-5, "{name}: {said:?}");
+            assert!((expected.median - measured.median).abs() < 0.5e-5, "{name}: {expected:?}");
+            assert!((expected.p95 - measured.p95).abs() < 0.5e-5, "{name}: {expected:?}");
         }
     }
     // The shipped errors of analytic model and network agree with the results on four times as many
@@ -266,9 +266,9 @@ fn what_models_say_of_their_errors_is_what_was_measured() {
         for (suite, row) in suites.iter().zip([&rows[0], &rows[2]]) {
             let case = &suite.cases[0];
             let job = Job::stated(&case.scene, case.motion.clone());
-            let said = model(name).trust(&case.scene, &job).error().expect("it was measured");
-            assert_eq!(format!("{:.2} mm", 1e3 * said.median), row[4], "{name}");
-            assert_eq!(format!("{:.2} mm", 1e3 * said.p95), row[5], "{name}");
+            let expected = model(name).trust(&case.scene, &job).error().expect("it was measured");
+            assert_eq!(format!("{:.2} mm", 1e3 * expected.median), row[4], "{name}");
+            assert_eq!(format!("{:.2} mm", 1e3 * expected.p95), row[5], "{name}");
         }
     }
 }

@@ -73,15 +73,15 @@ fn the_other_joints_hold_in_the_projection() {
 fn assumptions_replace_the_joints_and_nothing_else() {
     let scene = pair(JointKind::Fixed);
     let free = Scene { joints: Vec::new(), ..scene.clone() };
-    let told = |belief| {
+    let assuming = |belief| {
         let joints = Some(belief);
         Assuming::new(Projection, Assumptions { joints, ..Assumptions::default() })
     };
-    let without = roll(&told(JointBelief::None), &scene);
+    let without = roll(&assuming(JointBelief::None), &scene);
     assert_eq!(without.by.to_string(), "projection,joints=none");
     assert_eq!(without.frames, roll(&Projection, &free).frames);
-    let fixed = roll(&told(JointBelief::Fixed), &free);
+    let fixed = roll(&assuming(JointBelief::Fixed), &free);
     assert_eq!(fixed.frames, roll(&Projection, &scene).frames);
-    let guessed = roll(&told(JointBelief::Guessed), &scene);
+    let guessed = roll(&assuming(JointBelief::Guessed), &scene);
     assert_eq!(guessed.frames, roll(&Projection, &scene).frames);
 }

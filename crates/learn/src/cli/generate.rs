@@ -9,14 +9,14 @@ use pushplan::internals::geometry::Pose3;
 use pushplan::internals::outcome::LeverTrajectory;
 use pushplan_bench::store::{Shard, StoreError};
 use pushplan_command::error::CliError;
-use pushplan_command::follow::Following;
+use pushplan_command::progress::TerminalProgress;
 use pushplan_command::session::Session;
-use pushplan_command::words::words;
+use pushplan_command::value_enums::possible_values;
 use pushplan_command::{exit_code, interrupt};
 use pushplan_export::{LEVER_SCRIPT, lever_mjcf};
 use serde_json::json;
 
-use crate::cli::words::{DATA, Data, JOINTS, SOLIDS, TRUTHS};
+use crate::cli::value_enums::{DATA, Data, JOINTS, SOLIDS, TRUTHS};
 use crate::dataset::{
     Constraints, DatasetConfig, DatasetError, JointRule, LeverConfig, LeverDataset, Solids, Truth,
     generate, generate_npz,
@@ -59,19 +59,19 @@ pub struct GenerateArgs {
     #[arg(long, value_name = "N", default_value_t = DatasetConfig::default().seed)]
     seed: u64,
     /// Family of scenes
-    #[arg(long, value_parser = words(&DATA), default_value = "tools")]
+    #[arg(long, value_parser = possible_values(&DATA), default_value = "tools")]
     preset: Data,
     /// Who says what is true of pushes with tools
-    #[arg(long, value_parser = words(&TRUTHS), default_value = "both")]
+    #[arg(long, value_parser = possible_values(&TRUTHS), default_value = "both")]
     truth: Truth,
     /// Number of objects of a crowd, 2 to 12 [default: any of them]
     #[arg(long, value_name = "N")]
     objects: Option<usize>,
     /// Joints between near neighbours of a crowd [default: redrawn every 25 episodes]
-    #[arg(long, value_parser = words(&JOINTS), value_name = "RULE")]
+    #[arg(long, value_parser = possible_values(&JOINTS), value_name = "RULE")]
     joints: Option<JointRule>,
     /// Solids of a crowd [default: redrawn every 25 episodes]
-    #[arg(long, value_parser = words(&SOLIDS), value_name = "KIND")]
+    #[arg(long, value_parser = possible_values(&SOLIDS), value_name = "KIND")]
     solids: Option<Solids>,
     /// Files for whom
     #[arg(long, value_enum, default_value_t = Format::Records)]
@@ -110,7 +110,7 @@ impl GenerateArgs {
     }
 
     /// Generates the data and returns the number of episodes and their size in bytes.
-    fn make(&self, following: &Following) -> Result<(usize, u64), DatasetError> {
+    fn make(&self, following: &TerminalProgress) -> Result<(usize, u64), DatasetError> {
         let &Self { seed, episodes, truth, .. } = self;
         let shard = self.shard();
         let constraints = self.constraints();
@@ -158,7 +158,7 @@ impl GenerateArgs {
 fn twins(
     config: &LeverConfig,
     folder: &Path,
-    following: &Following,
+    following: &TerminalProgress,
 ) -> Result<(usize, u64), DatasetError> {
     let set = LeverDataset::in_memory(config, following)?;
     let mut size = 0;
@@ -192,7 +192,7 @@ fn twins(
 
 pub fn run(args: &GenerateArgs, session: &Session) -> Result<u8, CliError> {
     interrupt::watch();
-    let following = Following::bar(session, "episodes");
+    let following = TerminalProgress::bar(session, "episodes");
     let made = session.compute(|| args.make(&following));
     following.finish()?;
     let (episodes, bytes) = made.map_err(data_error)?;

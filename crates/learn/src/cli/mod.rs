@@ -4,6 +4,6 @@ mod app;
 pub mod generate;
 mod merge;
 pub mod train;
-pub mod words;
+pub mod value_enums;
 
 pub use app::run;

@@ -12,7 +12,7 @@ use pushplan::internals::{
 use rand::Rng;
 use rand_pcg::Pcg64;
 
-use super::chance::{heading, uniform, weighted};
+use super::distributions::{heading, uniform, weighted};
 
 /// Minimum distance to all other bodies when the tool is set down, metres.
 pub const SET_DOWN: f64 = 1e-4;

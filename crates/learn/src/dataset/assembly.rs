@@ -7,7 +7,7 @@ use pushplan::internals::scene::{Part, Ranges, Tool};
 use rand::Rng;
 use rand_pcg::Pcg64;
 
-use super::chance::{log_uniform, sign, uniform, weighted};
+use super::distributions::{log_uniform, sign, uniform, weighted};
 use super::tabletop::random_friction;
 
 /// Probabilities of one to five parts.

@@ -5,8 +5,8 @@ use pushplan::internals::scene::{Object, Ranges, Scene};
 use rand::Rng;
 use rand_pcg::Pcg64;
 
-use super::chance::{log_uniform, uniform};
 use super::curriculum::Block;
+use super::distributions::{log_uniform, uniform};
 use super::tabletop::{Solids, mass_span, random_shape};
 use super::unseen::{draw_supports, push_height};
 

@@ -6,9 +6,9 @@
 use pushplan::internals::seeded::generator;
 use rand::Rng;
 
-use super::chance::{uniform, weighted};
 use super::config::DatasetConfig;
 use super::constraints::JointRule;
+use super::distributions::{uniform, weighted};
 use super::tabletop::Solids;
 
 /// Number of episodes in a block.

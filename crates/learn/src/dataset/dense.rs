@@ -12,9 +12,9 @@ use rand::Rng;
 use rand::seq::SliceRandom;
 use rand_pcg::Pcg64;
 
-use super::chance::{log_uniform, uniform};
 use super::crowd::{crowd, object_count};
 use super::curriculum::Block;
+use super::distributions::{log_uniform, uniform};
 use super::hand::{HAND_RADIUS, HandPlay};
 use super::joints::join_neighbours;
 use super::sparse::span;

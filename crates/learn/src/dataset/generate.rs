@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use pushplan::internals::watch::{Count, Watch};
+use pushplan::internals::progress::{Count, Progress};
 use pushplan_bench::store::{
     Form, Journal, RunManifest, Shard, StoreError, merge_runs, read_records,
 };
@@ -20,22 +20,22 @@ use super::set::{Sampler, Set, draw};
 ///
 /// # Errors
 /// If the configuration requests no data, the folder holds other settings or is locked, a file
-/// cannot be written, or `watch` cancels. Finished episodes are always kept.
+/// cannot be written, or `progress` cancels. Finished episodes are always kept.
 pub fn generate<S: Sampler>(
     config: &S,
     shard: Shard,
     dir: &Path,
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> Result<(usize, u64), DatasetError> {
     config.check()?;
     let manifest = config.manifest().with_shard(shard);
     let indices: Vec<u64> = manifest.indices().map(|index| index as u64).collect();
     let mut journal =
-        Journal::open(dir, manifest, Form::Frames, watch, &mut |record| index(record))?;
-    let count = Count::new(watch, journal.done(), indices.len());
+        Journal::open(dir, manifest, Form::Frames, progress, &mut |record| index(record))?;
+    let count = Count::new(progress, journal.done(), indices.len());
     while journal.done() < indices.len() {
         let end = (journal.done() + S::AT_ONCE).min(indices.len());
-        let drawn = draw(config, &indices[journal.done()..end], &count, watch);
+        let drawn = draw(config, &indices[journal.done()..end], &count, progress);
         // After a cancellation, the gapless beginning can be kept.
         let whole = drawn.iter().map_while(|episode| episode.as_ref().ok());
         let records: Vec<Vec<u8>> = whole.map(S::encode).collect::<Result<_, _>>()?;

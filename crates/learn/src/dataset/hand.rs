@@ -12,7 +12,7 @@ use pushplan::internals::{
 use rand_pcg::Pcg64;
 
 use super::aim::{SET_DOWN, tool_clearance};
-use super::chance::uniform;
+use super::distributions::uniform;
 
 /// Radius of the hand, metres.
 pub const HAND_RADIUS: f64 = 0.05;

@@ -12,12 +12,12 @@ use rand::Rng;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
-use super::chance::log_uniform;
 use super::constraints::TEST_SPEED;
 use super::controlled;
 use super::controlled::Controlled;
 use super::curriculum::Block;
 use super::dense::grid;
+use super::distributions::log_uniform;
 use super::hand::HandPlay;
 use super::preset::Preset;
 use super::sparse::aimed;

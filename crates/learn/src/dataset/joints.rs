@@ -6,8 +6,8 @@ use rand::Rng;
 use rand::seq::SliceRandom;
 use rand_pcg::Pcg64;
 
-use super::chance::{heading, uniform, weighted};
 use super::curriculum::Block;
+use super::distributions::{heading, uniform, weighted};
 
 /// Share of revolute anchors midway between the closest points of the objects, and of prismatic
 /// axes along the line of centres.

@@ -10,14 +10,16 @@ use pushplan::internals::{
     scene::{Joint, Scene, Span},
     task::Noise,
 };
-use pushplan_act::belief::{Belief, BeliefRegulator, BeliefSettings, Draft, JointType, Testimony};
+use pushplan_act::belief::{
+    Belief, BeliefRegulator, BeliefSettings, Draft, JointType, RegulatorFeatures,
+};
 use rand::Rng;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
-use super::chance::log_uniform;
 use super::config::DatasetConfig;
 use super::constraints::{Constraints, JointRule};
+use super::distributions::log_uniform;
 use super::episode::Episode;
 use super::observed::Seeing;
 use super::preset::Preset;
@@ -62,7 +64,7 @@ pub struct Lesson {
     /// Whether either object of each pair moved.
     pub moved: Vec<bool>,
     /// Features window by window; for pushes with joint inference, the windows processed after it.
-    pub windows: Vec<Testimony>,
+    pub windows: Vec<RegulatorFeatures>,
     /// Features of these pushes before the joint inference.
     pub drafts: Vec<Draft>,
 }
@@ -104,14 +106,14 @@ impl Lesson {
             types: pairs.iter().map(|pair| true_type(&scene, *pair)).collect(),
             moved: pairs.iter().map(|pair| pair.iter().any(|k| moved(&recording, *k))).collect(),
             pairs,
-            windows: belief.heard().to_vec(),
+            windows: belief.recorded().to_vec(),
             drafts: belief.drafts().to_vec(),
         }
     }
 
     /// Returns the windows as recorded at the end of one of the `drafts`, otherwise the final
     /// windows.
-    pub fn windows(&self, draft: Option<usize>) -> Vec<&Testimony> {
+    pub fn windows(&self, draft: Option<usize>) -> Vec<&RegulatorFeatures> {
         match draft.and_then(|draft| self.drafts.get(draft)) {
             Some(Draft { after, windows }) => {
                 self.windows[..*after].iter().chain(windows).collect()

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use pushplan::internals::effect::{Network, Prior};
-use pushplan::internals::watch::{Count, Watch};
+use pushplan::internals::progress::{Count, Progress};
 use pushplan_bench::store::{Form, Journal, RunManifest, StoreError, read_records};
 use rayon::prelude::*;
 
@@ -29,12 +29,12 @@ const VERSION: u64 = 2;
 ///
 /// # Errors
 /// If `count` is zero, the folder holds other lessons or is locked, a file cannot be written, or
-/// `watch` cancels. Finished lessons are always kept.
+/// `progress` cancels. Finished lessons are always kept.
 pub fn lessons(
     (seed, count): (u64, u64),
     (network, digest): (&Arc<Network>, String),
     dir: &Path,
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> Result<Vec<Lesson>, DatasetError> {
     if count == 0 {
         return Err(DatasetError::Empty("lessons"));
@@ -43,11 +43,12 @@ pub fn lessons(
         .with_weights(Some(digest))
         .with_settings(VERSION.into());
     let mut all = Vec::new();
-    let mut journal = Journal::open(dir, manifest.clone(), Form::Frames, watch, &mut |record| {
-        Ok(decode(record)?.index as usize)
-    })?;
+    let mut journal =
+        Journal::open(dir, manifest.clone(), Form::Frames, progress, &mut |record| {
+            Ok(decode(record)?.index as usize)
+        })?;
     let model = Prior::default();
-    let progress = Count::new(watch, journal.done(), count as usize);
+    let finished = Count::new(progress, journal.done(), count as usize);
     while (journal.done() as u64) < count {
         let first = journal.done() as u64;
         let range = first..(first + AT_ONCE).min(count);
@@ -55,11 +56,11 @@ pub fn lessons(
             .clone()
             .into_par_iter()
             .map(|index| {
-                if watch.cancelled() {
+                if progress.cancelled() {
                     return None;
                 }
                 let lesson = Lesson::draw(seed, index, network, &model);
-                progress.one();
+                finished.one();
                 Some(lesson)
             })
             .collect();

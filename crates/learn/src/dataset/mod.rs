@@ -13,13 +13,13 @@
 
 mod aim;
 mod assembly;
-mod chance;
 mod config;
 mod constraints;
 mod controlled;
 mod crowd;
 mod curriculum;
 mod dense;
+mod distributions;
 mod episode;
 mod error;
 mod generate;
@@ -45,10 +45,10 @@ mod unseen;
 
 pub use aim::{Aim, SET_DOWN, aimed_stroke, random_direction, random_heading};
 pub use assembly::random_tool;
-pub use chance::log_uniform;
 pub use config::{DatasetConfig, SUITE};
 pub use constraints::{Constraints, JointRule, TEST_SPEED};
 pub use controlled::Controlled;
+pub use distributions::log_uniform;
 pub use episode::Episode;
 pub use error::DatasetError;
 pub use generate::{generate, merge_data};

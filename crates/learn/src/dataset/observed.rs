@@ -4,7 +4,7 @@
 use pushplan::internals::geometry::Vector;
 use pushplan::internals::recording::Recording;
 use pushplan::internals::{
-    scene::{Scene, Sight},
+    scene::{ObservedPose, Scene},
     task::{Noise, Observation},
 };
 use pushplan_act::belief::normal;
@@ -36,7 +36,7 @@ impl Seeing {
         let mut observations = recording.observations();
         for Observation { seen, .. } in &mut observations {
             for (sight, round) in seen.iter_mut().zip(&round) {
-                let Some(Sight { position: place, heading: turn }) = sight else { continue };
+                let Some(ObservedPose { position: place, heading: turn }) = sight else { continue };
                 *place += Vector::new(error(position), error(position));
                 *turn = turn
                     .filter(|_| self.round_headings || !round)

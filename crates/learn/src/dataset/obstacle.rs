@@ -11,7 +11,7 @@ use pushplan::internals::{
 use rand::Rng;
 use rand_pcg::Pcg64;
 
-use super::chance::{heading, log_uniform, sign, uniform};
+use super::distributions::{heading, log_uniform, sign, uniform};
 
 /// Range of an obstacle's horizontal sides, metres.
 const SIDE: Span = Span::new(0.03, 0.30);

@@ -4,7 +4,7 @@ use pushplan::internals::scene::{Ranges, Span, TRAINED_SLIDE, TRAINED_TURN};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
-use super::chance::weighted;
+use super::distributions::weighted;
 use super::hand::HAND_RADIUS;
 use super::tabletop::USUAL_HEIGHT;
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use pushplan::internals::watch::{Count, Watch};
+use pushplan::internals::progress::{Count, Progress};
 use pushplan_bench::store::{RunManifest, StoreError, digest};
 use rayon::prelude::*;
 
@@ -77,12 +77,12 @@ impl<S: Sampler> Set<S> {
     /// bit-identical for any number of threads.
     ///
     /// # Errors
-    /// If the configuration requests no data, or `watch` cancels.
-    pub fn in_memory(config: &S, watch: &dyn Watch) -> Result<Self, DatasetError> {
+    /// If the configuration requests no data, or `progress` cancels.
+    pub fn in_memory(config: &S, progress: &dyn Progress) -> Result<Self, DatasetError> {
         config.check()?;
-        let count = Count::new(watch, 0, config.count() as usize);
+        let count = Count::new(progress, 0, config.count() as usize);
         let indices: Vec<u64> = (0..config.count()).collect();
-        let drawn = draw(config, &indices, &count, watch);
+        let drawn = draw(config, &indices, &count, progress);
         let episodes = drawn.into_iter().collect::<Result<_, _>>()?;
         Ok(Self { config: config.clone(), episodes })
     }
@@ -114,10 +114,10 @@ pub(super) fn draw<S: Sampler>(
     config: &S,
     indices: &[u64],
     count: &Count,
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> Vec<Result<S::Episode, DatasetError>> {
     let draw = |&index: &u64| {
-        if watch.cancelled() {
+        if progress.cancelled() {
             return Err(DatasetError::Cancelled);
         }
         let episode = config.draw(index)?;

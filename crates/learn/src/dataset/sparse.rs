@@ -11,9 +11,9 @@ use pushplan::internals::{
 use rand::Rng;
 use rand_pcg::Pcg64;
 
-use super::chance::{heading, log_uniform, uniform};
 use super::crowd::{crowd, object_count};
 use super::curriculum::Block;
+use super::distributions::{heading, log_uniform, uniform};
 use super::hand::{HAND_RADIUS, HandPlay};
 use super::joints::join_neighbours;
 use super::tabletop::anywhere;

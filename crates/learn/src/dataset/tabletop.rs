@@ -10,7 +10,7 @@ use rand::Rng;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
-use super::chance::{heading, log_uniform, uniform};
+use super::distributions::{heading, log_uniform, uniform};
 
 /// Range of the heights of ordinary objects, metres.
 pub(super) const USUAL_HEIGHT: Span = Span::new(0.05, 0.15);

@@ -15,7 +15,7 @@ use rand_pcg::Pcg64;
 
 use super::aim::{Aim, aimed_stroke, random_direction, random_heading, tool_travel};
 use super::assembly::random_tool;
-use super::chance::{heading, log_uniform, uniform, weighted};
+use super::distributions::{heading, log_uniform, uniform, weighted};
 use super::error::DatasetError;
 use super::jam::{crosses_obstacle, shortened_before_jam};
 use super::mujoco;

@@ -7,7 +7,7 @@ use pushplan::internals::scene::{Ranges, Scene, Span, Support, carries};
 use rand::Rng;
 use rand_pcg::Pcg64;
 
-use super::chance::{log_uniform, uniform, weighted};
+use super::distributions::{log_uniform, uniform, weighted};
 
 /// Probabilities of uniform support, of a spread support (see [`SPREAD`]), and of three support
 /// points.

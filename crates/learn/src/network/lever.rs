@@ -49,16 +49,16 @@ impl LeverGraph {
         beside: Option<&Tensor>,
     ) -> Result<(Vec<Tensor>, Tensor)> {
         let (batch, h) = (of.still.dims2()?.0, self.sizes.width);
-        let mut told =
+        let mut constant =
             of.still.matmul(self.get("gates.still"))?.broadcast_add(self.get("gates.bias"))?;
         if let Some(beside) = beside {
-            told = (told + beside)?;
+            constant = (constant + beside)?;
         }
         let mut hidden = Tensor::zeros((batch, h), DType::F32, &Device::Cpu)?;
         let mut memory = hidden.clone();
         let mut poses = Vec::with_capacity(of.moving.len());
         for (frame, moving) in of.moving.iter().enumerate() {
-            let mut gates = (moving.matmul(self.get("gates.moving"))? + &told)?
+            let mut gates = (moving.matmul(self.get("gates.moving"))? + &constant)?
                 .add(&hidden.matmul(self.get("gates.hidden"))?)?;
             if let Some(before) = of.before.get(frame) {
                 gates = (gates + before.matmul(self.get("gates.pose"))?)?;

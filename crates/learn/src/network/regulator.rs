@@ -13,7 +13,7 @@ pub struct Unrolled {
     /// T tensors [P, F] of normalised features.
     pub features: Vec<Tensor>,
     /// T tensors [P, 1]: 1 if the window is informative about the pair, otherwise 0.
-    pub told: Vec<Tensor>,
+    pub informative: Vec<Tensor>,
     /// Indices `[P]` of the two objects of every pair, numbered over all episodes.
     pub ends: [Tensor; 2],
     /// Total number of objects of all episodes.
@@ -54,7 +54,7 @@ impl RegulatorGraph {
         let mut hidden = Tensor::zeros((pairs, h), DType::F32, &Device::Cpu)?;
         let mut changes = Tensor::zeros((), DType::F32, &Device::Cpu)?;
         let mut all = Vec::new();
-        for (features, told) in of.features.iter().zip(&of.told) {
+        for (features, informative) in of.features.iter().zip(&of.informative) {
             let message = messages(&hidden, of)?;
             let given = features
                 .matmul(self.get("gates.input"))?
@@ -67,7 +67,7 @@ impl RegulatorGraph {
             let old = part(&held, 2)?.broadcast_add(self.get("gates.candidate_bias"))?;
             let candidate = (part(&given, 2)? + (reset * old)?)?.tanh()?;
             // h' - h = (1 - z) (c - h)
-            let change = ((1.0 - update)? * (candidate - &hidden)?)?.broadcast_mul(told)?;
+            let change = ((1.0 - update)? * (candidate - &hidden)?)?.broadcast_mul(informative)?;
             changes = (changes + change.sqr()?.sum_all()?)?;
             hidden = (hidden + change)?;
             let first = hidden

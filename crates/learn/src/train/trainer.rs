@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use pushplan::internals::asset::{Faults, write_atomic};
 use pushplan::internals::network::{Parameters, Weights, WeightsError};
-use pushplan::internals::watch::Watch;
+use pushplan::internals::progress::Progress;
 use pushplan_bench::store::FolderLock;
 use rayon::prelude::*;
 use thiserror::Error;
@@ -112,18 +112,18 @@ impl<'a, T: Trainable> Trainer<'a, T> {
         Ok(Self { task, folder, run, log, started: Instant::now(), since: Since::now() })
     }
 
-    /// Trains until the schedule ends or `watch` cancels.
+    /// Trains until the schedule ends or `progress` cancels.
     ///
     /// Returns the file of the best weights, or `None` if stopped before the first evaluation.
     ///
     /// # Errors
     /// [`TrainError`]; files saved before are kept.
-    pub fn run(mut self, watch: &dyn Watch) -> Result<Option<PathBuf>, TrainError> {
+    pub fn run(mut self, progress: &dyn Progress) -> Result<Option<PathBuf>, TrainError> {
         let descent = self.task.descent();
         let mut followed = false;
         while self.run.optimiser.step < descent.steps {
             let step = self.run.optimiser.step;
-            if step.is_multiple_of(LOOK) && watch.cancelled() {
+            if step.is_multiple_of(LOOK) && progress.cancelled() {
                 break;
             }
             if self.task.refreshes(step) {
@@ -142,9 +142,9 @@ impl<'a, T: Trainable> Trainer<'a, T> {
             let Since { at, steps, loss: losses, norm: norms } = self.since;
             self.since = Since { at, steps: steps + 1.0, loss: losses + loss, norm: norms + norm };
             let step = self.run.optimiser.step;
-            watch.progress(step, descent.steps);
+            progress.update(step, descent.steps);
             if step.is_multiple_of(descent.evaluate_every) || step == descent.steps {
-                watch.line(&self.evaluate()?);
+                progress.line(&self.evaluate()?);
             }
         }
         self.save()?;

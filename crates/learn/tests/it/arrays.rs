@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::{fs, io::Read};
 
-use pushplan::watch::Unwatched;
+use pushplan::progress::NoProgress;
 use pushplan_learn::dataset::{
     A_FILE, Dataset, DatasetConfig, DatasetError, NPZ_FORMAT, Preset, generate_npz,
 };
@@ -45,7 +45,7 @@ fn files_are_the_same_for_any_number_of_threads_and_interruptions() {
     };
     let [whole, stopped] = [(); 2].map(|()| TempDir::new().unwrap());
     let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    let bytes = pool(3).install(|| generate_npz(&config, whole.path(), &Unwatched)).unwrap();
+    let bytes = pool(3).install(|| generate_npz(&config, whole.path(), &NoProgress)).unwrap();
     let stop = Until::new(A_FILE + 1);
     let made = pool(1).install(|| generate_npz(&config, stopped.path(), &stop));
     assert!(matches!(made, Err(DatasetError::Cancelled)), "{made:?}");
@@ -53,7 +53,7 @@ fn files_are_the_same_for_any_number_of_threads_and_interruptions() {
         files(folder.path()).into_iter().map(|(name, _)| name).collect()
     };
     assert_eq!(names(&stopped), ["episodes-00000.npz", "manifest.json", "records.jsonl"]);
-    let again = pool(2).install(|| generate_npz(&config, stopped.path(), &Unwatched)).unwrap();
+    let again = pool(2).install(|| generate_npz(&config, stopped.path(), &NoProgress)).unwrap();
     assert!(files(whole.path()) == files(stopped.path()));
     let expected = ["README.md", "episodes-00000.npz", "episodes-00001.npz"];
     assert_eq!(names(&whole)[..3], expected);
@@ -65,7 +65,7 @@ fn files_are_the_same_for_any_number_of_threads_and_interruptions() {
     assert_eq!([bytes, again], [sizes as u64; 2]);
 
     // The arrays contain the sampler's episodes.
-    let drawn = Dataset::in_memory(&config.split(5, 2), &Unwatched).unwrap();
+    let drawn = Dataset::in_memory(&config.split(5, 2), &NoProgress).unwrap();
     let first = whole.path().join("episodes-00000.npz");
     let (header, poses) = floats(&first, "pose");
     let most = config.ranges().objects.high as usize;
@@ -84,10 +84,10 @@ fn files_are_the_same_for_any_number_of_threads_and_interruptions() {
 
     // A changed file is detected.
     fs::write(&first, "no zip").unwrap();
-    let made = generate_npz(&config, whole.path(), &Unwatched);
+    let made = generate_npz(&config, whole.path(), &NoProgress);
     assert!(made.unwrap_err().to_string().contains("is not what was written"));
     let other = DatasetConfig { seed: 6, ..config };
-    assert!(generate_npz(&other, stopped.path(), &Unwatched).is_err());
+    assert!(generate_npz(&other, stopped.path(), &NoProgress).is_err());
 }
 
 #[test]
@@ -95,7 +95,7 @@ fn the_page_describes_every_array() {
     let folder = TempDir::new().unwrap();
     let config =
         DatasetConfig { seed: 1, episodes: 2, preset: Preset::Dense, ..Default::default() };
-    generate_npz(&config, folder.path(), &Unwatched).unwrap();
+    generate_npz(&config, folder.path(), &NoProgress).unwrap();
     let file = fs::File::open(folder.path().join("episodes-00000.npz")).unwrap();
     let archive = zip::ZipArchive::new(file).unwrap();
     let held: Vec<String> = archive

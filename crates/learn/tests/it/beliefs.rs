@@ -8,7 +8,7 @@ use crate::believing::{EXACT, believed};
 
 /// Returns the number of moved near pairs with correct type, and their total number. The seed
 /// differs from the seeds used for tuning the filter.
-fn told_apart(preset: Preset, count: u64, solids: Solids, headings: bool) -> (usize, usize) {
+fn distinguished(preset: Preset, count: u64, solids: Solids, headings: bool) -> (usize, usize) {
     let constraints = Constraints::test(9, JointRule::Mixed, solids);
     let config =
         DatasetConfig { seed: 7, episodes: count, preset, constraints, ..DatasetConfig::default() };
@@ -38,17 +38,17 @@ fn told_apart(preset: Preset, count: u64, solids: Solids, headings: bool) -> (us
 }
 
 #[test]
-fn near_pairs_that_moved_are_told_apart_in_crowds() {
+fn near_pairs_that_moved_are_distinguished_in_crowds() {
     for (preset, count, least) in [(Preset::Sparse, 4, 0.93), (Preset::Dense, 8, 0.85)] {
-        let (right, all) = told_apart(preset, count, Solids::Any, true);
+        let (right, all) = distinguished(preset, count, Solids::Any, true);
         assert!(f64::from(right as u32) >= least * all as f64, "{preset:?}: {right} of {all}");
     }
 }
 
 #[test]
-fn many_are_told_apart_in_crowds_of_cylinders_without_headings() {
+fn many_are_distinguished_in_crowds_of_cylinders_without_headings() {
     for (preset, count, least) in [(Preset::Sparse, 8, 0.85), (Preset::Dense, 8, 0.75)] {
-        let (right, all) = told_apart(preset, count, Solids::Cylinders, false);
+        let (right, all) = distinguished(preset, count, Solids::Cylinders, false);
         assert!(f64::from(right as u32) >= least * all as f64, "{preset:?}: {right} of {all}");
     }
 }

@@ -61,7 +61,10 @@ fn what_does_not_fit_together_in_training_is_refused() {
     for (arguments, part) in wrong {
         let output =
             run(&["train"].into_iter().chain(arguments.split_whitespace()).collect::<Vec<_>>());
-        let said = stderr(&output);
-        assert!(output.status.code() == Some(2) && said.contains(part), "{arguments}: {said}");
+        let message = stderr(&output);
+        assert!(
+            output.status.code() == Some(2) && message.contains(part),
+            "{arguments}: {message}"
+        );
     }
 }

@@ -1,6 +1,6 @@
 //! Scattered and dense crowds: contents, validity of every draw, joints and constraints.
 
-use pushplan::watch::Unwatched;
+use pushplan::progress::NoProgress;
 use pushplan::{
     geometry::{Footprint, Pose, Shape, clearance, contact_points},
     outcome::{Record, Trajectory},
@@ -21,7 +21,7 @@ fn config(preset: Preset, episodes: u64) -> DatasetConfig {
 }
 
 fn drawn(config: &DatasetConfig) -> Vec<Episode> {
-    Dataset::in_memory(config, &Unwatched).unwrap().episodes().to_vec()
+    Dataset::in_memory(config, &NoProgress).unwrap().episodes().to_vec()
 }
 
 fn test_set(preset: Preset, objects: usize, joints: JointRule, solids: Solids) -> DatasetConfig {
@@ -176,7 +176,7 @@ fn test_sets_hold_what_their_constraints_say() {
 #[test]
 fn impossible_constraints_are_refused() {
     let refused = |config: DatasetConfig| {
-        let error = Dataset::in_memory(&config, &Unwatched).unwrap_err();
+        let error = Dataset::in_memory(&config, &NoProgress).unwrap_err();
         assert!(matches!(error, DatasetError::Constraint(_)), "{error}");
         error.to_string()
     };
@@ -224,12 +224,12 @@ fn one_and_two_threads_draw_the_same_bits() {
 fn files_give_back_joints_and_round_parts_and_belong_to_their_constraints() {
     let dir = tempfile::tempdir().unwrap();
     let set = test_set(Preset::Dense, 9, JointRule::Mixed, Solids::Any);
-    generate(&set, Shard::WHOLE, dir.path(), &Unwatched).unwrap();
+    generate(&set, Shard::WHOLE, dir.path(), &NoProgress).unwrap();
     let read = Dataset::open(dir.path()).unwrap();
-    assert_eq!(read, Dataset::in_memory(&set, &Unwatched).unwrap());
+    assert_eq!(read, Dataset::in_memory(&set, &NoProgress).unwrap());
     assert!(read.episodes().iter().any(|e| !e.scene.joints.is_empty()));
     let other = test_set(Preset::Dense, 9, JointRule::Fixed, Solids::Any);
-    let refused = generate(&other, Shard::WHOLE, dir.path(), &Unwatched);
+    let refused = generate(&other, Shard::WHOLE, dir.path(), &NoProgress);
     assert!(
         matches!(refused, Err(DatasetError::Store(StoreError::OtherRun { .. }))),
         "{refused:?}"

@@ -9,7 +9,7 @@ use std::{
     },
 };
 
-use pushplan::watch::{Unwatched, Watch};
+use pushplan::progress::{NoProgress, Progress};
 use pushplan::{
     asset::ToolLibrary,
     geometry::{Footprint, Pose, clearance},
@@ -24,7 +24,7 @@ use pushplan_learn::dataset::{
 
 fn drawn(episodes: u64) -> Dataset {
     let config = DatasetConfig { seed: 11, episodes, ..DatasetConfig::default() };
-    Dataset::in_memory(&config, &Unwatched).unwrap()
+    Dataset::in_memory(&config, &NoProgress).unwrap()
 }
 
 /// Returns the frames at which the tool is set down, with the tool's pose there. These are the
@@ -99,7 +99,7 @@ fn most_strokes_move_something() {
 fn every_draw_is_finite_at_rest_and_within_the_stated_ranges() {
     let config = DatasetConfig { seed: 12, episodes: 600, ..DatasetConfig::default() };
     let ranges = config.ranges();
-    let data = Dataset::in_memory(&config, &Unwatched).unwrap();
+    let data = Dataset::in_memory(&config, &NoProgress).unwrap();
     let mut far = 0;
     for episode in data.episodes() {
         let Episode { scene, motion, frames, .. } = episode;
@@ -146,8 +146,8 @@ struct Script {
     notes: Mutex<Vec<String>>,
 }
 
-impl Watch for Script {
-    fn progress(&self, _: u64, _: u64) {
+impl Progress for Script {
+    fn update(&self, _: u64, _: u64) {
         self.seen.fetch_add(1, Ordering::SeqCst);
     }
 
@@ -183,7 +183,7 @@ fn large() -> DatasetConfig {
 #[test]
 fn an_interrupted_generation_goes_on_to_the_same_files_and_reads_back_what_memory_holds() {
     let (whole, broken) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
-    let (count, bytes) = generate(&large(), Shard::WHOLE, whole.path(), &Unwatched).unwrap();
+    let (count, bytes) = generate(&large(), Shard::WHOLE, whole.path(), &NoProgress).unwrap();
     assert_eq!(count, 100);
     let names: Vec<String> = files(whole.path()).into_iter().map(|f| f.0).collect();
     assert_eq!(names, ["manifest.json", "records.bin"]);
@@ -200,17 +200,17 @@ fn an_interrupted_generation_goes_on_to_the_same_files_and_reads_back_what_memor
     }
 
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-    pool.install(|| generate(&large(), Shard::WHOLE, broken.path(), &Unwatched)).unwrap();
+    pool.install(|| generate(&large(), Shard::WHOLE, broken.path(), &NoProgress)).unwrap();
     assert!(files(whole.path()) == files(broken.path()), "the files differ");
     let (read, made) =
-        (Dataset::open(whole.path()).unwrap(), Dataset::in_memory(&large(), &Unwatched).unwrap());
+        (Dataset::open(whole.path()).unwrap(), Dataset::in_memory(&large(), &NoProgress).unwrap());
     assert_eq!(read, made);
 }
 
 #[test]
 fn what_follows_a_damaged_or_cut_record_is_made_again_with_a_note() {
     let dir = tempfile::tempdir().unwrap();
-    generate(&small(), Shard::WHOLE, dir.path(), &Unwatched).unwrap();
+    generate(&small(), Shard::WHOLE, dir.path(), &NoProgress).unwrap();
     let before = files(dir.path());
     let path = dir.path().join("records.bin");
     let sound = fs::read(&path).unwrap();
@@ -234,24 +234,24 @@ fn what_follows_a_damaged_or_cut_record_is_made_again_with_a_note() {
 fn other_settings_a_second_writer_an_empty_order_and_a_blocked_path_are_refused() {
     let dir = tempfile::tempdir().unwrap();
     let one = DatasetConfig { episodes: 2, ..small() };
-    generate(&one, Shard::WHOLE, dir.path(), &Unwatched).unwrap();
-    match generate(&small(), Shard::WHOLE, dir.path(), &Unwatched) {
+    generate(&one, Shard::WHOLE, dir.path(), &NoProgress).unwrap();
+    match generate(&small(), Shard::WHOLE, dir.path(), &NoProgress) {
         Err(DatasetError::Store(StoreError::OtherRun { differences, .. })) => {
             assert_eq!(differences, ["tasks is 2 there, 44 was asked for"]);
         }
         other => panic!("{other:?}"),
     }
-    let lock = FolderLock::take(dir.path(), &Unwatched).unwrap();
-    let busy = generate(&one, Shard::WHOLE, dir.path(), &Unwatched);
+    let lock = FolderLock::take(dir.path(), &NoProgress).unwrap();
+    let busy = generate(&one, Shard::WHOLE, dir.path(), &NoProgress);
     assert!(matches!(busy, Err(DatasetError::Store(StoreError::Busy { .. }))), "{busy:?}");
     drop(lock);
-    generate(&one, Shard::WHOLE, dir.path(), &Unwatched).unwrap();
+    generate(&one, Shard::WHOLE, dir.path(), &NoProgress).unwrap();
     let nothing = {
         let none = DatasetConfig { episodes: 0, ..small() };
-        generate(&none, Shard::WHOLE, dir.path(), &Unwatched)
+        generate(&none, Shard::WHOLE, dir.path(), &NoProgress)
     };
     assert!(matches!(nothing, Err(DatasetError::Empty("episodes"))), "{nothing:?}");
-    let blocked = generate(&one, Shard::WHOLE, &dir.path().join("manifest.json"), &Unwatched);
+    let blocked = generate(&one, Shard::WHOLE, &dir.path().join("manifest.json"), &NoProgress);
     assert!(matches!(blocked, Err(DatasetError::Store(StoreError::Io { .. }))), "{blocked:?}");
     let nowhere = Dataset::open(&dir.path().join("nowhere"));
     assert!(matches!(nowhere, Err(DatasetError::Store(StoreError::Missing { .. }))), "{nowhere:?}");
@@ -261,7 +261,7 @@ fn other_settings_a_second_writer_an_empty_order_and_a_blocked_path_are_refused(
 fn a_benchmark_is_not_data() {
     let dir = tempfile::tempdir().unwrap();
     let manifest = RunManifest::new("random", 3, 1, "planar");
-    drop(Store::<f64>::open(dir.path(), manifest, &Unwatched).unwrap());
+    drop(Store::<f64>::open(dir.path(), manifest, &NoProgress).unwrap());
     let opened = Dataset::open(dir.path());
     assert!(matches!(opened, Err(DatasetError::Foreign { .. })), "{opened:?}");
 }

@@ -7,7 +7,7 @@ use std::{
 };
 
 use pushplan::network::{Config, PredictorWeights, file_metadata};
-use pushplan::watch::{Unwatched, Watch};
+use pushplan::progress::{NoProgress, Progress};
 use pushplan_bench::store::{FolderLock, StoreError};
 use pushplan_learn::dataset::{Dataset, DatasetConfig, Preset};
 use pushplan_learn::train::{
@@ -35,7 +35,7 @@ fn settings(steps: u64) -> PredictorSettings {
 fn data(seed: u64, episodes: u64) -> Vec<Dataset> {
     let tools = DatasetConfig { seed, episodes, ..DatasetConfig::default() };
     let crowd = DatasetConfig { preset: Preset::Dense, episodes: 1, ..tools.clone() };
-    [tools, crowd].map(|set| Dataset::in_memory(&set, &Unwatched).expect("data")).into()
+    [tools, crowd].map(|set| Dataset::in_memory(&set, &NoProgress).expect("data")).into()
 }
 
 /// Counts the lines, and cancels at a step.
@@ -46,7 +46,7 @@ struct Listener {
     lines: AtomicU64,
 }
 
-impl Watch for Listener {
+impl Progress for Listener {
     fn line(&self, text: &str) {
         // The lines after the last step report the share of the correction.
         let step = text.starts_with("step ");
@@ -54,7 +54,7 @@ impl Watch for Listener {
         self.lines.fetch_add(u64::from(step), Ordering::SeqCst);
     }
 
-    fn progress(&self, step: u64, _: u64) {
+    fn update(&self, step: u64, _: u64) {
         self.step.store(step, Ordering::SeqCst);
     }
 
@@ -64,7 +64,7 @@ impl Watch for Listener {
 }
 
 fn lock(folder: &Path) -> FolderLock {
-    FolderLock::take(folder, &Unwatched).expect("the folder is free")
+    FolderLock::take(folder, &NoProgress).expect("the folder is free")
 }
 
 /// Trains until a step and returns the number of progress lines.
@@ -141,18 +141,18 @@ fn a_checkpoint_of_another_run_or_a_damaged_one_is_refused_and_kept() {
     let folder = tempfile::tempdir().expect("folder");
     let short = settings(1);
     let lock = lock(folder.path());
-    assert!(matches!(FolderLock::take(folder.path(), &Unwatched), Err(StoreError::Busy { .. })));
-    train_predictor(&short, &data, &held_out, &lock, &Unwatched).expect("training");
+    assert!(matches!(FolderLock::take(folder.path(), &NoProgress), Err(StoreError::Busy { .. })));
+    train_predictor(&short, &data, &held_out, &lock, &NoProgress).expect("training");
     let path = folder.path().join("checkpoint.safetensors");
     let before = fs::read(&path).expect("checkpoint");
 
     let other = PredictorSettings { seed: 9, ..short.clone() };
-    let error = train_predictor(&other, &data, &held_out, &lock, &Unwatched);
+    let error = train_predictor(&other, &data, &held_out, &lock, &NoProgress);
     assert!(matches!(error, Err(TrainError::Checkpoint(_, CheckpointError::Other))));
     assert_eq!(fs::read(&path).expect("checkpoint"), before);
 
     fs::write(&path, &before[..100]).expect("damage");
-    let error = train_predictor(&short, &data, &held_out, &lock, &Unwatched);
+    let error = train_predictor(&short, &data, &held_out, &lock, &NoProgress);
     assert!(matches!(error, Err(TrainError::Checkpoint(_, CheckpointError::Format(_)))));
     assert_eq!(fs::read(&path).expect("checkpoint").len(), 100, "nothing was overwritten");
 }

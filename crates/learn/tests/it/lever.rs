@@ -9,7 +9,7 @@ use pushplan::network::{
     LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverSizes, LeverWeights, Parameters, Statistics,
     fresh_lever, lever_layout,
 };
-use pushplan::watch::{Unwatched, Watch};
+use pushplan::progress::{NoProgress, Progress};
 use pushplan::{outcome::LEVER_FRAMES, scene::LeverFeatures, task::LeverJob};
 use pushplan_bench::store::FolderLock;
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
@@ -58,7 +58,7 @@ fn computes_what_training_differentiates(sizes: LeverSizes) {
     let parameters = Parameters { values: values.collect() };
     let (still, moving) = (draw(sizes.still), draw(sizes.moving * LEVER_FRAMES));
     let cell = LeverCell::new(&weights(LeverFeatures::Nothing, sizes, parameters.clone()));
-    let told = cell.predict(&still, &moving);
+    let predicted = cell.predict(&still, &moving);
 
     let tensor = |values: &[f32]| {
         Tensor::from_slice(values, (1, values.len()), &Device::Cpu).expect("a tensor")
@@ -68,7 +68,7 @@ fn computes_what_training_differentiates(sizes: LeverSizes) {
         moving: moving.chunks_exact(sizes.moving).map(tensor).collect(),
         // Predictions that the cell feeds back to itself.
         before: if sizes.feedback {
-            let poses = told.poses.chunks_exact(LEVER_POSE);
+            let poses = predicted.poses.chunks_exact(LEVER_POSE);
             std::iter::once(&[0.0; LEVER_POSE][..]).chain(poses).map(tensor).collect()
         } else {
             Vec::new()
@@ -78,17 +78,17 @@ fn computes_what_training_differentiates(sizes: LeverSizes) {
     let (poses, end) = graph.forward(&tensors, None).expect("predictions");
     let mut wanted: Vec<f32> =
         poses.iter().flat_map(|pose| pose.to_vec2::<f32>().expect("a row").concat()).collect();
-    assert_eq!([wanted.len(), told.poses.len()], [LEVER_POSE * LEVER_FRAMES; 2]);
+    assert_eq!([wanted.len(), predicted.poses.len()], [LEVER_POSE * LEVER_FRAMES; 2]);
     wanted.extend(end.to_vec2::<f32>().expect("a row").concat());
     assert_eq!(wanted.len(), LEVER_POSE * LEVER_FRAMES + LEVER_ENDS);
-    for (a, b) in told.poses.iter().chain(&told.end).zip(&wanted) {
+    for (a, b) in predicted.poses.iter().chain(&predicted.end).zip(&wanted) {
         assert!((a - b).abs() < 1e-5, "{a} {b}");
     }
 }
 
 fn episodes(seed: u64, count: u64) -> Vec<LeverEpisode> {
     let config = LeverConfig { seed, episodes: count, preset: LeverPreset::Varied };
-    LeverDataset::in_memory(&config, &Unwatched).expect("lever-ups").episodes().to_vec()
+    LeverDataset::in_memory(&config, &NoProgress).expect("lever-ups").episodes().to_vec()
 }
 
 #[test]
@@ -126,25 +126,26 @@ fn settings(prior: bool) -> LeverSettings {
 #[test]
 fn training_learns_and_resumes_to_the_same_bits() {
     let (data, held_out) = (episodes(1, 96), episodes(2, 24));
-    let train = |folder: &Path, settings: &LeverSettings, watch: &dyn Watch| {
-        let lock = FolderLock::take(folder, &Unwatched).expect("a lock");
-        train_lever(settings, &data, &held_out, &lock, watch).expect("training");
+    let train = |folder: &Path, settings: &LeverSettings, progress: &dyn Progress| {
+        let lock = FolderLock::take(folder, &NoProgress).expect("a lock");
+        train_lever(settings, &data, &held_out, &lock, progress).expect("training");
         fs::read(folder.join("checkpoint.safetensors")).expect("a checkpoint")
     };
     let settings = settings(false);
     let [whole, parts] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
     let single = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool");
-    let wanted = single.install(|| train(whole.path(), &settings, &Unwatched));
+    let wanted = single.install(|| train(whole.path(), &settings, &NoProgress));
     // Stopped between two evaluations and resumed.
     assert!(train(parts.path(), &settings, &Until::new(60)) != wanted);
-    assert!(train(parts.path(), &settings, &Unwatched) == wanted);
+    assert!(train(parts.path(), &settings, &NoProgress) == wanted);
 
     let network = LeverNetwork::load(&whole.path().join("last.safetensors")).expect("weights");
     let jobs: Vec<LeverJob> = data.iter().map(LeverEpisode::job).collect();
     let error = |model: &dyn LeverModel| -> f64 {
-        let told = model.rollout(&jobs);
-        let off = data.iter().zip(&jobs).zip(&told);
-        off.map(|((episode, job), told)| lever_error(job, &episode.trajectory, told).lift).sum()
+        let predicted = model.rollout(&jobs);
+        let off = data.iter().zip(&jobs).zip(&predicted);
+        off.map(|((episode, job), predicted)| lever_error(job, &episode.trajectory, predicted).lift)
+            .sum()
     };
     let features = LeverFeatures::Support;
     let sizes = LeverInputs::sizes(features, false, 8);
@@ -156,8 +157,8 @@ fn training_learns_and_resumes_to_the_same_bits() {
 
     // A run resumes only under its own settings.
     let other = LeverSettings { seed: 2, ..settings };
-    let lock = FolderLock::take(whole.path(), &Unwatched).expect("a lock");
-    assert!(train_lever(&other, &data, &held_out, &lock, &Unwatched).is_err());
+    let lock = FolderLock::take(whole.path(), &NoProgress).expect("a lock");
+    assert!(train_lever(&other, &data, &held_out, &lock, &NoProgress).is_err());
 }
 
 /// Tests feedback of predictions up to the first slip, as in the thesis.
@@ -172,15 +173,15 @@ fn what_is_fed_back_resumes_to_the_same_bits() {
     };
     settings.descent.steps = 60;
     settings.descent.evaluate_every = 20;
-    let train = |folder: &Path, watch: &dyn Watch| {
-        let lock = FolderLock::take(folder, &Unwatched).expect("a lock");
-        let best = train_lever(&settings, &data, &held_out, &lock, watch).expect("training");
+    let train = |folder: &Path, progress: &dyn Progress| {
+        let lock = FolderLock::take(folder, &NoProgress).expect("a lock");
+        let best = train_lever(&settings, &data, &held_out, &lock, progress).expect("training");
         (best, fs::read(folder.join("checkpoint.safetensors")).expect("a checkpoint"))
     };
     let [whole, parts] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
-    let (best, wanted) = train(whole.path(), &Unwatched);
+    let (best, wanted) = train(whole.path(), &NoProgress);
     train(parts.path(), &Until::new(40));
-    assert!(train(parts.path(), &Unwatched).1 == wanted);
+    assert!(train(parts.path(), &NoProgress).1 == wanted);
     let network = LeverNetwork::load(&best.expect("weights")).expect("weights");
     assert_eq!(network.name(), "LSTM, shape context, fed back");
 }
@@ -189,8 +190,9 @@ fn what_is_fed_back_resumes_to_the_same_bits() {
 fn a_correction_is_saved_with_its_prior() {
     let (data, held_out) = (episodes(1, 32), episodes(2, 12));
     let folder = tempfile::tempdir().expect("a folder");
-    let lock = FolderLock::take(folder.path(), &Unwatched).expect("a lock");
-    let best = train_lever(&settings(true), &data, &held_out, &lock, &Unwatched).expect("training");
+    let lock = FolderLock::take(folder.path(), &NoProgress).expect("a lock");
+    let best =
+        train_lever(&settings(true), &data, &held_out, &lock, &NoProgress).expect("training");
     let network = LeverNetwork::load(&best.expect("weights")).expect("weights");
     assert_eq!(network.name(), "prior + LSTM, support points");
 }

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use pushplan::watch::Unwatched;
+use pushplan::progress::NoProgress;
 use pushplan::{outcome::LeverWarning, task::LeverJob};
 use pushplan_bench::store::Shard;
 use pushplan_learn::dataset::{
@@ -32,8 +32,8 @@ fn what_is_read_is_what_was_drawn() {
     for preset in FAMILIES {
         let config = config(preset, 8);
         let folder = tempfile::tempdir().expect("a folder");
-        generate(&config, Shard::WHOLE, folder.path(), &Unwatched).expect("data");
-        let drawn = LeverDataset::in_memory(&config, &Unwatched).expect("lever-ups");
+        generate(&config, Shard::WHOLE, folder.path(), &NoProgress).expect("data");
+        let drawn = LeverDataset::in_memory(&config, &NoProgress).expect("lever-ups");
         assert!(LeverDataset::open(folder.path()).expect("data") == drawn, "{preset}");
     }
 }
@@ -45,11 +45,11 @@ fn any_number_of_threads_and_interruptions_gives_the_same_bits() {
     let [whole, parts] = ["whole", "parts"].map(|name| folder.path().join(name));
     let pool =
         |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-    pool(2).install(|| generate(&config, Shard::WHOLE, &whole, &Unwatched)).expect("data");
+    pool(2).install(|| generate(&config, Shard::WHOLE, &whole, &NoProgress)).expect("data");
     let stopped = pool(1).install(|| generate(&config, Shard::WHOLE, &parts, &Until::new(280)));
     assert!(matches!(stopped, Err(DatasetError::Cancelled)), "{stopped:?}");
     assert!(matches!(LeverDataset::open(&parts), Err(DatasetError::Store(_))));
-    pool(1).install(|| generate(&config, Shard::WHOLE, &parts, &Unwatched)).expect("data");
+    pool(1).install(|| generate(&config, Shard::WHOLE, &parts, &NoProgress)).expect("data");
     for file in ["manifest.json", "records.bin"] {
         let [whole, parts] = [&whole, &parts].map(|dir| fs::read(dir.join(file)).expect("a file"));
         assert!(whole == parts, "{file}");
@@ -61,13 +61,13 @@ fn any_number_of_threads_and_interruptions_gives_the_same_bits() {
     // Another kind of data is rejected.
     assert!(matches!(Dataset::open(&whole), Err(DatasetError::Foreign { .. })));
     let pushes = DatasetConfig { episodes: 300, seed: 5, ..DatasetConfig::default() };
-    assert!(generate(&pushes, Shard::WHOLE, &whole, &Unwatched).is_err());
+    assert!(generate(&pushes, Shard::WHOLE, &whole, &NoProgress).is_err());
 }
 
 #[test]
 fn nothing_asked_for_is_an_error() {
     let config = config(LeverPreset::Fixed, 0);
-    assert!(matches!(LeverDataset::in_memory(&config, &Unwatched), Err(DatasetError::Empty(_))));
+    assert!(matches!(LeverDataset::in_memory(&config, &NoProgress), Err(DatasetError::Empty(_))));
 }
 
 #[test]
@@ -75,7 +75,7 @@ fn every_family_plays_without_jams_and_almost_always_comes_to_rest() {
     for preset in FAMILIES {
         let count = if preset == LeverPreset::Disc { 8 } else { 40 };
         let config = config(preset, count);
-        let data = LeverDataset::in_memory(&config, &Unwatched).expect("data");
+        let data = LeverDataset::in_memory(&config, &NoProgress).expect("data");
         // A board on the wall of its drive may creep beyond the time limit.
         let restless = data.episodes().iter().filter(|episode| !episode.is_sound()).count();
         assert!(restless <= data.episodes().len() / 20, "{preset}: {restless} never rest");
@@ -208,7 +208,7 @@ fn lever_ups_are_written_as_scenes_with_what_comes_of_them() {
     let read = |name: &str| fs::read_to_string(folder.path().join("scenes").join(name));
     assert_eq!(read("lever.py").expect("a script"), pushplan_export::LEVER_SCRIPT);
     let ours = read("ours.jsonl").expect("lines");
-    let set = LeverDataset::in_memory(&config(LeverPreset::Drive, 3), &Unwatched);
+    let set = LeverDataset::in_memory(&config(LeverPreset::Drive, 3), &NoProgress);
     let set = set.expect("lever-ups");
     assert_eq!(ours.lines().count(), 3);
     for (line, episode) in ours.lines().zip(set.episodes()) {
@@ -217,11 +217,11 @@ fn lever_ups_are_written_as_scenes_with_what_comes_of_them() {
         assert_eq!(scene, pushplan_export::lever_mjcf(&episode.job()));
         // The blade must not fall with the plate in the solver.
         assert!(scene.contains(r#"<body name="blade/0" gravcomp="1""#));
-        let (rest, told) = (episode.trajectory.rest, &line["rest"]);
+        let (rest, line_rest) = (episode.trajectory.rest, &line["rest"]);
         let [x, y, z, w] = rest.quaternion();
         let at = rest.position;
         for (k, wanted) in [at.x, at.y, at.z, w, x, y, z].into_iter().enumerate() {
-            assert_eq!(told[k].as_f64(), Some(wanted));
+            assert_eq!(line_rest[k].as_f64(), Some(wanted));
         }
         assert_eq!(line["lift"].as_array().map(Vec::len), Some(episode.trajectory.lift.len()));
     }

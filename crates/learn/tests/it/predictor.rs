@@ -3,8 +3,8 @@
 use pushplan::contact::{Bodies, FrameProblem};
 use pushplan::graph::Batch;
 use pushplan::network::{Buffers, Forward};
+use pushplan::progress::NoProgress;
 use pushplan::scene::Physics;
-use pushplan::watch::Unwatched;
 use pushplan_learn::dataset::{Dataset, DatasetConfig};
 use pushplan_learn::network::{Inputs, Predictor};
 
@@ -13,7 +13,7 @@ use crate::random_network::{add_graph, weights};
 #[test]
 fn fused_inference_equals_the_candle_graph() {
     let data = DatasetConfig { seed: 11, episodes: 20, ..DatasetConfig::default() };
-    let data = Dataset::in_memory(&data, &Unwatched).expect("data");
+    let data = Dataset::in_memory(&data, &NoProgress).expect("data");
     let mut batch = Batch::default();
     for (k, episode) in data.episodes().iter().enumerate() {
         let bodies = Bodies::new(

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use pushplan::watch::Unwatched;
+use pushplan::progress::NoProgress;
 use pushplan::{
     effect::EffectModels,
     geometry::{Pose, Shape, Vector},
@@ -70,7 +70,7 @@ fn wild() -> PredictorWeights {
 fn crowds_pushed_again_and_again() {
     for (preset, seed) in [(Preset::Sparse, 5), (Preset::Dense, 6), (Preset::Tools, 7)] {
         let config = DatasetConfig { seed, preset, episodes: 12, ..DatasetConfig::default() };
-        let data = Dataset::in_memory(&config, &Unwatched).expect("data");
+        let data = Dataset::in_memory(&config, &NoProgress).expect("data");
         for weights in [shipped(), wild()] {
             let forward = Forward::new(&weights);
             for episode in data.episodes() {

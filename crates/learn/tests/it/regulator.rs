@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use candle_core::{Device, Tensor};
 use pushplan::effect::{EffectModels, Network};
-use pushplan::watch::{Unwatched, Watch};
+use pushplan::progress::{NoProgress, Progress};
 use pushplan_act::regulator::{Memory, Regulator, RegulatorWeights};
 use pushplan_bench::store::FolderLock;
 use pushplan_learn::dataset::{Lesson, lessons};
@@ -38,10 +38,10 @@ fn the_cell_computes_what_training_differentiates() {
     let weights = random_weights(features, width);
     let cell = Regulator::new(&weights);
     let mut rng = Pcg64::seed_from_u64(5);
-    let (mut rows, mut told) = (Vec::new(), Vec::new());
+    let (mut rows, mut informative) = (Vec::new(), Vec::new());
     for _ in 0..windows {
         rows.push((0..3 * features).map(|_| rng.random_range(-2.0f32..2.0)).collect::<Vec<f32>>());
-        told.push((0..3).map(|_| rng.random_bool(0.7)).collect::<Vec<bool>>());
+        informative.push((0..3).map(|_| rng.random_bool(0.7)).collect::<Vec<bool>>());
     }
     let tensor = |values: Vec<f32>, columns: usize| {
         Tensor::from_vec(values, (3, columns), &Device::Cpu).expect("a tensor")
@@ -52,9 +52,11 @@ fn the_cell_computes_what_training_differentiates() {
     });
     let unrolled = Unrolled {
         features: rows.iter().map(|row| tensor(weights.card.scales.apply(row), features)).collect(),
-        told: told
+        informative: informative
             .iter()
-            .map(|told| tensor(told.iter().map(|yes| f32::from(u8::from(*yes))).collect(), 1))
+            .map(|informative| {
+                tensor(informative.iter().map(|yes| f32::from(u8::from(*yes))).collect(), 1)
+            })
             .collect(),
         ends,
         objects,
@@ -63,9 +65,9 @@ fn the_cell_computes_what_training_differentiates() {
     let (logits, _) = graph.forward(&unrolled).expect("logits");
     let mut memory = Memory::default();
     let mut compared = 0;
-    for ((row, told), logits) in rows.iter().zip(&told).zip(&logits) {
+    for ((row, informative), logits) in rows.iter().zip(&informative).zip(&logits) {
         let wanted: Vec<Vec<f32>> = logits.to_vec2().expect("rows");
-        let answers = cell.step(row, told, (&pairs, objects), &mut memory);
+        let answers = cell.step(row, informative, (&pairs, objects), &mut memory);
         for (answer, wanted) in answers.iter().zip(&wanted) {
             let Some(answer) = answer else { continue };
             for (a, b) in answer.logits.iter().zip(wanted) {
@@ -79,33 +81,33 @@ fn the_cell_computes_what_training_differentiates() {
     assert!(compared > 6);
 }
 
-fn train(folder: &Path, lessons: &[Lesson], held_out: &[Lesson], watch: &dyn Watch) {
-    let lock = FolderLock::take(folder, &Unwatched).expect("a lock");
-    train_regulator(&settings(), lessons, held_out, &lock, watch).expect("training");
+fn train(folder: &Path, lessons: &[Lesson], held_out: &[Lesson], progress: &dyn Progress) {
+    let lock = FolderLock::take(folder, &NoProgress).expect("a lock");
+    train_regulator(&settings(), lessons, held_out, &lock, progress).expect("training");
 }
 
 #[test]
 fn training_learns_and_resumes_to_the_same_bits_from_lessons_that_are_the_same_bits() {
     let folder = tempfile::tempdir().expect("a folder");
     let network = network();
-    let draw = |name: &str, seed, count, watch: &dyn Watch| {
+    let draw = |name: &str, seed, count, progress: &dyn Progress| {
         let path = folder.path().join(name);
-        lessons((seed, count), (&network, "digest".to_owned()), &path, watch)
+        lessons((seed, count), (&network, "digest".to_owned()), &path, progress)
     };
-    let data = draw("data", 1, 40, &Unwatched).expect("lessons");
+    let data = draw("data", 1, 40, &NoProgress).expect("lessons");
     // Stopped in the middle and resumed.
     assert!(draw("parts", 1, 40, &Until::new(5)).is_err());
-    assert!(data == draw("parts", 1, 40, &Unwatched).expect("lessons"));
+    assert!(data == draw("parts", 1, 40, &NoProgress).expect("lessons"));
     assert!(data.iter().any(|lesson| !lesson.windows.is_empty()));
-    let held_out = draw("held-out", 2, 16, &Unwatched).expect("lessons");
+    let held_out = draw("held-out", 2, 16, &NoProgress).expect("lessons");
 
     let [whole, parts] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
-    train(whole.path(), &data, &held_out, &Unwatched);
+    train(whole.path(), &data, &held_out, &NoProgress);
     train(parts.path(), &data, &held_out, &Until::new(20));
     let step =
         |folder: &Path| fs::read(folder.join("checkpoint.safetensors")).expect("a checkpoint");
     assert_ne!(step(whole.path()), step(parts.path()));
-    train(parts.path(), &data, &held_out, &Unwatched);
+    train(parts.path(), &data, &held_out, &NoProgress);
     assert!(step(whole.path()) == step(parts.path()));
 
     let bytes = fs::read(whole.path().join("last.safetensors")).expect("weights");

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use pushplan::watch::Unwatched;
+use pushplan::progress::NoProgress;
 use pushplan_bench::store::FolderLock;
 use pushplan_learn::dataset::Dataset;
 use tempfile::TempDir;
@@ -88,7 +88,7 @@ fn wrong_shards_are_refused() {
 #[test]
 fn two_commands_never_write_to_one_folder() {
     let folder = TempDir::new().expect("a folder");
-    let lock = FolderLock::take(folder.path(), &Unwatched).expect("a free folder");
+    let lock = FolderLock::take(folder.path(), &NoProgress).expect("a free folder");
     let dir = folder.path().to_str().expect("UTF-8");
     for command in [
         format!("generate {dir} --episodes 1"),

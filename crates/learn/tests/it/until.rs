@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use pushplan::watch::Watch;
+use pushplan::progress::Progress;
 
 /// Cancels once this many steps or episodes are done.
 pub struct Until {
@@ -17,8 +17,8 @@ impl Until {
     }
 }
 
-impl Watch for Until {
-    fn progress(&self, done: u64, _: u64) {
+impl Progress for Until {
+    fn update(&self, done: u64, _: u64) {
         self.done.fetch_max(done, Ordering::SeqCst);
     }
 

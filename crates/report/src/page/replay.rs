@@ -88,7 +88,7 @@ pub fn ends(task: &Task, verdict: &Verdict) -> Vec<End> {
             reached: evidence.outcome.reached,
         })
     };
-    let all = Engine::ALL.into_iter().flat_map(|engine| verdict.disturbed(engine));
+    let all = Engine::ALL.into_iter().flat_map(|engine| verdict.perturbed(engine));
     all.filter_map(end).collect()
 }
 

@@ -124,7 +124,7 @@ pub fn prediction_page(
 
 /// Returns the status of a plan according to its verdict.
 pub fn standing(verdict: &Verdict) -> Standing {
-    match (verdict.passed, verdict.works()) {
+    match (verdict.passed, verdict.nominal_ok()) {
         (true, _) => Standing::Passed,
         (false, true) => Standing::Fragile,
         (false, false) => Standing::Failed,

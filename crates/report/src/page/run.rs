@@ -9,7 +9,7 @@ use crate::table::Align;
 use pushplan::geometry::{Pose, wrap_angle};
 use pushplan::{
     outcome::{Frame, Trajectory},
-    scene::{Sight, State},
+    scene::{ObservedPose, State},
     task::{Stroke, ToolMotion},
 };
 use pushplan_act::act::{End, Look, Step, Trace, Why};
@@ -39,7 +39,7 @@ pub fn run_page(trace: &Trace, real: &[Trajectory], recipe: Recipe, view: PageVi
         name: name(trace),
         standing: match trace.end {
             Some(End::Reached) => Standing::Reached,
-            Some(End::UsedUp | End::NoPush) => Standing::GivenUp,
+            Some(End::BudgetExhausted | End::NoImprovingPush) => Standing::GivenUp,
             None => Standing::Open,
         },
         verdict: headline(trace),
@@ -179,7 +179,7 @@ fn seen(trace: &Trace, step: usize, motion: &ToolMotion) -> Vec<Frame> {
     looks.sort_by(|a, b| a.time.total_cmp(&b.time));
     for look in looks {
         for (pose, sight) in state.poses.iter_mut().zip(&look.seen) {
-            if let Some(Sight { position, heading }) = sight {
+            if let Some(ObservedPose { position, heading }) = sight {
                 let turn = heading.map_or(0.0, |heading| wrap_angle(heading - pose.heading));
                 *pose = Pose { position: *position, heading: pose.heading + turn };
             }

@@ -89,8 +89,8 @@ fn cells(ranked: &RankedPlan, replayed: Option<&Verdict>, why: String) -> Vec<St
 /// engine, for the engine with the lower share.
 fn fewest(verdict: &Verdict) -> Option<(usize, usize, Engine)> {
     let counts = Engine::ALL.map(|engine| {
-        let reached = verdict.disturbed(engine).filter(|evidence| evidence.outcome.reached);
-        (reached.count(), verdict.disturbed(engine).count(), engine)
+        let reached = verdict.perturbed(engine).filter(|evidence| evidence.outcome.reached);
+        (reached.count(), verdict.perturbed(engine).count(), engine)
     });
     let made = counts.into_iter().filter(|(_, replays, _)| *replays > 0);
     made.min_by(|a, b| (a.0 * b.1).cmp(&(b.0 * a.1)))

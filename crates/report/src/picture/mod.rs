@@ -3,6 +3,7 @@
 //! The pictures only draw given data: they compute no rollouts and no verdicts.
 
 mod bodies;
+mod captions;
 mod extent;
 mod joints;
 mod legend;
@@ -12,7 +13,6 @@ mod palette;
 mod scene_picture;
 mod space_picture;
 mod stage;
-mod story;
 mod strokes;
 mod timeline;
 mod view;

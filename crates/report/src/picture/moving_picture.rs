@@ -15,13 +15,13 @@ use pushplan::{
 
 use super::{
     bodies,
+    captions::Captions,
     extent::Extent,
     joints::{self, Symbol},
     legend::{self, Sample},
     moving_tool, palette,
     scene_picture::Source,
     stage::{SEEN, Stage, clockwise, shift, turn},
-    story::Story,
     strokes,
     timeline::Timeline,
     view::View,
@@ -73,9 +73,9 @@ impl MovingPicture<'_> {
         stage.svg.open_clipped("plot", view.corner, view.size);
         self.plot(&mut stage);
         stage.svg.close();
-        let story = self.story();
-        story.progress(&mut stage);
-        story.captions(&mut stage, at(below + 28.0));
+        let captions = self.captions();
+        captions.progress(&mut stage);
+        captions.captions(&mut stage, at(below + 28.0));
         legend::draw(&mut stage.svg, &entries, at(below + STRIP), wide);
         stage.finish()
     }
@@ -93,7 +93,7 @@ impl MovingPicture<'_> {
         for (k, object) in self.task.scene.objects.iter().enumerate() {
             if bodies::moved(object, &ends[k]) {
                 stage.svg.open_faded(palette::START);
-                bodies::object(&mut stage.svg, &view, object, self.task.wants(k));
+                bodies::object(&mut stage.svg, &view, object, self.task.has_goal(k));
                 stage.svg.close();
                 self.way(stage, k);
             }
@@ -103,7 +103,7 @@ impl MovingPicture<'_> {
             self.animate(stage, k);
             self.open_object(stage, k, &ends[k]);
             let own = Object { pose: Pose::default(), ..object.clone() };
-            bodies::object(&mut stage.svg, &view.centred(), &own, self.task.wants(k));
+            bodies::object(&mut stage.svg, &view.centred(), &own, self.task.has_goal(k));
             stage.close(2);
         }
         self.joints(stage, &ends);
@@ -112,7 +112,7 @@ impl MovingPicture<'_> {
         for goal in &self.task.shown_goals() {
             bodies::goal(&mut stage.svg, &view, goal);
         }
-        self.story().reached(stage);
+        self.captions().reached(stage);
         stage.open_layer();
         moving_tool::tools(stage, &strokes::all(self.motions));
         for (k, object) in self.task.scene.things() {
@@ -145,7 +145,7 @@ impl MovingPicture<'_> {
         stage.loops.animate(&class, &keys, [SEEN / length], |[left]| {
             format!("stroke-dashoffset:{}", short(left, 4))
         });
-        let style = if self.task.wants(k) { palette::GOAL_WAY } else { palette::OTHER_WAY };
+        let style = if self.task.has_goal(k) { palette::GOAL_WAY } else { palette::OTHER_WAY };
         stage.svg.drawn_line(&class, &points, style);
     }
 
@@ -186,9 +186,9 @@ impl MovingPicture<'_> {
         }
     }
 
-    fn story(&self) -> Story<'_> {
+    fn captions(&self) -> Captions<'_> {
         let Self { task, motions, trajectory, .. } = *self;
-        Story { task, strokes: strokes::all(motions), trajectory }
+        Captions { task, strokes: strokes::all(motions), trajectory }
     }
 
     /// Returns the frames that can be drawn.

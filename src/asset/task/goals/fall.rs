@@ -6,7 +6,7 @@ use crate::asset::node::Node;
 use crate::asset::spec::{Key, SHIFT_LIMIT, Value, numbers};
 use crate::asset::strict::Ledger;
 use crate::asset::take::vector;
-use crate::asset::task::mounts::moving;
+use crate::asset::task::world_joints::moving;
 use crate::{
     scene::{Scene, Span},
     task::{Demand, Edge, Fall},

@@ -4,7 +4,7 @@ use crate::asset::node::Node;
 use crate::asset::spec::{ANGLE, Key, SHIFT_LIMIT};
 use crate::asset::strict::Ledger;
 use crate::asset::take::{angle, angle_of};
-use crate::asset::task::mounts::moving;
+use crate::asset::task::world_joints::moving;
 use crate::geometry::Pose;
 use crate::{
     scene::{JointKind, Scene},

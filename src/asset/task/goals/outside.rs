@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use crate::asset::fault::did_you_mean;
+use crate::asset::diagnostic::did_you_mean;
 use crate::asset::node::Node;
 use crate::asset::spec::{Key, Value};
 use crate::asset::strict::Ledger;

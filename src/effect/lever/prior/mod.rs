@@ -22,11 +22,11 @@
 
 mod body;
 mod contacts;
-mod march;
 mod model;
 mod settings;
 mod setup;
 mod solver;
+mod time_steps;
 
 pub use model::LeverPrior;
 pub use settings::PriorSettings;

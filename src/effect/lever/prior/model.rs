@@ -11,9 +11,9 @@ use crate::outcome::{LeverTrajectory, Record, Trajectory};
 use crate::scene::{ModelKind, ModelSpec, Scene};
 use crate::task::{Job, LeverJob};
 
-use super::march::Marcher;
 use super::settings::PriorSettings;
 use super::setup::Setup;
+use super::time_steps::TimeSteps;
 
 /// The analytic model of lever-ups alone: the cheapest model with physics.
 #[derive(Clone, Copy, Debug, Default)]
@@ -27,7 +27,7 @@ impl LeverPrior {
     /// order, until it rests. The last pose then holds for the remaining times.
     pub fn follow(&self, job: &LeverJob, times: impl Iterator<Item = f64>) -> Vec<Pose3> {
         let setup = Setup::new(job);
-        Marcher::default().follow(&setup, &self.settings_for(&setup), times)
+        TimeSteps::default().follow(&setup, &self.settings_for(&setup), times)
     }
 
     fn settings_for(&self, setup: &Setup) -> PriorSettings {
@@ -46,7 +46,7 @@ impl LeverPrior {
     /// Computes lever-ups until everything rests.
     pub fn courses(&self, jobs: &[LeverJob]) -> Vec<LeverTrajectory> {
         jobs.par_iter()
-            .map_init(Marcher::default, |marcher, job| {
+            .map_init(TimeSteps::default, |marcher, job| {
                 let setup = Setup::new(job);
                 marcher.march(&setup, &self.settings_for(&setup))
             })

@@ -59,7 +59,7 @@ impl<'a> Strategy<'a> for FollowUp<'a> {
 
     fn next(&mut self, board: &mut Blackboard<'a>) -> Result<Option<Batch>, SolveError> {
         let batch = |plan: LeverPlan| Batch::Levers(vec![plan]);
-        if board.attempts.best_class() > Class::Fragile || board.query.watch.cancelled() {
+        if board.attempts.best_class() > Class::Fragile || board.query.progress.cancelled() {
             return Ok(None);
         }
         if self.levered.is_none() && self.task.levers.is_none() {
@@ -86,7 +86,7 @@ impl<'a> Strategy<'a> for FollowUp<'a> {
                 self.levered = Some(levered);
                 return Ok(Some(batch(plan)));
             }
-            if board.query.watch.cancelled() {
+            if board.query.progress.cancelled() {
                 break;
             }
         }

@@ -49,7 +49,7 @@ impl<'a> InTurn<'a> {
         let (mut prefix, mut rests) = (Prefix::default(), start(task));
         let mut met: Vec<usize> = Vec::new();
         for stage in order {
-            board.progress.stage("stages");
+            board.reporter.stage("stages");
             let (planned, goals) = match stage {
                 Stage::Lever(goal) => (self.levered(board, goal, (&prefix, &rests))?, vec![goal]),
                 Stage::Push(goals) => {
@@ -120,8 +120,8 @@ impl<'a> Strategy<'a> for InTurn<'a> {
     }
 
     fn next(&mut self, board: &mut Blackboard<'a>) -> Result<Option<Batch>, SolveError> {
-        while !board.attempts.list.iter().any(Attempt::works)
-            && !board.query.watch.cancelled()
+        while !board.attempts.list.iter().any(Attempt::nominal_ok)
+            && !board.query.progress.cancelled()
             && let Some(order) = self.orders.pop_front()
         {
             let Some(Prefix { plan, tools }) = self.plan(board, &order)? else { continue };
@@ -147,14 +147,15 @@ fn solved(
         return Ok(Some(Prefix { plan: Plan::default(), tools: Vec::new() }));
     }
     let query = board.query;
-    let solution = query.planner.solve_with(task, library, query.watch)?;
+    let solution = query.planner.solve_with(task, library, query.progress)?;
     board.timing.search += solution.statistics.timing.total;
     if let (Some(all), Some(own)) = (&mut board.levers, &solution.statistics.levers) {
         all.search = own.search.clone();
         all.simulated += own.simulated;
         all.followed += own.followed;
     }
-    let best = solution.best().filter(|best| best.verdict.as_ref().is_some_and(Verdict::works));
+    let best =
+        solution.best().filter(|best| best.verdict.as_ref().is_some_and(Verdict::nominal_ok));
     Ok(best.map(|best| Prefix { plan: best.plan.clone(), tools: best.tools.clone() }))
 }
 

@@ -52,7 +52,7 @@ impl<'a> MakeRoom<'a> {
         let most = query.planner.settings().levers.followed;
         let (task, goal) = (query.task, query.task.goals[0].object);
         while self.pushed < most
-            && !query.watch.cancelled()
+            && !query.progress.cancelled()
             && let Some(displacement) = self.displacements.next()
         {
             let place = task.scene.objects[goal].pose.position + displacement;
@@ -64,12 +64,12 @@ impl<'a> MakeRoom<'a> {
                 continue;
             }
             self.pushed += 1;
-            board.progress.stage("pushes");
+            board.reporter.stage("pushes");
             let towards = Task { goals: vec![Goal::new(goal, place.into(), NEAR)], ..task.clone() };
             let Some(left) = pushing_task(&towards, &start(task), self.library) else { continue };
-            let solution = query.planner.solve_with(&left, self.library, query.watch)?;
+            let solution = query.planner.solve_with(&left, self.library, query.progress)?;
             let Some(best) = solution.best().filter(|best| !best.plan.is_empty()) else { continue };
-            if !best.verdict.as_ref().is_some_and(Verdict::works) {
+            if !best.verdict.as_ref().is_some_and(Verdict::nominal_ok) {
                 continue;
             }
             let prefix = Prefix { plan: best.plan.clone(), tools: best.tools.clone() };
@@ -94,7 +94,7 @@ impl<'a> Strategy<'a> for MakeRoom<'a> {
             return Ok(Some(batch));
         }
         self.follow_up = None;
-        if board.attempts.list.iter().any(Attempt::works) || board.query.watch.cancelled() {
+        if board.attempts.list.iter().any(Attempt::nominal_ok) || board.query.progress.cancelled() {
             return Ok(None);
         }
         if let Some((prefix, moved)) =

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::asset::ToolLibrary;
 use crate::geometry::Pose3;
 use crate::outcome::{Outcome, Record, Trajectory};
+use crate::progress::{Instant, NoProgress};
 use crate::scene::{Situation, Tool};
 use crate::sim::LeverSimulator;
 use crate::solve::SolveError;
@@ -12,7 +13,6 @@ use crate::solve::attempts::Attempt;
 use crate::solve::blackboard::Blackboard;
 use crate::solve::lever_batch::LeverPlan;
 use crate::task::{Plan, Task};
-use crate::watch::{Instant, Unwatched};
 
 /// First steps of a plan, with their tools.
 #[derive(Default)]
@@ -60,9 +60,9 @@ pub(super) fn pushed(
 ) -> Result<Option<LeverPlan>, SolveError> {
     let query = board.query;
     let began = Instant::now();
-    board.progress.stage("pushes");
+    board.reporter.stage("pushes");
     let Some(left) = pushing_task(query.task, rests, library) else { return Ok(None) };
-    let pushed = query.planner.solve_with(&left, library, query.watch)?;
+    let pushed = query.planner.solve_with(&left, library, query.progress)?;
     board.timing.refinement += began.elapsed().as_secs_f64();
     let Some(best) = pushed.best() else { return Ok(None) };
     let plan = prefix.plan.clone().then(best.plan.clone());
@@ -87,6 +87,6 @@ fn simulated(
     tools: &[Arc<Tool>],
 ) -> Option<Trajectory> {
     let motions = plan.motions(tools)?;
-    let watched = (Record::Outcome, &Unwatched as _);
+    let watched = (Record::Outcome, &NoProgress as _);
     Some(engine.run_all(&Situation::stated(&task.scene), &task.scene, &motions, watched))
 }

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use crate::outcome::{Outcome, Record, Trajectory};
 use crate::plan::lever::{LeverCandidate, LeverSearch, LeverSearchStatistics, ScoredLever, merit};
+use crate::progress::{Instant, NoProgress};
 use crate::scene::{Scene, Situation, Tool};
 use crate::sim::LeverSimulator;
 use crate::solve::attempts::Attempt;
@@ -13,7 +14,6 @@ use crate::solve::blackboard::Blackboard;
 use crate::solve::lever_batch::{Kind, LeverPlan, mixed};
 use crate::solve::query::Query;
 use crate::task::{Job, LeverMotion, LeverStep, Motion, Plan, Step, Task};
-use crate::watch::{Instant, Unwatched};
 
 use super::doubt::doubted;
 use super::prefix::Prefix;
@@ -32,7 +32,7 @@ struct Simulated {
 /// Returns the best lever-ups of `task` after coarse simulation, best first, each after `prefix`.
 pub(super) fn lever_ups(board: &mut Blackboard, task: &Task, prefix: &Prefix) -> Vec<LeverPlan> {
     let began = Instant::now();
-    board.progress.stage("search lever-ups");
+    board.reporter.stage("search lever-ups");
     let (scored, statistics) = search(&board.query, task);
     let chosen = choose(scored, board.query.planner.settings().levers.simulated);
     if let Some(levers) = &mut board.levers {
@@ -63,7 +63,7 @@ fn search(query: &Query, task: &Task) -> (Vec<ScoredLever>, LeverSearchStatistic
     let situation = Situation::stated(&task.scene);
     let search = LeverSearch { task, situation: &situation, tools: query.tools };
     let predict = |jobs: &[Job]| predict(query, &task.scene, jobs);
-    search.run(&predict, &|| query.watch.cancelled())
+    search.run(&predict, &|| query.progress.cancelled())
 }
 
 /// Predicts jobs with the model, or by coarse simulation if the model does not support them.
@@ -79,7 +79,7 @@ fn predict(query: &Query, scene: &Scene, jobs: &[Job]) -> Vec<Trajectory> {
 
 /// Simulates a motion planned in `scene` coarsely in the true situation.
 fn simulated(really: &Situation, scene: &Scene, motion: Motion) -> Trajectory {
-    let watched = (Record::Outcome, &Unwatched as _);
+    let watched = (Record::Outcome, &NoProgress as _);
     LeverSimulator::COARSE.run_all(really, scene, &[motion], watched)
 }
 

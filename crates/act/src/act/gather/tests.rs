@@ -21,7 +21,7 @@ fn state(places: [[f64; 2]; 2]) -> State {
 }
 
 fn look(time: f64, places: [[f64; 2]; 2]) -> Look {
-    let sight = |[x, y]: [f64; 2]| Some(Sight::new(&Pose::new(x, y, 0.0), true));
+    let sight = |[x, y]: [f64; 2]| Some(ObservedPose::new(&Pose::new(x, y, 0.0), true));
     Look { time, seen: places.map(sight).to_vec() }
 }
 
@@ -85,8 +85,8 @@ fn objects_that_were_taken_for_each_other_are_changed_back() {
 #[test]
 fn what_cannot_be_is_not_seen_and_another_table_is_an_error() {
     let mut wild = looks();
-    wild[4].seen[1] = Some(Sight { position: Vector::new(2.0, 2.0), heading: None });
-    wild[5].seen[0] = Some(Sight { position: Vector::new(f64::NAN, 0.0), heading: None });
+    wild[4].seen[1] = Some(ObservedPose { position: Vector::new(2.0, 2.0), heading: None });
+    wild[5].seen[0] = Some(ObservedPose { position: Vector::new(f64::NAN, 0.0), heading: None });
     let mut one = gatherer();
     let (observations, _) = one.motion(&motion(), wild).expect("one table");
     assert_eq!([observations[4].seen[1], observations[5].seen[0]], [None, None]);

@@ -145,7 +145,7 @@ fn value(
             let start = &samples.now.start;
             states.iter().map(|end| square(end, start).sqrt()).sum()
         }
-        ProbeRule::Information => told(states.len(), |s, t| alike(states[s], states[t])),
+        ProbeRule::Information => information(states.len(), |s, t| alike(states[s], states[t])),
         ProbeRule::Task | ProbeRule::Random | ProbeRule::Uncertain => {
             let mut sum = 0.0;
             for (s, one) in states.iter().enumerate() {
@@ -161,7 +161,7 @@ fn value(
 
 /// Returns the information about `count` samples from the final state of a push, nats. Samples s
 /// and t are confused with probability `alike(s, t)`.
-fn told(count: usize, alike: impl Fn(usize, usize) -> f64) -> f64 {
+fn information(count: usize, alike: impl Fn(usize, usize) -> f64) -> f64 {
     let one = |s: usize| {
         let taken: f64 = (0..count).map(|t| alike(s, t)).sum();
         -(taken / count as f64).ln()
@@ -191,11 +191,11 @@ mod tests {
 
     #[test]
     fn a_push_tells_as_much_as_there_are_samples_to_tell_apart() {
-        assert_eq!(told(8, |_, _| 1.0), 0.0);
+        assert_eq!(information(8, |_, _| 1.0), 0.0);
         let same = |s: usize, t: usize| f64::from(u8::from(s == t));
-        assert!((told(8, same) - 8f64.ln()).abs() < 1e-12);
+        assert!((information(8, same) - 8f64.ln()).abs() < 1e-12);
         let halves = |s: usize, t: usize| f64::from(u8::from(s / 4 == t / 4));
-        assert!((told(8, halves) - 2f64.ln()).abs() < 1e-12);
-        assert_eq!(told(0, same), 0.0);
+        assert!((information(8, halves) - 2f64.ln()).abs() < 1e-12);
+        assert_eq!(information(0, same), 0.0);
     }
 }

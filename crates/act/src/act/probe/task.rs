@@ -63,7 +63,7 @@ pub(in crate::act) fn probe(
         motion: plan.motion(tool),
     };
     let probes: Vec<Probe> = found.iter().map(motion).collect();
-    let by = (settings.rule, settings.noise);
+    let by = (settings.probe_rule, settings.noise);
     let chosen = choose(model, by, (belief, samples), &probes, reach)?;
     let (_, plan, tool) = found.swap_remove(chosen);
     Some((plan, tool))
@@ -103,7 +103,7 @@ fn candidates(
                     let push = [ManualPush { start, direction, length, speed: None }];
                     let yaws = &task.pushes.grip_yaws;
                     if let Ok(asked) = manual_plan(task, &samples.now, tool, yaws, &push)
-                        && asked.broken.is_empty()
+                        && asked.violations.is_empty()
                     {
                         found.push((object, asked.plan, Arc::clone(tool)));
                     }

@@ -32,14 +32,14 @@ fn of_what_was_played_the_likeliest_is_found_for_all_and_for_each_type_of_a_pair
 #[test]
 fn pairs_are_told_of_in_the_windows_of_a_push_and_not_in_those_before() {
     let mut belief = four_cans();
-    for told in [[true, false, false, true], [false, true, false, true], [false; 4]] {
-        let evidence = told.map(|told| told.then_some([0.0; 4])).to_vec();
+    for informative in [[true, false, false, true], [false, true, false, true], [false; 4]] {
+        let evidence = informative.map(|informative| informative.then_some([0.0; 4])).to_vec();
         belief.history.push(Step { observations: 5, probabilities: Vec::new(), evidence });
     }
-    assert_eq!(belief.told(1), [0; 0]);
-    assert_eq!(belief.told(2), [1, 3]);
-    assert_eq!(belief.told(3), [0, 1, 3]);
-    assert_eq!(belief.told(9), [0, 1, 3]);
+    assert_eq!(belief.informative(1), [0; 0]);
+    assert_eq!(belief.informative(2), [1, 3]);
+    assert_eq!(belief.informative(3), [0, 1, 3]);
+    assert_eq!(belief.informative(9), [0, 1, 3]);
 }
 
 #[test]

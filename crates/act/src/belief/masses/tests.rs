@@ -21,7 +21,7 @@ fn touching(pairs: &[[usize; 2]]) -> Trajectory {
 
 /// Returns the belief about three objects after a push with these contacts; `score` is the
 /// log-likelihood of the logarithmic ratio of the first two masses.
-fn told(pairs: &'static [[usize; 2]], score: fn(f64) -> f64) -> Masses {
+fn observed(pairs: &'static [[usize; 2]], score: fn(f64) -> f64) -> Masses {
     let object = |name: &str, x| Object::cylinder(name, 0.05, 0.1).at(x, 0.0, 0.0);
     let scene = Scene::new([object("a", 0.0), object("b", 0.11), object("c", 0.5)]);
     let mut masses = Masses::new(3, &RANGES);
@@ -38,7 +38,7 @@ fn told(pairs: &'static [[usize; 2]], score: fn(f64) -> f64) -> Masses {
 #[test]
 fn a_push_tells_the_ratio_before_it_tells_either_mass() {
     // With a ratio of 1/2 to 1/4, only light and medium or medium and heavy fit.
-    let shares = told(&[[0, 1]], |log| -4.0 * (log + 1.6).powi(2)).shares();
+    let shares = observed(&[[0, 1]], |log| -4.0 * (log + 1.6).powi(2)).shares();
     let [first, second] = [0, 1].map(|k| shares.objects[k].clone().expect("they touched"));
     assert!(first[0] > 0.3 && first[1] > 0.3 && first[2] < 0.01, "{first:?}");
     assert!(second[1] > 0.3 && second[2] > 0.3 && second[0] < 0.01, "{second:?}");
@@ -49,7 +49,7 @@ fn a_push_tells_the_ratio_before_it_tells_either_mass() {
 
 #[test]
 fn what_fits_one_pair_of_ranges_alone_tells_both() {
-    let shares = told(&[[1, 0]], |log| -4.0 * (log + 3.3).powi(2)).shares();
+    let shares = observed(&[[1, 0]], |log| -4.0 * (log + 3.3).powi(2)).shares();
     assert!(shares.objects[0].as_ref().is_some_and(|of| of[0] > 0.99), "{shares:?}");
     assert!(shares.objects[1].as_ref().is_some_and(|of| of[2] > 0.99), "{shares:?}");
 }
@@ -109,8 +109,8 @@ fn what_is_drawn_is_as_frequent_as_it_is_believed_where_something_may_be_lost() 
 
 #[test]
 fn a_push_in_which_nothing_touches_and_one_that_broke_off_say_nothing() {
-    assert_eq!(told(&[], |_| 0.0), Masses::new(3, &RANGES));
-    let shares = told(&[[0, 1]], |_| f64::NAN).shares();
+    assert_eq!(observed(&[], |_| 0.0), Masses::new(3, &RANGES));
+    let shares = observed(&[[0, 1]], |_| f64::NAN).shares();
     let even = |of: &Vec<f64>| of.iter().all(|share| (share - 1.0 / 3.0).abs() < 1e-12);
     assert!(shares.objects[0].as_ref().is_some_and(even), "{shares:?}");
 }

@@ -74,8 +74,8 @@ impl From<&Fit> for Basis {
         Self {
             noise: found.noise,
             motion: found.motion,
-            friction: found.friction.told.then_some(found.told_friction()),
-            support: found.told_spread(),
+            friction: found.friction.identified.then_some(found.identified_friction()),
+            support: found.identified_spread(),
             before: None,
         }
     }
@@ -87,8 +87,8 @@ impl Basis {
     pub fn seen(trials: &[Trial], noise: f64, before: Option<&TableFit>) -> Self {
         let motions: Vec<f64> = trials.iter().flat_map(Trial::motions).collect();
         let before = before.cloned();
-        let told = |of: fn(&TableFit) -> Option<f64>| before.as_ref().and_then(of);
-        let (friction, support) = (told(|fit| fit.friction), told(|fit| fit.support));
+        let earlier = |of: fn(&TableFit) -> Option<f64>| before.as_ref().and_then(of);
+        let (friction, support) = (earlier(|fit| fit.friction), earlier(|fit| fit.support));
         Self { noise, motion: mean(&motions), friction, support, before }
     }
 
@@ -133,13 +133,13 @@ pub fn learn(
     let half = network.effect_width();
     let mut fit = basis.fit(network, trials)?;
     let before = basis.before.as_ref().filter(|before| before.spread.prior > 0.0);
-    let told: Vec<Trial> = trials.iter().map(|trial| told(&fit, trial)).collect();
-    let moves: Vec<Vec<bool>> = told.iter().map(|trial| moving(network, trial)).collect();
+    let fitted: Vec<Trial> = trials.iter().map(|trial| with_fit(&fit, trial)).collect();
+    let moves: Vec<Vec<bool>> = fitted.iter().map(|trial| moving(network, trial)).collect();
     // The noise width is bounded below because a few pushes do not determine it.
     let least = (DISAGREEMENT * basis.motion).max(before.map_or(0.0, |before| before.noise));
     let look = |head: &Head| -> Vec<Vec<Observed>> {
         let network = network.clone().adapted(head);
-        let pairs = told.par_iter().zip(&moves);
+        let pairs = fitted.par_iter().zip(&moves);
         pairs.map(|(trial, moves)| observed(&network, trial, moves)).collect()
     };
     let Some(mut head) = Head::new(fit.head.clone(), half) else { return Ok(fit) };
@@ -157,7 +157,7 @@ pub fn learn(
     };
     let prior = match before {
         Some(before) => before.spread.prior,
-        None => choose(network, &told, &moves, &seen, settings, least).unwrap_or(0.0),
+        None => choose(network, &fitted, &moves, &seen, settings, least).unwrap_or(0.0),
     };
     for _ in 0..ROUNDS {
         let regression = regression(&seen, &head);
@@ -185,7 +185,7 @@ pub fn learn(
 }
 
 /// Returns the trial with the fitted physics.
-fn told(fit: &TableFit, trial: &Trial) -> Trial {
+fn with_fit(fit: &TableFit, trial: &Trial) -> Trial {
     let mut trial = trial.clone();
     fit.state(&mut trial.scene);
     trial

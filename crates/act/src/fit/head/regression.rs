@@ -61,8 +61,8 @@ impl Regression {
         for one in observed {
             blocks.push((next, one.residual.len()));
             for (residual, row) in one.residual.iter().zip(&one.rows) {
-                let said: f64 = row.iter().zip(mean).map(|(a, b)| a * b).sum();
-                targets[next] = residual + said;
+                let explained: f64 = row.iter().zip(mean).map(|(a, b)| a * b).sum();
+                targets[next] = residual + explained;
                 rows.row_mut(next).iter_mut().zip(row).for_each(|(to, value)| *to = *value);
                 next += 1;
             }
@@ -81,21 +81,21 @@ impl Regression {
             direction.iter().zip(values).map(|(a, b)| f64::from(*a) * b).sum()
         };
         // A remaining variance of zero would cause a division by zero.
-        let told = spread.directions.iter().filter(|one| one.left < 1.0 && one.left > 0.0);
-        let told: Vec<_> = told.collect();
+        let narrowed = spread.directions.iter().filter(|one| one.left < 1.0 && one.left > 0.0);
+        let narrowed: Vec<_> = narrowed.collect();
         let mut across = head.clone();
-        for one in &told {
+        for one in &narrowed {
             let along = dot(&one.direction, head);
             let pairs = across.iter_mut().zip(&one.direction);
             pairs.for_each(|(value, part)| *value -= along * f64::from(*part));
         }
-        let (seen, all) = (self.targets.len(), self.targets.len() + told.len());
+        let (seen, all) = (self.targets.len(), self.targets.len() + narrowed.len());
         for (target, row) in self.targets.iter_mut().zip(self.rows.row_iter()) {
             *target -= row.iter().zip(&across).map(|(a, b)| a * b).sum::<f64>();
         }
         self.targets = self.targets.resize_vertically(all, 0.0);
         self.rows = self.rows.resize_vertically(all, 0.0);
-        for (k, one) in told.iter().enumerate() {
+        for (k, one) in narrowed.iter().enumerate() {
             self.targets[seen + k] = dot(&one.direction, head) / (1.0 - one.left);
             let mut row = self.rows.row_mut(seen + k);
             row.iter_mut().zip(&one.direction).for_each(|(to, part)| *to = f64::from(*part));
@@ -165,18 +165,19 @@ impl Regression {
         let eigen = (&weighted * weighted.transpose()).symmetric_eigen();
         let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
         order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
-        let told = order.into_iter().filter(|&k| eigen.eigenvalues[k] > TOLD).take(most);
+        let narrowed =
+            order.into_iter().filter(|&k| eigen.eigenvalues[k] > LEAST_INFORMATION).take(most);
         let direction = |k: usize| {
             let along = weighted.transpose() * eigen.eigenvectors.column(k);
             let length = along.norm();
             (1.0 / (1.0 + eigen.eigenvalues[k]), along.iter().map(|x| x / length).collect())
         };
-        told.map(direction).collect()
+        narrowed.map(direction).collect()
     }
 }
 
 /// Minimum information of a direction kept, as a share of the prior's.
-const TOLD: f64 = 0.02;
+const LEAST_INFORMATION: f64 = 0.02;
 
 #[cfg(test)]
 mod tests;

@@ -63,9 +63,10 @@ fn the_best_stops_are_where_they_are_said_to_be() {
     let made = rested(&setup, model, &task, actions);
     assert_eq!(made.len(), 12);
     for (score, made) in scores.iter().zip(made) {
-        let (said, done) = (score * task.goals[0].tolerance(), made.predicted.unwrap_or(f64::NAN));
+        let (predicted_error, done) =
+            (score * task.goals[0].tolerance(), made.predicted.unwrap_or(f64::NAN));
         // Sliding is estimated as free, and half a frame by linear interpolation.
-        assert!((said - done).abs() < 1.5e-3, "{said} against {done}");
+        assert!((predicted_error - done).abs() < 1.5e-3, "{predicted_error} against {done}");
     }
     // Whole sequences are a coarse check that no other stop is better.
     let ends = whole.ends().map(|(_, end)| (end - task.goals[0].place(&task.scene.start())).norm());

@@ -7,7 +7,7 @@ use pushplan::internals::geometry::wrap_angle;
 use pushplan::internals::network::WeightsError;
 use pushplan::internals::scene::TableFit;
 use pushplan::internals::seeded::generator;
-use pushplan::watch::Unwatched;
+use pushplan::progress::NoProgress;
 use pushplan_act::fit::{Basis, FitSettings, HeadSettings, Sensitivity, fit, learn};
 use pushplan_act::judge::{Comparison, Trial};
 use rand::seq::SliceRandom;
@@ -91,20 +91,20 @@ pub fn measure_split(
     let prior = Prior::default();
     let learnt: Vec<Trial> = split.learnt.iter().map(|&k| trials[k].clone()).collect();
     let settings = FitSettings { values: VALUES, ..FitSettings::default() };
-    let Some(found) = fit(&prior, &learnt, &settings, &Unwatched) else { return Ok(None) };
+    let Some(found) = fit(&prior, &learnt, &settings, &NoProgress) else { return Ok(None) };
     let table = learn(network, &learnt, &Basis::from(&found), &HeadSettings::default())?;
     let Ok(adapted) = network.clone().fitted(&table) else { return Ok(None) };
     let push = |&recording: &usize| {
         let stated = &trials[recording];
-        let mut told = stated.clone();
-        table.state(&mut told.scene);
+        let mut with_fit = stated.clone();
+        table.state(&mut with_fit.scene);
         AdaptedPush {
             recording,
             shipped: error(&prior, stated),
-            prior: error(&prior, &told),
-            network: error(network, &told),
-            adapted: error(&adapted, &told),
-            inside: inside(&adapted, &told, &table),
+            prior: error(&prior, &with_fit),
+            network: error(network, &with_fit),
+            adapted: error(&adapted, &with_fit),
+            inside: inside(&adapted, &with_fit, &table),
         }
     };
     let pushes = split.predicted.iter().map(push).collect();
@@ -126,10 +126,10 @@ fn inside(network: &Network, trial: &Trial, table: &TableFit) -> [usize; 2] {
     let Some(end) = found.trajectory.frames.last() else { return [0; 2] };
     let mut inside = [0; 2];
     for (k, object) in trial.scene.objects.iter().enumerate() {
-        let (seen, said) = (truth.poses[k], end.state.poses[k]);
-        let away = seen.position - said.position;
+        let (seen, predicted) = (truth.poses[k], end.state.poses[k]);
+        let away = seen.position - predicted.position;
         let arm = object.shape.footprint().gyration_radius();
-        let turn = arm * wrap_angle(seen.heading - said.heading);
+        let turn = arm * wrap_angle(seen.heading - predicted.heading);
         for (axis, away) in [away.x, away.y, turn].into_iter().enumerate() {
             let scale = if axis < 2 { 1.0 } else { arm };
             let row: Vec<f64> = found.rows[3 * k + axis].iter().map(|x| scale * x).collect();

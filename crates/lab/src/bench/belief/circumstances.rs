@@ -52,7 +52,7 @@ impl Circumstances {
     }
 
     /// Returns a scene as stated to the observer.
-    pub(super) fn told(&self, mut scene: Scene) -> Scene {
+    pub(super) fn stated(&self, mut scene: Scene) -> Scene {
         if self.misled {
             let [objects, table] = FRICTIONS;
             for object in &mut scene.objects {

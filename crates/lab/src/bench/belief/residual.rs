@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector, Matrix2, Rotation2, Vector3};
 
 use pushplan::internals::{
     geometry::{Pose, Vector, wrap_angle},
-    scene::{Scene, Sight},
+    scene::{ObservedPose, Scene},
     task::{Noise, Observation},
 };
 use pushplan_act::belief::JointType;
@@ -38,7 +38,7 @@ pub fn residual_types(
         let [first, second] = pair.map(|k| &scene.objects[k].pose);
         let mut poses = vec![relative(first, second)];
         for observation in seen {
-            let sight = |sight: Sight| {
+            let sight = |sight: ObservedPose| {
                 sight.heading.map(|heading| Pose { position: sight.position, heading })
             };
             if let [Some(one), Some(other)] = pair.map(|k| observation.seen[k].and_then(sight)) {

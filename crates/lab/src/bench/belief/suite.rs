@@ -140,7 +140,7 @@ impl BeliefSuite {
         // Every case and trajectory has its own noise.
         let mut rng = generator(self.seed ^ SALT, index as u64);
         let (seen, observations) = seeing.observe(&recording, &mut rng);
-        let seen = self.circumstances.told(seen);
+        let seen = self.circumstances.stated(seen);
         let seen = (&seen, &observations[..], seeing.noise);
         let (record, spent) = follow(&recording, seen, by, Asked::OnTheWay, case);
         let alone = rayon::current_num_threads() == 1;

@@ -1,6 +1,6 @@
 //! The test sets: families of crowds by number of objects, joints and solids.
 
-use pushplan::internals::watch::{Count, Watch};
+use pushplan::internals::progress::{Count, Progress};
 use pushplan_act::judge::Trial;
 use pushplan_learn::dataset::{Constraints, DatasetConfig, Episode, JointRule, Preset, Solids};
 use rayon::prelude::*;
@@ -88,10 +88,10 @@ impl CrowdSet {
     }
 
     /// Draws the first `count` trajectories of the set under `seed`, simulated in 2-D on all
-    /// threads of the current rayon pool. `watch` receives the number of finished trajectories.
-    pub fn draw(&self, seed: u64, count: usize, watch: &dyn Watch) -> Vec<Trial> {
-        watch.stage("simulating");
-        let done = Count::new(watch, 0, count);
+    /// threads of the current rayon pool. `progress` receives the number of finished trajectories.
+    pub fn draw(&self, seed: u64, count: usize, progress: &dyn Progress) -> Vec<Trial> {
+        progress.stage("simulating");
+        let done = Count::new(progress, 0, count);
         (0..count as u64)
             .into_par_iter()
             .map(|index| {

@@ -1,7 +1,7 @@
 //! Results on a test set, as plain data.
 
 use pushplan::internals::effect::EffectModel;
-use pushplan::internals::watch::Watch;
+use pushplan::internals::progress::Progress;
 use pushplan_act::judge::{Trial, TrialErrors};
 use serde::{Deserialize, Serialize};
 
@@ -23,14 +23,14 @@ pub struct CrowdReport {
 
 impl CrowdReport {
     /// Computes the errors of `models` on the trajectories of a test set, drawn with `seed`.
-    /// `watch` receives the number of finished rollouts of each.
+    /// `progress` receives the number of finished rollouts of each.
     pub fn of(
         (set, seed): (&CrowdSet, u64),
         trials: &[Trial],
         models: &[Box<dyn EffectModel>],
-        watch: &dyn Watch,
+        progress: &dyn Progress,
     ) -> Self {
-        let errors = TrialErrors::of(set.title(), trials, models, watch);
+        let errors = TrialErrors::of(set.title(), trials, models, progress);
         Self { family: set.family, set: *set, seed, errors }
     }
 }

@@ -72,12 +72,13 @@ fn row(model: &dyn LeverModel, episodes: &[&LeverEpisode]) -> DriveRow {
         .unzip();
     let (predicted, time) = on_one_core(model, &jobs);
     let pairs = || mine.iter().zip(&jobs).zip(&predicted);
-    let errors: Vec<_> =
-        pairs().map(|((episode, job), said)| lever_error(job, &episode.trajectory, said)).collect();
+    let errors: Vec<_> = pairs()
+        .map(|((episode, job), predicted)| lever_error(job, &episode.trajectory, predicted))
+        .collect();
     let turns: Vec<f64> =
-        pairs().map(|((episode, _), said)| turn(&episode.trajectory, said)).collect();
-    let right = pairs().filter(|((episode, _), said)| {
-        is_outside(&episode.scene, said) == is_outside(&episode.scene, &episode.trajectory)
+        pairs().map(|((episode, _), predicted)| turn(&episode.trajectory, predicted)).collect();
+    let right = pairs().filter(|((episode, _), predicted)| {
+        is_outside(&episode.scene, predicted) == is_outside(&episode.scene, &episode.trajectory)
     });
     let right = right.count() as f64 / mine.len().max(1) as f64;
     let of = |error: fn(&LeverError) -> f64| {
@@ -96,8 +97,9 @@ fn row(model: &dyn LeverModel, episodes: &[&LeverEpisode]) -> DriveRow {
 
 /// Returns the root mean square angle between two trajectories over the frames of the rotation,
 /// radians.
-fn turn(truth: &LeverTrajectory, said: &LeverTrajectory) -> f64 {
-    let squares: f64 = truth.lift.iter().zip(&said.lift).map(|(a, b)| a.angle_to(b).powi(2)).sum();
+fn turn(truth: &LeverTrajectory, predicted: &LeverTrajectory) -> f64 {
+    let squares: f64 =
+        truth.lift.iter().zip(&predicted.lift).map(|(a, b)| a.angle_to(b).powi(2)).sum();
     (squares / truth.lift.len().max(1) as f64).sqrt()
 }
 

@@ -39,7 +39,7 @@ pub struct LeverPoint {
     /// Root mean square distance of corners between observation and prediction, metres.
     pub misfit: f64,
     /// Prediction of the model, from the first frame on.
-    pub told: LeverTrajectory,
+    pub predicted: LeverTrajectory,
 }
 
 impl<'a> LeverSearch<'a> {
@@ -61,11 +61,12 @@ impl<'a> LeverSearch<'a> {
         }
         let corners = self.job.scene.plates[self.job.lever.plate].corners();
         let nearest = |known: &[(f64, Place, LeverTrajectory)]| {
-            let off = |told: &LeverTrajectory| misfit(corners, seen, &told.lift);
-            let all = known.iter().map(|(at, place, told)| (*at, *place, off(told), told));
+            let off = |predicted: &LeverTrajectory| misfit(corners, seen, &predicted.lift);
+            let all =
+                known.iter().map(|(at, place, predicted)| (*at, *place, off(predicted), predicted));
             let best = all.min_by(|a, b| a.2.total_cmp(&b.2));
-            best.map(|(at, place, misfit, told)| {
-                (at, LeverPoint { place, misfit, told: told.clone() })
+            best.map(|(at, place, misfit, predicted)| {
+                (at, LeverPoint { place, misfit, predicted: predicted.clone() })
             })
         };
         let (mut at, mut best) = nearest(&self.known)?;
@@ -103,14 +104,15 @@ impl LeverPoint {
     /// Returns the frames after those in `seen`: the prediction, displaced and rotated by its error
     /// in the last frame of `seen`.
     pub fn rest(&self, job: &LeverJob, seen: &[Pose3]) -> Vec<Pose3> {
-        let after = self.told.lift.iter().skip(seen.len());
-        let Some((seen, told)) = seen.last().zip(self.told.lift.get(seen.len().wrapping_sub(1)))
+        let after = self.predicted.lift.iter().skip(seen.len());
+        let Some((seen, predicted)) =
+            seen.last().zip(self.predicted.lift.get(seen.len().wrapping_sub(1)))
         else {
             return after.copied().collect();
         };
         let centre = job.scene.plates[job.lever.plate].weight().centre;
-        let shift = seen.point(centre) - told.point(centre);
-        let turn = seen.rotation * told.rotation.inverse();
+        let shift = seen.point(centre) - predicted.point(centre);
+        let turn = seen.rotation * predicted.rotation.inverse();
         let moved = |pose: &Pose3| {
             let rotation = turn * pose.rotation;
             Pose3 { position: pose.point(centre) + shift - rotation * centre, rotation }
@@ -131,22 +133,27 @@ fn roll(
         lever: LeverUp { place: place(corners, *length), ..job.lever },
     };
     let jobs: Vec<LeverJob> = lengths.iter().map(at).collect();
-    let told = model.rollout(&jobs);
+    let predicted = model.rollout(&jobs);
     let places = jobs.iter().map(|job| job.lever.place);
-    lengths.iter().zip(places).zip(told).map(|((at, place), told)| (*at, place, told)).collect()
+    lengths
+        .iter()
+        .zip(places)
+        .zip(predicted)
+        .map(|((at, place), predicted)| (*at, place, predicted))
+        .collect()
 }
 
 /// Returns the root mean square distance of corners between poses of the frame, metres.
-fn misfit(corners: &[Vector], seen: &[Pose3], told: &[Pose3]) -> f64 {
-    let apart = |(seen, told): (&Pose3, &Pose3)| -> f64 {
+fn misfit(corners: &[Vector], seen: &[Pose3], predicted: &[Pose3]) -> f64 {
+    let apart = |(seen, predicted): (&Pose3, &Pose3)| -> f64 {
         let corner = |at: &Vector| {
             let at = Vector3::new(at.x, at.y, 0.0);
-            (seen.point(at) - told.point(at)).norm_squared()
+            (seen.point(at) - predicted.point(at)).norm_squared()
         };
         corners.iter().map(corner).sum()
     };
-    let frames = seen.len().min(told.len());
-    let sum: f64 = seen.iter().zip(told).map(apart).sum();
+    let frames = seen.len().min(predicted.len());
+    let sum: f64 = seen.iter().zip(predicted).map(apart).sum();
     (sum / (frames * corners.len()).max(1) as f64).sqrt()
 }
 
@@ -225,19 +232,19 @@ mod tests {
     #[test]
     fn the_rest_goes_on_from_what_is_seen() {
         let (job, model) = (job(), LeverPrior::default());
-        let told = model.rollout(std::slice::from_ref(&job)).remove(0);
+        let predicted = model.rollout(std::slice::from_ref(&job)).remove(0);
         let place = job.lever.place;
-        let point = LeverPoint { place, misfit: 0.0, told: told.clone() };
+        let point = LeverPoint { place, misfit: 0.0, predicted: predicted.clone() };
         // All observed poses are slightly rotated and displaced.
         let aside = Pose3::from_quaternion(Vector3::new(0.01, -0.02, 0.03), [0.1, 0.0, 0.05, 1.0]);
-        let seen: Vec<Pose3> = told.lift[..4].iter().map(|pose| aside * *pose).collect();
+        let seen: Vec<Pose3> = predicted.lift[..4].iter().map(|pose| aside * *pose).collect();
         let rest = point.rest(&job, &seen);
-        assert_eq!(rest.len(), told.lift.len() - 4);
-        let turned = rest[0].angle_to(&(aside * told.lift[4]));
+        assert_eq!(rest.len(), predicted.lift.len() - 4);
+        let turned = rest[0].angle_to(&(aside * predicted.lift[4]));
         assert!(turned < 1e-9, "{turned}");
         // An observation equal to the prediction changes nothing.
-        let same = point.rest(&job, &told.lift[..4]);
-        let off = (same[3].position - told.lift[7].position).norm();
+        let same = point.rest(&job, &predicted.lift[..4]);
+        let off = (same[3].position - predicted.lift[7].position).norm();
         assert!(off < 1e-12, "{off} m");
     }
 }

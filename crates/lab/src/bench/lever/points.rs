@@ -82,7 +82,8 @@ fn measure(model: &dyn LeverModel, episode: &LeverEpisode) -> Vec<Found> {
         let (before, after) = lift.split_at(seen);
         let point = search.infer(before)?;
         let off = apart(after, &point.rest(&job, before));
-        let alone = alone.first().map_or_else(Vec::new, |told| apart(after, &told.lift[seen..]));
+        let alone =
+            alone.first().map_or_else(Vec::new, |predicted| apart(after, &predicted.lift[seen..]));
         Some([point.off(&job), over(&off), *off.last()?, over(&alone)])
     };
     (1..lift.len()).filter_map(one).collect()

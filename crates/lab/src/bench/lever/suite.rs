@@ -6,10 +6,10 @@ use serde::{Deserialize, Serialize};
 
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::geometry::Pose;
+use pushplan::internals::progress::NoProgress;
 use pushplan::internals::sim::LeverSimulator;
 use pushplan::internals::solve::{LeverStatistics, PlanStatus, Planner, SolveError};
 use pushplan::internals::verify::{Verifier, VerifySettings};
-use pushplan::internals::watch::Unwatched;
 use pushplan::internals::{
     outcome::{Outcome, Record},
     scene::{LeverScene, Obstacle, Robot, Scene, Situation, Tool},
@@ -77,7 +77,7 @@ impl LeverSuite {
         obstacles.push(pocket(&scene.blocks));
         let scene = Scene { obstacles, ..table };
         Task::new(format!("board-{}", index + 1), scene, Robot::reaching(0.0, 2.0), goal)
-            .choosing([TOOL])
+            .with_tools([TOOL])
             .levering(LeverRules::default())
             .pushing(PushRules::none())
             .described("Take the board out of the drive.")
@@ -96,9 +96,9 @@ impl LeverSuite {
         let solution = planner.solve(&task, library)?;
         let best = solution.best();
         let verdict = best.and_then(|best| best.verdict.as_ref());
-        let works = verdict.is_some_and(|verdict| verdict.works());
+        let works = verdict.is_some_and(|verdict| verdict.nominal_ok());
         // The planner's own perturbations have seed 0.
-        let settings = VerifySettings { disturbed: FURTHER, seed: 1 + index as u64 };
+        let settings = VerifySettings { replays: FURTHER, seed: 1 + index as u64 };
         let further = best.filter(|_| works).and_then(|best| {
             let situation = Situation::stated(&task.scene);
             let verifier = Verifier::new(settings);
@@ -107,7 +107,7 @@ impl LeverSuite {
         let LeverJob { scene, lever } = self.drawn(index);
         let tool = Arc::new(Tool::with_blade(TOOL, scene.blade));
         let random = [Motion::Lever(LeverMotion::new(tool, lever, None))];
-        let watched = (Record::Outcome, &Unwatched as _);
+        let watched = (Record::Outcome, &NoProgress as _);
         let scene = table(&scene);
         let really = Situation::stated(&scene);
         let moved = LeverSimulator::FINE.run_all(&really, &scene, &random, watched);

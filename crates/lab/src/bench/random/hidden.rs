@@ -72,7 +72,7 @@ impl RandomSuite {
             object.friction = friction(object.friction, off(Unknowns::FRICTION_FACTOR));
             object.support = Support::Even;
         }
-        let task = Task { scene, ..known.clone() }.guessing(Unknowns::ALL);
+        let task = Task { scene, ..known.clone() }.with_unknowns(Unknowns::ALL);
         let truth = Truth::stated(&known.scene, self.seed() ^ index as u64);
         Ok(HiddenTask { kind: made.kind, task, known, truth })
     }

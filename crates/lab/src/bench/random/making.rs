@@ -133,7 +133,7 @@ pub(super) fn keeps_clear(workspace: &Workspace, candidate: &Candidate, pushes: 
     let object = workspace.task.goals[0].object;
     pushes.iter().zip(&candidate.pushes).all(|(push, planned)| {
         let margins = workspace.margins(planned.grip(), (&start, object), push, None);
-        margins.broken().is_none()
+        margins.violation().is_none()
     })
 }
 
@@ -190,7 +190,7 @@ fn first_push(workspace: &Workspace, candidate: &Candidate) -> Option<Push> {
     };
     workspace
         .margins(planned.grip(), (&start, planned.object), &push, Some(0.0))
-        .broken()
+        .violation()
         .is_none()
         .then_some(push)
 }

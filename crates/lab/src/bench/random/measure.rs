@@ -95,7 +95,7 @@ impl RandomSuite {
         let tools = self.tools_for(&made.task);
         let plan = random_plan(&mut rng, &made.task, &tools)?;
         let tool = tools.iter().find(|tool| tool.name == plan.tool())?;
-        let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+        let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
         let verdict = verifier.nominal(
             &made.task,
             &Situation::stated(&made.task.scene),

@@ -126,7 +126,7 @@ impl RandomSuite {
         }
         let named = |name| tools.iter().find(|tool| tool.name == name).cloned();
         let tools: Vec<Arc<Tool>> = plan.tools().into_iter().filter_map(named).collect();
-        let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+        let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
         let verdict = verifier.nominal(&task, &Situation::stated(&task.scene), &tools, &plan);
         let both = verdict.evidence.iter().all(|evidence| evidence.outcome.reached);
         (verdict.passed && both).then_some(SuiteTask { kind, task, made: Some((plan, tools)) })

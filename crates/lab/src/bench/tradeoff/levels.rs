@@ -192,7 +192,7 @@ pub fn plan_levels(levels: &[Level]) -> Vec<PlanLevel> {
 }
 
 fn plan_level(models: &Models, budget: (Search, Refinement, Verified)) -> PlanLevel {
-    let (search, refinement, (verified_at_once, verify_batches, disturbed)) = budget;
+    let (search, refinement, (verified_at_once, verify_batches, replays)) = budget;
     let (density, offsets, beam, search_rollouts) = search;
     let (effort, refined, refine_rounds, refine_extra, last) = refinement;
     let (decided_rounds, short_list) = if models.is_one() { (0, 0) } else { last };
@@ -201,7 +201,7 @@ fn plan_level(models: &Models, budget: (Search, Refinement, Verified)) -> PlanLe
             "{models}: {density} search, {effort} refinement, up to {} verified, {} at a time, {} disturbed",
             verified_at_once * verify_batches,
             verified_at_once,
-            disturbed
+            replays
         ),
         model: models.decided.clone(),
         screen: (!models.is_one()).then(|| models.screened.clone()),
@@ -217,7 +217,7 @@ fn plan_level(models: &Models, budget: (Search, Refinement, Verified)) -> PlanLe
             short_list,
             verified_at_once,
             verify_batches,
-            disturbed,
+            replays,
         },
     }
 }

@@ -104,7 +104,7 @@ impl PlanRow {
 
     /// Returns `true` if the level determines the robustness of plans.
     pub fn is_complete(&self) -> bool {
-        self.level.settings.disturbed > 0
+        self.level.settings.replays > 0
     }
 }
 

@@ -27,7 +27,7 @@ const SUITES: [SuiteKind; 2] = [SuiteKind::Single, SuiteKind::Touching];
 
 /// Perturbed replays of the plan of a level in each engine, after the clock has stopped. All levels
 /// have the same draws, which differ from those by which the plan was chosen.
-const DISTURBED: VerifySettings = VerifySettings { disturbed: 12, seed: 0xD157 };
+const PERTURBED: VerifySettings = VerifySettings { replays: 12, seed: 0xD157 };
 
 /// Name of the time of the level that solves every task a second time.
 pub(super) const CONTROL: &str = "control";
@@ -232,7 +232,7 @@ impl<'a> TradeOff<'a> {
 fn replay(task: &Task, solution: &mut Solution) {
     let situation = Situation::stated(&task.scene);
     if let Some(best) = solution.plans.first_mut() {
-        let verifier = Verifier::new(DISTURBED);
+        let verifier = Verifier::new(PERTURBED);
         best.verdict = Some(verifier.verify(task, &situation, &best.tools, &best.plan));
     }
 }

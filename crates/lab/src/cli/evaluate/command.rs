@@ -6,7 +6,7 @@ use pushplan_bench::store::Shard;
 use pushplan_command::action::LibraryArgs;
 use pushplan_command::error::CliError;
 use pushplan_command::form::Form;
-use pushplan_command::model::OutsideArgs;
+use pushplan_command::model::OutOfRangeArgs;
 use pushplan_command::session::Session;
 use pushplan_command::{exit_code, model, output};
 
@@ -42,7 +42,7 @@ pub struct EvaluateArgs {
           value_parser = trivial::spec)]
     model: ModelSpec,
     #[command(flatten)]
-    pub outside: OutsideArgs,
+    pub out_of_range: OutOfRangeArgs,
     /// What to measure on, see below; several may be given
     #[arg(long, value_name = "WHAT", num_args = 1..)]
     on: Vec<On>,
@@ -83,7 +83,7 @@ pub fn run(args: &EvaluateArgs, session: &Session) -> Result<u8, CliError> {
     let crowds = Crowds {
         sets: &sets,
         model,
-        outside: args.outside,
+        out_of_range: args.out_of_range,
         seed: args.seed,
         args: &args.crowd,
         form: args.form,

@@ -4,10 +4,10 @@ use pushplan::internals::effect::EffectModel;
 use pushplan::internals::scene::ModelSpec;
 use pushplan_act::judge::assumed;
 use pushplan_command::error::CliError;
-use pushplan_command::follow::Following;
 use pushplan_command::form::Form;
-use pushplan_command::model::OutsideArgs;
+use pushplan_command::model::OutOfRangeArgs;
 use pushplan_command::output;
+use pushplan_command::progress::TerminalProgress;
 use pushplan_command::session::Session;
 
 use crate::bench::{CrowdReport, CrowdSet, HeldOutReport, crowd_baselines};
@@ -20,7 +20,7 @@ use super::sources::CrowdArgs;
 pub struct Crowds<'a> {
     pub sets: &'a [CrowdSet],
     pub model: &'a ModelSpec,
-    pub outside: OutsideArgs,
+    pub out_of_range: OutOfRangeArgs,
     pub seed: u64,
     pub args: &'a CrowdArgs,
     pub form: Form,
@@ -32,7 +32,7 @@ impl Crowds<'_> {
     /// # Errors If a model cannot be read.
     pub fn set(&self, set: &CrowdSet, session: &Session) -> Result<CrowdReport, CliError> {
         let models = self.models()?;
-        let following = Following::bar(session, &set.title());
+        let following = TerminalProgress::bar(session, &set.title());
         let report = session.compute(|| {
             let trials = set.draw(self.seed, self.args.count as usize, &following);
             CrowdReport::of((set, self.seed), &trials, &models, &following)
@@ -82,6 +82,6 @@ impl Crowds<'_> {
     ///
     /// # Errors If a model cannot be read.
     pub fn load(&self, spec: &ModelSpec) -> Result<Box<dyn EffectModel>, CliError> {
-        Ok(Box::new(trivial::load(spec)?.outside(self.outside.outside())))
+        Ok(Box::new(trivial::load(spec)?.out_of_range(self.out_of_range.out_of_range())))
     }
 }

@@ -1,11 +1,11 @@
 //! Drawn pushes and trajectories, measured part by part: stored, resumed and split into shards.
 
 use pushplan::internals::effect::EffectModel;
-use pushplan::internals::watch::Unwatched;
+use pushplan::internals::progress::NoProgress;
 use pushplan_bench::store::{Measured, RunManifest, Seconds, Shard, Store};
 use pushplan_command::bench::{tools_digest, weights_digest};
 use pushplan_command::error::CliError;
-use pushplan_command::follow::Following;
+use pushplan_command::progress::TerminalProgress;
 use pushplan_command::session::Session;
 use serde_json::json;
 
@@ -48,7 +48,7 @@ impl Parts<'_> {
             return Ok((Vec::new(), Vec::new()));
         }
         let manifest = self.manifest(&parts)?.with_shard(self.args.shard.unwrap_or(Shard::WHOLE));
-        let following = Following::bar(session, "parts");
+        let following = TerminalProgress::bar(session, "parts");
         let mut store: Store<Evaluated> = match &self.args.crowd.out {
             Some(folder) => Store::open(folder, manifest, &following)?,
             None => Store::in_memory(manifest),
@@ -58,7 +58,7 @@ impl Parts<'_> {
         for part in store.finished() {
             self.show(&mut shown, part.record.clone(), session)?;
         }
-        store.run::<CliError>(&Unwatched, |index| {
+        store.run::<CliError>(&NoProgress, |index| {
             let record = match &parts[index] {
                 Part::Tools(kind) => Evaluated::Tools(self.tools(*kind, session)?),
                 Part::Crowd(set) => Evaluated::Crowd(self.crowds.set(set, session)?),
@@ -71,7 +71,7 @@ impl Parts<'_> {
 
     /// Returns the settings that determine the records.
     fn manifest(&self, parts: &[Part]) -> Result<RunManifest, CliError> {
-        let EvaluateArgs { pushes, seed, crowd, outside, library, .. } = self.args;
+        let EvaluateArgs { pushes, seed, crowd, out_of_range, library, .. } = self.args;
         let library = library.load()?;
         let titles = parts.iter().map(|part| match part {
             Part::Tools(kind) => kind.title().to_owned(),
@@ -84,7 +84,7 @@ impl Parts<'_> {
             "baselines": !crowd.no_baselines,
             "tools": tools_digest(library.iter())?,
         });
-        outside.note(&mut settings);
+        out_of_range.note(&mut settings);
         let spec = self.crowds.model;
         Ok(RunManifest::new(SUITE, parts.len(), *seed, &spec.to_string())
             .with_weights(weights_digest(spec)?)

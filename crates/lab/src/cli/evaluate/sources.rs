@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 use pushplan_command::error::CliError;
-use pushplan_command::words::words;
-use pushplan_learn::cli::words::{JOINTS, SOLIDS};
+use pushplan_command::value_enums::possible_values;
+use pushplan_learn::cli::value_enums::{JOINTS, SOLIDS};
 use pushplan_learn::dataset::{JointRule, Solids};
 
 use crate::bench::{CrowdFamily, CrowdSet};
@@ -21,10 +21,10 @@ pub struct CrowdArgs {
     #[arg(long, value_name = "N")]
     objects: Vec<usize>,
     /// Only sets with these joints
-    #[arg(long, num_args = 1.., value_parser = words(&JOINTS[1..]), value_name = "JOINTS")]
+    #[arg(long, num_args = 1.., value_parser = possible_values(&JOINTS[1..]), value_name = "JOINTS")]
     joints: Vec<JointRule>,
     /// Only sets of these solids
-    #[arg(long, value_parser = words(&SOLIDS), value_name = "SOLIDS")]
+    #[arg(long, value_parser = possible_values(&SOLIDS), value_name = "SOLIDS")]
     solids: Option<Solids>,
     /// Measure the model alone on sparse and dense scenes, without baselines
     #[arg(long)]

@@ -6,13 +6,13 @@ use clap::Args;
 use pushplan::internals::scene::LeverFeatures;
 use pushplan_command::error::CliError;
 use pushplan_command::session::Session;
-use pushplan_command::words::words;
+use pushplan_command::value_enums::possible_values;
 use pushplan_learn::cli::train::{distinct, opened, take, weights};
 use pushplan_learn::dataset::{LeverDataset, LeverEpisode, LeverPart};
 use pushplan_learn::train::{Descent, LeverSettings, train_lever};
 
 use super::RunArgs;
-use crate::cli::words::{LEVER_FEATURES, Told};
+use crate::cli::value_enums::{LEVER_FEATURES, ShapeFeatures};
 use crate::image::{ImageSettings, train_image};
 
 /// A long short-term memory that is told the whole at once
@@ -47,8 +47,8 @@ pub struct MemoryArgs {
     #[arg(long)]
     cut: bool,
     /// What the network is told of the shape
-    #[arg(long, value_parser = words(&LEVER_FEATURES), default_value = "support")]
-    features: Told,
+    #[arg(long, value_parser = possible_values(&LEVER_FEATURES), default_value = "support")]
+    features: ShapeFeatures,
     /// Leave out plates of this many corners
     #[arg(long, value_name = "CORNERS")]
     leave_out: Option<usize>,
@@ -72,13 +72,13 @@ pub fn run(args: &MemoryArgs, session: &Session) -> Result<u8, CliError> {
         held_out.iter().flat_map(|set| args.part(set, LeverPart::ChosenBy)).cloned().collect();
     let folder = take(&args.run.folder, session)?;
     match args.features {
-        Told::Numbers(features) => {
+        ShapeFeatures::Numbers(features) => {
             let settings = LeverSettings { features, ..settings };
-            weights(session, |watch| train_lever(&settings, &known, &asked, &folder, watch))
+            weights(session, |progress| train_lever(&settings, &known, &asked, &folder, progress))
         }
-        Told::Image(features) => {
+        ShapeFeatures::Image(features) => {
             let settings = ImageSettings { features, memory: settings };
-            weights(session, |watch| train_image(&settings, &known, &asked, &folder, watch))
+            weights(session, |progress| train_image(&settings, &known, &asked, &folder, progress))
         }
     }
 }

@@ -61,5 +61,5 @@ pub fn run(args: &PartsArgs, session: &Session) -> Result<u8, CliError> {
     let asked: Vec<LeverEpisode> =
         held_out.iter().flat_map(LeverDataset::episodes).cloned().collect();
     let folder = take(&args.run.folder, session)?;
-    weights(session, |watch| train_parts(&settings, &known, &asked, &folder, watch))
+    weights(session, |progress| train_parts(&settings, &known, &asked, &folder, progress))
 }

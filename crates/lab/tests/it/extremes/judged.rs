@@ -19,7 +19,7 @@ use pushplan::{
     task::{COAST_FRAME, Job, MAX_COAST_FRAMES, ToolMotion},
 };
 use pushplan_act::judge::{Comparison, Summary, Trial, object_errors};
-use pushplan_lab::bench::{Case, DISTURBANCE};
+use pushplan_lab::bench::{Case, PERTURBATION};
 use rayon::prelude::*;
 use serde_json::Value as Json;
 
@@ -208,7 +208,7 @@ fn measure(model: &dyn EffectModel, Case { scene, motion }: &Case, index: usize)
     // Every object is shifted alone, so that joints are strained as well.
     let loose = Physics { joints: Vec::new(), ..Physics::clone(&job.physics) };
     let mut rng = generator(0xD157, index as u64);
-    let shifted = shifted_start(start, &loose, DISTURBANCE, &mut rng);
+    let shifted = shifted_start(start, &loose, PERTURBATION, &mut rng);
     let beside = run(Simulator::planar(), &Job { start: shifted, ..job.clone() });
 
     let trial = Trial::to_rest(scene.clone(), motion.clone(), poses.clone());

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
-use pushplan::internals::watch::Watch;
+use pushplan::internals::progress::Progress;
 use pushplan_bench::store::FolderLock;
 use pushplan_command::error::CliError;
-use pushplan_command::follow::Following;
+use pushplan_command::progress::TerminalProgress;
 use pushplan_command::session::Session;
 use pushplan_command::{exit_code, interrupt};
 
@@ -55,7 +55,7 @@ pub fn run(args: &TrainArgs, session: &Session) -> Result<u8, CliError> {
 /// If another process holds the lock, or the folder cannot be created.
 pub fn take(folder: &Path, session: &Session) -> Result<FolderLock, CliError> {
     interrupt::watch();
-    Ok(FolderLock::take(folder, &Following::bar(session, "folder"))?)
+    Ok(FolderLock::take(folder, &TerminalProgress::bar(session, "folder"))?)
 }
 
 /// Makes or reads data, with a progress bar called `name`.
@@ -65,9 +65,9 @@ pub fn take(folder: &Path, session: &Session) -> Result<FolderLock, CliError> {
 pub fn data<D: Send>(
     session: &Session,
     name: &str,
-    make: impl FnOnce(&Following) -> Result<D, DatasetError> + Send,
+    make: impl FnOnce(&TerminalProgress) -> Result<D, DatasetError> + Send,
 ) -> Result<D, CliError> {
-    let following = Following::bar(session, name);
+    let following = TerminalProgress::bar(session, name);
     let made = session.compute(|| make(&following));
     following.finish()?;
     made.map_err(data_error)
@@ -79,9 +79,9 @@ pub fn data<D: Send>(
 /// If training fails or is interrupted.
 pub fn weights(
     session: &Session,
-    train: impl FnOnce(&dyn Watch) -> Result<Option<PathBuf>, TrainError> + Send,
+    train: impl FnOnce(&dyn Progress) -> Result<Option<PathBuf>, TrainError> + Send,
 ) -> Result<u8, CliError> {
-    let following = Following::bar(session, "steps");
+    let following = TerminalProgress::bar(session, "steps");
     let best = session.compute(|| train(&following));
     following.finish()?;
     written(session, best)

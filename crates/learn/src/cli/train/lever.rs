@@ -88,7 +88,7 @@ pub fn run(args: &LeverArgs, session: &Session) -> Result<u8, CliError> {
         sets.iter().flat_map(LeverDataset::episodes).cloned().collect()
     };
     let (learned, held_out) = (episodes(&learned), episodes(&held_out));
-    weights(session, |watch| train_lever(&settings, &learned, &held_out, &folder, watch))
+    weights(session, |progress| train_lever(&settings, &learned, &held_out, &folder, progress))
 }
 
 impl LeverArgs {
@@ -101,8 +101,8 @@ impl LeverArgs {
         let made = |config: &LeverConfig| {
             let name = format!("{}-{}", config.preset, config.seed);
             let folder = self.folder.join("data").join(&name);
-            data(session, &name, |watch| {
-                generate(config, Shard::WHOLE, &folder, watch)?;
+            data(session, &name, |progress| {
+                generate(config, Shard::WHOLE, &folder, progress)?;
                 LeverDataset::open(&folder)
             })
         };

@@ -4,16 +4,16 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use pushplan::internals::network::Config;
-use pushplan::internals::watch::Watch;
+use pushplan::internals::progress::Progress;
 use pushplan_bench::store::Shard;
 use pushplan_command::error::CliError;
-use pushplan_command::follow::Following;
 use pushplan_command::output;
+use pushplan_command::progress::TerminalProgress;
 use pushplan_command::session::Session;
-use pushplan_command::words::words;
+use pushplan_command::value_enums::possible_values;
 
 use crate::cli::train::{data, take, written};
-use crate::cli::words::EXPOSURES;
+use crate::cli::value_enums::EXPOSURES;
 use crate::dataset::{Dataset, DatasetConfig, Preset, Truth, generate};
 use crate::report::training_document;
 use crate::train::{Descent, Exposure, HeldOutError, Line, PredictorSettings, train_predictor};
@@ -94,7 +94,7 @@ pub struct PredictorArgs {
     #[arg(long, value_name = "N", default_value_t = PredictorSettings::default().noise.lead)]
     lead: usize,
     /// How that number is drawn
-    #[arg(long, value_parser = words(&EXPOSURES), default_value = "pushforward")]
+    #[arg(long, value_parser = possible_values(&EXPOSURES), default_value = "pushforward")]
     exposure: Exposure,
     /// Seed of first weights, batches and noise
     #[arg(long, value_name = "N", default_value_t = PredictorSettings::default().seed)]
@@ -104,7 +104,7 @@ pub struct PredictorArgs {
 /// Progress of training that redraws the curves with every line.
 struct Followed<'a> {
     folder: &'a Path,
-    following: Following<'a>,
+    following: TerminalProgress<'a>,
 }
 
 pub fn run(args: &PredictorArgs, session: &Session) -> Result<u8, CliError> {
@@ -112,8 +112,8 @@ pub fn run(args: &PredictorArgs, session: &Session) -> Result<u8, CliError> {
     let folder = take(&args.folder, session)?;
     let made = |name: &str, config: DatasetConfig| {
         let folder = args.folder.join(name);
-        data(session, name, |watch| {
-            generate(&config, Shard::WHOLE, &folder, watch)?;
+        data(session, name, |progress| {
+            generate(&config, Shard::WHOLE, &folder, progress)?;
             Dataset::open(&folder)
         })
     };
@@ -141,7 +141,8 @@ pub fn run(args: &PredictorArgs, session: &Session) -> Result<u8, CliError> {
         let config = config.split(args.held_out_seed, count);
         held_out.push(made(&format!("held-out-{name}"), config)?);
     }
-    let followed = Followed { folder: &args.folder, following: Following::bar(session, "steps") };
+    let followed =
+        Followed { folder: &args.folder, following: TerminalProgress::bar(session, "steps") };
     let best =
         session.compute(|| train_predictor(&settings, &learned, &held_out, &folder, &followed));
     let drawn = followed.draw();
@@ -205,9 +206,9 @@ impl PredictorArgs {
     }
 }
 
-impl Watch for Followed<'_> {
-    fn progress(&self, done: u64, total: u64) {
-        self.following.progress(done, total);
+impl Progress for Followed<'_> {
+    fn update(&self, done: u64, total: u64) {
+        self.following.update(done, total);
     }
 
     fn line(&self, text: &str) {

@@ -83,9 +83,11 @@ pub fn run(args: &RegulatorArgs, session: &Session) -> Result<u8, CliError> {
     let folder = take(&args.folder, session)?;
     let draw = |name: &str, of: (u64, u64)| {
         let directory = args.folder.join(name);
-        data(session, name, |watch| lessons(of, (&network, digest.clone()), &directory, watch))
+        data(session, name, |progress| {
+            lessons(of, (&network, digest.clone()), &directory, progress)
+        })
     };
     let held_out = draw("held-out", (args.held_out_seed, args.held_out))?;
     let all = draw("lessons", (args.data_seed, args.lessons))?;
-    weights(session, |watch| train_regulator(&settings, &all, &held_out, &folder, watch))
+    weights(session, |progress| train_regulator(&settings, &all, &held_out, &folder, progress))
 }

@@ -8,7 +8,7 @@ use pushplan::internals::{
 use rand::Rng;
 use rand_pcg::Pcg64;
 
-use super::super::chance::uniform;
+use super::super::distributions::uniform;
 use super::plates::{anywhere, lever, screwdriver};
 
 /// Size of a 3.5-inch drive seen from above, metres.

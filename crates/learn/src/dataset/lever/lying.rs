@@ -8,7 +8,7 @@ use pushplan::internals::{
 use rand::Rng;
 use rand_pcg::Pcg64;
 
-use super::super::chance::uniform;
+use super::super::distributions::uniform;
 use super::plates::{CLEARANCE, DENSITY, FRICTION, alone, lever, plate};
 
 /// Half the number of sides of the prism that represents a lying cylinder.

@@ -10,7 +10,7 @@ use pushplan::internals::{
 use rand::Rng;
 use rand_pcg::Pcg64;
 
-use super::super::chance::{heading, uniform};
+use super::super::distributions::{heading, uniform};
 use super::preset::DISC_PLACES;
 
 /// Radius of the circle through the corners, and of the disc, metres.

@@ -95,7 +95,7 @@ pub(super) fn with(mut all: All, more: &All) -> All {
 }
 
 /// Returns the statistics written to `statistics.json`.
-pub(super) fn said(all: &All) -> BTreeMap<&str, Statistics> {
+pub(super) fn summary(all: &All) -> BTreeMap<&str, Statistics> {
     let say = |moments: &Vec<Moments>| Statistics {
         count: moments.iter().map(|one| one.count).collect(),
         mean: moments.iter().map(|one| one.mean).collect(),
@@ -119,7 +119,7 @@ mod tests {
         let all = [1.0, 2.5, f64::NAN, 1e3, 1e3 + 1.0, -4.0];
         let parts = with(moments(&array(&all[..2])), &moments(&array(&all[2..])));
         let whole = moments(&array(&all));
-        let (parts, whole) = (said(&parts), said(&whole));
+        let (parts, whole) = (summary(&parts), summary(&whole));
         let [parts, whole] = [&parts["mass"], &whole["mass"]];
         assert_eq!((parts.count[0], parts.min[0], parts.max[0]), (5, -4.0, 1001.0));
         assert!((parts.mean[0] - 400.1).abs() < 1e-9 && (whole.mean[0] - 400.1).abs() < 1e-9);

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use pushplan::internals::asset::write_atomic;
-use pushplan::internals::watch::{Count, Watch};
+use pushplan::internals::progress::{Count, Progress};
 use pushplan_bench::store::{Form, Journal, StoreError, digest};
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +14,7 @@ use crate::dataset::set::{Sampler, draw};
 use super::FORMAT;
 use super::archive::npz;
 use super::arrays::arrays;
-use super::statistics::{All, moments, said, with};
+use super::statistics::{All, moments, summary, with};
 
 /// Number of episodes per file: some megabytes, and at most seconds of work lost by an
 /// interruption.
@@ -40,11 +40,11 @@ struct Finished {
 ///
 /// # Errors
 /// If the configuration requests no data, the folder holds other settings or a changed file, the
-/// folder is locked, a file cannot be written, or `watch` cancels.
+/// folder is locked, a file cannot be written, or `progress` cancels.
 pub fn generate_npz(
     config: &DatasetConfig,
     dir: &Path,
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> Result<u64, DatasetError> {
     config.check()?;
     let files = config.episodes.div_ceil(A_FILE) as usize;
@@ -57,15 +57,15 @@ pub fn generate_npz(
         Ok(there.index)
     };
     let manifest = config.manifest_of_files(files, A_FILE);
-    let mut journal = Journal::open(dir, manifest, Form::Lines, watch, &mut look)?;
+    let mut journal = Journal::open(dir, manifest, Form::Lines, progress, &mut look)?;
     let most = config.ranges().objects.high as usize;
     let done = (journal.done() as u64 * A_FILE).min(config.episodes);
-    let count = Count::new(watch, done as usize, config.episodes as usize);
+    let count = Count::new(progress, done as usize, config.episodes as usize);
     for index in journal.done()..files {
         let first = index as u64 * A_FILE;
         let range = first..(first + A_FILE).min(config.episodes);
         let indices: Vec<u64> = range.clone().collect();
-        let drawn = draw(config, &indices, &count, watch);
+        let drawn = draw(config, &indices, &count, progress);
         let episodes = drawn.into_iter().collect::<Result<Vec<_>, _>>()?;
         let most = episodes.iter().map(|one| one.scene.objects.len()).fold(most, usize::max);
         let arrays = arrays(&episodes, most);
@@ -87,7 +87,7 @@ pub fn generate_npz(
         all = with(all, &finished.moments);
         bytes += finished.bytes;
     }
-    let mut text = serde_json::to_vec_pretty(&said(&all)).unwrap_or_default();
+    let mut text = serde_json::to_vec_pretty(&summary(&all)).unwrap_or_default();
     text.push(b'\n');
     write_atomic(dir.join("README.md"), FORMAT.as_bytes()).map_err(StoreError::Write)?;
     write_atomic(dir.join("statistics.json"), &text).map_err(StoreError::Write)?;

@@ -69,13 +69,13 @@ fn example(settings: &LeverSettings, episode: &LeverEpisode) -> LeverExample {
     let prior = settings
         .prior
         .then(|| LeverNetwork::PRIOR.rollout(std::slice::from_ref(&job)))
-        .and_then(|mut said| said.pop());
+        .and_then(|mut predicted| predicted.pop());
     let inputs = lever_inputs(settings.features, &job, prior.as_ref());
     let view = LeverView::new(&job);
     let truth = &episode.trajectory;
     let poses = truth.lift.iter().chain([&truth.rest]);
-    let told = poses.flat_map(|pose| LeverInputs::told(view.see(pose)));
-    let wanted = told.zip(&inputs.base).map(|(told, base)| told - base).collect();
+    let in_units = poses.flat_map(|pose| LeverInputs::in_units(view.see(pose)));
+    let wanted = in_units.zip(&inputs.base).map(|(truth, base)| truth - base).collect();
     let ending = match truth.ending {
         Ending::Back => 0,
         Ending::Flipped => 1,
@@ -136,8 +136,8 @@ impl LeverBatch {
             Some(last) => e.wanted[last * LEVER_POSE..][..LEVER_POSE].to_vec(),
             None => vec![0.0; LEVER_POSE],
         };
-        let told = if sizes.feedback { LEVER_FRAMES } else { 0 };
-        let before = (0..told).map(|t| tensor(gather(&|e| before(e, t)), LEVER_POSE));
+        let fed_back = if sizes.feedback { LEVER_FRAMES } else { 0 };
+        let before = (0..fed_back).map(|t| tensor(gather(&|e| before(e, t)), LEVER_POSE));
         let share = |e: &LeverExample| {
             let share = |t: usize| if t < e.frames { 1.0 / e.frames as f32 } else { 0.0 };
             (0..LEVER_FRAMES).map(share).collect()
@@ -172,18 +172,18 @@ impl LeverBatch {
     pub fn loss(&self, network: &LeverGraph, beside: Option<&Tensor>) -> Result<Tensor> {
         let (poses, end) = network.forward(&self.tensors, beside)?;
         let [axes, rest, slip, ending] = WEIGHTS;
-        let told = Tensor::stack(&poses, 1)?;
+        let predicted = Tensor::stack(&poses, 1)?;
         // The published measure is the root mean square over frames instead of the mean distance.
-        let squares = |told: &Tensor, wanted: &Tensor, from: usize, count: usize| {
-            (told.narrow(2, from, count)? - wanted.narrow(2, from, count)?)?.sqr()?.sum(2)
+        let squares = |predicted: &Tensor, wanted: &Tensor, from: usize, count: usize| {
+            (predicted.narrow(2, from, count)? - wanted.narrow(2, from, count)?)?.sqr()?.sum(2)
         };
         let over = |squares: Tensor| -> Result<Tensor> {
             ((squares * &self.shares)?.sum(1)? + NEAR)?.sqrt()?.mean_all()
         };
-        let mut loss = over(squares(&told, &self.wanted, 0, 3)?)?;
-        loss = (loss + (over(squares(&told, &self.wanted, 3, 6)?)? * axes)?)?;
-        let told = end.narrow(1, 4, LEVER_POSE)?.unsqueeze(1)?;
-        let apart = (squares(&told, &self.rests, 0, 3)?.sum(1)? + NEAR)?.sqrt()?.mean_all()?;
+        let mut loss = over(squares(&predicted, &self.wanted, 0, 3)?)?;
+        loss = (loss + (over(squares(&predicted, &self.wanted, 3, 6)?)? * axes)?)?;
+        let predicted = end.narrow(1, 4, LEVER_POSE)?.unsqueeze(1)?;
+        let apart = (squares(&predicted, &self.rests, 0, 3)?.sum(1)? + NEAR)?.sqrt()?.mean_all()?;
         loss = (loss + (apart * rest)?)?;
         // Computes log(1 + exp x) - x y without overflow.
         let x = end.narrow(1, 0, 1)?;

@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use crate::lever_model::LeverModel;
 use pushplan::internals::effect::LeverNetwork;
 use pushplan::internals::network::{LeverCard, LeverWeights, Parameters, Statistics, fresh_lever};
+use pushplan::internals::progress::Progress;
 use pushplan::internals::seeded::generator;
 use pushplan::internals::task::LeverJob;
-use pushplan::internals::watch::Watch;
 use pushplan_bench::store::FolderLock;
 use rand::Rng;
 
@@ -27,11 +27,11 @@ pub fn train_lever(
     episodes: &[LeverEpisode],
     held_out: &[LeverEpisode],
     folder: &FolderLock,
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> Result<Option<PathBuf>, TrainError> {
     let examples = LeverExample::all(settings, episodes);
     let held_out = settings.judged_on(held_out);
-    Trainer::open(Task { settings, examples, held_out }, folder)?.run(watch)
+    Trainer::open(Task { settings, examples, held_out }, folder)?.run(progress)
 }
 
 struct Task<'a> {
@@ -110,8 +110,8 @@ pub fn score(network: &dyn LeverModel, held_out: &[LeverEpisode]) -> LeverScore 
     let jobs: Vec<LeverJob> = held_out.iter().map(|episode| episode.job()).collect();
     let share = 1.0 / jobs.len().max(1) as f64;
     let mut score = LeverScore::default();
-    for ((episode, job), said) in held_out.iter().zip(&jobs).zip(network.rollout(&jobs)) {
-        let error = lever_error(job, &episode.trajectory, &said);
+    for ((episode, job), predicted) in held_out.iter().zip(&jobs).zip(network.rollout(&jobs)) {
+        let error = lever_error(job, &episode.trajectory, &predicted);
         score.lift += share * error.lift;
         score.last += share * error.last;
         score.slips += share * f64::from(u8::from(error.same_slip));

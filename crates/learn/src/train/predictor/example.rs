@@ -1,6 +1,8 @@
 //! Single frames of episodes as training examples with perturbed inputs.
 
-use pushplan::internals::contact::{Bodies, FrameProblem, FrameSolver, ListIndex, Motion, hold};
+use pushplan::internals::contact::{
+    Bodies, FrameProblem, FrameSolver, ListIndex, Motion, project_joints,
+};
 use pushplan::internals::geometry::{Pose, Vector};
 use pushplan::internals::graph::{Batch, Correction, Node};
 use pushplan::internals::network::{Buffers, Forward};
@@ -183,8 +185,8 @@ impl<'a> Examples<'a> {
                     && episode.scene.objects.iter().any(|o| o.support != Support::Even);
                 let bodies = if unknown { guessed(episode) } else { bodies(episode) };
                 if !random.random_bool(noise.clean) {
-                    disturb(&mut state, noise, &mut random);
-                    hold(&bodies, &mut state, |_| true);
+                    perturb(&mut state, noise, &mut random);
+                    project_joints(&bodies, &mut state, |_| true);
                 }
                 // A guessed support requires another correction than the true one.
                 let wanted = (!unknown).then_some(&*place.wanted);
@@ -355,7 +357,7 @@ impl Transition {
     }
 }
 
-fn disturb(state: &mut State, noise: &Noise, random: &mut Pcg64) {
+fn perturb(state: &mut State, noise: &Noise, random: &mut Pcg64) {
     let size = noise.shift * Noise::SMALLEST.powf(random.random::<f64>());
     for (pose, velocity) in state.poses.iter_mut().zip(&mut state.velocities) {
         let mut draw = |scale: f64| random.random_range(-scale..=scale);

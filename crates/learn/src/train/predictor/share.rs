@@ -7,7 +7,7 @@
 
 use pushplan::internals::effect::Network;
 use pushplan::internals::network::PredictorWeights;
-use pushplan::internals::watch::Watch;
+use pushplan::internals::progress::Progress;
 
 use crate::dataset::Dataset;
 
@@ -25,7 +25,7 @@ const CHANCE: f64 = 0.01;
 pub(super) fn shared(
     weights: &PredictorWeights,
     sets: &[Dataset],
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> (PredictorWeights, f32) {
     let errors = |share: f32| {
         let error = rollout_error(&Network::new(scaled(weights, share)), sets);
@@ -41,7 +41,7 @@ pub(super) fn shared(
     for share in SHARES {
         let ratios: Vec<f64> =
             errors(share).iter().zip(&alone).map(|(own, prior)| own / prior.max(1e-9)).collect();
-        watch.line(&format!("share {share}: errors over the prior's {ratios:.3?}"));
+        progress.line(&format!("share {share}: errors over the prior's {ratios:.3?}"));
         let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
         if ratios.iter().all(|ratio| *ratio <= 1.0 + CHANCE) && mean < best.1 {
             best = (share, mean);

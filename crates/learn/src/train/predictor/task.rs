@@ -7,7 +7,7 @@ use pushplan::internals::effect::{Network, PRIOR_RANGES};
 use pushplan::internals::network::{
     ErrorCard, Forward, Normaliser, Parameters, PredictorCard, PredictorWeights, Source, Tables,
 };
-use pushplan::internals::watch::Watch;
+use pushplan::internals::progress::Progress;
 use pushplan_bench::store::FolderLock;
 
 use crate::dataset::{Dataset, DatasetConfig};
@@ -38,13 +38,13 @@ pub fn train_predictor(
     data: &[Dataset],
     held_out: &[Dataset],
     folder: &FolderLock,
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> Result<Option<PathBuf>, TrainError> {
     let examples = Examples::new(data.iter().map(|set| (set.episodes(), weight(set))));
     let task = Task { settings, data, held_out, examples, lead: None };
-    let best = Trainer::open(task, folder)?.run(watch)?;
+    let best = Trainer::open(task, folder)?.run(progress)?;
     for name in [BEST, LAST] {
-        finish(&folder.path().join(name), settings.descent.steps, (data, held_out), watch)?;
+        finish(&folder.path().join(name), settings.descent.steps, (data, held_out), progress)?;
     }
     Ok(best)
 }
@@ -55,17 +55,17 @@ fn finish(
     path: &Path,
     steps: u64,
     (data, held_out): (&[Dataset], &[Dataset]),
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> Result<(), TrainError> {
     let Ok(weights) = PredictorWeights::load(path) else { return Ok(()) };
     let last = path.with_file_name(LAST);
     let done = PredictorWeights::load(last).is_ok_and(|last| last.card.steps >= steps);
     if done && weights.card.doubt.is_none() {
-        let (mut weights, share) = shared(&weights, held_out, watch);
+        let (mut weights, share) = shared(&weights, held_out, progress);
         weights.card.share = share;
         weights.card.doubt = Some(fit_doubt(&weights, data));
         write_atomic(path, &weights.to_bytes()?)?;
-        watch.line(&format!("{}: {share} of the correction counts", path.display()));
+        progress.line(&format!("{}: {share} of the correction counts", path.display()));
     }
     Ok(())
 }

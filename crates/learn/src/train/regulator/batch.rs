@@ -2,7 +2,7 @@
 
 use candle_core::{Device, Result, Tensor};
 use pushplan::internals::network::Statistics;
-use pushplan_act::belief::{JointType, Testimony};
+use pushplan_act::belief::{JointType, RegulatorFeatures};
 use pushplan_act::regulator::{LEAST, TYPES};
 
 use crate::dataset::Lesson;
@@ -20,7 +20,7 @@ const CHANGES: f64 = 1e-6;
 const BOUND: f32 = 10.0;
 
 /// Lesson with its windows for training.
-pub(super) type Heard<'a> = (&'a Lesson, Vec<&'a Testimony>);
+pub(super) type Heard<'a> = (&'a Lesson, Vec<&'a RegulatorFeatures>);
 
 /// Inputs of the loss apart from the network's outputs.
 pub(super) struct Examples {
@@ -52,7 +52,7 @@ impl Examples {
         let tensor = |values: Vec<f32>, columns: usize| {
             Tensor::from_vec(values, (pairs, columns), &Device::Cpu)
         };
-        let [mut features, mut told, mut filtered, mut wanted] =
+        let [mut features, mut informative, mut filtered, mut wanted] =
             [const { Vec::<Tensor>::new() }; 4];
         let mut weight = 0.0;
         for t in 0..windows {
@@ -64,7 +64,7 @@ impl Examples {
                 let through = windows.len().saturating_sub(1).max(1) as f32;
                 if let Some(window) = windows.get(t) {
                     let late = WEIGHT[0] + (WEIGHT[1] - WEIGHT[0]) * t as f32 / through;
-                    for p in (0..lesson.pairs.len()).filter(|p| window.told[*p]) {
+                    for p in (0..lesson.pairs.len()).filter(|p| window.informative[*p]) {
                         let row = first + p;
                         known[row] = 1.0;
                         let from = &window.features[p * f..][..f];
@@ -84,13 +84,13 @@ impl Examples {
                 first += lesson.pairs.len();
             }
             features.push(tensor(rows, f)?);
-            told.push(tensor(known, 1)?);
+            informative.push(tensor(known, 1)?);
             filtered.push(tensor(before, TYPES)?);
             wanted.push(tensor(right, TYPES)?);
         }
         let ends = ends.map(|ends| Tensor::from_vec(ends, pairs, &Device::Cpu));
         let [a, b] = ends;
-        let unrolled = Unrolled { features, told, ends: [a?, b?], objects };
+        let unrolled = Unrolled { features, informative, ends: [a?, b?], objects };
         Ok(Self { unrolled, filtered, wanted, weight })
     }
 

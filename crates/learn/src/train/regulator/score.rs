@@ -32,17 +32,18 @@ pub fn score(regulator: &Regulator, lessons: &[Lesson]) -> RegulatorScore {
     for lesson in lessons {
         let mut memory = Memory::default();
         // Results of the filter alone and of the regulator.
-        let mut told = vec![None; lesson.pairs.len()];
+        let mut probabilities = vec![None; lesson.pairs.len()];
         for window in &lesson.windows {
             let pairs = (&lesson.pairs[..], lesson.objects);
-            let answers = regulator.step(&window.features, &window.told, pairs, &mut memory);
+            let answers = regulator.step(&window.features, &window.informative, pairs, &mut memory);
             for (p, answer) in answers.into_iter().enumerate() {
                 let Some(answer) = answer else { continue };
-                told[p] = Some([window.filtered[p], answer.of_filtered(&window.filtered[p])]);
+                probabilities[p] =
+                    Some([window.filtered[p], answer.of_filtered(&window.filtered[p])]);
             }
         }
         for p in (0..lesson.pairs.len()).filter(|p| lesson.moved[*p]) {
-            let Some(both) = told[p] else { continue };
+            let Some(both) = probabilities[p] else { continue };
             score.pairs += 1;
             for (which, shares) in both.into_iter().enumerate() {
                 let all: f64 = shares.iter().sum();

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use pushplan::internals::network::{Parameters, Statistics};
+use pushplan::internals::progress::Progress;
 use pushplan::internals::seeded::generator;
-use pushplan::internals::watch::Watch;
 use pushplan_act::regulator::{Regulator, RegulatorCard, RegulatorWeights, fresh_regulator};
 use pushplan_bench::store::FolderLock;
 use rand::Rng;
@@ -29,11 +29,11 @@ pub fn train_regulator(
     lessons: &[Lesson],
     held_out: &[Lesson],
     folder: &FolderLock,
-    watch: &dyn Watch,
+    progress: &dyn Progress,
 ) -> Result<Option<PathBuf>, TrainError> {
     // Lessons without informative windows are skipped.
     let lessons = lessons.iter().filter(|lesson| !lesson.windows.is_empty()).collect();
-    Trainer::open(Task { settings, lessons, held_out }, folder)?.run(watch)
+    Trainer::open(Task { settings, lessons, held_out }, folder)?.run(progress)
 }
 
 struct Task<'a> {
@@ -81,9 +81,10 @@ impl Trainable for Task<'_> {
         let drafts = self.lessons.iter().flat_map(|lesson| &lesson.drafts);
         let first = drafts.flat_map(|draft| &draft.windows);
         for window in first.chain(self.lessons.iter().flat_map(|lesson| &lesson.windows)) {
-            columns = window.features.len() / window.told.len().max(1);
-            let rows = window.features.chunks_exact(columns.max(1)).zip(&window.told);
-            rows.filter(|(_, told)| **told).for_each(|(row, _)| table.extend_from_slice(row));
+            columns = window.features.len() / window.informative.len().max(1);
+            let rows = window.features.chunks_exact(columns.max(1)).zip(&window.informative);
+            rows.filter(|(_, informative)| **informative)
+                .for_each(|(row, _)| table.extend_from_slice(row));
         }
         Statistics::measure(&table, columns, true)
     }

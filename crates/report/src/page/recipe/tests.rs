@@ -42,7 +42,7 @@ fn a_run_becomes_a_script_where_python_can_do_the_same() {
     assert_eq!(command, "pushplan run a.yaml --world 2 --effort standard --seed 3");
     assert!(python.ends_with("print(pushplan.run(task, 2, effort=\"standard\", seed=3))"));
     assert_eq!(origin.run("hidden.yaml", &usual).python, "");
-    assert_eq!(origin.run("2", &[setting("--rule", None, "random")]).python, "");
+    assert_eq!(origin.run("2", &[setting("--probe-rule", None, "random")]).python, "");
 }
 
 #[test]

@@ -11,8 +11,8 @@ fn ends(error: f64) -> Vec<Observed> {
             let (a, b) = ((0.7 * f64::from(k)).sin(), (1.3 * f64::from(k)).cos());
             let rows = vec![vec![a, 0.0], vec![0.2 * a, b]];
             let sign = if k % 2 == 0 { error } else { -error };
-            let said = |row: &Vec<f64>| 0.3 * row[0] - 0.2 * row[1] + sign;
-            Observed { residual: rows.iter().map(said).collect(), rows }
+            let explained = |row: &Vec<f64>| 0.3 * row[0] - 0.2 * row[1] + sign;
+            Observed { residual: rows.iter().map(explained).collect(), rows }
         })
         .collect()
 }
