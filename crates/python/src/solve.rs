@@ -305,8 +305,8 @@ pub fn predicted(model: &Fallback, file: &PlanFile) -> Trajectory {
 
 /// Verifies a plan by nominal and perturbed replays in the 2-D and the 3-D engine.
 ///
-/// Perturbed replays start from slightly different poses and frictions. The verifier adds
-/// replays until the verdict is clear.
+/// Perturbed replays have small errors of starts, frictions, support and contact height. The
+/// verifier adds replays until the verdict is clear.
 ///
 /// Parameters
 /// ----------

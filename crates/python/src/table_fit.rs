@@ -21,7 +21,12 @@ pub struct PyTableFit(pub TableFit);
 
 #[pymethods]
 impl PyTableFit {
-    /// Reads a table fit that `save` or the command `pushplan fit --save-fit` wrote.
+    /// Reads a table fit.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : str or path-like
+    ///     File that `save` or the command `pushplan fit --save-fit` wrote.
     ///
     /// Raises
     /// ------
