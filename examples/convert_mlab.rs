@@ -1,18 +1,18 @@
-//! Turns the real pushes of MLab_EXP (Jiaji Zhou, Apache License 2.0), as JSON files of one plate
-//! each, into recordings: `cargo run --release --example convert_mlab -- FILE... --out FOLDER`, with
-//! `--first N` of only the first N pushes of each file. An example of how to bring data of your own
-//! into that form.
+//! Converts the real pushes of MLab_EXP (Jiaji Zhou, Apache License 2.0) to recordings:
+//! `cargo run --release --example convert_mlab -- FILE... --out FOLDER`. Every JSON file holds the
+//! pushes of one plate; `--first N` limits their number. The example shows how to convert your own
+//! data.
 //!
-//! The fingertip is a point, known to about 1 mm. Here it is a cylinder of 2 mm radius, thin enough
-//! that its place on an edge is the point's, and off the given path by its radius, away from the
-//! edge that the point comes to, so that the surfaces meet where the point would. The object stands
-//! where its centre of mass is. Frictions are not given: 0.5 between tip and plate, which `pushplan
-//! fit` finds in every file (0.46 to 0.54), and 0.3 between plate and table, which slow pushes do not
-//! feel, as little as the plate's mass and height.
+//! The data state the fingertip as a point with an error of about 1 mm. The recording has a
+//! cylinder of 2 mm radius. Its path is shifted by the radius away from the edge that the point
+//! touches, so that the surfaces meet at the point. The object's position is its centre of mass.
+//! The data state no frictions. Between tip and plate it is 0.5, because `pushplan fit` finds 0.46
+//! to 0.54 in every file. Between plate and table it is 0.3; slow pushes depend neither on this
+//! value nor on the plate's mass and height.
 //!
-//! Pushes by a blade with two tips are files with `head` and `path`. The tips are such cylinders,
-//! behind the points, joined by a bar that lies as deep as the blade is hollowed. The plate was seen
-//! before and after a push, the blade also on the way.
+//! Files with `head` and `path` hold pushes by a blade with two tips. The tips are such cylinders
+//! behind the points, joined by a bar at the depth of the blade's hollow. The plate was observed
+//! before and after a push, and the blade also during the push.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -23,7 +23,7 @@ use pushplan::recording::{RecordedFrame, Recording};
 use pushplan::scene::{Object, Part, Scene, Support, Surface, Tool, Velocity};
 use serde::Deserialize;
 
-/// Radius of the cylinder that stands for the fingertip, metres.
+/// Radius of the cylinder that represents the fingertip, metres.
 const TIP: f64 = 0.002;
 /// Thickness of the bar between the tips of a blade, metres.
 const BAR: f64 = 0.01;
@@ -33,7 +33,7 @@ const HEIGHT: f64 = 0.02;
 const ON_TIP: f64 = 0.5;
 const ON_TABLE: f64 = 0.3;
 
-/// A file of pushes. Metres, seconds, degrees.
+/// File of pushes, in metres, seconds and degrees.
 #[derive(Deserialize)]
 struct Pushes {
     shape: Plate,
@@ -42,7 +42,7 @@ struct Pushes {
     pushes: Vec<Push>,
 }
 
-/// Two tips in the frame of a blade that points along x, and how deep it is hollowed between them.
+/// Two tips in the frame of a blade that points along x, and the depth of the hollow between them.
 #[derive(Deserialize)]
 struct Blade {
     tips: [[f64; 2]; 2],
@@ -55,7 +55,7 @@ struct Plate {
     centre_of_mass: [f64; 2],
 }
 
-/// Three points, or a word for all of the plate.
+/// Three support points, or a word for the whole plate.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum Stands {
@@ -117,7 +117,7 @@ fn recording(name: &str, given: &Pushes, push: &Push) -> Result<Recording, Box<d
         }
         Stands::Word(_) => Support::Even,
     };
-    // The object's pose is that of its centre of mass.
+    // The object's position is its centre of mass.
     let placed = |[x, y, degrees]: [f64; 3]| {
         let frame = Pose::new(x, y, degrees.to_radians());
         Pose { position: frame.point(centre), heading: frame.heading }
@@ -138,7 +138,7 @@ fn recording(name: &str, given: &Pushes, push: &Push) -> Result<Recording, Box<d
     let (Some(from), Some(to)) = (push.tip.first(), push.tip.last()) else {
         return Err("a push without a path".into());
     };
-    // Away from the edge that the point is nearest to before the push.
+    // Direction away from the edge that is nearest to the point before the push.
     let start = before.local_point(Vector::new(from[1], from[2]));
     let away = base
         .faces()
@@ -154,7 +154,7 @@ fn recording(name: &str, given: &Pushes, push: &Push) -> Result<Recording, Box<d
         seen: true,
         poses: vec![pose],
     };
-    // The path is straight and even to 0.5 mm; only its ends were seen with the plate.
+    // The path is straight and uniform to 0.5 mm; the plate was observed only at its ends.
     let mut last = frame(*to, after);
     let first = frame(*from, before);
     last.unwrap_after(&first);
@@ -170,7 +170,8 @@ fn recording(name: &str, given: &Pushes, push: &Push) -> Result<Recording, Box<d
     })
 }
 
-/// A push by a blade that was followed on its way, of a plate that was seen before and after.
+/// Returns the recording of a push by a blade with a recorded path; the plate was observed before
+/// and after it.
 fn by_blade(
     name: &str,
     (scene, after): (Scene, Pose),

@@ -1,7 +1,6 @@
-"""A closed loop: look, plan, make the first push, look again.
+"""Closed loop: observe, plan, execute the first push, and observe again.
 
-Here the world is the planar engine with objects that rub more than anybody knows; a robot would be
-in its place.
+The 2-D engine with an unknown, higher friction of the objects replaces the robot.
 
     python examples/one_push_at_a_time.py
 """
@@ -28,7 +27,7 @@ TASK = pushplan.Task.parse(
 
 
 def make(task: pushplan.Task, plan: pushplan.Plan) -> npt.NDArray[np.float64]:
-    """What the first push of a plan really does: poses of the objects afterwards."""
+    """Executes the first push of a plan and returns the final poses of the objects."""
     push = plan.pushes[0]
     first = pushplan.Plan.of(task, plan.tool, [push], grip_yaw=plan.grip_yaw)
     poses: npt.NDArray[np.float64] = pushplan.predict(first, "planar,friction=130%").poses[-1]
@@ -39,14 +38,14 @@ def main() -> None:
     poses = TASK.start
     for count in range(6):
         score = TASK.score(poses)
-        print(f"after {count} pushes: {score:.2f} of the tolerance")
+        print(f"after {count} pushes: error {score:.2f} times the tolerance")
         if score <= 1.0:
             return
         now = TASK.at(poses)
         plan = pushplan.solve(now, effort="draft").best
-        assert plan is not None and plan.pushes, "no push brings it nearer"
+        assert plan is not None and plan.pushes, "no push brings the crate nearer to the goal"
         poses = make(now, plan)
-    raise SystemExit("not there after six pushes")
+    raise SystemExit("the crate is not at the goal after six pushes")
 
 
 if __name__ == "__main__":

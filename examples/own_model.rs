@@ -1,7 +1,7 @@
-//! An effect model of one's own, planned with: `cargo run --release --example own_model`.
+//! Plans with a custom effect model: `cargo run --release --example own_model`.
 //!
-//! Nobody sees what an object rests on, and that decides how far it turns. This model rolls every
-//! push out on three plausible supports and predicts the mean of what happens.
+//! The support of an object is not observable, but it determines the rotation. This model predicts
+//! every push with three plausible support models and returns the mean motion.
 
 use std::sync::Arc;
 
@@ -12,11 +12,12 @@ use pushplan::{
     ToolLibrary, Trajectory, Trust,
 };
 
-/// The prior's mean over what objects may rest on.
+/// Mean prediction of the analytic model over plausible support models.
 struct OnAnySupport(Prior);
 
 impl EffectModel for OnAnySupport {
-    /// What predictions say they are from: a model without settings of its own borrows the name.
+    /// Model identifier in predictions; without settings of its own the model uses the name of the
+    /// analytic model.
     fn spec(&self) -> &ModelSpec {
         self.0.spec()
     }
@@ -26,7 +27,7 @@ impl EffectModel for OnAnySupport {
     }
 
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
-        // One batch, so that all threads have work: three jobs for each, one after another.
+        // One batch of three consecutive jobs per push, so that all threads have work.
         let supports = &Physics::PLAUSIBLE_SUPPORTS;
         let on = |job: &Job, support| {
             let mut job = job.clone();
@@ -39,7 +40,7 @@ impl EffectModel for OnAnySupport {
     }
 }
 
-/// Frame by frame; a trajectory that is over stays where it ended.
+/// Returns the mean of trajectories, frame by frame; a shorter one repeats its last frame.
 fn mean(trajectories: &[Trajectory]) -> Option<Trajectory> {
     let longest = trajectories.iter().max_by_key(|trajectory| trajectory.frames.len())?;
     let mut mean = longest.clone();
@@ -67,7 +68,7 @@ fn main() -> Result<(), pushplan::Error> {
     if let Some(best) = solution.best() {
         let robustness = best.verdict.as_ref().and_then(|verdict| verdict.robustness);
         println!("{}: use the {}", task.name, best.plan.tool());
-        println!("{:.0} % of disturbed replays work", 100.0 * robustness.unwrap_or_default());
+        println!("{:.0} % of perturbed replays pass", 100.0 * robustness.unwrap_or_default());
     }
     Ok(())
 }

@@ -1,9 +1,9 @@
-"""Push-T, the benchmark of imitation learning, played by planning.
+"""Plays Push-T, a benchmark of imitation learning, by planning.
 
-A round finger pushes a T onto its outline, in 300 steps of 0.1 s; 95 % of the outline covered is
-success. Nothing is learned here: the true state is read and the shape is known, where learned
-policies know what people have shown them. Before every push some thousand are predicted, alone and
-one after another, and the one is made that promises success in the fewest steps.
+A round finger pushes a T onto its outline, in 300 steps of 0.1 s; coverage of 95 % of the outline
+is success. The planner learns nothing: it reads the true state and knows the shape, while learned
+policies use human demonstrations. Before every push it predicts some thousand single pushes and
+pairs of pushes. It then executes the push with the smallest expected number of steps to success.
 
     pip install pushplan gym-pusht
     python examples/push_t.py --seeds 100000 100050
@@ -24,32 +24,32 @@ import pushplan
 
 Floats = npt.NDArray[np.float64]
 
-#: The environment counts in pixels; one is taken for a millimetre.
+#: Length of a pixel of the environment, metres.
 PIXEL = 0.001
-#: Where the agent may be told to go, and where the walls begin, pixels.
+#: Area of valid targets of the agent, and inner edges of the walls, pixels.
 ARENA, WALLS = shapely.box(1, 1, 511, 511), (7.0, 504.0)
 FINGER = 15.0
-#: How near the finger comes to the T before a push and on its way there, pixels.
+#: Distance of the finger from the T before a push and on its path there, pixels.
 GAP, MARGIN = 2.0, 6.0
-#: Pixels in a step of 0.1 s, on the way and while pushing.
+#: Pixels in a step of 0.1 s, on the path and during a push.
 TRAVEL, PUSH = 45.0, 12.0
-#: What a step on the way may be, pixels, if a longer one touches the T.
+#: Lengths of a step on the path, pixels; shorter ones are used if a longer one touches the T.
 PACES = (60.0, 45.0, 30.0, 20.0, 12.0, 6.0, 2.0)
-#: Steps that a push takes beside its ways, that a pixel of distance is worth, and a factor of e.
+#: Steps of a push in addition to its paths, per pixel of distance, and per factor of e.
 EXTRA, FAR, FACTOR = 4.0, 0.35, 12.0
-#: A distance that is near enough, pixels, and by what share of their way predictions are off.
+#: Sufficient distance, pixels, and error of predictions as a share of the travel.
 NEAR, DOUBT = 1.2, 0.05
-#: How many pushes are looked at with another one behind.
+#: Number of pushes that are extended by a second push.
 BEAM = 8
-#: Corners of the T in its own frame, and points spread evenly over it, pixels.
+#: Corners of the T in its own frame, and points distributed evenly over it, pixels.
 SHAPE = shapely.union_all([shapely.box(-60, 0, 60, 30), shapely.box(-15, 30, 15, 120)])
 PLACES = [(x, y) for x in range(-55, 60, 10) for y in range(5, 120, 10)]
 GRID = np.array([x + 1j * y for x, y in PLACES if SHAPE.covers(shapely.Point(x, y))])
 CORNERS = np.array([complex(x, y) for x, y in SHAPE.exterior.coords[:-1]])
 
-#: The environment's T has its centre of mass between the middles of bar and stem and no friction
-#: against the finger. What moves there stops at once, which resembles a table on which the T
-#: stands on the corners of both.
+#: In the environment the centre of mass of the T lies between the centres of bar and stem, and the
+#: finger has no friction. Moving bodies stop at once, similar to a T on a table that rests on the
+#: corners of both parts.
 TASK = pushplan.Task.parse(
     """
     scene:
@@ -80,31 +80,31 @@ TOOL = pushplan.Tool.parse(
 
 
 def placed(poses: Floats, points: npt.NDArray[np.complex128]) -> npt.NDArray[np.complex128]:
-    """Where points of the T are, ``[..., points]``, for poses ``[..., 3]``."""
+    """Returns the positions of points of the T, ``[..., points]``, for poses ``[..., 3]``."""
     place, turn = poses[..., 0] + 1j * poses[..., 1], np.exp(1j * poses[..., 2])
     found: npt.NDArray[np.complex128] = place[..., None] + points * turn[..., None]
     return found
 
 
 def tee(pose: Floats) -> Any:
-    """The T as a polygon."""
+    """Returns the T at a pose as a polygon."""
     turned = affinity.rotate(SHAPE, pose[2], origin=(0, 0), use_radians=True)
     return affinity.translate(turned, pose[0], pose[1])
 
 
 class Goal:
-    """How far a T is from the outline that it has to cover."""
+    """Outline that the T must cover, with its distance from a pose."""
 
     def __init__(self, pose: Floats) -> None:
         self.points, self.outline = placed(pose, GRID), tee(pose)
 
     def distance(self, poses: Floats) -> Floats:
-        """Mean distance of the T's points from where they belong, pixels."""
+        """Returns the mean distance of the T's points from their goals, pixels."""
         gaps: Floats = np.abs(placed(poses, GRID) - self.points).mean(axis=-1)
         return gaps
 
     def covered(self, poses: Floats) -> npt.NDArray[np.bool_]:
-        """Whether a little more than 95 % of the outline is covered."""
+        """Returns whether the T covers slightly more than 95 % of the outline."""
         done = self.distance(poses) < 4.0
         corners = placed(poses[done], CORNERS)
         tees = shapely.polygons(np.stack([corners.real, corners.imag], axis=-1))
@@ -113,31 +113,31 @@ class Goal:
 
 
 def bar_of(poses: Floats) -> Floats:
-    """Where the middle of the bar is, whose pose is the object's, metres: ``[..., 1, 3]``."""
+    """Returns the pose of the bar, which is the pose of the object, metres: ``[..., 1, 3]``."""
     middles = placed(poses, np.array([15j])) * PIXEL
     return np.stack([middles.real, middles.imag, poses[..., 2, None]], axis=-1)
 
 
 def pose_of(bar: Floats) -> Floats:
-    """The pose of the T whose bar is here, pixels."""
+    """Returns the pose of the T from the pose of its bar, pixels."""
     place = (bar[..., 0] + 1j * bar[..., 1]) / PIXEL - 15j * np.exp(1j * bar[..., 2])
     return np.stack([place.real, place.imag, bar[..., 2]], axis=-1)
 
 
 class Pushes(NamedTuple):
-    """Pushes and what they are predicted to do: every frame is a push that ends there."""
+    """Pushes with their predictions; every frame stands for a push that ends there."""
 
-    #: Which of the starting poses each push is for.
+    #: Index of the starting pose of each push.
     of: npt.NDArray[np.int64]
     start: npt.NDArray[np.complex128]
     along: npt.NDArray[np.complex128]
-    #: How far each has gone, pixels, ``[pushes, frames]``, and where the T is then, ``[.., 3]``.
+    #: Travel of each push, pixels, ``[pushes, frames]``, and pose of the T then, ``[.., 3]``.
     gone: Floats
     poses: Floats
 
 
 def pushes(poses: Floats, spots: int, slants: Floats, length: float | np.floating[Any]) -> Pushes:
-    """Pushes from all around the T for each of some poses, along the normal and aslant of it."""
+    """Predicts pushes from all around the T for several poses, at several angles to the normal."""
     ring = SHAPE.buffer(FINGER + GAP).exterior
     at = [ring.interpolate((spot + 0.5) / spots, normalized=True) for spot in range(spots)]
     starts = np.array([complex(point.x, point.y) for point in at])
@@ -159,7 +159,7 @@ def pushes(poses: Floats, spots: int, slants: Floats, length: float | np.floatin
     )
     tips = (rolled.tool_poses[..., 0] + 1j * rolled.tool_poses[..., 1]) / PIXEL
     ends = pose_of(rolled.poses[:, :, 0])
-    # Neither the finger leaves the arena nor the T, farther than it does already.
+    # The finger must stay in the arena, and the T must not leave it farther than at the start.
     corners = placed(ends, CORNERS)
     sides = np.stack([corners.real, corners.imag])
     outside = np.maximum(np.maximum(WALLS[0] - sides, sides - WALLS[1]).max(axis=(0, -1)), 0.0)
@@ -172,7 +172,7 @@ def pushes(poses: Floats, spots: int, slants: Floats, length: float | np.floatin
 
 
 class Way:
-    """Ways of the finger around a T that stays where it is."""
+    """Paths of the finger around a T at rest."""
 
     def __init__(self, agent: complex, pose: Floats) -> None:
         self.agent, self.tee = agent, tee(pose)
@@ -184,7 +184,7 @@ class Way:
         self.step = ring.length / count
 
     def clear(self, ends: npt.NDArray[np.complex128], start: complex) -> npt.NDArray[np.bool_]:
-        """Whether straight ways from a place meet no T; they may begin where it touches."""
+        """Returns whether straight paths from a position clear the T; they may start in contact."""
         lines = np.stack([np.full(len(ends), start), ends], axis=1)
         straight = shapely.linestrings(np.stack([lines.real, lines.imag], axis=-1))
         least = min(FINGER + 1.0, gap(start, self.tee) - 0.1)
@@ -192,7 +192,7 @@ class Way:
         return ok
 
     def arc(self, end: complex) -> npt.NDArray[np.complex128] | None:
-        """The shorter way along the ring, if one stays in the arena."""
+        """Returns the shorter path along the ring in the arena, or ``None``."""
         first, last = (int(np.argmin(np.abs(self.ring - at))) for at in (self.agent, end))
         count = len(self.ring)
         onward = [(first + k) % count for k in range((last - first) % count + 1)]
@@ -201,7 +201,7 @@ class Way:
         return self.ring[min(ways, key=len)] if ways else None
 
     def lengths(self, ends: npt.NDArray[np.complex128]) -> Floats:
-        """How far it is to these places, pixels; infinite where there is no way."""
+        """Returns path lengths to these positions, pixels; infinite without a path."""
         found = np.abs(ends - self.agent)
         for index in np.flatnonzero(~self.clear(ends, self.agent)):
             arc = self.arc(ends[index])
@@ -209,10 +209,10 @@ class Way:
         return found
 
     def to(self, end: complex) -> list[complex]:
-        """The corners of a short way to this place."""
+        """Returns the corners of a short path to this position."""
         arc = self.arc(end)
         points = np.array([*(arc if arc is not None else []), end])
-        # What touches the T leaves it first.
+        # A finger in contact with the T leaves it first.
         touches = gap(self.agent, self.tee) < FINGER + 1.0
         corners = [complex(self.ring[np.argmin(np.abs(self.ring - self.agent))])] if touches else []
         at = corners[0] if touches else self.agent
@@ -225,7 +225,7 @@ class Way:
 
 
 class Push(NamedTuple):
-    """A straight way of the finger, and after how many steps success is promised."""
+    """Straight motion of the finger, with the expected number of steps to success."""
 
     start: complex
     end: complex
@@ -233,8 +233,11 @@ class Push(NamedTuple):
 
 
 def left(goal: Goal, before: Floats, after: Floats) -> Floats:
-    """Steps to success from ``after``: each push gains about the same factor, and predictions are
-    off by a share of the way from ``before``."""
+    """Returns the expected steps to success from ``after``.
+
+    Each push reduces the distance by about the same factor, and the error of predictions is a share
+    of the travel from ``before``.
+    """
     moved = np.abs(placed(after, GRID) - placed(before, GRID)).mean(axis=-1)
     distance = np.maximum(goal.distance(after) + DOUBT * moved, NEAR)
     steps = FAR * distance + FACTOR * np.log(distance / NEAR)
@@ -243,7 +246,7 @@ def left(goal: Goal, before: Floats, after: Floats) -> Floats:
 
 
 def choose(goal: Goal, agent: complex, pose: Floats) -> Push | None:
-    """The push that promises success in the fewest steps, be it with another one after it."""
+    """Returns the push with the fewest expected steps to success, alone or before a second push."""
     near = float(goal.distance(pose))
     first = pushes(
         pose[None], 64, np.array([-0.6, -0.3, 0.0, 0.3, 0.6]), np.clip(2.5 * near, 30, 130)
@@ -254,14 +257,14 @@ def choose(goal: Goal, agent: complex, pose: Floats) -> Push | None:
     value = np.where(
         first.gone > np.clip(0.4 * near, 3.0, 30.0), steps + left(goal, pose, first.poses), np.inf
     )
-    # Of every push the best frame; behind the best of those another push is looked at.
+    # The best frame of every push; the best of these are extended by a second push.
     frame = value.argmin(axis=1)
     order = np.argsort(value.min(axis=1))[:BEAM]
     frame, chosen = frame[order], (order, frame[order])
     ends, gone = first.poses[chosen], first.gone[chosen]
     tips = first.start[order] + first.along[order] * gone
     second = pushes(ends, 32, np.array([-0.4, 0.0, 0.4]), np.clip(2.0 * near, 30, 130))
-    # The way between both is taken for a circle about the T.
+    # The path between both pushes is approximated by a circle around the T.
     middle = placed(ends, np.array([45j]))[:, 0]
     turn = np.abs(np.angle((second.start - middle[second.of]) / (tips - middle)[second.of]))
     later = steps[chosen][second.of] + 90.0 * turn / TRAVEL + EXTRA
@@ -275,7 +278,7 @@ def choose(goal: Goal, agent: complex, pose: Floats) -> Push | None:
 
 
 class Game:
-    """An environment that is being played."""
+    """One game in the environment."""
 
     def __init__(self, seed: int, steps: int) -> None:
         self.seed = seed
@@ -310,7 +313,7 @@ class Game:
             self.push(push.end)
 
     def follow(self, corners: list[complex]) -> None:
-        """Moves the agent along these corners, as fast as it can without touching the T."""
+        """Moves the agent along these corners, as fast as possible without touching the T."""
         shape = tee(self.pose)
         for corner in corners:
             while not self.over and abs(corner - self.agent) > 1.0:
@@ -326,7 +329,7 @@ class Game:
                 self.halt(corner)
 
     def foreseen(self, wanted: complex) -> npt.NDArray[np.complex128]:
-        """Where the agent is during a step that ends here, and another that stays."""
+        """Returns positions of the agent during a step to this target, and a step of rest."""
         state = np.array([self.agent - wanted, complex(*self.info["vel_agent"]), 0.0])
         found = []
         for _ in range(2):
@@ -336,19 +339,19 @@ class Game:
         return np.concatenate(found) + wanted
 
     def push(self, end: complex) -> None:
-        """Moves the agent straight to the end of a push and lets it rest there."""
+        """Moves the agent straight to the end of a push and stops it there."""
         while not self.over and abs(end - self.agent) > 1.3 * PUSH:
             rest = end - self.agent
             self.act(self.agent + rest * PUSH / abs(rest))
         self.halt(end)
 
     def act(self, wanted: complex) -> None:
-        """A step after which the agent is here."""
+        """Makes one step that ends at this position."""
         state = np.array([self.agent - wanted, complex(*self.info["vel_agent"])])
         self.step(wanted - MOVE[-1, 0, :2] @ state / MOVE[-1, 0, 2])
 
     def halt(self, wanted: complex) -> None:
-        """Two steps after which the agent rests here."""
+        """Makes two steps that end at rest at this position."""
         state = np.array([self.agent - wanted, complex(*self.info["vel_agent"])])
         drift, drive = MOVE[-1, :, :2], MOVE[-1, :, 2]
         steering = np.stack([drift @ drive, drive], axis=1)
@@ -363,12 +366,12 @@ class Game:
 
 
 def gap(places: complex | npt.NDArray[np.complex128], shape: Any) -> float:
-    """The least distance of the finger's middle from the T in any of these places."""
+    """Returns the minimum distance of the finger's centre from the T over these positions."""
     return float(np.min(shapely.distance(shapely.points(np.real(places), np.imag(places)), shape)))
 
 
 def controlled() -> Floats:
-    """What 1 to 10 hundredths of a second make of place, velocity and action of the agent."""
+    """Returns matrices from position, velocity and action to the state after 0.01 to 0.1 s."""
     once = np.eye(3)
     once[1] += 0.01 * np.array([-100.0, -20.0, 100.0])
     once[0] += 0.01 * once[1]
@@ -381,7 +384,7 @@ MOVE = controlled()
 def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
     parser.add_argument("--seeds", type=int, nargs=2, default=[0, 3], metavar=("FROM", "BELOW"))
-    parser.add_argument("--steps", type=int, default=300, help="most steps of a game")
+    parser.add_argument("--steps", type=int, default=300, help="maximum number of steps of a game")
     options = parser.parse_args()
     games = [Game(seed, options.steps) for seed in range(*options.seeds)]
     for game in games:
@@ -390,10 +393,10 @@ def main() -> None:
         print(f"seed {game.seed}: {what} after {game.steps} steps, {game.pushes} pushes")
     done = [game.steps for game in games if game.done]
     each = sum(game.seconds for game in games) / sum(game.pushes for game in games)
-    steps = f"median {np.median(done):.0f}, most {max(done)} steps" if done else "none"
+    steps = f"median {np.median(done):.0f}, maximum {max(done)} steps" if done else "none"
     print(f"{len(done)} of {len(games)} covered, {steps}; {each:.2f} s of processor time a push")
     if len(done) < 0.9 * len(games):
-        raise SystemExit("fewer than nine in ten")
+        raise SystemExit("fewer than nine in ten games are successful")
 
 
 if __name__ == "__main__":

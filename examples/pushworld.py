@@ -1,15 +1,14 @@
-"""PushWorld's puzzles as tasks: a grid of cells becomes a table of boxes.
+"""Converts PushWorld puzzles to tasks: a grid of cells becomes a table of boxes.
 
-PushWorld (Kansky et al. 2023, https://github.com/google-deepmind/pushworld) is a benchmark of puzzles
-in text: a cell is empty (``.``), a wall (``W``), a wall for the agent alone (``AW``), the agent
-(``A``), a movable (``M0``), the goal of one (``G0``), or several of them joined by ``+``. A task file
-says the same in metres:
+PushWorld (Kansky et al. 2023, https://github.com/google-deepmind/pushworld) is a benchmark of
+puzzles in text. A cell is empty (``.``), a wall (``W``), a wall for the agent alone (``AW``), the
+agent (``A``), a movable (``M0``), its goal (``G0``), or several of these joined by ``+``. The task
+file uses metres:
 
-- a cell is 80 mm; rows go along x, away from the robot, and columns along -y;
-- an object of n cells is n times 80 mm less 16 mm long, so 8 mm of play are left on either side;
-- a plate that fits into one cell comes from above, instead of an agent that has to go around, so
-  what the agent looks like and where it stands do not matter; walls for the agent alone are regions
-  that the plate keeps out of;
+- a cell is 80 mm; rows lie along x, away from the robot, and columns along -y;
+- an object of n cells is n times 80 mm minus 16 mm long, so that 8 mm of play remain on each side;
+- the tool is a plate that fits into one cell and is set down from above; shape and position of the
+  agent are therefore ignored, and walls for the agent alone become keep-out regions of the plate;
 - an object is at its goal within 30 mm and 20 degrees.
 
     python examples/pushworld.py "At Crossroads.pwp" --out puzzles
@@ -34,7 +33,7 @@ NEAREST = 0.36
 #: Mass of a cell of an object, kg.
 MASS = 0.1
 
-#: The tool: a plate that fits into a cell beside an object.
+#: Tool: a plate that fits into a cell beside an object.
 PLATE = pushplan.Tool.from_dict(
     {
         "name": "plate",
@@ -44,7 +43,7 @@ PLATE = pushplan.Tool.from_dict(
     }
 )
 
-#: What the example shows without a file: a row that has to be freed first.
+#: Puzzle for a call without files: a row that must be cleared first.
 SHOWN = """
  .  .  .  .  .  .  .
  A  .  M0 .  M1 .  G0
@@ -53,21 +52,24 @@ SHOWN = """
 
 
 def read(text: str) -> tuple[dict[str, Cells], tuple[int, int]]:
-    """The cells of everything that a puzzle names, by row and column, and how many of these."""
+    """Returns the cells (row, column) of every name, and its numbers of rows and columns."""
     rows = [line.split() for line in text.splitlines() if line.strip()]
     if not rows or len({len(row) for row in rows}) != 1:
-        raise ValueError("the rows of a puzzle are of one length")
+        raise ValueError("a puzzle needs rows, all with the same number of cells")
     cells: dict[str, Cells] = defaultdict(set)
     for row, line in enumerate(rows):
         for column, cell in enumerate(line):
             for name in cell.upper().split("+"):
                 if not re.fullmatch(r"\.|W|AW|A|[MG]\d+", name):
-                    raise ValueError(f"row {row + 1}, column {column + 1}: `{name}` is no cell")
+                    raise ValueError(
+                        f"row {row + 1}, column {column + 1}: `{name}` is no cell; expected "
+                        "`.`, W, AW, A, M0 or G0"
+                    )
                 cells[name].add((row, column))
     del cells["."]
     for goal in (name for name in cells if name.startswith("G")):
         if "M" + goal[1:] not in cells:
-            raise ValueError(f"`{goal}` is the goal of no movable")
+            raise ValueError(f"`{goal}` has no movable; add `M{goal[1:]}`")
     return cells, (len(rows), len(rows[0]))
 
 
@@ -75,7 +77,7 @@ Rectangle = tuple[int, int, int, int]
 
 
 def apart(cells: Cells) -> list[Rectangle]:
-    """Rectangles, first and last row and column, that make up these cells, none over another."""
+    """Returns disjoint rectangles (first and last row, first and last column) of these cells."""
     left, found = set(cells), []
     while left:
         found.append(max(spanned(left), key=area))
@@ -84,7 +86,8 @@ def apart(cells: Cells) -> list[Rectangle]:
 
 
 def solids(cells: Cells) -> list[Rectangle]:
-    """The same, but two cells side by side are in one of them: shrunk, they are still one piece."""
+    """Returns rectangles that contain every pair of adjacent cells, so that they stay connected
+    when they shrink."""
     full = [one for one in spanned(cells) if not any(grown(one, cells))]
     open_pairs, found = pairs(cells), [max(full, key=area)]
     while open_pairs := open_pairs - pairs(inside(found[-1])):
@@ -93,7 +96,7 @@ def solids(cells: Cells) -> list[Rectangle]:
 
 
 def pairs(cells: Cells) -> set[tuple[tuple[int, int], tuple[int, int]]]:
-    """Cells side by side."""
+    """Returns the pairs of adjacent cells."""
     near = [
         ((row, column), other)
         for row, column in cells
@@ -103,7 +106,7 @@ def pairs(cells: Cells) -> set[tuple[tuple[int, int], tuple[int, int]]]:
 
 
 def spanned(cells: Cells) -> list[Rectangle]:
-    """All rectangles of these cells."""
+    """Returns all rectangles within these cells."""
     found = []
     for top, left in sorted(cells):
         right = max(column for _, column in cells)
@@ -126,7 +129,7 @@ def area(one: Rectangle) -> int:
 
 
 def grown(one: Rectangle, cells: Cells) -> list[bool]:
-    """Whether it could be larger by a row or a column on each of its sides."""
+    """Returns for each side whether the rectangle could grow by a row or column there."""
     top, bottom, left, right = one
     sides = [(top - 1, bottom, left, right), (top, bottom + 1, left, right)]
     sides += [(top, bottom, left - 1, right), (top, bottom, left, right + 1)]
@@ -134,13 +137,13 @@ def grown(one: Rectangle, cells: Cells) -> list[bool]:
 
 
 class Table:
-    """Where the cells of a puzzle are on the table."""
+    """Positions of the cells of a puzzle on the table."""
 
     def __init__(self, rows: int, columns: int) -> None:
         self.rows, self.columns = rows, columns
 
     def place(self, one: Rectangle) -> tuple[list[float], list[float]]:
-        """Middle and extents of a rectangle of cells, metres."""
+        """Returns centre and extents of a rectangle of cells, metres."""
         top, bottom, left, right = one
         x = NEAREST + 0.5 * CELL * (top + bottom + 1)
         y = 0.5 * CELL * (self.columns - left - right - 1)
@@ -148,7 +151,7 @@ class Table:
         return [round(x, 4), round(y, 4)], [round(extent, 4) for extent in extents]
 
     def movable(self, name: str, cells: Cells) -> dict[str, Any]:
-        """An object of these cells; the position is that of its largest rectangle."""
+        """Returns an object of these cells, positioned at its largest rectangle."""
         found: list[dict[str, Any]] = []
         for one in solids(cells):
             middle, size = self.place(one)
@@ -168,7 +171,7 @@ class Table:
         return {**whole, "parts": parts} if parts else whole
 
     def walls(self, cells: Cells) -> list[dict[str, Any]]:
-        """Walls of cells, and those around the table."""
+        """Returns the walls of these cells and the walls around the table."""
         around = [(-1, -1, -1, self.columns), (self.rows, self.rows, -1, self.columns)]
         around += [(0, self.rows - 1, -1, -1), (0, self.rows - 1, self.columns, self.columns)]
         found = []
@@ -178,7 +181,7 @@ class Table:
         return found
 
     def closed(self, cells: Cells) -> list[dict[str, Any]]:
-        """What the tool keeps out of."""
+        """Returns the keep-out regions of the tool."""
         found = []
         for k, one in enumerate(apart(cells)):
             middle, size = self.place(one)
@@ -190,7 +193,7 @@ class Table:
 
 
 def task_of(text: str, name: str, pushes: int = 6) -> pushplan.Task:
-    """A puzzle as a task."""
+    """Converts a puzzle to a task."""
     cells, (rows, columns) = read(text)
     table = Table(rows, columns)
     movables = sorted((one for one in cells if one.startswith("M")), key=lambda one: int(one[1:]))
@@ -219,16 +222,16 @@ def task_of(text: str, name: str, pushes: int = 6) -> pushplan.Task:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
-    parser.add_argument("puzzles", nargs="*", type=Path, help="puzzle files; by default one inside")
+    parser.add_argument("puzzles", nargs="*", type=Path, help="puzzle files; by default a built-in puzzle")
     parser.add_argument("--out", type=Path, default=Path("pushworld"), help="folder for the files")
-    parser.add_argument("--pushes", type=int, default=6, help="most pushes of a plan")
+    parser.add_argument("--pushes", type=int, default=6, help="maximum number of pushes of a plan")
     chosen = parser.parse_args()
     for path in chosen.puzzles:
         name = re.sub(r"[^a-z0-9]+", "-", path.stem.lower())
         task = task_of(path.read_text(), name, chosen.pushes)
         file = chosen.out / f"{name}.yaml"
         (chosen.out / "tools").mkdir(parents=True, exist_ok=True)
-        # What is JSON is YAML.
+        # JSON is also YAML.
         (chosen.out / "tools/plate.yaml").write_text(json.dumps(PLATE.to_dict(), indent=1))
         file.write_text(task.to_yaml())
         print(file)

@@ -1,4 +1,4 @@
-"""Builds a task and a tool in code, chooses a tool and pushes, and keeps plan and page.
+"""Builds a task and a tool in code, solves the task, and saves plan and report.
 
     python examples/solve_task.py [FOLDER]
 """
@@ -9,7 +9,7 @@ from pathlib import Path
 import pushplan
 from pushplan.files import TaskFile, ToolFile
 
-# Metres, kilograms, degrees: the keys of task and tool files.
+# Keys of task and tool files, in metres, kilograms and degrees.
 TASK: TaskFile = {
     "name": "can-behind-box",
     "scene": {
@@ -47,7 +47,7 @@ def main(folder: Path) -> None:
     best = solution.best
     assert solution.solved and best is not None
     verdict = pushplan.verify(best, replays=32)
-    print(f"{verdict.robustness:.0%} of disturbed replays reach the goal")
+    print(f"{verdict.robustness:.0%} of the perturbed replays reach the goal")
     folder.mkdir(exist_ok=True)
     best.save(folder / f"{task.name}.plan.json")
     (folder / f"{task.name}.html").write_text(solution.page(), encoding="utf-8")

@@ -1,4 +1,4 @@
-//! Builds a task and a tool in code, chooses a tool and pushes, and keeps the plan:
+//! Builds a task and a tool in code, solves the task, and saves the plan:
 //! `cargo run --release --example solve_task [-- FOLDER]`.
 
 use std::path::PathBuf;
@@ -10,7 +10,7 @@ use pushplan::{
 };
 
 fn main() -> Result<(), pushplan::Error> {
-    // Metres, kilograms, radians.
+    // Units: metres, kilograms, radians.
     let can = Object::cylinder("can", 0.05, 0.10).mass(0.4).friction(0.4).at(0.62, 0.10, 0.0);
     let wall = Obstacle::new("wall", [0.03, 0.10, 0.12], Pose::new(0.36, 0.20, 0.0));
     let scene = Scene::new([can]).with_obstacle(wall);
@@ -27,7 +27,7 @@ fn main() -> Result<(), pushplan::Error> {
     let Some(best) = solution.best() else { return Ok(()) };
     let pushes = best.plan.steps.len();
     println!("{}: {pushes} push(es) with the {}", task.name, best.plan.tool());
-    println!("off by {:.1} mm as predicted", 1000.0 * best.outcome.error());
+    println!("predicted error {:.1} mm", 1000.0 * best.outcome.error());
 
     // `pushplan verify` and `pushplan export` read this file.
     if let Some(folder) = std::env::args_os().nth(1).map(PathBuf::from) {

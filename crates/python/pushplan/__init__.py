@@ -1,4 +1,4 @@
-"""Chooses a tool and pushes that bring objects to goals, and shows that the plan works.
+"""Planner of tool use: chooses a tool and pushes that bring objects to goals, and verifies plans.
 
     import pushplan
 
@@ -6,9 +6,9 @@
     solution = pushplan.solve(task)
     print(solution.status, solution.best)
 
-Lengths are metres, angles radians, masses kilograms and times seconds throughout; keys of files and
-mappings that end in ``_deg`` are degrees. The table is the plane z = 0, and x points forward from
-the robot's base at the origin. Results do not depend on the number of threads.
+Lengths are metres, angles radians, masses kilograms and times seconds. Keys of files and mappings
+that end in ``_deg`` are degrees. The table is the plane z = 0, and x points forward from the
+robot's base at the origin. Results do not depend on the number of threads.
 """
 
 from ._native import (

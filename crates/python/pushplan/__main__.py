@@ -1,4 +1,4 @@
-"""The command ``pushplan``, also as ``python -m pushplan``."""
+"""Entry point of the command ``pushplan`` and of ``python -m pushplan``."""
 
 import signal
 import sys
@@ -7,9 +7,9 @@ from ._native import main as run
 
 
 def main() -> int:
-    """Runs the command line of this process and gives its exit code."""
-    # The command handles Ctrl-C itself: it reports the saved files and ends with 130. Python's own handler
-    # would also be called, and raise after the end of the command.
+    """Runs the command line of this process and returns its exit code."""
+    # The command handles Ctrl-C itself: it reports the saved files and ends with 130. Python's own
+    # handler would also be called, and raise after the end of the command.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     return run(["pushplan", *sys.argv[1:]])
 

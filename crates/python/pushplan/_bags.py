@@ -1,4 +1,4 @@
-"""Poses in MCAP files: those that `pushplan export` wrote, and bags of ROS 2 (rosbag2 with MCAP storage)."""
+"""Poses in MCAP files of `pushplan export` and in ROS 2 bags (rosbag2 with MCAP storage)."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ _Row = tuple[float, float, float, float]
 
 _TREE = "tf2_msgs/msg/TFMessage"
 
-#: Message types from which poses are read; for the last type, the topic is followed by `#` and the child
-#: frame.
+#: Message types from which poses are read; for the last type, the topic is followed by `#` and the
+#: child frame.
 _POSES = {
     "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/PoseWithCovarianceStamped", "nav_msgs/msg/Odometry",
     "geometry_msgs/msg/TransformStamped", _TREE,
@@ -29,7 +29,7 @@ _POSES = {
 
 
 def own(path: Path) -> dict[str, Any]:
-    """The recording in a file of `pushplan export --format mcap`: scene and tool are those of its plan."""
+    """Returns the recording in a file of `pushplan export`, with scene and tool of its plan."""
     plan: Any = None
     frames: list[dict[str, Any]] = []
     with path.open("rb") as file:
@@ -41,11 +41,11 @@ def own(path: Path) -> dict[str, Any]:
             if channel.message_encoding == "json":
                 frames.append(json.loads(message.data))
     if plan is None or not frames:
-        raise ValueError(f"{path}: no plan of pushplan and its /state; name `topics` of a bag of ROS")
+        raise ValueError(f"{path}: found no plan of pushplan with its /state; for a ROS 2 bag, set `topics`")
     steps = [step.get("push") for step in plan["plan"]["steps"]]
     names = {step["tool"] for step in steps if step}
     if None in steps or len(names) != 1:
-        raise ValueError(f"{path}: a recording is of pushes with one tool")
+        raise ValueError(f"{path}: a recording needs pushes with one tool; export a plan without other steps")
     [tool] = [tool for tool in plan["tools"] if tool["name"] in names]
     written = []
     for k, frame in enumerate(frames):
@@ -67,7 +67,7 @@ def own(path: Path) -> dict[str, Any]:
 
 
 def poses_of(path: Path, topics: Mapping[str, str]) -> dict[str, tuple[_Floats, _Floats]]:
-    """Of every name the times (s) and poses (x, y in metres, heading in radians) that its topic has."""
+    """Returns for every name the times (s) and poses (x, y in m, heading in rad) of its topic."""
     found: dict[str, list[_Row]] = {name: [] for name in topics}
     wanted: dict[str, list[tuple[str, str]]] = {}
     for name, topic in topics.items():
@@ -79,7 +79,7 @@ def poses_of(path: Path, topics: Mapping[str, str]) -> dict[str, tuple[_Floats, 
         for title in wanted:
             if title in known and known[title] not in _POSES:
                 kind = known[title] or "unknown"
-                raise ValueError(f"{path}: {title} is {kind}, not one of {', '.join(sorted(_POSES))}")
+                raise ValueError(f"{path}: {title} has the type {kind}; expected one of {', '.join(sorted(_POSES))}")
         for schema, channel, _, message in reader.iter_decoded_messages(topics=list(wanted)):
             for child, row in _poses(message.transforms if schema.name == _TREE else [message]):
                 for name, asked in wanted[channel.topic]:
@@ -88,7 +88,7 @@ def poses_of(path: Path, topics: Mapping[str, str]) -> dict[str, tuple[_Floats, 
     for name, rows in found.items():
         if len(rows) < 2:
             there = ", ".join(f"{topic} ({kind})" for topic, kind in sorted(known.items()))
-            raise ValueError(f"{path}: {topics[name]} has {len(rows)} poses for `{name}`; there are {there}")
+            raise ValueError(f"{path}: {topics[name]} has {len(rows)} poses for `{name}`; the file has {there}")
     # A repeated stamp is the same pose.
     tables = {name: np.array(sorted(set(rows))) for name, rows in found.items()}
     return {name: (table[:, 0], table[:, 1:]) for name, table in tables.items()}
@@ -103,7 +103,7 @@ def _degrees(pose: Any) -> list[float]:
 
 
 def _poses(messages: Iterable[Any]) -> Iterator[tuple[str, _Row]]:
-    """The child frame, if there is one, the time and the pose of each."""
+    """Yields the child frame (empty without one), the time and the pose of each message."""
     for message in messages:
         stamp, child = message.header.stamp, getattr(message, "child_frame_id", "")
         if hasattr(message, "transform"):
@@ -119,7 +119,7 @@ def _poses(messages: Iterable[Any]) -> Iterator[tuple[str, _Row]]:
 
 
 def _topics(reader: Any) -> dict[str, str]:
-    """The topics of a file, and of what each is; nothing where the file has no index."""
+    """Returns the topics of a file with their types; empty if the file has no index."""
     summary = reader.get_summary()
     if summary is None:
         return {}
@@ -132,5 +132,5 @@ def _reader(file: IO[bytes]) -> Any:
         from mcap.reader import make_reader
         from mcap_ros2.decoder import DecoderFactory
     except ImportError as error:
-        raise ImportError("MCAP needs the packages of pip install 'pushplan[mcap]'") from error
+        raise ImportError("reading MCAP files needs two packages: pip install 'pushplan[mcap]'") from error
     return make_reader(file, decoder_factories=[DecoderFactory()])

@@ -1,4 +1,4 @@
-# What the compiled part of the package holds; its docstrings say the rest.
+# Types of the compiled part of the package, whose own docstrings describe classes and functions.
 
 import os
 from collections.abc import Iterable, Sequence

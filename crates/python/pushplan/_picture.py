@@ -1,4 +1,4 @@
-"""The table from above as an array of pixels, with nothing but NumPy."""
+"""Images of the table from above as arrays of pixels, with NumPy only."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _OBSTACLE, _TOOL, _WANTED, _OTHER = (90, 90, 90), (70, 120, 200), (205, 85, 60),
 
 
 class Picture:
-    """Pictures of a task, all of the same extent: x up and y to the left, as seen from behind the robot."""
+    """Images of a task with the same extent: x up and y left, as seen from behind the robot."""
 
     def __init__(self, task: Task, size: int = 256) -> None:
         mapping: Any = task.to_dict()
@@ -41,8 +41,8 @@ class Picture:
     def of(
         self, poses: _Floats, goal: Sequence[float], tolerance: float, tool: Optional[tuple[Tool, _Pose]] = None
     ) -> npt.NDArray[np.uint8]:
-        """The picture ``[size, size, 3]`` with objects and, if there is one, the frame of the tool at these
-        poses: x, y and heading."""
+        """Returns the image ``[size, size, 3]`` with the objects, and the tool if given, at these
+        poses (x, y, heading)."""
         pixels = np.empty((*self.x.shape, 3), np.uint8)
         pixels[:] = _PAPER
         out = np.hypot(self.x, self.y)
@@ -86,14 +86,14 @@ class Picture:
 
 
 def _placed(pose: _Pose, part: Any) -> tuple[float, float, float]:
-    """The pose of a part of what is at a pose."""
+    """Returns the pose of a part of a body with this pose."""
     x, y = part["position"][:2]
     c, s = math.cos(pose[2]), math.sin(pose[2])
     return pose[0] + c * x - s * y, pose[1] + s * x + c * y, pose[2] + math.radians(part.get("yaw_deg", 0.0))
 
 
 def _about_centre(prism: Any) -> _Floats:
-    """The corners of a prism about its centre of mass, where its position is."""
+    """Returns the corners of a prism relative to its centre of mass, which is its position."""
     corners = np.array(prism["corners"], float)
     if "centre_of_mass" in prism:
         return np.asarray(corners - np.array(prism["centre_of_mass"], float))

@@ -1,12 +1,13 @@
-"""Gymnasium environments: bring an object to its goal, a whole push a step or a piece of one.
+"""Gymnasium environments that push an object to its goal: a whole push or a part of one per step.
 
     import gymnasium
     import pushplan.env
 
-    env = gymnasium.make("pushplan/Push-v0", task=pushplan.Task.example("pull-back"))
-    env = gymnasium.make("pushplan/Steer-v0", task=pushplan.Task.example("pull-back"), tool="l-hook")
+    task = pushplan.Task.example("pull-back")
+    env = gymnasium.make("pushplan/Push-v0", task=task)
+    env = gymnasium.make("pushplan/Steer-v0", task=task, tool="l-hook")
 
-They need the package ``gymnasium``: ``pip install 'pushplan[gym]'``.
+The environments need the package ``gymnasium``: ``pip install 'pushplan[gym]'``.
 """
 
 from __future__ import annotations
@@ -40,15 +41,10 @@ _Action = npt.NDArray[np.float32]
 
 
 class _TableEnv(gymnasium.Env[_Action, _Action]):
-    """What both environments share: a task whose start and goal may be drawn, what is seen, and pictures.
+    """Base class of the environments: random starts and goals, observations and images.
 
-    Parameters:
-        task: What to do.
-        model: Whose physics: "planar", "3d", "prior" and so on, see ``pushplan.predict``.
-        spread: By how much starts are shifted along x and y at most, at random, metres.
-        goal_spread: By how much the goal is, metres.
-        render_mode: ``"rgb_array"`` for the table from above, ``"html"`` for the page of the last push, or
-            ``None``.
+    :class:`PushEnv` describes the parameters; ``steps`` is the maximum number of steps, and
+    ``more`` the number of additional observations.
     """
 
     # A page shows one push, and so does a frame.
@@ -58,10 +54,10 @@ class _TableEnv(gymnasium.Env[_Action, _Action]):
         self, task: Task, model: str, steps: int, spread: float, goal_spread: float, render_mode: str | None, more: int = 0
     ) -> None:
         if render_mode not in (None, *self.metadata["render_modes"]):
-            raise ValueError('`render_mode` is "rgb_array", "html" or None')
+            raise ValueError(f'`render_mode` must be "rgb_array", "html" or None, found {render_mode!r}')
         goal: Any = task.to_dict()["goal"]
         if goal_spread > 0.0 and not (isinstance(goal, dict) and "position" in goal):
-            raise ValueError("`goal_spread` is for a task with one goal, at a position")
+            raise ValueError("`goal_spread` needs a task with one goal that has a `position`; set it to 0 for other tasks")
         #: Task of this episode, with the drawn goal.
         self.task = task
         self.model, self.steps = model, steps
@@ -78,13 +74,13 @@ class _TableEnv(gymnasium.Env[_Action, _Action]):
 
     @property
     def poses(self) -> npt.NDArray[np.float64]:
-        """Where the objects are, ``[objects, 3]``: x and y in metres, heading in radians."""
+        """Poses of the objects, ``[objects, 3]``: x and y in metres, heading in radians."""
         return self._poses.copy()
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[_Action, dict[str, Any]]:
-        """Puts everything back to the start, or shifted by up to ``spread``, and draws the goal."""
+        """Resets the objects to the start, shifted by up to ``spread``, and draws the goal."""
         super().reset(seed=seed, options=options)
         self.task = self._drawn()
         self._poses = self.task.start
@@ -94,7 +90,7 @@ class _TableEnv(gymnasium.Env[_Action, _Action]):
         return self._seen(), self._info(None)
 
     def render(self) -> Any:
-        """The table from above, ``[256, 256, 3]``; or the page of the last push that was made, or ``None``."""
+        """Returns the image, ``[256, 256, 3]``, the report of the last push, or ``None``."""
         if self.render_mode == "html":
             return None if self._last is None else self._last.page()
         if self._picture is None:
@@ -102,11 +98,11 @@ class _TableEnv(gymnasium.Env[_Action, _Action]):
         return self._picture.of(self._poses, self.task.goal_position, self.task.tolerance, self._held())
 
     def _held(self) -> tuple[Tool, npt.NDArray[np.float64]] | None:
-        """The tool that is on the table, if any, and where."""
+        """Returns the tool on the table and its pose, or ``None``."""
         return None
 
     def _carried_out(self, planned: Callable[[], Plan]) -> tuple[float, bool, str | None]:
-        """The reward, whether the goal is reached, and why nothing moved, if it did not."""
+        """Returns the reward, whether the goal is reached, and the reason if nothing moved."""
         before = self.task.score(self._poses)
         self._made += 1
         refused, reached = None, False
@@ -124,7 +120,7 @@ class _TableEnv(gymnasium.Env[_Action, _Action]):
         return gained + float(reached), reached, refused
 
     def _drawn(self) -> Task:
-        """A start and a goal at which nothing overlaps; joined objects are shifted together."""
+        """Draws a start and a goal without overlaps; joined objects are shifted together."""
         if self.spread <= 0.0 and self.goal_spread <= 0.0:
             return self._given
         start = self._given.start
@@ -160,32 +156,48 @@ class _TableEnv(gymnasium.Env[_Action, _Action]):
 
 
 class PushEnv(_TableEnv):
-    """One push a step, with the tools, the rules and the goal of a task.
+    """Environment with one push per step, with the tools, rules and goal of a task.
 
-    The tool comes down just before the object of the first goal that is not reached and pushes it. An action is five numbers from
-    -1 to 1: which tool, which grip yaw (both cut into equal parts, in the order of ``tools`` and
-    ``task.grip_yaws``), the direction (in half turns from world +x), the lateral offset of the object
-    (in units of ``most_offset``), and the length (by how many halves of the task's it is longer).
-    :meth:`action` makes one of metres and radians.
+    The tool is set down just before the object of the first unreached goal and pushes it. An action
+    has five numbers from -1 to 1, which :meth:`action` computes from metres and radians:
 
-    An observation is, for every object, x and y in metres and cosine and sine of its heading, then, for
-    every goal, the turn to the wanted heading in radians, then, for every goal, the wanted place's x and y
-    and the way from the object to it, in metres.
+    - tool, in equal intervals in the order of ``tools``;
+    - grip yaw, in equal intervals in the order of ``task.grip_yaws``;
+    - direction, in units of pi radians from world +x;
+    - lateral offset of the object, in units of ``most_offset``;
+    - length, with 0 for the task's length and 1 for 50 % more.
 
-    The reward is the share of the way to the goal that a push gains, and one for reaching it, less
-    0.02 for the push. A push that cannot be made, or breaks a rule of the task, moves nothing;
-    ``info["refused"]`` says why.
+    An observation has, in this order,
 
-    Parameters:
-        task: What to do.
-        tools: The tools that the task chooses from; by default those that come with the package.
-        model: Whose physics: "planar", "3d", "prior" and so on, see ``pushplan.predict``.
-        pushes: How many may be made; by default twice as many as the task allows a plan.
-        spread: By how much starts are shifted along x and y at most, at random, metres.
-        goal_spread: By how much the goal is, metres.
-        most_offset: The largest lateral offset, metres.
-        render_mode: ``"rgb_array"`` for the table from above, ``"html"`` for the page of the last push, or
-            ``None``.
+    - x and y (metres), cosine and sine of the heading of every object;
+    - rotation to the goal heading (radians) of every goal;
+    - position of every goal, and offset from the object to it, x and y in metres.
+
+    The reward is the gained share of the distance to the goal, plus 1 for reaching it, minus 0.02
+    per push. An infeasible push, or one that violates a rule of the task, moves nothing;
+    ``info["refused"]`` states the reason.
+
+    Parameters
+    ----------
+    task : Task
+        Task of the environment.
+    tools : ToolLibrary, optional
+        Tools from which the task chooses; by default the tools shipped with the package.
+    model : str, default "planar"
+        Model of the physics, such as "planar", "3d" or "prior", see ``pushplan.predict``.
+    pushes : int, optional
+        Maximum number of pushes; by default twice the maximum of a plan of the task.
+    spread, goal_spread : float, default 0
+        Maximum random shift of the objects at the start and of the goal, along x and y, metres.
+    most_offset : float, default 0.06
+        Maximum lateral offset, metres.
+    render_mode : {"rgb_array", "html", None}, default None
+        Image of the table from above, or interactive report of the last push.
+
+    Raises
+    ------
+    ModelError or ValueError
+        If ``model`` is unknown, or another argument is invalid.
     """
 
     def __init__(
@@ -219,8 +231,11 @@ class PushEnv(_TableEnv):
         offset: float = 0.0,
         length: float | None = None,
     ) -> npt.NDArray[np.float32]:
-        """The action of a push with the tool of this name; radians and metres, by default the first
-        grip yaw and the length of the task."""
+        """Returns the action of a push; angles in radians, lengths in metres.
+
+        By default it has the first grip yaw and the push length of the task. Raises ``ValueError``
+        for an unknown tool, offset or length.
+        """
         names = [one.name for one in self.tools]
         if tool not in names:
             raise ValueError(f"no tool is called `{tool}`; there are {', '.join(names)}")
@@ -237,17 +252,20 @@ class PushEnv(_TableEnv):
             longer,
         ]
         if not all(-1.0 <= number <= 1.0 for number in numbers):
-            raise ValueError("the offset or the length is outside of what an action can say")
+            raise ValueError(
+                f"`offset` must be {-self.most_offset:g} to {self.most_offset:g} m and `length` "
+                f"{0.5 * usual:g} to {1.5 * usual:g} m, found offset={offset}, length={length}"
+            )
         return np.array(numbers, dtype=np.float32)
 
     def step(self, action: _Action) -> tuple[_Action, float, bool, bool, dict[str, Any]]:
-        """Makes one push."""
+        """Executes one push."""
         gained, reached, refused = self._carried_out(lambda: self._plan(action))
         truncated = self._made >= self.steps and not reached
         return self._seen(), gained - COST, reached, truncated, self._info(refused)
 
     def _target(self) -> str:
-        """The object of the first goal that is not reached."""
+        """Returns the object of the first unreached goal."""
         goals = zip(self.task.goal_subjects(self._poses), self.task.reached(self._poses), strict=True)
         return next((name for name, reached in goals if not reached), self.task.goal_object)
 
@@ -266,28 +284,33 @@ class PushEnv(_TableEnv):
 
 
 class SteerEnv(_TableEnv):
-    """A piece of a push a step: the tool is on the table, and an action says where its end effector goes next.
+    """Environment with a short straight motion of the tool per step; the tool stays on the table.
 
-    An action is two numbers from -1 to 1: by how many ``stride`` it moves along x and y, straight and at the
-    speed of the task; then everything comes to rest. Tool and grip yaw stay the same. A step that breaks a
-    rule of the task (out of reach, into an obstacle) moves nothing; ``info["refused"]`` says why.
+    An action has two numbers from -1 to 1: the motion of the end effector along x and y in units of
+    ``stride``, at the speed of the task. The step ends when all objects rest. Tool and grip yaw are
+    constant. A step that violates a rule of the task (reach, obstacles) moves nothing;
+    ``info["refused"]`` states the reason.
 
-    An observation is that of :class:`PushEnv` and the end effector's x and y, metres. The reward is the share
-    of the way to the goal that a step gains, and one for reaching it, less 0.02 for each metre that the tool
-    goes.
+    An observation is an observation of :class:`PushEnv`, followed by x and y of the end effector,
+    metres. The reward is the gained share of the distance to the goal, plus 1 for reaching it,
+    minus 0.02 per metre of travel.
 
-    Parameters:
-        task: What to do.
-        tool: The tool's name, or the tool; by default the first that the task has.
-        hand: Where the end effector begins, metres; by default the home of the task.
-        grip_yaw: Its turn, radians; by default the first of the task.
-        model: Whose physics: "planar", "3d", "prior" and so on, see ``pushplan.predict``.
-        stride: How far it goes in a step at most along x and y, metres.
-        steps: How many may be made.
-        spread: By how much starts are shifted along x and y at most, at random, metres.
-        goal_spread: By how much the goal is, metres.
-        render_mode: ``"rgb_array"`` for the table from above, ``"html"`` for the page of the last step, or
-            ``None``.
+    Parameters
+    ----------
+    task : Task
+        Task of the environment.
+    tool : Tool or str, optional
+        Tool or its name; by default the first tool of the task.
+    hand : tuple of float, optional
+        Position of the end effector at the start, metres; by default the home of the robot.
+    grip_yaw : float, optional
+        Rotation of the end effector, radians; by default the first grip yaw of the task.
+    stride : float, default 0.02
+        Maximum motion per step along x and y, metres.
+    steps : int, default 200
+        Maximum number of steps.
+    model, spread, goal_spread, render_mode
+        See :class:`PushEnv`.
     """
 
     def __init__(
@@ -320,12 +343,12 @@ class SteerEnv(_TableEnv):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[_Action, dict[str, Any]]:
-        """Puts everything back, the tool too."""
+        """Resets the objects and the tool to the start, and draws the goal."""
         self._hand = self._begin
         return super().reset(seed=seed, options=options)
 
     def step(self, action: _Action) -> tuple[_Action, float, bool, bool, dict[str, Any]]:
-        """Moves the tool a bit."""
+        """Moves the tool by one action."""
         way = self.stride * np.clip(np.asarray(action, float), -1.0, 1.0)
         length = float(np.hypot(*way))
         gained, reached, refused = 0.0, False, None
@@ -354,12 +377,12 @@ class SteerEnv(_TableEnv):
 
 
 def _index(number: float, count: int) -> int:
-    """Which of ``count`` equal parts of -1 to 1 a number lies in."""
+    """Returns the index of the interval with a number, of ``count`` equal intervals of -1 to 1."""
     return min(int(0.5 * (number + 1.0) * count), count - 1)
 
 
 def _share(index: int, count: int) -> float:
-    """The middle of such a part."""
+    """Returns the middle of such an interval."""
     return (2.0 * index + 1.0) / count - 1.0
 
 

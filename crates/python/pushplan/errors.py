@@ -1,6 +1,6 @@
-"""What can go wrong, as exceptions; all of them are a :class:`PushplanError`.
+"""Exceptions of the package, with the common base class :class:`PushplanError`.
 
-Not finding a plan is no error: see :attr:`pushplan.Solution.status`.
+A missing plan is not an error: see :attr:`pushplan.Solution.status`.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ __all__ = [
 
 @dataclass(frozen=True)
 class Fault:
-    """One thing that is wrong with a file, a text or a mapping."""
+    """Fault in a file, a text or a mapping, with its location."""
 
     #: File name as given by the user.
     file: str
@@ -31,7 +31,7 @@ class Fault:
     column: int | None
     #: Key in a mapping, such as ``scene.objects[0].mass``; ``None`` in files and texts.
     key: str | None
-    #: Expected and found content.
+    #: Description of the fault, with the expected and the found content.
     message: str
     #: Suggested fix; may be empty.
     advice: str
@@ -45,11 +45,17 @@ class Fault:
 
 
 class PushplanError(Exception):
-    """Any error of this package."""
+    """Base class of the exceptions of this package."""
 
 
 class FileError(PushplanError, ValueError):
-    """Everything that is wrong with tools, tasks, plans or recordings, or with their files."""
+    """Invalid tool, task, plan or recording, or a file that cannot be read or written.
+
+    Parameters
+    ----------
+    faults : iterable of Fault
+        Faults; at least one.
+    """
 
     #: Faults; at least one.
     faults: tuple[Fault, ...]
@@ -63,21 +69,29 @@ class FileError(PushplanError, ValueError):
 
 
 class ModelError(PushplanError, ValueError):
-    """A text that names no effect model, or weights that cannot be used."""
+    """Unknown name of an effect model, or unusable weights."""
 
 
 class TaskError(PushplanError, ValueError):
-    """A task that cannot even be tried."""
+    """Task that the planner cannot attempt because one of its values is invalid."""
 
 
 class ActionError(PushplanError, ValueError):
-    """Pushes that cannot be made, such as one of an object that the tool cannot push that way."""
+    """Infeasible pushes, such as a push in a direction in which the tool cannot push."""
 
 
 class RefusedError(PushplanError):
-    """The model should not be trusted with this, and was told to refuse then."""
+    """Input outside the model's validity range, with ``out_of_range="refuse"``.
 
-    #: Reasons why the case is outside the model's validity range.
+    Parameters
+    ----------
+    message : str
+        Text of the error.
+    warnings : iterable of str
+        Reasons why the input is outside the model's validity range.
+    """
+
+    #: Reasons why the input is outside the model's validity range.
     warnings: tuple[str, ...]
 
     def __init__(self, message: str, warnings: Iterable[str]) -> None:

@@ -1,8 +1,8 @@
-"""The keys of files as types, for tools and tasks that are built in code.
+"""Types of mappings with the keys of files, for tools and tasks that are built in code.
 
-``Task.from_dict`` and ``Tool.from_dict`` take such mappings and check them as strictly as files; a type checker
-finds misspelled keys before. ``pushplan.task_schema()`` says what every key means, its range and its
-default. Lengths are metres, masses kilograms, angles (keys that end in ``_deg``) degrees.
+``Task.from_dict`` and ``Tool.from_dict`` check such mappings as strictly as files. A type checker
+finds misspelled keys earlier. ``pushplan.task_schema()`` states the meaning, range and default of
+every key. Lengths are metres, masses kilograms, and angles (keys that end in ``_deg``) degrees.
 """
 
 import sys
@@ -27,25 +27,25 @@ __all__ = [
     "ToolMountKeys",
 ]
 
-#: Numbers in a row, such as a position [x, y] in metres.
+#: Sequence of numbers, such as a position [x, y] in metres.
 Numbers = Union[Sequence[float], npt.NDArray[np.float64]]
 
 
 class CylinderKeys(TypedDict):
-    """An upright cylinder, metres."""
+    """Upright cylinder, metres."""
 
     radius: float
     height: float
 
 
 class CuboidKeys(TypedDict):
-    """A cuboid of these full extents [x, y, z], metres."""
+    """Cuboid with full extents [x, y, z], metres."""
 
     size: Numbers
 
 
 class PrismKeys(TypedDict):
-    """An upright prism on a convex polygon, metres."""
+    """Upright prism with a convex polygon as its base, metres."""
 
     corners: Sequence[Numbers]
     height: float
@@ -53,13 +53,13 @@ class PrismKeys(TypedDict):
 
 
 class ObjectPrismKeys(PrismKeys):
-    """The same of an object, with the point of it that is at its position."""
+    """Upright prism of an object; `origin` is the point that lies at the object's position."""
 
     origin: NotRequired[Numbers]
 
 
 class ShapeKeys(TypedDict, total=False):
-    """One solid: exactly one of the keys."""
+    """Solid of a tool; exactly one of the keys."""
 
     cylinder: CylinderKeys
     cuboid: CuboidKeys
@@ -67,7 +67,7 @@ class ShapeKeys(TypedDict, total=False):
 
 
 class ObjectShapeKeys(TypedDict, total=False):
-    """The solid of an object: exactly one of the keys."""
+    """Solid of an object; exactly one of the keys."""
 
     cylinder: CylinderKeys
     cuboid: CuboidKeys
@@ -75,14 +75,14 @@ class ObjectShapeKeys(TypedDict, total=False):
 
 
 class SupportKeys(TypedDict, total=False):
-    """How an object's weight is spread: exactly one of the keys."""
+    """Support model of an object; exactly one of the keys."""
 
     spread: float
     points: Sequence[Numbers]
 
 
 class TableKeys(TypedDict, total=False):
-    """The table; extents and position [x, y] in metres."""
+    """Table; extents and position [x, y] in metres."""
 
     friction: float
     size: Numbers
@@ -90,8 +90,10 @@ class TableKeys(TypedDict, total=False):
 
 
 class ObjectPartKeys(TypedDict):
-    """A part of an object; mass in kilograms, position [x, y] in the object's frame and z, the height of
-    its underside above the object's, in metres; a third number of the position is z."""
+    """Part of an object; mass in kilograms, position [x, y] in the object's frame in metres.
+
+    `z` is the height of its underside above the object's underside, metres. It may also be the
+    third number of the position."""
 
     shape: ObjectShapeKeys
     position: Numbers
@@ -104,7 +106,7 @@ class ObjectPartKeys(TypedDict):
 
 
 class ObjectKeys(TypedDict):
-    """A movable object; mass in kilograms, position [x, y] and heights in metres."""
+    """Movable object; mass in kilograms, position [x, y] and heights in metres."""
 
     name: str
     shape: ObjectShapeKeys
@@ -122,7 +124,7 @@ class ObjectKeys(TypedDict):
 
 
 class ObstacleKeys(TypedDict):
-    """A fixed cuboid; extents [x, y, z] and position [x, y] in metres."""
+    """Fixed cuboid; extents [x, y, z] and position [x, y] in metres."""
 
     name: str
     size: Numbers
@@ -132,7 +134,7 @@ class ObstacleKeys(TypedDict):
 
 
 class JointKeys(TypedDict):
-    """A joint between two objects; where it is, in metres in the world at the start."""
+    """Joint between two objects; its position in the world at the start, metres."""
 
     between: Sequence[str]
     kind: Literal["fixed", "revolute", "prismatic"]
@@ -144,14 +146,14 @@ class JointKeys(TypedDict):
 
 
 class FrictionKeys(TypedDict):
-    """The coefficient of friction of a pair that is not the mean of the two values."""
+    """Friction coefficient of a pair that replaces the mean of its two friction values."""
 
     between: Sequence[str]
     coefficient: float
 
 
 class SceneKeys(TypedDict):
-    """What stands on the table."""
+    """Objects, obstacles, joints and table."""
 
     objects: Sequence[ObjectKeys]
     table: NotRequired[TableKeys]
@@ -162,32 +164,32 @@ class SceneKeys(TypedDict):
 
 
 class ReachKeys(TypedDict):
-    """Distances of the end effector from the base, metres."""
+    """Allowed distances of the end effector from the base, metres."""
 
     max: float
     min: NotRequired[float]
 
 
-# Hand about the end effector, an upright cylinder: its radius and the height of its lower end, metres.
+# Hand around the end effector, an upright cylinder: radius and height of its lower end, metres.
 HandKeys = TypedDict("HandKeys", {"radius": float, "from": float}, total=False)
 
 
 class StandKeys(TypedDict, total=False):
-    """How an arm stands at the origin: its height in metres, and its turn."""
+    """Pose of an arm at the origin: its height in metres, and its rotation."""
 
     height: float
     yaw_deg: float
 
 
 class ToolMountKeys(TypedDict, total=False):
-    """From the flange to the tool's underside, metres, and the tool's turn about the flange's axis."""
+    """Distance from flange to tool underside, metres, and rotation about the flange axis."""
 
     length: float
     yaw_deg: float
 
 
 class RobotKeys(TypedDict):
-    """Where the end effector can be, metres, or the arm that holds it, and how hard it can press, newtons."""
+    """Reach of the end effector, metres, or its arm, and the maximum force, newtons."""
 
     reach: NotRequired[ReachKeys]
     home: NotRequired[Numbers]
@@ -202,7 +204,7 @@ class RobotKeys(TypedDict):
 
 
 class PushKeys(TypedDict, total=False):
-    """The pushes that a plan may contain; lengths in metres, speed in m/s."""
+    """Allowed pushes of a plan; lengths in metres, speed in m/s."""
 
     form: Literal["placed", "chained"]
     directions: Union[Literal["principal"], int, Numbers]
@@ -216,25 +218,25 @@ class PushKeys(TypedDict, total=False):
 
 
 class CircleKeys(TypedDict):
-    """A circle, metres."""
+    """Circle, metres."""
 
     radius: float
 
 
 class RectangleKeys(TypedDict):
-    """A rectangle, full extents [x, y] in metres."""
+    """Rectangle with full extents [x, y], metres."""
 
     size: Numbers
 
 
 class PolygonKeys(TypedDict):
-    """A convex polygon, corners [x, y] in metres."""
+    """Convex polygon with corners [x, y], metres."""
 
     corners: Sequence[Numbers]
 
 
 class AreaKeys(TypedDict, total=False):
-    """The outline of a region: exactly one of these."""
+    """Outline of a region; exactly one of the keys."""
 
     circle: CircleKeys
     rectangle: RectangleKeys
@@ -242,7 +244,7 @@ class AreaKeys(TypedDict, total=False):
 
 
 class GoalRegionKeys(TypedDict):
-    """Where an object's centre may lie, or must not; position [x, y] in metres."""
+    """Region in which (or outside which) an object's centre must lie; position [x, y] in metres."""
 
     area: AreaKeys
     position: NotRequired[Numbers]
@@ -251,7 +253,7 @@ class GoalRegionKeys(TypedDict):
 
 
 class GapKeys(TypedDict):
-    """How far an object is from something else, metres; at least one of the limits."""
+    """Distance of an object from another body, metres; at least one of the limits."""
 
     to: str
     min: NotRequired[float]
@@ -259,7 +261,7 @@ class GapKeys(TypedDict):
 
 
 class CoverageKeys(TypedDict):
-    """How much of its own outline there an object covers; position [x, y] in metres."""
+    """Coverage of an object's own outline at a pose, a share; position [x, y] in metres."""
 
     share: NotRequired[float]
     position: Numbers
@@ -267,14 +269,14 @@ class CoverageKeys(TypedDict):
 
 
 class EdgeKeys(TypedDict):
-    """A part of an edge of the table over which an object is to fall, metres along it."""
+    """Part of a table edge over which an object must fall, metres along the edge."""
 
     edge: Literal["far", "near", "left", "right"]
     between: Numbers
 
 
 class GoalKeys(TypedDict):
-    """Where an object must come to rest, and how; position [x, y] and lengths in metres."""
+    """Goal of an object at rest; position [x, y] and lengths in metres."""
 
     object: NotRequired[str]
     objects: NotRequired[Sequence[str]]
@@ -298,7 +300,7 @@ class GoalKeys(TypedDict):
 
 
 class LeversKeys(TypedDict, total=False):
-    """The lever-ups that a plan may contain; metres, m/s and seconds."""
+    """Allowed lever-ups of a plan; metres, m/s and seconds."""
 
     depth: Numbers
     angle_deg: Numbers
@@ -328,14 +330,14 @@ RegionKeys = TypedDict(
 
 
 class CostedToolKeys(TypedDict):
-    """A tool that costs something to use."""
+    """Tool with a cost of use."""
 
     name: str
     cost: NotRequired[float]
 
 
 class TaskFile(TypedDict):
-    """The keys of a task file."""
+    """Task file."""
 
     scene: SceneKeys
     robot: RobotKeys
@@ -352,14 +354,14 @@ class TaskFile(TypedDict):
 
 
 class GripKeys(TypedDict):
-    """The end effector's pose in the tool frame; position [x, y] in metres."""
+    """Pose of the end effector in the tool frame; position [x, y] in metres."""
 
     position: Numbers
     yaw_deg: NotRequired[float]
 
 
 class PartKeys(TypedDict):
-    """One solid of a tool; extents [x, y, z] and position [x, y] in metres."""
+    """Part of a tool; extents [x, y, z] and position [x, y] in metres."""
 
     name: str
     position: Numbers
@@ -369,7 +371,7 @@ class PartKeys(TypedDict):
 
 
 class BladeKeys(TypedDict):
-    """What goes under an edge, metres."""
+    """Blade that goes under an edge, metres."""
 
     length: float
     width: float
@@ -377,7 +379,7 @@ class BladeKeys(TypedDict):
 
 
 class ToolFile(TypedDict):
-    """The keys of a tool file."""
+    """Tool file."""
 
     name: str
     friction: NotRequired[float]

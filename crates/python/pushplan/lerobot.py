@@ -1,23 +1,26 @@
-"""Trajectories and runs as a LeRobot data set (format v3.0), which ``lerobot``, ``datasets`` and ``pyarrow`` read.
+"""LeRobot data sets (format v3.0) from trajectories and runs.
+
+The packages ``lerobot``, ``datasets`` and ``pyarrow`` read them.
 
     import pushplan
     from pushplan import lerobot
 
     plan = pushplan.solve(pushplan.Task.example("pull-back-behind-wall")).best
     lerobot.save("demonstrations", [(plan.task, pushplan.predict(plan, "3d"))])
-    lerobot.save("runs", [pushplan.run(pushplan.Task.example("coupled-or-not"), world) for world in range(20)])
+    task = pushplan.Task.example("coupled-or-not")
+    lerobot.save("runs", [pushplan.run(task, world) for world in range(20)])
 
-Needs ``pyarrow`` (``pip install 'pushplan[lerobot]'``). A frame holds
+The module needs ``pyarrow`` (``pip install 'pushplan[lerobot]'``). A frame holds
 
 - ``observation.state``: pose of the tool frame, x and y in metres, heading in radians;
-- ``observation.environment_state``: the same of every object, in the order of the task;
-- ``action``: where the tool is to be at the next frame;
-- ``next.done`` and ``next.success``: whether the episode ends, and whether its goal is then reached.
+- ``observation.environment_state``: pose of every object, in the order of the task;
+- ``action``: commanded pose of the tool frame at the next frame;
+- ``next.done`` and ``next.success``: whether the episode ends, and whether its goal is reached.
 
-Of a run objects are where they were seen, and the tool is where it was told to be; what it did is one episode,
-from one push to the next, without the time in which the tool is lifted, moved and set down, or exchanged.
+In a run, poses of objects are observations, and poses of the tool are commands. A run is one
+episode of all its pushes, without the time for lifting, moving and changing the tool between them.
 
-There are no pictures. Headings count their turns.
+There are no images. Headings are continuous, without wrapping at pi.
 """
 
 from __future__ import annotations
@@ -48,25 +51,47 @@ _Floats = npt.NDArray[np.float64]
 def save(
     folder: str | Path, episodes: Iterable[Union[tuple[Task, Trajectory], Run]], *, fps: int = 20
 ) -> Path:
-    """Writes a new folder with an episode for every task and trajectory on its table, and for every run.
+    """Writes a data set with one episode for every trajectory or run.
 
-    All tasks have objects of the same names, in the same order. ``fps`` is the number of frames a
-    second; poses between those of a trajectory lie on the straight line between them. A partial data
-    set is never left behind, and an existing folder is not touched.
+    The folder appears as a whole, so that no partial data set remains after an error. Poses between
+    the frames of a trajectory are interpolated linearly.
+
+    Parameters
+    ----------
+    folder : str or Path
+        New folder; an existing one is an error.
+    episodes : iterable of (Task, Trajectory) or Run
+        Episodes. All tasks must have objects of the same names, in the same order.
+    fps : int, default 20
+        Number of frames per second, 1 to 1000.
+
+    Returns
+    -------
+    Path
+        The folder.
+
+    Raises
+    ------
+    FileExistsError
+        If the folder exists.
+    ImportError
+        If ``pyarrow`` is missing.
+    ValueError
+        If there is no episode, the objects differ, or ``fps`` is out of range.
     """
     parquet, arrow = _pyarrow()
     folder = Path(folder)
     if folder.exists():
-        raise FileExistsError(f"{folder} exists; name a new folder")
+        raise FileExistsError(f"{folder} exists already; choose a new folder")
     if not (isinstance(fps, int) and 1 <= fps <= 1000):
-        raise ValueError("`fps` is a whole number from 1 to 1000")
+        raise ValueError(f"`fps` must be a whole number from 1 to 1000, found {fps!r}")
     taken = [_of_run(one, fps) if isinstance(one, Run) else _of_trajectory(*one, fps) for one in episodes]
     if not taken:
-        raise ValueError("a data set has one episode or more")
+        raise ValueError("`episodes` is empty; a data set needs one episode or more")
     names = taken[0].names
     for one in taken:
         if one.names != names:
-            raise ValueError(f"episodes of one data set have the same objects: {names} and {one.names}")
+            raise ValueError(f"all episodes must have the same objects, found {names} and {one.names}; write one data set for each")
     words = list(dict.fromkeys(one.words for one in taken))
     features = _features(names)
     columns: dict[str, list[Any]] = {name: [] for name in features}
@@ -148,13 +173,13 @@ def _pyarrow() -> tuple[Any, Any]:
         import pyarrow  # type: ignore[import-not-found,import-untyped,unused-ignore]
         import pyarrow.parquet  # type: ignore[import-not-found,import-untyped,unused-ignore]
     except ImportError as error:
-        raise ImportError("LeRobot data sets need pyarrow: pip install 'pushplan[lerobot]'") from error
+        raise ImportError("LeRobot data sets need the package pyarrow: pip install 'pushplan[lerobot]'") from error
     return pyarrow.parquet, pyarrow
 
 
 @dataclass
 class _Episode:
-    """Poses of the tool ``[frames, 3]``, and of all objects ``[frames, objects * 3]``, at equal steps."""
+    """Poses of the tool, ``[frames, 3]``, and of all objects, ``[frames, objects * 3]``."""
 
     words: str
     names: list[str]
@@ -193,7 +218,7 @@ def _of_run(run: Run, fps: int) -> _Episode:
         tools.append(_at(steps, np.array([frame["time"] for frame in way]), tool))
         objects.append(_at(steps, times, sights.reshape(len(times), -1)))
     if not tools:
-        raise ValueError(f"the run of `{trace['task']['name']}` made no push")
+        raise ValueError(f"the run of `{trace['task']['name']}` has no pushes; leave it out")
     tool, poses = np.concatenate(tools), np.concatenate(objects).reshape(-1, len(names), 3)
     tool[:, 2], poses[:, :, 2] = np.unwrap(tool[:, 2]), np.unwrap(poses[:, :, 2], axis=0)
     return _Episode(_words(trace["task"]), names, tool, poses.reshape(len(poses), -1), run.reached)
@@ -204,7 +229,7 @@ def _pose(pose: Any) -> list[float]:
 
 
 def _seen(sights: Any) -> _Floats:
-    """What is seen of every object, NaN where it is not."""
+    """Returns the observed pose of every object, NaN for missing values."""
     rows = [
         [np.nan] * 3 if sight is None else [*sight["position"], np.nan if sight["heading"] is None else sight["heading"]]
         for sight in sights
@@ -213,7 +238,7 @@ def _seen(sights: Any) -> _Floats:
 
 
 def _words(mapping: Any) -> str:
-    """What a task is, in words."""
+    """Returns the description of a task, or its name."""
     return str(mapping.get("description") or mapping["name"])
 
 
@@ -222,7 +247,7 @@ def _steps(duration: float, fps: int) -> _Floats:
 
 
 def _at(steps: _Floats, times: _Floats, values: _Floats) -> _Floats:
-    """Columns of numbers at other times, on straight lines."""
+    """Interpolates columns of numbers linearly at other times."""
     return np.stack([np.interp(steps, times, column) for column in values.T], axis=1)
 
 
@@ -271,7 +296,7 @@ def _column(arrow: Any, values: npt.NDArray[Any]) -> Any:
 
 
 def _tasks(arrow: Any, words: list[str]) -> Any:
-    """Tasks by their words, which pandas takes as the index."""
+    """Returns the table of tasks, with their descriptions as the index for pandas."""
 
     def column(name: str, kind: str, numpy: str) -> dict[str, Any]:
         return {

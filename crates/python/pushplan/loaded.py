@@ -1,4 +1,4 @@
-"""Scenes of MuJoCo models that are loaded already, wherever they came from: see :func:`scene_from`."""
+"""Import of MuJoCo models that are already loaded: see :func:`scene_from`."""
 
 from __future__ import annotations
 
@@ -36,13 +36,35 @@ def scene_from(
     free: Optional[Sequence[str]] = None,
     density: Optional[float] = None,
 ) -> _native.Task:
-    """A task with the objects and obstacles of a model of MuJoCo that is loaded (`mujoco.MjModel`), where they
-    are in `data` (`mujoco.MjData`), by default where the model puts them.
+    """Imports a task with the objects and obstacles of a loaded MuJoCo model.
 
-    What becomes what is as with :func:`import_task`, of which the other arguments are; `model` may be of any
-    origin: a file, a text, `mujoco.MjSpec`, another library. Positions of joints are kept as they are in
-    `data`, and limits count from there. What is wrong names places in the model as it is written out (MJCF),
-    a file of which `FileError` and warnings give lines.
+    The model may come from a file, a text, `mujoco.MjSpec` or another library. It is written as an
+    MJCF file, and errors and warnings state lines of that file.
+
+    Parameters
+    ----------
+    model : mujoco.MjModel
+        Loaded model.
+    data : mujoco.MjData, optional
+        State with the poses of bodies and joints; by default the initial state of the model. Joint
+        limits count from this state.
+    bodies, name, friction, shift, free, density
+        Options of the import, see :func:`import_task`.
+
+    Returns
+    -------
+    Task
+        Imported task.
+
+    Raises
+    ------
+    FileError
+        If pushplan cannot express a part of the model.
+
+    Examples
+    --------
+    >>> model = mujoco.MjModel.from_xml_path("scene.xml")
+    >>> task = pushplan.scene_from(model, free=["box"])
     """
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "model.xml"
@@ -54,7 +76,7 @@ def scene_from(
 
 
 class _Written:
-    """A model as MJCF, as far as it is imported."""
+    """MJCF of the imported parts of a model."""
 
     def __init__(self, model: Any, data: Any) -> None:
         import mujoco  # type: ignore[import-not-found,import-untyped,unused-ignore]
@@ -190,7 +212,7 @@ class _Written:
 
 
 def _seen(pose: _Pose, frame: _Pose) -> _Pose:
-    """A place and a turn (w x y z), seen from another."""
+    """Returns a position and a rotation (w x y z) relative to another frame."""
     back = frame[1] * np.array([1.0, -1.0, -1.0, -1.0])
     return _matrix(back) @ (pose[0] - frame[0]), _product(back, pose[1])
 
@@ -212,6 +234,6 @@ def _numbers(values: Iterable[Any]) -> str:
 
 
 def _text(model: Any, of: str, at: int) -> str:
-    """A text of the model that ends with a zero."""
+    """Returns a text of the model that ends with a zero byte."""
     whole: bytes = getattr(model, of)
     return whole[at : whole.index(b"\0", at)].decode("utf-8", "replace")

@@ -1,4 +1,4 @@
-"""Logs of trackers as recordings: CSV with stated columns and units, and MCAP.
+"""Recordings from logs of trackers: CSV with stated columns and units, and MCAP.
 
     from pushplan import logs
 
@@ -19,8 +19,8 @@
         topics={"pusher": "/tip/pose", "box": "/tf#box"},
     )
 
-What a log cannot be is an error that says where: wrong units, times that go back, seconds that are lost,
-poses that stand still while others move on.
+Invalid logs give an error with the line: wrong units, decreasing times, gaps, and poses that are
+constant while others move.
 """
 
 from __future__ import annotations
@@ -52,8 +52,8 @@ _STILL = 2e-3
 _GAP = 2.5
 #: Half width of the interval for fitting velocities at the cut of a log, seconds.
 _NEAR = 0.05
-#: Duration for which a pose may be identical bit for bit before it is stale, if the object moves before and
-#: after, seconds.
+#: Duration for which a pose may be identical bit for bit before it is stale, if the object moves
+#: before and after, seconds.
 _STALE = 0.25
 
 _Floats = npt.NDArray[np.float64]
@@ -72,13 +72,39 @@ def read_csv(
     start: float | None = None,
     end: float | None = None,
 ) -> Recording:
-    """The recording in a CSV file with a line of column names.
+    """Reads a recording from a CSV file with a header of column names.
 
-    ``scene`` and ``pusher`` are those of a recording file. ``poses`` names for the pusher and for every
-    object the columns of x, y and, if it is known, heading. ``length``, ``angle`` and ``clock`` are the
-    units of the columns. ``start`` and ``end`` cut out a part, seconds since the first line; what moves
-    by more than 2 mm within 50 ms of ``start`` begins with that velocity, all else at rest. Raises `ValueError` for what a log cannot be and `FileError` for what a
-    recording cannot be.
+    Parameters
+    ----------
+    path : str or Path
+        CSV file.
+    scene, pusher : mapping
+        Scene and pusher, with the keys of a recording file.
+    time : str
+        Column of the time.
+    poses : mapping of str to sequence of str
+        Columns of x, y and optionally heading, for ``"pusher"`` and for every object.
+    length : {"m", "cm", "mm", "in"}
+        Unit of positions.
+    angle : {"deg", "rad"}, default "deg"
+        Unit of headings.
+    clock : {"s", "ms", "us", "ns"}, default "s"
+        Unit of times.
+    start, end : float, optional
+        Limits of the used part, seconds since the first line. A body that moves by more than 2 mm
+        within 50 ms of ``start`` begins with its velocity there; other bodies begin at rest.
+
+    Returns
+    -------
+    Recording
+        Recording, with the file's name.
+
+    Raises
+    ------
+    ValueError
+        If the log is invalid; the message states file and line.
+    FileError
+        If the scene or the pusher is invalid.
     """
     return Recording.from_dict(
         _mapping(path, scene, pusher, time, poses, (length, angle, clock), (start, end))
@@ -94,33 +120,56 @@ def read_mcap(
     start: float | None = None,
     end: float | None = None,
 ) -> Recording:
-    """The recording in an MCAP file: one of `pushplan export --format mcap`, which needs nothing else, or a
-    bag of ROS 2.
+    """Reads a recording from an MCAP file of `pushplan export --format mcap`, or from a ROS 2 bag.
 
-    Of a bag ``topics`` names for the pusher and for every object where its poses are, in the frame of the
-    table: messages `PoseStamped`, `PoseWithCovarianceStamped` or `TransformStamped` of geometry_msgs, `Odometry`
-    of nav_msgs, or `TFMessage` of tf2_msgs, of which ``"/tf#box"`` takes the child frame ``box``. Times are
-    those of the pusher's stamps, from when all are seen on; between two of its poses an object is on the
-    straight line. ``scene``, ``pusher``, ``start`` and ``end`` are as in `read_csv`. Needs the package ``mcap``
-    (``pip install 'pushplan[mcap]'``). Raises `ValueError` for what a log cannot be and `FileError` for what a
-    recording cannot be.
+    An exported file needs no further argument. A bag needs ``scene``, ``pusher`` and ``topics``.
+    Its recording has a frame for every stamp of the pusher at which all objects are observed.
+    Poses of objects between two stamps are interpolated linearly.
+
+    Parameters
+    ----------
+    path : str or Path
+        MCAP file.
+    scene, pusher : mapping, optional
+        Scene and pusher, with the keys of a recording file.
+    topics : mapping of str to str, optional
+        Topics of the poses in the frame of the table, for ``"pusher"`` and for every object.
+        Types are `PoseStamped`, `PoseWithCovarianceStamped` and `TransformStamped` of
+        geometry_msgs, `Odometry` of nav_msgs, and `TFMessage` of tf2_msgs. With the last type
+        ``"/tf#box"`` selects the child frame ``box``.
+    start, end : float, optional
+        Limits of the used part, see `read_csv`.
+
+    Returns
+    -------
+    Recording
+        Recording, with the file's name.
+
+    Raises
+    ------
+    ImportError
+        If the packages of ``pip install 'pushplan[mcap]'`` are missing.
+    ValueError
+        If the log or an argument is invalid.
+    FileError
+        If the scene or the pusher is invalid.
     """
     path = Path(path)
     if topics is None:
         if scene is not None or pusher is not None:
-            raise ValueError("a bag needs `topics`, and a file of pushplan neither `scene` nor `pusher`")
+            raise ValueError("`scene` and `pusher` need `topics` (ROS 2 bag); leave them out for a file of `pushplan export`")
         return Recording.from_dict(_bags.own(path))
     if scene is None or pusher is None:
-        raise ValueError("a bag holds poses alone: state `scene` and `pusher`")
+        raise ValueError("a ROS 2 bag contains only poses: set `scene` and `pusher`")
     names = [_PUSHER, *(str(thing["name"]) for thing in scene["objects"])]
     if set(topics) != set(names):
-        raise ValueError(f"`topics` names those of {', '.join(names)}, not of {', '.join(topics)}")
+        raise ValueError(f"`topics` must have the keys {', '.join(names)}, found {', '.join(topics)}")
     seen = _bags.poses_of(path, topics)
     first, last = max(times[0] for times, _ in seen.values()), min(times[-1] for times, _ in seen.values())
     stamps = seen[_PUSHER][0]
     stamps = stamps[(stamps >= first) & (stamps <= last)]
     if len(stamps) < 2:
-        raise ValueError(f"{path}: the poses of {', '.join(names)} are not of the same time")
+        raise ValueError(f"{path}: the times of {', '.join(names)} do not overlap; check the topics and their stamps")
     bodies = {}
     for name in names:
         times, poses = seen[name]
@@ -131,7 +180,7 @@ def read_mcap(
 
 
 def write_json(path: str | Path, csv_path: str | Path, **stated: Any) -> None:
-    """Writes the recording of `read_csv` as a file for the command."""
+    """Writes the recording of a CSV file as JSON for the command; arguments as in `read_csv`."""
     units = (stated.pop("length"), stated.pop("angle", "deg"), stated.pop("clock", "s"))
     cut = (stated.pop("start", None), stated.pop("end", None))
     mapping = _mapping(csv_path, units=units, cut=cut, **stated)
@@ -151,11 +200,12 @@ def _mapping(
     length, angle, clock = units
     if length not in _LENGTHS or angle not in ("deg", "rad") or clock not in _TIMES:
         raise ValueError(
-            f"units are length {'/'.join(_LENGTHS)}, angle deg/rad, clock {'/'.join(_TIMES)}"
+            f"`length` must be {'/'.join(_LENGTHS)}, `angle` deg/rad and `clock` {'/'.join(_TIMES)}, "
+            f"found {length}, {angle} and {clock}"
         )
     names = [_PUSHER, *(str(thing["name"]) for thing in scene["objects"])]
     if set(poses) != set(names):
-        raise ValueError(f"`poses` names columns of {', '.join(names)}, not of {', '.join(poses)}")
+        raise ValueError(f"`poses` must have the keys {', '.join(names)}, found {', '.join(poses)}")
     wanted = [time, *(column for name in names for column in poses[name])]
     lines, table = _columns(Path(path), wanted)
     times = table[time] * _TIMES[clock]
@@ -163,7 +213,7 @@ def _mapping(
     for name in names:
         columns = poses[name]
         if len(columns) not in (2, 3):
-            raise ValueError(f"the columns of `{name}` are those of x, y and perhaps heading")
+            raise ValueError(f"`{name}` needs 2 or 3 columns (x, y, heading), found {len(columns)}")
         raw = np.stack([table[column] for column in columns], axis=1)
         place = raw[:, :2] * _LENGTHS[length]
         if len(columns) == 3:
@@ -180,13 +230,13 @@ def _recorded(
     length: str,
     cut: tuple[float | None, float | None],
 ) -> dict[str, Any]:
-    """A recording of poses in metres and degrees, at times with the lines that they stand in."""
+    """Returns the recording of poses in metres and degrees, with their times and line numbers."""
     times, lines = clock
     _check_times(path, times, lines)
     begin, stop = cut[0] or 0.0, math.inf if cut[1] is None else cut[1]
     kept = (times >= begin) & (times <= stop)
     if kept.sum() < 2:
-        raise ValueError(f"{path}: fewer than two lines from {begin} to {stop} s")
+        raise ValueError(f"{path}: fewer than two lines from {begin} to {stop} s; change `start` or `end`")
     velocities = {name: _velocity(times, place, int(np.argmax(kept))) for name, place in bodies.items()}
     bodies = {name: place[kept] for name, place in bodies.items()}
     for name, place in bodies.items():
@@ -197,8 +247,7 @@ def _recorded(
     moved = max(float(np.ptp(place[:, :2], axis=0).max()) for place in bodies.values())
     if moved < _STILL:
         raise ValueError(
-            f"{path}: nothing moves by more than {1e3 * moved:.3f} mm: is `{length}` the unit of "
-            "length?"
+            f"{path}: nothing moves by more than {1e3 * moved:.3f} mm; check `length`, here `{length}`"
         )
     objects = [place for name, place in bodies.items() if name != _PUSHER]
     frames = [
@@ -218,7 +267,7 @@ def _recorded(
 
 
 def _velocity(times: _Floats, place: _Floats, first: int) -> dict[str, Any]:
-    """How a body moves at line ``first``, as a scene states it; nothing where it hardly does."""
+    """Returns the velocity of a body at line ``first`` as keys of a scene; empty at rest."""
     if first == 0:
         return {}
     near = np.abs(times - times[first]) <= _NEAR
@@ -230,13 +279,13 @@ def _velocity(times: _Floats, place: _Floats, first: int) -> dict[str, Any]:
 
 
 def _columns(path: Path, wanted: Sequence[str]) -> tuple[npt.NDArray[np.int64], dict[str, _Floats]]:
-    """Numbers of lines, and columns as numbers."""
+    """Returns line numbers, and columns as numbers."""
     with path.open(newline="", encoding="utf-8-sig") as file:
         rows = csv.DictReader(file, skipinitialspace=True)
         known = rows.fieldnames or []
         missing = [name for name in dict.fromkeys(wanted) if name not in known]
         if missing:
-            raise ValueError(f"{path}: no column {', '.join(missing)}; there are {', '.join(known)}")
+            raise ValueError(f"{path}: no column {', '.join(missing)}; the file has {', '.join(known)}")
         lines: list[int] = []
         found: dict[str, list[float]] = {name: [] for name in wanted}
         for row in rows:
@@ -248,11 +297,11 @@ def _columns(path: Path, wanted: Sequence[str]) -> tuple[npt.NDArray[np.int64], 
                     value = math.nan
                 if not math.isfinite(value):
                     raise ValueError(
-                        f"{path}:{rows.line_num}: `{name}` is {row[name]!r}, not a number"
+                        f"{path}:{rows.line_num}: `{name}` is {row[name]!r}; expected a finite number"
                     )
                 found[name].append(value)
     if len(lines) < 2:
-        raise ValueError(f"{path}: a log has two lines of numbers or more")
+        raise ValueError(f"{path}: a log needs two lines of numbers or more, found {len(lines)}")
     return np.array(lines), {name: np.array(values) for name, values in found.items()}
 
 
@@ -260,38 +309,38 @@ def _check_times(path: str | Path, times: _Floats, lines: npt.NDArray[np.int64])
     back = np.flatnonzero(np.diff(times) <= 0)
     if len(back):
         raise ValueError(
-            f"{path}:{lines[back[0] + 1]}: the time does not go on: sort the lines, and leave doubled "
-            "ones out"
+            f"{path}:{lines[back[0] + 1]}: the time does not increase: sort the lines and remove "
+            "duplicates"
         )
     usual = float(np.median(np.diff(times)))
     if not 1e-4 <= usual <= 2.0:
-        raise ValueError(f"{path}: {usual:g} s between two lines: is `clock` its unit of time?")
+        raise ValueError(f"{path}: the time step is {usual:g} s; check the unit of time, `clock`")
 
 
 def _check_length(path: str | Path, name: str, place: _Floats, length: str) -> None:
     away = float(np.abs(place - place[0]).max())
     if away > _FAR:
         raise ValueError(
-            f"{path}: `{name}` moves by {away:.1f} m: is `{length}` the unit of length?"
+            f"{path}: `{name}` moves by {away:.1f} m; check `length`, here `{length}`"
         )
 
 
 def _degrees(path: str | Path, name: str, heading: _Floats, angle: str) -> _Floats:
-    """Headings in degrees, all turns counted."""
+    """Returns continuous headings in degrees."""
     turn = 360.0 if angle == "deg" else math.tau
     steps = np.abs(np.diff(heading))
     if angle == "deg":
         # Headings in radians are recognised: they wrap at pi or stay within pi.
         wraps = bool((np.abs(steps - math.tau) < 0.3).any())
         if wraps and np.abs(heading).max() <= math.tau + 1e-6:
-            raise ValueError(f"{path}: the heading of `{name}` wraps at pi: its unit is `rad`")
+            raise ValueError(f"{path}: the heading of `{name}` wraps at pi; set `angle` to `rad`")
         if 0.05 < float(np.ptp(heading)) and np.abs(heading).max() <= math.pi:
             warnings.warn(
-                f"{path}: all headings of `{name}` lie within 3.15 degrees: are they radians?",
+                f"{path}: all headings of `{name}` lie within 3.15 degrees; if they are radians, set `angle`",
                 stacklevel=4,
             )
     elif np.abs(heading).max() > 4 * math.tau or bool((np.abs(steps - 360.0) < 20.0).any()):
-        raise ValueError(f"{path}: the heading of `{name}` is {np.abs(heading).max():.0f}: its unit is `deg`")
+        raise ValueError(f"{path}: the heading of `{name}` is {np.abs(heading).max():.0f}; set `angle` to `deg`")
     return np.asarray(np.unwrap(heading, period=turn) * (360.0 / turn), dtype=np.float64)
 
 
@@ -303,7 +352,7 @@ def _check_gaps(
         for name, place in bodies.items():
             if np.abs(place[k + 1, :2] - place[k, :2]).max() > _STILL:
                 raise ValueError(
-                    f"{path}:{lines[k + 1]}: {steps[k]:.2f} s are missing before this line, in which "
+                    f"{path}:{lines[k + 1]}: {steps[k]:.2f} s are missing before this line while "
                     f"`{name}` moves: cut the log there with `start` or `end`"
                 )
 
@@ -323,13 +372,14 @@ def _check_stale(
             if k == first:
                 k += 1
                 continue
-            # Stale during motion: the object moves right before and right after, and so does the pusher.
+            # Stale during motion: object and pusher move right before and right after.
             if first == 0 or k == len(same) or times[k] - times[first] < _STALE:
                 continue
             jumps = min(speed[first - 1], speed[k]) > 1e-4
             goes = np.abs(pusher[k] - pusher[first]).max() > _STILL or name == _PUSHER
             if jumps and goes:
                 raise ValueError(
-                    f"{path}:{lines[first]}: `{name}` stands still to the bit for "
-                    f"{times[k] - times[first]:.2f} s on its way: the tracker lost it"
+                    f"{path}:{lines[first]}: the pose of `{name}` is constant for "
+                    f"{times[k] - times[first]:.2f} s during a motion, because the tracker lost it: "
+                    "cut the log there with `start` or `end`"
                 )

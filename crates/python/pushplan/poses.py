@@ -1,17 +1,18 @@
-"""Where objects are, from tags that a camera sees: AprilTags or ArUco markers on what is pushed.
+"""Poses of objects from a camera image with AprilTags or ArUco markers on the objects.
 
-Needs OpenCV: ``pip install 'pushplan[camera]'``.
+The module needs OpenCV: ``pip install 'pushplan[camera]'``.
 
     from pushplan.poses import Camera, Tag, look
 
-    camera = Camera(matrix, distortion).placed(image, {0: (0.2, -0.3), 1: (0.8, -0.3), 2: (0.5, 0.3)}, 0.06)
+    table = {0: (0.2, -0.3), 1: (0.8, -0.3), 2: (0.5, 0.3)}
+    camera = Camera(matrix, distortion).placed(image, table, 0.06)
     seen = look(task, image, camera, [Tag(7, "can", 0.04)])
     solution = pushplan.solve(task.at(seen.poses))
 
-Objects stand upright, so that a pose is x, y and heading: these three are fitted to the corners of all tags
-of an object at once, which is far better known than a pose in space from one tag. The covariance is that of
-the fit, for corners that are found to within ``pixels``, plus what is not known of where the camera is.
-Lengths are metres, angles radians, and the table is the plane z = 0.
+Objects stand upright, so that a pose is x, y and heading. The module fits these three values to the
+corners of all tags of an object together, which is far more accurate than a pose in space from one
+tag. The covariance contains the error of the detected corners (standard deviation ``pixels``) and
+of the camera's pose. Lengths are metres, angles radians, and the table is the plane z = 0.
 """
 
 from __future__ import annotations
@@ -28,19 +29,33 @@ __all__ = ["Camera", "Seen", "Tag", "detect", "look"]
 
 Floats = npt.NDArray[np.float64]
 
-#: Default standard deviation of a detected corner, pixels: measured on tags rendered by MuJoCo, of 40 to 90
-#: pixels.
+#: Default standard deviation of a detected corner, pixels, measured with tags of 40 to 90 pixels
+#: that MuJoCo rendered.
 PIXELS = 0.15
 
-#: Maximum error of the corners of a fit, in standard deviations; beyond it the observation is rejected.
+#: Maximum error of the corners of a fit, in standard deviations, for a valid observation.
 GROSS = 8.0
 
 
 @dataclass(frozen=True)
 class Tag:
-    """A tag on an object: ``size`` is the edge of its black square, ``position`` its middle in the object's
-    frame with z from the table on (by default on top, in the middle), ``yaw`` its turn there; ``turn`` is the
-    whole turn as a 3 x 3 matrix, for tags that do not face up."""
+    """Tag on an object.
+
+    Parameters
+    ----------
+    id : int
+        Id of the tag in its family.
+    object : str
+        Name of the object.
+    size : float
+        Edge of the tag's black square, metres.
+    position : tuple of float, optional
+        Centre in the object's frame, metres, with z = 0 at the table; by default on the top.
+    yaw : float, default 0
+        Rotation about z in the object's frame, radians.
+    turn : array_like, ``[3, 3]``, optional
+        Rotation matrix in the object's frame, for tags that do not face up; it replaces ``yaw``.
+    """
 
     id: int
     object: str
@@ -50,7 +65,7 @@ class Tag:
     turn: Optional[npt.ArrayLike] = None
 
     def corners(self, height: float) -> Floats:
-        """Its corners in the object's frame, as detectors order them, ``[4, 3]``."""
+        """Returns the corners in the object's frame, in detectors' order, metres: ``[4, 3]``."""
         turn = _about_z(self.yaw) if self.turn is None else np.asarray(self.turn, float)
         middle = np.array((0.0, 0.0, height) if self.position is None else self.position)
         return middle + _square(self.size) @ turn.T
@@ -58,9 +73,21 @@ class Tag:
 
 @dataclass(frozen=True)
 class Camera:
-    """A calibrated camera: its matrix, distortion as OpenCV has it, and where it is: ``turn`` and ``shift``
-    take points of the table into its frame (x right, y down, z ahead). ``covariance`` is of a small turn
-    (radians) and shift (metres) of that, in its frame."""
+    """Calibrated camera with its pose.
+
+    Parameters
+    ----------
+    matrix : array_like, ``[3, 3]``
+        Camera matrix, pixels.
+    distortion : array_like, optional
+        Distortion coefficients in OpenCV's order; by default none.
+    turn : ndarray, ``[3, 3]``
+        Rotation matrix from the table's frame to the camera's (x right, y down, z ahead).
+    shift : ndarray, ``[3]``
+        Translation from the table's frame to the camera's, metres.
+    covariance : ndarray, ``[6, 6]``
+        Covariance of small rotations (radians) and translations (metres) in the camera's frame.
+    """
 
     matrix: npt.ArrayLike
     distortion: npt.ArrayLike = ()
@@ -69,7 +96,10 @@ class Camera:
     covariance: Floats = field(default_factory=lambda: np.zeros((6, 6)))
 
     def at(self, position: Sequence[float], turn: npt.ArrayLike) -> Camera:
-        """The same at a position on the table's frame, ``turn`` being the camera's axes as columns."""
+        """Returns the camera at a position in the table's frame, metres.
+
+        The columns of ``turn``, ``[3, 3]``, are the camera's axes in the table's frame.
+        """
         turn = np.asarray(turn, float).T
         return replace(self, turn=turn, shift=-turn @ np.asarray(position, float), covariance=np.zeros((6, 6)))
 
@@ -82,13 +112,30 @@ class Camera:
         family: str = "apriltag_36h11",
         pixels: float = PIXELS,
     ) -> Camera:
-        """The same where it must be to see these tags, which lie flat on the table: of each its id and where
-        its middle is, x, y and, if it is turned, by how much. More than one, far apart, tell it well."""
+        """Returns the camera with its pose from an image of tags on the table.
+
+        Parameters
+        ----------
+        image : ndarray of uint8
+            Grey or colour image.
+        tags : mapping of int to sequence of float
+            Ids and centres of tags that lie flat on the table, x and y in metres, and optionally
+            their rotation in radians. Several tags far apart give an accurate pose.
+        size : float
+            Edge of the black squares, metres.
+        family, pixels
+            Family of the tags and minimum standard deviation of a corner, see `look`.
+
+        Raises
+        ------
+        ValueError
+            If the image shows none of the tags.
+        """
         cv2 = _cv2()
         found = detect(image, family)
         known = [k for k in tags if k in found]
         if not known:
-            raise ValueError(f"none of the tags {sorted(tags)} is seen, but {sorted(found)}")
+            raise ValueError(f"the image shows none of the tags {sorted(tags)}, but {sorted(found)}; check ids and `family`")
         middles = {k: (*tuple(tags[k]), 0.0)[:3] for k in known}
         points = np.concatenate(
             [np.array([x, y, 0.0]) + _square(size) @ _about_z(yaw).T for x, y, yaw in middles.values()]
@@ -109,7 +156,7 @@ class Camera:
         return replace(placed, covariance=covariance)
 
     def project(self, points: Floats) -> Floats:
-        """Where points of the table's frame are seen, pixels, ``[points, 2]``."""
+        """Projects points of the table's frame, ``[points, 3]``, to pixels, ``[points, 2]``."""
         cv2 = _cv2()
         seen, _ = cv2.projectPoints(
             points @ self.turn.T + self.shift, np.zeros(3), np.zeros(3),
@@ -118,8 +165,8 @@ class Camera:
         return np.asarray(seen, float).reshape(-1, 2)
 
     def slopes(self, points: Floats) -> tuple[Floats, Floats]:
-        """How what is seen moves with the points, ``[points, 2, 3]``, and with the camera, ``[2 points, 6]``:
-        by a turn and a shift in its frame."""
+        """Returns the derivatives of the projection by the points, ``[points, 2, 3]``, and by a
+        rotation and a translation of the camera in its frame, ``[2 points, 6]``."""
         step = 1e-6
         by_point = np.empty((len(points), 2, 3))
         for k in range(3):
@@ -140,38 +187,51 @@ class Camera:
 
 @dataclass(frozen=True)
 class Seen:
-    """What a look gives. ``poses`` has x, y and heading of every object, ``[objects, 3]``, for
-    `Task.at`; an object that was not seen is where the task has it, and is in ``missing``. ``covariance``
-    is theirs, ``[objects, 3, 3]``; ``off`` how far the corners of each are off its fit, pixels."""
+    """Observation of the objects, the result of `look`."""
 
+    #: Poses for `Task.at`, ``[objects, 3]``: x, y (metres), heading (radians); default: the task's.
     poses: Floats
+    #: Covariances of the poses, ``[objects, 3, 3]``; NaN without observation.
     covariance: Floats
+    #: Root mean square error of the corners of each object, pixels, ``[objects]``.
     off: Floats
+    #: Names of the objects without observation.
     missing: tuple[str, ...]
 
     @property
     def noise(self) -> tuple[float, float]:
-        """Standard deviations of a position (metres) and a heading (radians), of what is known least: for
-        `run` and `infer`."""
+        """Largest standard deviations of a position (metres) and a heading (radians)."""
         seen = [k for k in range(len(self.poses)) if np.isfinite(self.off[k])]
         if not seen:
-            raise ValueError("no object was seen")
+            raise ValueError("no object was observed; see `missing`")
         shift = max(np.sqrt(np.linalg.eigvalsh(self.covariance[k][:2, :2])[-1]) for k in seen)
         return float(shift), float(max(np.sqrt(self.covariance[k][2, 2]) for k in seen))
 
 
 def detect(image: npt.NDArray[np.uint8], family: str = "apriltag_36h11") -> dict[int, Floats]:
-    """Tags in an image (grey, or in colours), by their ids: four corners each, pixels. Families are those of
-    OpenCV's dictionaries: ``apriltag_36h11``, ``4x4_50`` and so on."""
+    """Detects the tags in an image.
+
+    Parameters
+    ----------
+    image : ndarray of uint8
+        Grey or colour image.
+    family : str, default "apriltag_36h11"
+        Family of the tags, an OpenCV dictionary such as "apriltag_36h11" or "4x4_50".
+
+    Returns
+    -------
+    dict of int to ndarray, ``[4, 2]``
+        Corners of every tag by its id, pixels. A tag that appears twice is left out.
+    """
     aruco = _cv2().aruco
     name = "DICT_" + (family.upper().replace("H", "h") if family.startswith("apriltag") else family.upper())
     if not hasattr(aruco, name):
         known = sorted(word[5:].lower() for word in dir(aruco) if word.startswith("DICT_"))
-        raise ValueError(f"no family of tags is called {family!r}; there are {', '.join(known)}")
+        raise ValueError(f"no family of tags is called {family!r}; use one of {', '.join(known)}")
     settings = aruco.DetectorParameters()
     settings.cornerRefinementMethod = aruco.CORNER_REFINE_SUBPIX
-    # With these windows, corners of rendered tags have a mean error of 0.14 pixels; with OpenCV's own
-    # windows, 0.38.
+    # With these windows, corners of rendered tags have a mean error of 0.14 pixels; with OpenCV's
+    # own windows, 0.38.
     settings.cornerRefinementWinSize = 7
     settings.relativeCornerRefinmentWinSize = 0.5
     detector = aruco.ArucoDetector(aruco.getPredefinedDictionary(getattr(aruco, name)), settings)
@@ -180,7 +240,7 @@ def detect(image: npt.NDArray[np.uint8], family: str = "apriltag_36h11") -> dict
         return {}
     found: dict[int, Floats] = {}
     for tag, four in zip(np.ravel(ids), corners):
-        # A tag that is seen twice is ambiguous, because a picture of it may be in the scene.
+        # A tag that appears twice is ambiguous, because a picture of it may be in the scene.
         found[int(tag)] = np.full((4, 2), np.nan) if int(tag) in found else np.asarray(four, float).reshape(4, 2)
     return {tag: four for tag, four in found.items() if np.isfinite(four).all()}
 
@@ -194,8 +254,37 @@ def look(
     family: str = "apriltag_36h11",
     pixels: float = PIXELS,
 ) -> Seen:
-    """Where the objects of a task are, by the tags on them. ``image`` may also be the corners that another
-    detector has found, by ids. Corners are known to ``pixels``, a standard deviation."""
+    """Estimates the poses of a task's objects from the tags on them.
+
+    Parameters
+    ----------
+    task : Task
+        Task with the objects.
+    image : ndarray of uint8, or mapping of int to array_like
+        Grey or colour image, or the corners from another detector by the tags' ids, ``[4, 2]``.
+    camera : Camera
+        Camera with its pose.
+    tags : iterable of Tag
+        Tags on the objects.
+    family : str, default "apriltag_36h11"
+        Family of the tags, see `detect`.
+    pixels : float
+        Standard deviation of a detected corner, pixels.
+
+    Returns
+    -------
+    Seen
+        Poses with covariances.
+
+    Raises
+    ------
+    ValueError
+        If a tag names an object that the task does not have, or OpenCV has no such family.
+
+    Examples
+    --------
+    >>> seen = look(task, image, camera, [Tag(7, "can", 0.04)])
+    """
     if isinstance(image, Mapping):
         found = {int(k): np.asarray(v, float).reshape(4, 2) for k, v in image.items()}
     else:
@@ -207,7 +296,7 @@ def look(
     by_object: dict[str, list[tuple[Floats, Floats]]] = {}
     for tag in tags:
         if tag.object not in names:
-            raise ValueError(f"tag {tag.id} is on {tag.object!r}, which the task does not have")
+            raise ValueError(f"tag {tag.id} is on {tag.object!r}, which the task does not have; it has {', '.join(names)}")
         if tag.id in found:
             pair = (tag.corners(heights[tag.object]), found[tag.id])
             by_object.setdefault(tag.object, []).append(pair)
@@ -223,15 +312,15 @@ def look(
 
 
 def _fit(camera: Camera, points: Floats, corners: Floats, pixels: float) -> Optional[tuple[Floats, Floats, float]]:
-    """The pose of what has these points, seen at these corners; its covariance, and how far off they are."""
+    """Fits a pose to observed corners of points; returns it with covariance and error in pixels."""
     matrix = np.asarray(camera.matrix, float)
     rays = _cv2().undistortPoints(corners.reshape(-1, 1, 2), matrix, _distortion(camera.distortion))
     rays = np.column_stack([rays.reshape(-1, 2), np.ones(len(corners))]) @ camera.turn
     eye = -camera.turn.T @ camera.shift
     if np.any(np.abs(rays[:, 2]) < 1e-6):
         return None
-    # Initial guess: the best rotation and translation in the plane that map the points to the rays at their
-    # heights.
+    # Initial guess: the best rotation and translation in the plane that map the points to the rays
+    # at their heights.
     flat = eye + rays * ((points[:, 2] - eye[2]) / rays[:, 2])[:, None]
     a, b = points[:, :2] - points[:, :2].mean(0), flat[:, :2] - flat[:, :2].mean(0)
     guesses = [np.arctan2((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum(), (a * b).sum())]
@@ -266,7 +355,7 @@ def _fit(camera: Camera, points: Floats, corners: Floats, pixels: float) -> Opti
 
 
 def _slopes(camera: Camera, points: Floats, pose: Floats) -> tuple[Floats, Floats, Floats]:
-    """Points of an object at a pose, and how what is seen of them moves with the pose and with the camera."""
+    """Returns points of an object at a pose, and derivatives of their projection."""
     turned = points @ _about_z(pose[2]).T + np.array([pose[0], pose[1], 0.0])
     by_point, by_camera = camera.slopes(turned)
     around = np.column_stack([-(turned[:, 1] - pose[1]), turned[:, 0] - pose[0], np.zeros(len(turned))])
@@ -277,7 +366,7 @@ def _slopes(camera: Camera, points: Floats, pose: Floats) -> tuple[Floats, Float
 
 
 def _heights(task: Task) -> dict[str, float]:
-    """Heights of the objects of a task, metres."""
+    """Returns the heights of the objects of a task, metres."""
     things: Any = task.to_dict()["scene"]["objects"]
     heights = {}
     for thing in things:
@@ -305,5 +394,5 @@ def _cv2() -> Any:
     try:
         import cv2
     except ImportError as error:
-        raise ImportError("looking for tags needs OpenCV: pip install 'pushplan[camera]'") from error
+        raise ImportError("detecting tags needs OpenCV: pip install 'pushplan[camera]'") from error
     return cv2

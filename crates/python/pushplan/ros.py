@@ -1,32 +1,30 @@
-"""A node of ROS 2 that plans and carries out: ``python -m pushplan.ros TASK``.
+"""ROS 2 node that plans and carries out a task: ``python -m pushplan.ros TASK``.
 
-Needs `rclpy` and messages: those of a ROS 2 that is installed, or ``pip install 'pushplan[ros]'`` (CPython
-3.11). Standard messages only, so that nothing has to be built; where there are types of the action `Push`
-(``python -m pushplan.ros_types FOLDER``), the node has that action, too:
+The node needs `rclpy` and messages, from an installed ROS 2 or from ``pip install 'pushplan[ros]'``
+(CPython 3.11). It uses standard messages only, so that nothing has to be built. With the types of
+the action `Push` (``python -m pushplan.ros_types FOLDER``) it also offers that action:
 
-==================  ============================  ====================================================
-``~/pose/OBJECT``   geometry_msgs/PoseStamped     in: where an object is, in the table's frame, its
-                                                  heading about z; names have ``_`` for what topics
-                                                  cannot hold
-``~/solve``         std_srvs/Trigger              plans from the last poses; the answer is JSON
-``~/run``           std_srvs/Trigger              looks, plans, sends, waits, and again until the goal is
-                                                  reached; answers at once whether it has begun
-``~/cancel``        std_srvs/Trigger              stops what is going on, and the robot
-``~/push``          pushplan_interfaces/Push      an action: what ``~/run`` does, with feedback, cancel and
-                                                  result, and for a task of the client's with the same
-                                                  objects
-``~/feedback``      std_msgs/String               out: JSON with ``state`` and what belongs to it
-``~/path``          nav_msgs/Path                 out: the way of the end effector in what is to be
-                                                  done now, two poses for each push
-``~/trajectory``    trajectory_msgs/              out: the way of the joints, of tasks with an arm; empty
-                    JointTrajectory               to stop
-``~/done``          std_msgs/String               in: ``done``, or what went wrong, once the robot has
-                                                  carried out the last path or trajectory
-==================  ============================  ====================================================
+==================  =========================  ====================================================
+``~/pose/OBJECT``   geometry_msgs/PoseStamped  in: pose of an object in the table's frame, heading
+                                               about z; ``_`` replaces invalid characters of a name
+``~/solve``         std_srvs/Trigger           plans from the last poses; returns JSON
+``~/run``           std_srvs/Trigger           observes, plans, sends and waits until the goal is
+                                               reached; returns at once whether the run has started
+``~/cancel``        std_srvs/Trigger           cancels the run and stops the robot
+``~/push``          pushplan_interfaces/Push   action for ``~/run`` with feedback, cancel, result;
+                                               also for a client's task with the same objects
+``~/feedback``      std_msgs/String            out: JSON with ``state`` and its details
+``~/path``          nav_msgs/Path              out: path of the end effector for the robot, two
+                                               poses per push
+``~/trajectory``    trajectory_msgs/           out: joint trajectory of tasks with an arm; an empty
+                    JointTrajectory            one stops the robot
+``~/done``          std_msgs/String            in: ``done``, or a fault, after the robot has run the
+                                               last path or trajectory
+==================  =========================  ====================================================
 
-Lengths are metres, angles radians, times seconds. A plan is sent only if it is verified, from poses that are
-newer than what was done last. After a restart of either side nothing is going on, and ``~/run`` begins with
-a look.
+Lengths are metres, angles radians, times seconds. The node sends only verified plans, from poses
+that are newer than the last motion. After a restart of node or robot no run is active, and
+``~/run`` starts with an observation.
 """
 
 from __future__ import annotations
@@ -54,12 +52,23 @@ FRAME = "table"
 
 
 class Stopped(Exception):
-    """What is going on was cancelled, or cannot go on; says why."""
+    """Cancelled or failed run; the text states the reason."""
 
 
 class Node:
-    """The node, on a context of rclpy that is initialised; `spin` until it is shut down. ``solve`` are the
-    arguments of `pushplan.solve`, ``tries`` how often a run plans."""
+    """Node on an initialised context of rclpy.
+
+    Parameters
+    ----------
+    task : Task
+        Task of the node.
+    name : str, default "pushplan"
+        Name of the node.
+    tries : int, default 8
+        Maximum number of plans in a run.
+    **solve
+        Options of `pushplan.solve`.
+    """
 
     def __init__(self, task: _native.Task, *, name: str = "pushplan", tries: int = 8, **solve: Any) -> None:
         ros = _ros()
@@ -94,7 +103,7 @@ class Node:
             )
 
     def spin(self) -> None:
-        """Answers until the context is shut down."""
+        """Serves requests until the context is shut down."""
         executor = self.ros["MultiThreadedExecutor"](num_threads=4)
         executor.add_node(self.node)
         try:
@@ -113,7 +122,7 @@ class Node:
         heading = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
         pose = np.array([at.x, at.y, heading])
         if not np.isfinite(pose).all():
-            self._say("ignored", what=f"a pose of {thing} that is not finite")
+            self._say("ignored", what=f"pose of {thing} with numbers that are not finite")
             return
         with self._changed:
             self._seen[thing] = (time.monotonic(), pose)
@@ -128,7 +137,7 @@ class Node:
 
     def _solve(self, _: Any, answer: Any) -> Any:
         if self._one.locked():
-            return _answer(answer, False, {"error": "a run is going on; cancel it first"})
+            return _answer(answer, False, {"error": "a run is active; cancel it first"})
         try:
             solution = self._planned(self._look(self.task, time.monotonic() - FRESH))
         except (Stopped, ValueError, RuntimeError) as error:
@@ -140,7 +149,7 @@ class Node:
 
     def _run(self, _: Any, answer: Any) -> Any:
         if not self._one.acquire(blocking=False):
-            return _answer(answer, False, {"error": "a run is going on already"})
+            return _answer(answer, False, {"error": "a run is already active; cancel it first"})
         self._cancelled.clear()
         self._worker = threading.Thread(target=self._runs, args=(self.task,), daemon=True)
         self._worker.start()
@@ -150,7 +159,7 @@ class Node:
         return _answer(answer, True, {"cancelled": self._stop()})
 
     def _stop(self) -> bool:
-        """Stops what is going on, and the robot; says whether anything was."""
+        """Cancels the run and stops the robot; returns whether a run was active."""
         going = self._one.locked()
         self._cancelled.set()
         # A controller stops at a trajectory without points.
@@ -194,13 +203,13 @@ class Node:
             return self.task
         task = _native.Task.parse(goal.task)
         if task.objects != self.task.objects:
-            raise ValueError(f"the node sees {', '.join(self.task.objects)}, the task has {', '.join(task.objects)}")
+            raise ValueError(f"the task must have the node's objects {', '.join(self.task.objects)}, found {', '.join(task.objects)}")
         return task
 
     # Run.
 
     def _runs(self, task: _native.Task) -> dict[str, Any]:
-        """Runs to the end; what was said of it."""
+        """Carries out a run and returns its last feedback."""
         try:
             return self._say("ended", **self._run_through(task))
         except Stopped as stop:
@@ -228,10 +237,10 @@ class Node:
                 return {"reached": False, "plans": tried, "why": solution.status}
             self._carry_out(best)
             since = time.monotonic()
-        return {"reached": False, "plans": self.tries, "why": "as often tried as allowed"}
+        return {"reached": False, "plans": self.tries, "why": "maximum number of plans reached"}
 
     def _look(self, task: _native.Task, since: float) -> _native.Task:
-        """A task with its objects where they have been seen after this moment."""
+        """Returns the task with poses observed after this time; waits for them."""
         until = time.monotonic() + PATIENCE
         with self._changed:
             while True:
@@ -243,7 +252,7 @@ class Node:
                     return task.at(np.array([self._seen[thing][1] for thing in task.objects]))
                 self._go_on()
                 if time.monotonic() > until:
-                    raise Stopped(f"no pose of {', '.join(missing)} within {PATIENCE:.0f} s")
+                    raise Stopped(f"no pose of {', '.join(missing)} within {PATIENCE:.0f} s; check the topics ~/pose/OBJECT")
                 self._changed.wait(0.1)
 
     def _planned(self, task: _native.Task) -> _native.Solution:
@@ -265,10 +274,10 @@ class Node:
             while self._answer is None:
                 self._go_on()
                 if time.monotonic() > until:
-                    raise Stopped("the robot does not say that it is done")
+                    raise Stopped("the robot sent no message on ~/done in time")
                 self._changed.wait(0.1)
             if self._answer != "done":
-                raise Stopped(f"the robot: {self._answer}")
+                raise Stopped(f"the robot reports a fault: {self._answer}")
 
     def _go_on(self) -> None:
         if self._cancelled.is_set() and self._one.locked():
@@ -332,7 +341,7 @@ def _ros() -> dict[str, Any]:
         from std_srvs.srv import Trigger  # type: ignore[import-not-found,import-untyped,unused-ignore]
         from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint  # type: ignore[import-not-found,import-untyped,unused-ignore]
     except ImportError as error:
-        raise ImportError("a node needs ROS 2: source it, or pip install 'pushplan[ros]'") from error
+        raise ImportError("the node needs ROS 2: source an installation, or pip install 'pushplan[ros]'") from error
     try:
         from pushplan_interfaces.action import Push  # type: ignore[import-not-found,import-untyped,unused-ignore]
     except ImportError:
@@ -342,12 +351,12 @@ def _ros() -> dict[str, Any]:
 
 
 def main(arguments: Optional[Sequence[str]] = None) -> int:
-    """The node for a task file."""
-    parser = argparse.ArgumentParser(prog="python -m pushplan.ros", description="A node of ROS 2 that plans.")
-    parser.add_argument("task", help="the task file")
-    parser.add_argument("--name", default="pushplan", help="of the node [default: pushplan]")
+    """Runs the node for a task file."""
+    parser = argparse.ArgumentParser(prog="python -m pushplan.ros", description="ROS 2 node that plans and carries out a task.")
+    parser.add_argument("task", help="task file")
+    parser.add_argument("--name", default="pushplan", help="name of the node [default: pushplan]")
     parser.add_argument("--effort", default="standard", choices=["draft", "standard", "thorough"])
-    parser.add_argument("--tries", type=int, default=8, help="how often a run plans [default: 8]")
+    parser.add_argument("--tries", type=int, default=8, help="maximum number of plans in a run [default: 8]")
     options = parser.parse_args(arguments)
     import rclpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
 

@@ -1,12 +1,12 @@
-"""The types of the action `pushplan_interfaces/action/Push`, where no workspace of ROS 2 builds them.
+"""Builds the types of the action `pushplan_interfaces/action/Push` without a ROS 2 workspace.
 
     pip install 'pushplan[ros]' 'empy<4' catkin_pkg lark
     python -m pushplan.ros_types ~/pushplan_types
     PYTHONPATH=~/pushplan_types python -m pushplan.ros TASK
 
-Needs a C and a C++ compiler. The generators are those of ROS, which its wheels bring; what they write becomes
-one module, for the middleware Fast DDS. In a workspace a package of interfaces with `Push.action`, which lies in
-the folder `action` of this one, does the same.
+The module needs a C and a C++ compiler. ROS's own generators, from its wheels, write code that is
+compiled to one module for the middleware Fast DDS. In a workspace, build a package of interfaces
+with `action/Push.action` from this package instead.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ import numpy as np
 __all__ = ["build", "main"]
 
 PACKAGE = "pushplan_interfaces"
-#: Interfaces that an action consists of.
+#: Interfaces on which an action depends.
 NEEDS = ("action_msgs", "builtin_interfaces", "service_msgs", "unique_identifier_msgs")
 LIBRARIES = (
     "rcutils", "rmw", "rosidl_runtime_c", "rosidl_typesupport_c", "rosidl_typesupport_fastrtps_c",
@@ -35,8 +35,13 @@ LIBRARIES = (
 
 
 def build(folder: str | Path) -> Path:
-    """Writes the package `pushplan_interfaces` to a folder, for `PYTHONPATH`. Raises `RuntimeError` with what
-    the compiler says."""
+    """Builds the package `pushplan_interfaces` in a folder for `PYTHONPATH`; returns the folder.
+
+    Raises
+    ------
+    RuntimeError
+        If a library of ROS is missing, or the compiler fails.
+    """
     folder = Path(folder).absolute()
     prefix = Path(sys.prefix)
     # Folders of the generators' templates.
@@ -85,7 +90,7 @@ def _generate(package: Path, prefix: Path) -> None:
 def _library(prefix: Path, name: str) -> Path:
     found = sorted((prefix / "lib").glob(f"lib{name}.so*"))
     if not found:
-        raise RuntimeError(f"there is no lib{name} in {prefix / 'lib'}: pip install 'pushplan[ros]'")
+        raise RuntimeError(f"lib{name} is missing in {prefix / 'lib'}: pip install 'pushplan[ros]'")
     return found[0]
 
 
@@ -96,9 +101,9 @@ def _run(command: Sequence[str | Path]) -> None:
 
 
 def main(arguments: Optional[Sequence[str]] = None) -> int:
-    """The types in a folder."""
-    parser = argparse.ArgumentParser(prog="python -m pushplan.ros_types", description="Types of the action `Push`.")
-    parser.add_argument("folder", type=Path, help="where they go, for PYTHONPATH")
+    """Builds the types in a folder given on the command line."""
+    parser = argparse.ArgumentParser(prog="python -m pushplan.ros_types", description="Builds the types of the ROS 2 action `Push`.")
+    parser.add_argument("folder", type=Path, help="folder for PYTHONPATH")
     print(build(parser.parse_args(arguments).folder))
     return 0
 

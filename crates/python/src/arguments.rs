@@ -1,4 +1,4 @@
-//! Conversion of words and numbers in arguments.
+//! Conversion of names and numbers in arguments.
 
 use std::fmt::Display;
 use std::time::Duration;
@@ -36,7 +36,7 @@ fn one_of<T: Display + Copy>(what: &str, word: &str, all: &[T]) -> PyResult<T> {
     all.iter().find(|one| one.to_string() == word).copied().ok_or_else(|| {
         let words: Vec<String> =
             all.iter().map(|one| format!("{one:?}", one = one.to_string())).collect();
-        PyValueError::new_err(format!("{what}: {word:?} is not known; use {}", words.join(", ")))
+        PyValueError::new_err(format!("{what}: unknown value {word:?}; use {}", words.join(", ")))
     })
 }
 
@@ -70,7 +70,10 @@ pub fn fitted(
 pub fn limit(seconds: Option<f64>) -> PyResult<Option<Duration>> {
     let limit = |seconds: f64| match Duration::try_from_secs_f64(seconds) {
         Ok(limit) if !limit.is_zero() => Ok(limit),
-        _ => Err(PyValueError::new_err("`time_limit` is a number of seconds above 0")),
+        _ => {
+            let message = format!("`time_limit` must be above 0 seconds, found {seconds}");
+            Err(PyValueError::new_err(message))
+        }
     };
     seconds.map(limit).transpose()
 }
@@ -79,7 +82,11 @@ pub fn limit(seconds: Option<f64>) -> PyResult<Option<Duration>> {
 pub fn threads(threads: usize) -> PyResult<usize> {
     match threads {
         0..=1024 => Ok(threads),
-        _ => Err(PyValueError::new_err("`threads` is at most 1024; 0 means one for each core")),
+        _ => {
+            let message =
+                format!("`threads` must be at most 1024, found {threads}; 0 means one per core");
+            Err(PyValueError::new_err(message))
+        }
     }
 }
 

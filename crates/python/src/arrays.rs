@@ -52,6 +52,8 @@ pub fn state(poses: ArrayViewD<'_, f64>) -> State {
 pub fn finite(what: &str, values: &ArrayViewD<'_, f64>) -> PyResult<()> {
     match values.iter().all(|value| value.is_finite()) {
         true => Ok(()),
-        false => Err(PyValueError::new_err(format!("{what}: all numbers must be finite"))),
+        false => {
+            Err(PyValueError::new_err(format!("`{what}` contains numbers that are not finite")))
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! Recordings, and beliefs about joints inferred from them.
+//! Recordings, and beliefs about joints from recordings.
 
 use std::path::PathBuf;
 
@@ -18,41 +18,72 @@ use pyo3::types::PyAny;
 use crate::mapping::Text;
 use crate::{arguments, arrays, errors, json, work};
 
-/// What happened on a table: a scene and the poses of pusher and objects frame by frame.
+/// Recording of one scene: poses of pusher and objects, frame by frame.
 #[pyclass(name = "Recording", module = "pushplan", frozen)]
 pub struct PyRecording(pub Recording);
 
 #[pymethods]
 impl PyRecording {
-    /// Reads a recording (YAML, or JSON if the file's name ends so). Raises `FileError` with all its
-    /// faults.
+    /// Reads a recording file (YAML, or JSON if the name ends in `.json`).
+    ///
+    /// Parameters
+    /// ----------
+    /// path : str or path-like
+    ///     Recording file.
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     If the file is unreadable or invalid; it lists all faults.
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         Recording::load(path).map(Self).map_err(|faults| errors::files(py, &faults, None))
     }
 
-    /// Reads the text of a recording; `name` names it in faults, and means JSON if it ends in
-    /// `.json`.
+    /// Reads the text of a recording file.
+    ///
+    /// Parameters
+    /// ----------
+    /// text : str
+    ///     Content of the file (YAML, or JSON if `name` ends in `.json`).
+    /// name : str, default "recording"
+    ///     File name in error messages.
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     If the text is invalid; it lists all faults.
     #[staticmethod]
     #[pyo3(signature = (text, name = "recording"))]
     fn parse(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
         Recording::parse(text, name).map(Self).map_err(|faults| errors::files(py, &faults, None))
     }
 
-    /// Builds a recording from a mapping with the keys of a recording file; arrays are taken as
-    /// lists.
+    /// Builds a recording from a mapping with the keys of a recording file.
+    ///
+    /// Parameters
+    /// ----------
+    /// mapping : dict
+    ///     Mapping with the keys of `recording_schema`. NumPy arrays count as lists.
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     If a value is invalid; it lists all faults with their keys.
+    /// TypeError
+    ///     If the mapping contains other types than a file.
     #[staticmethod]
     fn from_dict(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
         Text::of(mapping)?.read(py, "recording", Recording::parse).map(Self)
     }
 
-    /// Its name.
+    /// Name of the recording.
     #[getter]
     fn name(&self) -> &str {
         &self.0.name
     }
 
-    /// Names of the objects; arrays of poses are in this order.
+    /// Names of the objects, in the order of arrays of poses.
     #[getter]
     fn objects(&self) -> Vec<&str> {
         self.0.scene.objects.iter().map(|object| object.name.as_str()).collect()
@@ -72,7 +103,8 @@ impl PyRecording {
         arrays::array(py, poses.flat_map(arrays::numbers).collect(), shape)
     }
 
-    /// Velocities of the objects in the first frame, `[objects, 3]`: x and y in m/s, turn in rad/s.
+    /// Velocities of the objects in the first frame, `[objects, 3]`: x and y in m/s, rotation in
+    /// rad/s.
     #[getter]
     fn velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let numbers = |own: &Velocity| [own.linear.x, own.linear.y, own.angular];
@@ -96,7 +128,7 @@ impl PyRecording {
     }
 }
 
-/// Which objects are joined, by which joints, and how sure that is.
+/// Belief about joints between objects: probabilities of the joint types of every pair.
 #[pyclass(name = "Belief", module = "pushplan", frozen)]
 pub struct PyBelief {
     name: String,
@@ -107,21 +139,21 @@ pub struct PyBelief {
 
 #[pymethods]
 impl PyBelief {
-    /// The types of joints, in the order of `probabilities`.
+    /// Types of joints, in the order of the columns of `probabilities`.
     #[classattr]
     #[allow(non_upper_case_globals)] // an attribute in Python
     const joint_types: (&'static str, &'static str, &'static str, &'static str) =
         ("none", "fixed", "revolute", "prismatic");
 
-    /// Pairs of objects that stood within 3 cm of each other at the start, by name; others are taken
-    /// to be free of each other.
+    /// Pairs of objects within 3 cm of each other at the start, by name. Other pairs are assumed to
+    /// have no joint.
     #[getter]
     fn pairs(&self) -> Vec<(String, String)> {
         let name = |object: usize| self.objects[object].clone();
         self.belief.pairs().map(|[a, b]| (name(a), name(b))).collect()
     }
 
-    /// Probabilities of `joint_types` for every pair: `[pairs, 4]`.
+    /// Probabilities of `joint_types` for every pair of `pairs`: `[pairs, 4]`.
     #[getter]
     fn probabilities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let rows = self.belief.probabilities();
@@ -129,8 +161,8 @@ impl PyBelief {
         arrays::array(py, rows.into_iter().flatten().collect(), shape)
     }
 
-    /// The scene as it is believed to be at the end, with the likeliest joints: the keys of a task
-    /// file's `scene`.
+    /// Returns the final scene with the most probable joints, with the keys of `scene` in a task
+    /// file.
     fn scene<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let situation = self.belief.situation();
         let mut scene = (*situation.scene).clone();
@@ -138,7 +170,7 @@ impl PyBelief {
         json::dict(py, &scene.to_json())
     }
 
-    /// Everything, in the keys of `pushplan infer --json`.
+    /// Returns the belief with the keys of `pushplan infer --json`.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         json::text(py, &self.document().to_json())
     }
@@ -161,16 +193,43 @@ impl PyBelief {
 
 /// Returns the belief regulator shipped with the package.
 pub fn shipped_regulator() -> PyResult<BeliefRegulator> {
-    BeliefRegulator::shipped()
-        .map_err(|error| PyRuntimeError::new_err(format!("the shipped regulator: {error}")))
+    BeliefRegulator::shipped().map_err(|error| {
+        PyRuntimeError::new_err(format!("cannot read the shipped regulator: {error}"))
+    })
 }
 
-/// Infers from a recording which objects are joined, and by which joints.
+/// Infers joints between objects, and optionally ranges of their masses, from a recording.
 ///
-/// `model` rolls hypotheses out; `noise` (metres) and `heading_noise` (radians) are the standard
-/// deviations of what was recorded. Joints that the recording states are ignored. With
-/// `mass_ranges`, pairs of kilograms, lightest first, it also tells which of them every mass is in,
-/// of objects that another object touched; masses that the recording states are then ignored.
+/// Joints that the recording states are ignored.
+///
+/// Parameters
+/// ----------
+/// recording : Recording
+///     Recorded pushes.
+/// model : str, default "prior"
+///     Effect model that predicts every hypothesis; "prior" is the analytic model.
+/// noise : float, default 0.001
+///     Standard deviation of the recorded positions, metres, 0 to 0.5.
+/// heading_noise : float, default 0.01
+///     Standard deviation of the recorded headings, radians, 0 to 0.5.
+/// mass_ranges : sequence of tuple of float, optional
+///     Candidate ranges of masses, kg, lightest first, such as `[(0.2, 0.5), (1, 2)]`. The belief
+///     then states the range of every object that another object touched, and stated masses are
+///     ignored.
+/// threads : int, default 0
+///     Number of worker threads; 0 means one per core.
+///
+/// Returns
+/// -------
+/// Belief
+///     Probabilities of the joint types of every pair, and of the mass ranges.
+///
+/// Raises
+/// ------
+/// ModelError
+///     If `model` is not the name of an effect model.
+/// ValueError
+///     If another argument has an invalid value.
 #[pyfunction]
 #[pyo3(signature = (
     recording, *, model = "prior", noise = 1e-3, heading_noise = 0.01, mass_ranges = None, threads = 0
@@ -185,13 +244,18 @@ pub fn infer(
     threads: usize,
 ) -> PyResult<PyBelief> {
     if ![noise, heading_noise].iter().all(|value| (0.0..=0.5).contains(value)) {
-        return Err(PyValueError::new_err("`noise` and `heading_noise` are 0 to 0.5"));
+        let message = format!(
+            "`noise` (metres) and `heading_noise` (radians) must be 0 to 0.5, found {noise} and \
+             {heading_noise}"
+        );
+        return Err(PyValueError::new_err(message));
     }
     let mass_ranges = mass_ranges.unwrap_or_default();
     let sound = |(low, high): &(f64, f64)| 1e-3 <= *low && low < high && *high <= 1e3;
     if !mass_ranges.iter().all(sound) {
         return Err(PyValueError::new_err(
-            "`mass_ranges` are pairs that rise, from 0.001 kg to 1000 kg: (0.2, 0.5)",
+            "`mass_ranges` must be pairs of rising masses, 0.001 to 1000 kg, such as \
+             (0.2, 0.5)",
         ));
     }
     let ranges: Vec<Span> = mass_ranges.iter().map(|(low, high)| Span::new(*low, *high)).collect();

@@ -1,4 +1,4 @@
-//! Proposals of tools.
+//! Proposed tools.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use crate::task::PyTask;
 use crate::tool::{PyTool, PyToolLibrary, given};
 use crate::{arguments, errors, json, work};
 
-/// A tool that was proposed for a task, and what the tools that there are make of it.
+/// Result of `design`: the proposed tool, and the solution with the existing tools.
 #[pyclass(name = "Design", module = "pushplan", frozen)]
 pub struct PyDesign {
     task: Arc<Task>,
@@ -25,33 +25,34 @@ pub struct PyDesign {
 
 #[pymethods]
 impl PyDesign {
-    /// How well the task can be solved, in the words of `Solution.status`: with the tool that is
-    /// proposed, or else with those that there are.
+    /// Status with the proposed tool, or with the existing tools if there is no proposal; see
+    /// `Solution.status` for the values.
     #[getter]
     fn status(&self) -> &'static str {
         arguments::status(self.design.status())
     }
 
-    /// The tool; `None` where none was found that does better than those that there are. Where no
-    /// tool works it is the nearest.
+    /// Proposed tool; the nearest one if no tool solves the task. `None` if no proposal is better
+    /// than the existing tools.
     #[getter]
     fn tool(&self) -> Option<PyTool> {
         self.design.proposal.as_ref().map(|proposal| PyTool(Arc::clone(&proposal.tool)))
     }
 
-    /// The task solved with the tool that is proposed; `None` without one.
+    /// Solution with the proposed tool; `None` without a proposal.
     #[getter]
     fn solution(&self) -> Option<PySolution> {
         self.design.proposal.as_ref().map(|proposal| self.solved(&proposal.solution))
     }
 
-    /// The task solved with the tools that there are, whichever it names.
+    /// Solution with all existing tools, also with tools that the task does not name.
     #[getter]
     fn known(&self) -> PySolution {
         self.solved(&self.design.known)
     }
 
-    /// Everything, in the keys of `pushplan design --json`; times are wall-clock seconds.
+    /// Returns the design with the keys of `pushplan design --json`; times are wall-clock
+    /// seconds.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         json::text(py, &design_document(&self.task, &self.design).to_json())
     }
@@ -72,12 +73,38 @@ impl PyDesign {
     }
 }
 
-/// Proposes a tool of cuboids for a task of pushing: one that solves what none of `tools` does, or
-/// that does so with more margin, verified like any other.
+/// Proposes a tool of cuboids for a pushing task.
 ///
-/// `tools` are by default those that come with the package; `parts` is the most parts that it may
-/// have; `candidates` is the number of tools that are looked at; `effort`, `seed` and `threads` are
-/// those of `solve`.
+/// The tool solves a task that no tool of `tools` solves, or solves it with a larger margin. Its
+/// plan is verified like any other.
+///
+/// Parameters
+/// ----------
+/// task : Task
+///     Task that the tool should solve.
+/// tools : ToolLibrary, optional
+///     Existing tools; by default the tools shipped with the package.
+/// parts : int, default 3
+///     Maximum number of parts of the tool.
+/// candidates : int, default 1000
+///     Number of screened tools, 1 to 1000000.
+/// effort, seed, threads
+///     Options of the planner, see `solve`.
+///
+/// Returns
+/// -------
+/// Design
+///     Proposal, and the solution with the existing tools.
+///
+/// Raises
+/// ------
+/// FileError, TaskError or ValueError
+///     If the task or an argument is invalid.
+///
+/// Examples
+/// --------
+/// >>> design = pushplan.design(task, candidates=200)
+/// >>> tools = pushplan.ToolLibrary.shipped().with_tool(design.tool)
 #[pyfunction]
 #[pyo3(signature = (task, tools = None, *, parts = 3, candidates = 1000, effort = "standard",
                     seed = 0, threads = 0))]
@@ -94,7 +121,10 @@ pub fn design(
 ) -> PyResult<PyDesign> {
     let most = DesignSettings::MOST_PARTS;
     if !(1..=most).contains(&parts) || !(1..=1_000_000).contains(&candidates) {
-        let message = format!("`parts` is from 1 to {most}, and `candidates` from 1 to 1000000");
+        let message = format!(
+            "`parts` must be 1 to {most} and `candidates` 1 to 1000000, found {parts} and \
+             {candidates}"
+        );
         return Err(PyValueError::new_err(message));
     }
     let (model, replays, time_limit, fit) = (None, None, None, None);

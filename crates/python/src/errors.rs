@@ -38,7 +38,7 @@ pub fn files(py: Python<'_>, faults: &Faults, keys: Option<&[String]>) -> PyErr 
     }
 }
 
-/// Converts the error of a task that cannot be tried.
+/// Converts the error of a task that cannot be attempted.
 pub fn solve(py: Python<'_>, error: &SolveError) -> PyErr {
     match error {
         SolveError::Tools(faults) => files(py, faults, None),

@@ -20,13 +20,37 @@ use crate::{arguments, errors, work};
 // Defaults are literals, because Python shows them; the friction must equal `Wanted::FRICTION`.
 const _: () = assert!(Wanted::FRICTION == 0.5);
 
-/// The tool in a file of MuJoCo (MJCF) or ROS (URDF): the body of that name, by default the only one,
-/// with all that is fixed to it.
+/// Imports a tool from a MuJoCo (MJCF), ROS (URDF) or mesh (STL, OBJ) file.
 ///
-/// `friction` is the value of bodies that state none, `root` the folder in and below which the file
-/// may name others, by default its own, and `unit` that of a mesh (STL, OBJ), metres. `pushplan import
-/// --help` says what is imported as what. Raises `FileError` for anything that pushplan cannot express; slight
-/// differences are warnings.
+/// The command `pushplan import --help` lists the supported elements. Small differences between
+/// file and tool give warnings of the class `UserWarning`.
+///
+/// Parameters
+/// ----------
+/// path : str or path-like
+///     File to import.
+/// body : str, optional
+///     Body of the tool, with all bodies fixed to it; by default the only body of the file.
+/// name : str, optional
+///     Name of the tool; by default from the file.
+/// friction : float, default 0.5
+///     Friction value of bodies that state none.
+/// root : str or path-like, optional
+///     Folder that must contain all files to which the file refers; by default its own folder.
+/// unit : float, default 1.0
+///     Unit of a mesh file, metres, such as 0.001 for millimetres.
+///
+/// Returns
+/// -------
+/// Tool
+///     Imported tool.
+///
+/// Raises
+/// ------
+/// FileError
+///     If the file is unreadable, or pushplan cannot express a part of it.
+/// ValueError
+///     If `unit` is not a number above 0.
 #[pyfunction]
 #[pyo3(signature = (path, *, body = None, name = None, friction = 0.5, root = None, unit = 1.0))]
 pub fn import_tool(
@@ -44,15 +68,44 @@ pub fn import_tool(
     Ok(PyTool(Arc::new(tool)))
 }
 
-/// A task with the objects and obstacles in a file of MuJoCo (MJCF) or ROS (URDF): all that stand
-/// freely, or the bodies of those names.
+/// Imports a task with the objects and obstacles of a MuJoCo (MJCF), ROS (URDF) or mesh file.
 ///
-/// Robot and tools are placeholders for yours, and so is the goal, where the first object is,
-/// unless the file is one of `export_mjcf`. `friction` is the value of bodies that state none,
-/// `shift` moves everything on the table (metres), `free` names bodies that stand freely although the
-/// file holds them, `density` (kg/m^3) is that of bodies that state no mass, `root` the folder in and below
-/// which the file may name others, by default its own, and `unit` that of a mesh, metres. Raises `FileError` for anything that pushplan
-/// cannot express; slight differences are warnings.
+/// Robot and tools of the task are placeholders. The goal is the position of the first object,
+/// unless `export_mjcf` wrote the file. Small differences between file and task give warnings of
+/// the class `UserWarning`.
+///
+/// Parameters
+/// ----------
+/// path : str or path-like
+///     File to import.
+/// bodies : sequence of str, optional
+///     Bodies to import as objects; by default all bodies that move freely.
+/// name : str, optional
+///     Name of the task; by default from the file.
+/// friction : float, default 0.5
+///     Friction value of bodies that state none.
+/// shift : tuple of float, default (0, 0)
+///     Translation of everything on the table, x and y in metres.
+/// free : sequence of str, optional
+///     Bodies that become free objects although the file fixes them.
+/// density : float, optional
+///     Density of bodies that state no mass, kg/m^3.
+/// root : str or path-like, optional
+///     Folder that must contain all files to which the file refers; by default its own folder.
+/// unit : float, default 1.0
+///     Unit of a mesh file, metres.
+///
+/// Returns
+/// -------
+/// Task
+///     Imported task.
+///
+/// Raises
+/// ------
+/// FileError
+///     If the file is unreadable, or pushplan cannot express a part of it.
+/// ValueError
+///     If `density` or `unit` is not a number above 0.
 #[pyfunction]
 #[pyo3(signature = (path, *, bodies = None, name = None, friction = 0.5, shift = (0.0, 0.0),
                     free = None, density = None, root = None, unit = 1.0))]
@@ -70,8 +123,9 @@ pub fn import_task(
     unit: f64,
 ) -> PyResult<PyTask> {
     let (bodies, shift) = (bodies.unwrap_or_default(), Vector::new(shift.0, shift.1));
-    if density.is_some_and(|density| !(density > 0.0 && density.is_finite())) {
-        return Err(PyValueError::new_err("`density` is a number above 0, kg/m^3"));
+    if let Some(found) = density.filter(|density| !(*density > 0.0 && density.is_finite())) {
+        let message = format!("`density` must be a number above 0, kg/m^3, found {found}");
+        return Err(PyValueError::new_err(message));
     }
     let free = free.unwrap_or_default();
     let wanted = Wanted { bodies, free, density, name, friction, shift };
@@ -81,7 +135,8 @@ pub fn import_task(
 
 fn reading(root: Option<PathBuf>, unit: f64) -> PyResult<Reading> {
     if !(unit > 0.0 && unit.is_finite()) {
-        return Err(PyValueError::new_err("`unit` is a number above 0, metres"));
+        let message = format!("`unit` must be a number above 0, metres, found {unit}");
+        return Err(PyValueError::new_err(message));
     }
     Ok(Reading { root, unit })
 }
@@ -105,20 +160,52 @@ fn imported<T>(
     Ok(made.value)
 }
 
-/// Writes a plan as a scene of MuJoCo (MJCF), pushes and goal included: the text of `Plan.to_mjcf`. A
-/// partial file is never left behind.
+/// Writes a plan as a MuJoCo scene (MJCF) with pushes and goal: the text of `Plan.to_mjcf`.
+///
+/// Parameters
+/// ----------
+/// plan : Plan
+///     Plan to export.
+/// path : str or path-like
+///     File to write. It is replaced as a whole, so that no partial file remains after an error.
+///
+/// Raises
+/// ------
+/// FileError
+///     If the file cannot be written.
 #[pyfunction]
 pub fn export_mjcf(py: Python<'_>, plan: &PyPlan, path: PathBuf) -> PyResult<()> {
     let text = plan.to_mjcf()?;
     write_atomic(path, text.as_bytes()).map_err(|faults| errors::files(py, &faults, None))
 }
 
-/// Writes a plan and what it does as MCAP, which viewers such as Foxglove and Rerun play: solids as
-/// `foxglove.SceneUpdate` on `/scene`, poses as `foxglove.FrameTransforms` on `/tf` and as plain
-/// numbers on `/state`, the plan file as an attachment.
+/// Writes a plan and its motion as MCAP, for viewers such as Foxglove and Rerun.
 ///
-/// What it does is `trajectory` (of `predict`, of a replay of a verdict), by default what `model` says.
-/// A partial file is never left behind.
+/// Solids are `foxglove.SceneUpdate` messages on `/scene`. Poses are `foxglove.FrameTransforms` on
+/// `/tf` and plain numbers on `/state`. The plan file is an attachment.
+///
+/// Parameters
+/// ----------
+/// plan : Plan
+///     Plan to export.
+/// path : str or path-like
+///     File to write. It is replaced as a whole, so that no partial file remains after an error.
+/// trajectory : Trajectory, optional
+///     Motion to write, from `predict` or a replay of a verdict; by default the prediction of
+///     `model`.
+/// model : str, default "3d"
+///     Model of the default motion.
+/// threads : int, default 0
+///     Number of worker threads; 0 means one per core.
+///
+/// Raises
+/// ------
+/// FileError
+///     If the file cannot be written.
+/// ModelError
+///     If `model` is not the name of an effect model.
+/// ValueError
+///     If `trajectory` belongs to another task.
 #[pyfunction]
 #[pyo3(signature = (plan, path, *, trajectory = None, model = "3d", threads = 0))]
 pub fn export_mcap(
@@ -138,7 +225,10 @@ pub fn export_mcap(
     };
     let objects = plan.file.task.scene.objects.len();
     if trajectory.frames.iter().any(|frame| frame.state.poses.len() != objects) {
-        let message = format!("`trajectory` is of another task: the plan's has {objects} objects");
+        let message = format!(
+            "`trajectory` is of another task: the plan's task has {objects} objects; predict the \
+             plan with `pushplan.predict`"
+        );
         return Err(PyValueError::new_err(message));
     }
     let bytes = pushplan_export::mcap(&plan.file, &trajectory)

@@ -1,10 +1,10 @@
 //! Python package `pushplan`: the library with NumPy arrays, exceptions and notebook support.
 //!
 //! This is a thin layer; all computation, decisions and texts are in the library. Arguments are
-//! converted to the library's types (`mapping`, `arguments`, `push`, `arrays`). Long work runs without
-//! the GIL and stops at Ctrl-C (`work`). Results become attributes with units. The Python side,
-//! `python/pushplan`, holds the code that is simpler in Python: exceptions, types of files, the
-//! Gymnasium environment.
+//! converted to the library's types (`mapping`, `arguments`, `push`, `arrays`). Long work runs
+//! without the GIL and stops at Ctrl-C (`work`). Results become attributes with units. The Python
+//! side, `crates/python/pushplan`, holds the code that is simpler in Python: exceptions, types of
+//! files, the Gymnasium environments.
 
 use pyo3::prelude::*;
 

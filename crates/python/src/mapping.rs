@@ -46,7 +46,9 @@ impl Text {
     fn value(&mut self, value: &Bound<'_, PyAny>, key: &str, depth: usize) -> PyResult<()> {
         let place = if key.is_empty() { String::new() } else { format!("{key}: ") };
         if depth > DEEPEST {
-            return Err(PyValueError::new_err(format!("{place}nested deeper than any file is")));
+            return Err(PyValueError::new_err(format!(
+                "{place}lists and mappings are nested deeper than {DEEPEST} levels"
+            )));
         }
         if value.is_none() {
             self.text.push_str("null");
@@ -68,7 +70,7 @@ impl Text {
         } else {
             let kind = value.get_type().name()?;
             let message =
-                format!("{place}expected numbers, strings, lists and mappings, found {kind}");
+                format!("{place}expected numbers, strings, lists or mappings, found {kind}");
             return Err(PyTypeError::new_err(message));
         }
         Ok(())
@@ -96,7 +98,7 @@ impl Text {
         for item in mapping.items()?.iter() {
             let (name, value): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item.extract()?;
             let Ok(name) = name.cast::<PyString>() else {
-                let message = format!("{key}: keys are strings, found {}", name.repr()?);
+                let message = format!("{key}: keys must be strings, found {}", name.repr()?);
                 return Err(PyTypeError::new_err(message));
             };
             let name = name.to_str()?;

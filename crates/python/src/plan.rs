@@ -1,4 +1,4 @@
-//! Plans: task, tools and pushes, with predictions and verdicts.
+//! Plans with their task, tools, predictions and verdicts.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -26,9 +26,10 @@ use crate::trajectory::PyTrajectory;
 use crate::verdict::PyVerdict;
 use crate::{errors, json, page, work};
 
-/// A task, a tool and pushes, with what is known about their effect.
+/// Plan of pushes or lever-ups for a task, with its prediction and verdict.
 ///
-/// A plan is complete: it can be predicted, verified, drawn and exported without any other file.
+/// A plan contains its task and its tools, so that prediction, verification and export need no
+/// other file. Instances come from `solve`, `Plan.load`, `Plan.parse` and `Plan.of`.
 #[pyclass(name = "Plan", module = "pushplan", frozen)]
 pub struct PyPlan {
     pub file: PlanFile,
@@ -40,14 +41,36 @@ pub struct PyPlan {
 
 #[pymethods]
 impl PyPlan {
-    /// Reads a plan file (JSON). Raises `FileError` with all its faults.
+    /// Reads a plan file (JSON).
+    ///
+    /// Parameters
+    /// ----------
+    /// path : str or path-like
+    ///     Plan file, written by `Plan.save` or by the command `pushplan solve`.
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     If the file is unreadable or invalid; it lists all faults.
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let file = PlanFile::load(path).map_err(|faults| errors::files(py, &faults, None))?;
         Ok(Self::read(file))
     }
 
-    /// Reads the text of a plan file; `name` names it in faults.
+    /// Reads the text of a plan file.
+    ///
+    /// Parameters
+    /// ----------
+    /// text : str
+    ///     Content of the file (JSON).
+    /// name : str, default "plan"
+    ///     File name in error messages.
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     If the text is invalid; it lists all faults.
     #[staticmethod]
     #[pyo3(signature = (text, name = "plan"))]
     fn parse(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
@@ -56,12 +79,38 @@ impl PyPlan {
         Ok(Self::read(file))
     }
 
-    /// The plan of these pushes with `tool` (or the one of that name in `tools`, by default those
-    /// that come with the package), held with `grip_yaw` (radians from world +x), or with the first
-    /// of the task's with which they can be made.
+    /// Builds a plan from given pushes, without a search.
     ///
-    /// Nothing is searched. A push that breaks a rule of the task is made all the same, see
-    /// `violations`. Raises `ActionError` for pushes that cannot be made.
+    /// Parameters
+    /// ----------
+    /// task : Task
+    ///     Task of the plan.
+    /// tool : Tool or str
+    ///     Tool, or the name of a tool in `tools`.
+    /// pushes : sequence of Push
+    ///     Pushes, in order. A push that violates a rule of the task is allowed; see `violations`.
+    /// grip_yaw : float, optional
+    ///     Rotation of the end effector against world +x, radians; by default the first grip yaw of
+    ///     the task with which the pushes are feasible.
+    /// tools : ToolLibrary, optional
+    ///     Tools for a name in `tool`; by default the tools shipped with the package.
+    ///
+    /// Returns
+    /// -------
+    /// Plan
+    ///     Plan without prediction and verdict.
+    ///
+    /// Raises
+    /// ------
+    /// ActionError
+    ///     If a push is infeasible, for example because the tool or the object is unknown.
+    /// TypeError or ValueError
+    ///     If `tool` is not a tool, or `grip_yaw` is not finite.
+    ///
+    /// Examples
+    /// --------
+    /// >>> push = pushplan.Push.before("can", math.pi, length=0.15)
+    /// >>> plan = pushplan.Plan.of(task, "l-hook", [push])
     #[staticmethod]
     #[pyo3(signature = (task, tool, pushes, *, grip_yaw = None, tools = None))]
     fn of(
@@ -76,7 +125,9 @@ impl PyPlan {
         let yaws = match grip_yaw {
             None => task.task.pushes.grip_yaws.clone(),
             Some(yaw) if yaw.is_finite() => vec![yaw],
-            Some(_) => return Err(PyValueError::new_err("`grip_yaw` must be finite")),
+            Some(_) => {
+                return Err(PyValueError::new_err("`grip_yaw` must be a finite angle in radians"));
+            }
         };
         let pushes: Vec<ManualPush> = pushes.iter().map(|push| push.get().0.clone()).collect();
         let situation = Situation::stated(&task.task.scene);
@@ -95,52 +146,54 @@ impl PyPlan {
         Ok(Self { file, source: task.source(), trajectory: None, violations })
     }
 
-    /// The task.
+    /// Task of the plan.
     #[getter]
     fn task(&self) -> PyTask {
         PyTask { task: Arc::new(self.file.task.clone()), source: Some(self.source.clone()) }
     }
 
-    /// The first tool. A plan without steps, which only a file can hold, has none: `ValueError`.
+    /// First tool of the plan. Raises `ValueError` for a plan without steps.
     #[getter]
     fn tool(&self) -> PyResult<PyTool> {
         let first = self.file.tools.first().map(|tool| PyTool(Arc::clone(tool)));
-        first.ok_or_else(|| PyValueError::new_err("a plan without steps has no tool"))
+        first.ok_or_else(|| {
+            PyValueError::new_err("the plan has no steps and therefore no tool; see `steps`")
+        })
     }
 
-    /// All tools, in the order in which they are used.
+    /// Tools in the order of their use.
     #[getter]
     fn tools(&self) -> Vec<PyTool> {
         self.file.tools.iter().map(|tool| PyTool(Arc::clone(tool))).collect()
     }
 
-    /// The steps in order, in the keys of a plan file: `{"push": ...}` or `{"lever_up": ...}`.
+    /// Steps in order, with the keys of a plan file: `{"push": ...}` or `{"lever_up": ...}`.
     #[getter]
     fn steps<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let steps = serde_json::to_value(&self.file.plan.steps);
         json::dict(py, &steps.map_err(|error| PyRuntimeError::new_err(error.to_string()))?)
     }
 
-    /// Whether it levers anything.
+    /// Whether the plan contains a lever-up.
     #[getter]
     fn levers(&self) -> bool {
         self.file.plan.levers()
     }
 
-    /// The pushes, in order.
+    /// Pushes in order.
     #[getter]
     fn pushes(&self) -> Vec<PyPush> {
         self.file.plan.pushes().iter().map(PyPush::from).collect()
     }
 
-    /// Turn of the end effector against world +x, radians.
+    /// Rotation of the end effector against world +x, radians.
     #[getter]
     fn grip_yaw(&self) -> f64 {
         self.file.plan.grip_yaw()
     }
 
-    /// `"placed"`: the tool is lifted and set down for every push; `"chained"`: each push goes on
-    /// where the last one ended.
+    /// Form of the pushes. `"placed"`: the robot lifts the tool after each push and sets it down
+    /// for the next; `"chained"`: each push starts where the last one ended.
     #[getter]
     fn form(&self) -> &'static str {
         match self.file.plan.form() {
@@ -155,35 +208,45 @@ impl PyPlan {
         self.file.plan.lift()
     }
 
-    /// The effect model that predicted its end, if one did.
+    /// Name of the effect model of the prediction; `None` without a prediction.
     #[getter]
     fn model(&self) -> Option<String> {
         self.file.model.as_ref().map(ToString::to_string)
     }
 
-    /// What that model knew of the table, if anything.
+    /// Table fit that the model used; `None` without one.
     #[getter]
     fn fit(&self) -> Option<PyTableFit> {
         self.file.fit.clone().map(PyTableFit)
     }
 
-    /// Distance of the goal's object from the goal as predicted, metres.
+    /// Predicted distance of the goal's object from the goal, metres; `None` without one.
     #[getter]
     fn error(&self) -> Option<f64> {
         self.file.predicted.as_ref().map(|outcome| outcome.error())
     }
 
-    /// What the model predicts frame by frame; only of plans that `solve` returns.
+    /// Predicted motion, frame by frame; `None` unless the plan comes from `solve`.
     #[getter]
     fn trajectory(&self) -> Option<PyTrajectory> {
         let trajectory = self.trajectory.clone()?;
         Some(PyTrajectory::new(&Arc::new(self.file.task.clone()), trajectory))
     }
 
-    /// The graph that the network reads, between frames `frame` and `frame + 1` of `trajectory`: a
-    /// dictionary with `nodes` (objects, the parts of the tool, obstacles: name, kind, pose, size, and
-    /// how they move) and `relations` (contacts and joints between them, by the nodes' indices); `None`
-    /// past the last frame, and where something is levered, several tools are used, or nothing was predicted.
+    /// Returns the input graph of the network for one frame of `trajectory`.
+    ///
+    /// Parameters
+    /// ----------
+    /// frame : int
+    ///     Index of the frame; the graph describes the step from `frame` to `frame + 1`.
+    ///
+    /// Returns
+    /// -------
+    /// dict or None
+    ///     Dictionary with `nodes` and `relations`. Nodes are objects, obstacles and parts of the
+    ///     tool, each with name, kind, pose, size and motion. Relations are contacts and joints
+    ///     between nodes, which they name by index. `None` past the last frame, without a
+    ///     prediction, and for plans with lever-ups or several tools.
     fn graph<'py>(&self, py: Python<'py>, frame: usize) -> PyResult<Option<Bound<'py, PyAny>>> {
         let Some(trajectory) = &self.trajectory else { return Ok(None) };
         let PlanFile { task, plan, tools, .. } = &self.file;
@@ -199,37 +262,44 @@ impl PyPlan {
         }
     }
 
-    /// Whether replays confirm it, where that was tried.
+    /// Verdict of the replays; `None` for a plan without verification.
     #[getter]
     fn verdict(&self) -> Option<PyVerdict> {
         let verdict = self.file.verdict.clone()?;
         Some(PyVerdict { file: self.file.clone(), verdict })
     }
 
-    /// Rules of the task that its pushes break; plans that were searched for break none.
+    /// Rules of the task that the pushes violate. Plans from `solve` violate none.
     #[getter]
     fn violations(&self) -> Vec<String> {
         self.violations.clone()
     }
 
-    /// Writes the plan file, which the command `pushplan verify` and `Plan.load` read; a partial
-    /// one is never left behind.
+    /// Writes the plan file (JSON) for `Plan.load` and the command `pushplan verify`.
+    ///
+    /// The file is replaced as a whole, so that no partial file remains after an error.
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     If the file cannot be written.
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         self.file.write(path).map_err(|faults| errors::files(py, &faults, None))
     }
 
-    /// The keys of its file.
+    /// Returns the plan with the keys of a plan file.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         json::dict(py, &self.json()?)
     }
 
-    /// The plan as a scene of MuJoCo (MJCF), pushes and goal included.
+    /// Returns a MuJoCo scene (MJCF text) with the objects, the tool, the pushes and the goal.
     pub fn to_mjcf(&self) -> PyResult<String> {
         mjcf(&self.file).map_err(|error| PyValueError::new_err(error.to_string()))
     }
 
-    /// The plan page: one HTML file that plays the replays, without server or network. Missing
-    /// replays are made now.
+    /// Returns the interactive report of the plan: one HTML file that plays the replays offline.
+    ///
+    /// Replays that the plan lacks are computed first.
     fn page(&self, py: Python<'_>) -> PyResult<String> {
         let recorded = |verdict: &Verdict| {
             let replays: Vec<_> =

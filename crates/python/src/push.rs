@@ -1,4 +1,4 @@
-//! Pushes as requested by the caller, and as stored in plans.
+//! Pushes given by the caller or stored in plans.
 
 use pushplan::solve::{ManualPush, ManualStart};
 use pushplan::{Push, Vector};
@@ -9,16 +9,31 @@ use pyo3::types::PyAny;
 /// Maximum length (metres) and speed (m/s) of a push, as in the command.
 pub const MOST: f64 = 2.0;
 
-/// One straight push of the end effector.
+/// Straight push of the end effector.
+///
+/// Parameters
+/// ----------
+/// start : sequence of float or None
+///     Position of the end effector at the start, `[x, y]` in metres. With `None` the push starts
+///     where the last one ended, or at the robot's home (chained pushes only).
+/// direction : float
+///     Direction of travel, radians from world +x.
+/// length : float, optional
+///     Travel, metres, above 0 and at most 2; by default the task's.
+/// speed : float, optional
+///     Speed, m/s, above 0 and at most 2; by default the task's.
+///
+/// Examples
+/// --------
+/// >>> pushplan.Push([0.47, 0.02], math.pi, length=0.2)
+/// >>> pushplan.Push.before("can", math.pi, length=0.2)
 #[pyclass(name = "Push", module = "pushplan", frozen, eq)]
 #[derive(Clone, PartialEq)]
 pub struct PyPush(pub ManualPush);
 
 #[pymethods]
 impl PyPush {
-    /// A push from `start`, the end effector's position [x, y] in metres; `None` goes on where the
-    /// last one ended, or from home (chained pushes). `direction` is in radians from world +x;
-    /// `length` (metres) and `speed` (m/s) are the task's if not given.
+    /// Creates a push from a position, or after the last push.
     #[new]
     #[pyo3(signature = (start, direction, length = None, speed = None))]
     fn new(
@@ -31,8 +46,26 @@ impl PyPush {
         checked(ManualPush { start: start.map_or(ManualStart::Last, at), direction, length, speed })
     }
 
-    /// A push that begins just before the object of this name, its centre `offset` metres left of
-    /// the centre line of the tool's face.
+    /// Creates a push that starts just before an object.
+    ///
+    /// Parameters
+    /// ----------
+    /// object : str
+    ///     Name of the object.
+    /// direction : float
+    ///     Direction of travel, radians from world +x.
+    /// offset : float, default 0
+    ///     Lateral offset of the object's centre from the centre line of the tool's face, metres,
+    ///     positive to the left.
+    /// length : float, optional
+    ///     Travel, metres; by default the task's.
+    /// speed : float, optional
+    ///     Speed, m/s; by default the task's.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If a number is not finite or out of range.
     #[staticmethod]
     #[pyo3(signature = (object, direction, offset = 0.0, length = None, speed = None))]
     fn before(
@@ -46,7 +79,7 @@ impl PyPush {
         checked(ManualPush { start, direction, length, speed })
     }
 
-    /// The end effector's position at the start, metres, where it is known.
+    /// Position of the end effector at the start, metres; `None` if the push does not state it.
     #[getter]
     fn start(&self) -> Option<(f64, f64)> {
         match &self.0.start {
@@ -55,7 +88,7 @@ impl PyPush {
         }
     }
 
-    /// The object before which it begins, where that was asked for.
+    /// Object before which the push starts; `None` unless `Push.before` created it.
     #[getter]
     fn object(&self) -> Option<&str> {
         match &self.0.start {
@@ -64,7 +97,7 @@ impl PyPush {
         }
     }
 
-    /// Lateral offset of that object, metres.
+    /// Lateral offset of `object`, metres; `None` unless `Push.before` created the push.
     #[getter]
     fn offset(&self) -> Option<f64> {
         match &self.0.start {
@@ -73,19 +106,19 @@ impl PyPush {
         }
     }
 
-    /// Where it goes, radians from world +x.
+    /// Direction of travel, radians from world +x.
     #[getter]
     fn direction(&self) -> f64 {
         self.0.direction
     }
 
-    /// Travel, metres; `None` for the task's.
+    /// Travel, metres; `None` stands for the task's length.
     #[getter]
     fn length(&self) -> Option<f64> {
         self.0.length
     }
 
-    /// Speed, m/s; `None` for the task's.
+    /// Speed, m/s; `None` stands for the task's speed.
     #[getter]
     fn speed(&self) -> Option<f64> {
         self.0.speed
@@ -142,11 +175,15 @@ fn checked(push: ManualPush) -> PyResult<PyPush> {
         ManualStart::Before { offset, .. } => [*offset, 0.0],
     };
     if !(place.iter().all(|value| value.is_finite()) && push.direction.is_finite()) {
-        return Err(PyValueError::new_err("start, offset and direction must be finite"));
+        return Err(PyValueError::new_err(
+            "`start`, `offset` and `direction` of a push must be finite numbers",
+        ));
     }
     for (name, value) in [("length", push.length), ("speed", push.speed)] {
-        if value.is_some_and(|value| !(value > 0.0 && value <= MOST)) {
-            let message = format!("{name} must be above 0 and at most {MOST}");
+        if let Some(found) = value.filter(|value| !(*value > 0.0 && *value <= MOST)) {
+            let unit = if name == "speed" { "m/s" } else { "m" };
+            let message =
+                format!("{name} must be above 0 and at most {MOST} {unit}, found {found}");
             return Err(PyValueError::new_err(message));
         }
     }

@@ -1,4 +1,4 @@
-//! Batch rollouts of candidates into arrays.
+//! Batch rollouts of candidate pushes into arrays.
 
 use std::sync::Arc;
 
@@ -25,30 +25,30 @@ const AT_ONCE: usize = 256;
 /// Columns of a push: x, y, direction, length, speed.
 const COLUMNS: usize = 5;
 
-/// What many candidates do, as arrays.
+/// Arrays of the rollouts of many candidates.
 ///
-/// Candidates take different numbers of frames; those that are over repeat their last one, at which
-/// everything rests.
+/// Candidates take different numbers of frames. A shorter candidate repeats its last frame, in
+/// which all objects rest.
 #[pyclass(name = "Rollouts", module = "pushplan", frozen, get_all)]
 pub struct Rollouts {
     /// Poses of all objects, `[candidates, frames, objects, 3]`: x and y in metres, heading in
-    /// radians (which counts its turns).
+    /// radians. Headings are continuous, without wrapping at pi.
     poses: Py<PyArray4<f64>>,
-    /// Poses of the tool frame, `[candidates, frames, 3]`.
+    /// Poses of the tool frame, `[candidates, frames, 3]`: x and y in metres, heading in radians.
     tool_poses: Py<PyArray3<f64>>,
     /// Time of every frame since the start, seconds: `[candidates, frames]`.
     times: Py<PyArray2<f64>>,
-    /// How many frames each candidate takes: `[candidates]`.
+    /// Number of frames of each candidate: `[candidates]`.
     frames: Py<PyArray1<i64>>,
-    /// Distance of the goal's object from the goal at the end, metres: `[candidates]`.
+    /// Final distance of the goal's object from the goal, metres: `[candidates]`.
     errors: Py<PyArray1<f64>>,
-    /// Heading error at the end, radians, NaN where none is asked for: `[candidates]`.
+    /// Final heading error, radians, NaN if the goal states no heading: `[candidates]`.
     heading_errors: Py<PyArray1<f64>>,
-    /// Whether the goal is reached, at rest and with nothing gone wrong: `[candidates]`.
+    /// Whether the objects rest at the goal and no failure occurred before: `[candidates]`.
     reached: Py<PyArray1<bool>>,
-    /// Names of the objects.
+    /// Names of the objects, in the order of `poses`.
     objects: Vec<String>,
-    /// What lowers the trust in each candidate's rollout.
+    /// Warnings about each candidate's rollout: one list per candidate.
     warnings: Vec<Vec<String>>,
 }
 
@@ -63,14 +63,53 @@ impl Rollouts {
     }
 }
 
-/// Rolls out many candidates with one tool, `pushes` `[candidates, pushes, 5]` or, of one push each,
-/// `[candidates, 5]`: x and y of the end effector at the start (metres), direction (radians from
-/// world +x), length (metres) and speed (m/s).
+/// Predicts many candidates with one tool, and returns the results as arrays.
 ///
-/// `grip_yaw` (radians from world +x) is one for all or `[candidates]`. Everything begins at rest at
-/// `start`, `[objects, 3]` or `[candidates, objects, 3]`, by default as the task states it. `model`
-/// is "network", "prior", "planar", "3d" and so on. With `record` "outcome" there is one frame, the
-/// last.
+/// Parameters
+/// ----------
+/// task : Task
+///     Task with the scene and the goal.
+/// tool : Tool or str
+///     Tool, or the name of a tool in `tools`.
+/// pushes : array_like, `[candidates, pushes, 5]` or `[candidates, 5]`
+///     Pushes of every candidate: x and y of the end effector at the start (metres), direction
+///     (radians from world +x), length (metres) and speed (m/s).
+/// grip_yaw : float or array_like, `[candidates]`, default 0
+///     Rotation of the end effector against world +x, radians.
+/// start : array_like, `[objects, 3]` or `[candidates, objects, 3]`, optional
+///     Poses of the objects at the start, at rest: x and y in metres, heading in radians. By
+///     default the poses of the task.
+/// model : str, default "network"
+///     Effect model, such as "network", "prior" (the analytic model), "planar" or "3d".
+/// out_of_range : {"warn", "simulate", "refuse"}, default "warn"
+///     Action outside the model's validity range: add a warning, simulate in 2-D instead, or return
+///     no prediction, with a warning.
+/// record : {"frames", "outcome"}, default "frames"
+///     Recorded frames: all of them, or only the last one.
+/// tools : ToolLibrary, optional
+///     Tools for a name in `tool`; by default the tools shipped with the package.
+/// threads : int, default 0
+///     Number of worker threads; 0 means one per core.
+///
+/// Returns
+/// -------
+/// Rollouts
+///     Poses, times and errors of all candidates.
+///
+/// Raises
+/// ------
+/// ActionError
+///     If `tools` contains no tool named `tool`.
+/// ModelError
+///     If `model` is not the name of an effect model.
+/// TypeError or ValueError
+///     If an argument has an invalid type, shape or value.
+///
+/// Examples
+/// --------
+/// >>> pushes = np.array([[0.47, 0.02, 3.14, 0.20, 0.10], [0.47, 0.02, 3.14, 0.05, 0.10]])
+/// >>> rolled = pushplan.rollout(task, "l-hook", pushes, record="outcome")
+/// >>> best = pushes[rolled.errors.argmin()]
 #[pyfunction]
 #[pyo3(signature = (task, tool, pushes, *, grip_yaw = None, start = None, model = "network",
                     out_of_range = "warn", record = "frames", tools = None, threads = 0))]
@@ -93,7 +132,10 @@ pub fn rollout(
     let record = match record {
         "frames" => Record::Frames,
         "outcome" => Record::Outcome,
-        _ => return Err(PyValueError::new_err("`record` is \"frames\" or \"outcome\"")),
+        other => {
+            let message = format!("`record` must be \"frames\" or \"outcome\", found {other:?}");
+            return Err(PyValueError::new_err(message));
+        }
     };
     let task = Arc::clone(&task.task);
     let pushes = candidates(&pushes)?;
@@ -211,8 +253,8 @@ fn candidates(pushes: &Numbers<'_>) -> PyResult<Vec<Vec<Push>>> {
     };
     if all.ndim() != 3 || all.len_of(Axis(2)) != COLUMNS || all.len_of(Axis(1)) == 0 {
         let message = format!(
-            "`pushes` is [candidates, pushes, 5] or [candidates, 5] (x, y, direction, length, \
-             speed), found {:?}",
+            "`pushes` must have the shape [candidates, pushes, 5] or [candidates, 5] (x, y, \
+             direction, length, speed), found {:?}",
             pushes.as_array().shape()
         );
         return Err(PyValueError::new_err(message));
@@ -220,8 +262,9 @@ fn candidates(pushes: &Numbers<'_>) -> PyResult<Vec<Vec<Push>>> {
     arrays::finite("pushes", &all)?;
     for (column, name) in [(3, "lengths"), (4, "speeds")] {
         let sound = |value: &f64| *value > 0.0 && *value <= MOST;
-        if !all.index_axis(Axis(2), column).iter().all(sound) {
-            let message = format!("{name} of pushes must be above 0 and at most {MOST}");
+        if let Some(found) = all.index_axis(Axis(2), column).iter().find(|&value| !sound(value)) {
+            let message =
+                format!("{name} of `pushes` must be above 0 and at most {MOST}, found {found}");
             return Err(PyValueError::new_err(message));
         }
     }
@@ -243,7 +286,7 @@ fn yaws(given: Option<&Numbers<'_>>, candidates: usize) -> PyResult<Vec<f64>> {
         [] => Ok(vec![given.first().copied().unwrap_or_default(); candidates]),
         [count] if *count == candidates => Ok(given.iter().copied().collect()),
         other => Err(PyValueError::new_err(format!(
-            "`grip_yaw` is one number or [candidates], found {other:?}"
+            "`grip_yaw` must be one number or have the shape [{candidates}], found {other:?}"
         ))),
     }
 }
@@ -267,7 +310,7 @@ fn starts(
             Ok(Some(given.axis_iter(Axis(0)).map(state).collect()))
         }
         ref other => Err(PyValueError::new_err(format!(
-            "`start` is [objects, 3] or [candidates, objects, 3] with {objects} objects, found \
+            "`start` must have the shape [{objects}, 3] or [{candidates}, {objects}, 3], found \
              {other:?}"
         ))),
     }

@@ -22,14 +22,14 @@ use crate::task::PyTask;
 use crate::tool::{PyTool, PyToolLibrary, given};
 use crate::{arguments, errors, json, page, work};
 
-/// What a world is asked to do: the tool is set down where the first stroke begins, moves along all
-/// strokes, waits until everything rests and is lifted.
+/// Motion that a world executes. The robot sets the tool down at the start of the first stroke,
+/// moves it along all strokes, waits until the objects rest, and lifts it.
 #[pyclass(name = "Motion", module = "pushplan", frozen)]
 pub struct PyMotion(ToolMotion);
 
 #[pymethods]
 impl PyMotion {
-    /// The tool.
+    /// Tool of the motion.
     #[getter]
     fn tool(&self) -> PyTool {
         PyTool(Arc::clone(&self.0.tool))
@@ -41,8 +41,8 @@ impl PyMotion {
         self.0.lift
     }
 
-    /// The end effector at start and end of every stroke, `[strokes, 6]`: x, y (metres), heading
-    /// (radians), x, y, heading.
+    /// Poses of the end effector at start and end of every stroke, `[strokes, 6]`: x, y (metres),
+    /// heading (radians), x, y, heading.
     #[getter]
     fn end_effector<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let grip = self.0.tool.grip;
@@ -51,7 +51,7 @@ impl PyMotion {
         arrays::array(py, numbers, [self.0.strokes.len(), 6])
     }
 
-    /// The same of the tool frame.
+    /// Poses of the tool frame, in the format of `end_effector`.
     #[getter]
     fn tool_frame<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let ends = self.0.strokes.iter().flat_map(|stroke| [stroke.from, stroke.to]);
@@ -59,7 +59,7 @@ impl PyMotion {
         arrays::array(py, numbers, [self.0.strokes.len(), 6])
     }
 
-    /// How long each stroke takes, seconds.
+    /// Duration of each stroke, seconds.
     #[getter]
     fn durations(&self) -> Vec<f64> {
         self.0.strokes.iter().map(|stroke| stroke.duration).collect()
@@ -70,14 +70,14 @@ impl PyMotion {
     }
 }
 
-/// What happened in a run: what was seen, thought and done.
+/// Record of a closed-loop run: observations, beliefs, plans and pushes.
 #[pyclass(name = "Run", module = "pushplan", frozen)]
 pub struct PyRun(Trace);
 
 #[pymethods]
 impl PyRun {
-    /// `"reached"`, as far as can be seen; `"budget_exhausted"`: all pushes are made; `"no_improving_push"`: none brings
-    /// the object nearer.
+    /// Reason for the end: `"reached"`, `"budget_exhausted"` (all allowed pushes are made) or
+    /// `"no_improving_push"` (no push brings the object nearer to the goal).
     #[getter]
     fn end(&self) -> &'static str {
         match self.0.end {
@@ -87,13 +87,13 @@ impl PyRun {
         }
     }
 
-    /// Whether the goal is reached, as far as can be seen.
+    /// Whether the goal is reached according to the observations.
     #[getter]
     fn reached(&self) -> bool {
         self.0.end == Some(End::Reached)
     }
 
-    /// The pushes that were made, in order.
+    /// Executed pushes in order.
     #[getter]
     fn pushes(&self) -> Vec<PyPush> {
         let steps = self.0.steps.iter();
@@ -101,8 +101,7 @@ impl PyRun {
         made.map(|push| PyPush::from(&push)).collect()
     }
 
-    /// Where everything is believed to be in the end, `[objects, 3]`: x and y in metres, heading in
-    /// radians.
+    /// Final poses in the belief, `[objects, 3]`: x and y in metres, heading in radians.
     #[getter]
     fn poses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         match self.0.steps.last() {
@@ -111,25 +110,24 @@ impl PyRun {
         }
     }
 
-    /// What its pushes taught the network, with what it had been given; `None` if nothing was learnt,
-    /// as where the task leaves something unknown.
+    /// Table fit after the run; `None` without one, for example with `unknown` values.
     #[getter]
     fn fit(&self) -> Option<PyTableFit> {
         self.0.learnt.clone().map(PyTableFit)
     }
 
-    /// What was wrong with what was seen, in words.
+    /// Notes about inconsistent observations and motions that ended early, one sentence each.
     #[getter]
     fn notes(&self) -> Vec<String> {
         self.0.all_notes().map(|note| note.words(&self.0.task.scene)).collect()
     }
 
-    /// Writes the trace, `*.run.json`, as the command does; a partial file is never left behind.
+    /// Writes the trace of the run (`*.run.json`), or raises `FileError`.
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         self.0.write(&path).map_err(|faults| errors::files(py, &faults, None))
     }
 
-    /// Reads what pickle keeps.
+    /// Restores a run from the text that pickle stores.
     #[staticmethod]
     fn parse(text: &str) -> PyResult<Self> {
         serde_json::from_str(text).map(Self).map_err(json::damaged)
@@ -146,14 +144,13 @@ impl PyRun {
         trace(self) == trace(other)
     }
 
-    /// Everything, in the keys of the trace.
+    /// Returns the run with the keys of its trace.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let trace = serde_json::to_string(&self.0);
         json::text(py, &trace.map_err(|error| PyRuntimeError::new_err(error.to_string()))?)
     }
 
-    /// A page that plays the run, with what was predicted and believed: one HTML file, without server
-    /// or network.
+    /// Returns the interactive report: one HTML file that plays the run offline.
     fn page(&self) -> String {
         // The page states no command, because the run was made in Python.
         run_page(&self.0, &[], Recipe::default(), PageView::Above)
@@ -172,21 +169,46 @@ impl PyRun {
     }
 }
 
-/// Carries out a task in a world that is only partly known: plans under samples of what is
-/// believed, pushes, looks, corrects the belief and plans again.
+/// Carries out a task in closed loop: plans, pushes, observes, updates its belief and plans again.
 ///
-/// `world` is a seed, from which the hidden truth is drawn, or an object with two methods. `look()`
-/// returns where the objects are seen at rest: `[objects, 3]`, x and y in metres, heading in
-/// radians, NaN where a number is not seen. `act(motion)` carries out a `Motion` and returns what
-/// was seen meanwhile and at rest: a list of pairs of a time since it began, seconds, and an array
-/// as that of `look`. Where it has a method `change_tool(tool)` that is called before another tool is
-/// needed. What they raise ends the run.
+/// Parameters
+/// ----------
+/// task : Task
+///     Task; its `unknown` values are estimated during the run.
+/// world : int or object
+///     Seed of a simulated world with hidden ground truth, or an object with these methods:
+///     `look()` returns the observed poses at rest, `[objects, 3]`: x and y in metres, heading in
+///     radians, NaN for a number without observation. `act(motion)` executes a `Motion` and returns
+///     pairs of a time since its start, seconds, and such an array; the last one is at rest. The
+///     optional `change_tool(tool)` is called before a motion with another tool.
+/// tools, effort, model, out_of_range, seed, threads
+///     Options of the planner, see `solve`.
+/// max_pushes : int, default 12
+///     Maximum number of pushes, at most 1000.
+/// samples : int, default 16
+///     Number of belief samples in which plans are evaluated, 1 to 1000.
+/// min_success : float, default 0.8
+///     Minimum share of the samples in which a plan must reach the goal, 0 to 1. Such a plan needs
+///     no exploratory pushes.
+/// max_probes : int, default 3
+///     Maximum number of exploratory pushes.
+/// noise : tuple of float, optional
+///     Standard deviations of the observations, metres and radians.
+/// fit : TableFit, optional
+///     Table fit of this table; the pushes of the run continue the fit.
+/// regulator : bool, default True
+///     Whether the belief regulator corrects the probabilities of joints.
 ///
-/// `max_pushes` is the most that are made, `max_probes` the most of these only to learn something; plans are
-/// judged under `samples` samples and carried out without doubt if they reach the goal in the share
-/// `min_success` of them. `noise` is the standard deviation of what is seen, metres and radians. `fit` is
-/// what is known of the table; the network goes on learning from the pushes of the run. With
-/// `regulator` the belief regulator corrects what the filter over joints finds.
+/// Returns
+/// -------
+/// Run
+///     Outcome, pushes and final belief.
+///
+/// Raises
+/// ------
+/// TypeError or ValueError
+///     If an argument is invalid. The function also raises the errors of `solve` and any
+///     exception of `world`, which ends the run.
 #[pyfunction]
 #[pyo3(signature = (task, world, tools = None, *, effort = "draft", model = None, out_of_range = "warn",
                     seed = 0, max_pushes = 12, samples = 16, min_success = 0.8,
@@ -223,13 +245,16 @@ pub fn run(
     }
     if !(0.0..=1.0).contains(&min_success) || !(1..=1000).contains(&samples) || max_pushes > 1000 {
         let message =
-            "`min_success` is a share from 0 to 1, `samples` 1 to 1000, `max_pushes` at most 1000";
+            "`min_success` must be 0 to 1, `samples` 1 to 1000 and `max_pushes` at most 1000";
         return Err(PyValueError::new_err(message));
     }
     let defaults = RunSettings::default();
     let noise = match noise {
         Some((position, heading)) if position > 0.0 && heading > 0.0 => Noise { position, heading },
-        Some(_) => return Err(PyValueError::new_err("`noise` is two numbers above 0")),
+        Some(found) => {
+            let message = format!("`noise` must be two numbers above 0, found {found:?}");
+            return Err(PyValueError::new_err(message));
+        }
         None => defaults.noise,
     };
     let settings =
@@ -245,7 +270,8 @@ pub fn run(
             Place::Theirs { object: world.unbind(), raised: None }
         }
         Err(_) => {
-            let message = "`world` is a whole number, or has the methods `look` and `act`";
+            let message =
+                "`world` must be a whole number, or an object with the methods `look` and `act`";
             return Err(PyTypeError::new_err(message));
         }
     };
@@ -283,7 +309,7 @@ impl Place {
         ask: impl FnOnce(Python<'_>, &Bound<'_, PyAny>) -> PyResult<T>,
     ) -> Result<T, WorldError> {
         let Place::Theirs { object, raised } = self else {
-            return Err(WorldError("nobody acts here".to_owned()));
+            return Err(WorldError("this world is simulated and has no Python object".to_owned()));
         };
         Python::attach(|py| {
             ask(py, object.bind(py)).map_err(|error| {
@@ -352,7 +378,10 @@ fn sights(array: &Bound<'_, PyAny>) -> PyResult<Vec<Option<ObservedPose>>> {
     let numbers: Numbers<'_> = array.extract()?;
     let numbers = numbers.as_array();
     if numbers.ndim() != 2 || numbers.shape()[1] != 3 {
-        let message = format!("what is seen is [objects, 3], found {:?}", numbers.shape());
+        let message = format!(
+            "observed poses must have the shape [objects, 3], found {:?}; see `pushplan.run`",
+            numbers.shape()
+        );
         return Err(PyValueError::new_err(message));
     }
     let sight = |k: usize| {

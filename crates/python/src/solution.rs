@@ -1,4 +1,4 @@
-//! Result of solving a task.
+//! Result of `solve`.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use crate::plan::PyPlan;
 use crate::task::PyTask;
 use crate::{arguments, json, page, work};
 
-/// How solving a task ended, with the plans that were found.
+/// Result of `solve`: status, ranked plans and statistics of the search.
 #[pyclass(name = "Solution", module = "pushplan", frozen)]
 pub struct PySolution {
     pub task: Arc<Task>,
@@ -27,58 +27,63 @@ pub struct PySolution {
 
 #[pymethods]
 impl PySolution {
-    /// `"solved"`: the first plan passes. `"fragile"`: it works as written, but in too few of the
-    /// disturbed replays. `"no_plan"`: no candidate comes near enough; the first plan is the
-    /// nearest. `"failed_verification"`: none of the plans that were replayed works.
+    /// Status of the solution.
+    ///
+    /// - `"solved"`: the first plan passes verification.
+    /// - `"fragile"`: the first plan passes its nominal replays, but too few perturbed replays.
+    /// - `"partial"`: the first plan passes for some of several goals.
+    /// - `"no_plan"`: no candidate comes near enough to the goal; the first plan is the nearest.
+    /// - `"failed_verification"`: every plan that the planner replayed was rejected.
     #[getter]
     fn status(&self) -> &'static str {
         arguments::status(self.solution.status)
     }
 
-    /// Whether the first plan passes.
+    /// Whether the first plan passes verification.
     #[getter]
     fn solved(&self) -> bool {
         self.solution.status == PlanStatus::Solved
     }
 
-    /// Whether its time limit stopped it before the search was over: the plans are the best so far.
+    /// Whether the time limit ended the search early; the plans are then the best found so far.
     #[getter]
     fn timed_out(&self) -> bool {
         self.solution.stopped
     }
 
-    /// The plan to use: the verified one if solved, otherwise the nearest; `None` only if no push
-    /// can be made at all.
+    /// Plan to use: the verified plan if solved, otherwise the nearest one. `None` only if no push
+    /// is feasible.
     #[getter]
     fn best(&self) -> Option<PyPlan> {
         self.solution.best().map(|best| self.plan(best))
     }
 
-    /// Ranked plans, the one to use first.
+    /// Ranked plans, best first.
     #[getter]
     fn plans(&self) -> Vec<PyPlan> {
         self.solution.plans.iter().map(|ranked| self.plan(ranked)).collect()
     }
 
-    /// The task.
+    /// Task of the solution.
     #[getter]
     fn task(&self) -> PyTask {
         PyTask { task: Arc::clone(&self.task), source: Some(self.source.clone()) }
     }
 
-    /// What lowers the trust in the predictions of the first plan.
+    /// Warnings about the predictions of the first plan.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.solution.warnings.iter().map(Warning::to_string).collect()
     }
 
-    /// Everything, in the keys of `pushplan solve --json`; times are wall-clock seconds.
+    /// Returns the solution with the keys of `pushplan solve --json`; times are wall-clock
+    /// seconds.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         json::text(py, &solution_document(&self.task, &self.solution).to_json())
     }
 
-    /// The page of the solution: one HTML file that plays its plans and shows why the others lost,
-    /// without server or network.
+    /// Returns the interactive report: one HTML file that plays the plans offline. It also states
+    /// why the planner rejected other plans.
     fn page(&self, py: Python<'_>) -> PyResult<String> {
         let Self { task, solution, source, .. } = self;
         let Some(best) = solution.best() else {
@@ -94,7 +99,7 @@ impl PySolution {
         Ok(solution_page(task, solution, &replays, &recipe, PageView::Above))
     }
 
-    /// Reads what pickle keeps.
+    /// Restores a solution from the text that pickle stores.
     #[staticmethod]
     fn parse(text: &str) -> PyResult<Self> {
         let mut kept = json::kept(text)?;
@@ -111,7 +116,7 @@ impl PySolution {
         json::unpickled(py, "Solution", &self.kept())
     }
 
-    /// Computing times are ignored in comparisons.
+    /// Compares everything except computing times.
     fn __eq__(&self, other: &Self) -> bool {
         let timeless = |one: &Self| {
             let mut kept = one.kept();

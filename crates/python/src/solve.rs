@@ -1,4 +1,4 @@
-//! Solving, predicting and verifying.
+//! Functions that solve tasks, and predict and verify plans.
 
 use std::sync::Arc;
 
@@ -27,17 +27,61 @@ use crate::trajectory::PyTrajectory;
 use crate::verdict::PyVerdict;
 use crate::{arguments, errors, work};
 
-/// Chooses a tool and pushes for a task and verifies them.
+/// Chooses a tool and pushes that solve a task, and verifies the plans.
 ///
-/// `tools` are those to choose from, by default the ones that come with the package; `effort` is
-/// "draft", "standard" or "thorough"; `model` predicts effects, or two with ">" between them do, the
-/// first screening and the second deciding, by default those of the effort; `out_of_range` says what to do where it should not be trusted: "warn", "simulate" or "refuse";
-/// `seed` is that of refinement's samples and of the disturbances; `replays` is the number of
-/// disturbed replays of the winning plan in each engine, by default that of the effort; `robustness` is the share of the
-/// disturbed replays that must reach the goal, by default the task's; `time_limit` is in seconds, and
-/// the best plan so far is returned then; `fit` is what pushes recorded on this table taught the
-/// network; `threads` is a number of worker threads, 0 one for each
-/// core, and changes no result.
+/// Parameters
+/// ----------
+/// task : Task
+///     Task to solve.
+/// tools : ToolLibrary, optional
+///     Tools to choose from; by default the tools shipped with the package.
+/// effort : {"draft", "standard", "thorough"}, default "standard"
+///     Size of the search.
+/// model : str, optional
+///     Effect model, such as "network", "prior" (the analytic model), "planar" or "3d". Two names
+///     with ">" between them are the screening model and the final model. By default the models of
+///     the effort.
+/// out_of_range : {"warn", "simulate", "refuse"}, default "warn"
+///     Action outside the model's validity range: add a warning, simulate in 2-D instead, or raise
+///     `RefusedError`.
+/// seed : int, default 0
+///     Seed of the samples of refinement and of the perturbations.
+/// replays : int, optional
+///     Minimum number of perturbed replays of the winning plan in each engine; by default the
+///     effort's. The planner adds replays until the verdict is clear.
+/// robustness : float, optional
+///     Minimum share of the perturbed replays that must reach the goal, 0 to 1; by default the
+///     task's.
+/// time_limit : float, optional
+///     Maximum duration, seconds. The planner then returns the best plans found so far.
+/// fit : TableFit, optional
+///     Table fit from pushes recorded on this table.
+/// threads : int, default 0
+///     Number of worker threads, at most 1024; 0 means one per core. No result depends on it.
+///
+/// Returns
+/// -------
+/// Solution
+///     Status and ranked plans. A missing plan is not an error, see `Solution.status`.
+///
+/// Raises
+/// ------
+/// FileError
+///     If the task names a tool that `tools` lacks.
+/// TaskError
+///     If a value of the task is invalid.
+/// ModelError
+///     If `model` is not the name of an effect model.
+/// RefusedError
+///     If `out_of_range` is "refuse" and the task is outside the model's validity range.
+/// ValueError
+///     If another argument has an invalid value.
+///
+/// Examples
+/// --------
+/// >>> task = pushplan.Task.example("pull-back-behind-wall")
+/// >>> solution = pushplan.solve(task, effort="draft")
+/// >>> print(solution.status, solution.best)
 #[pyfunction]
 #[pyo3(signature = (task, tools = None, *, effort = "standard", model = None, out_of_range = "warn",
                     seed = 0, replays = None, robustness = None, time_limit = None, fit = None,
@@ -75,8 +119,24 @@ pub fn stated(task: Arc<Task>, fit: Option<&TableFit>) -> Arc<Task> {
     Arc::new(task)
 }
 
-/// Solves tasks side by side, with the results of `solve`, in the order of the tasks. Raises for the
-/// first task that cannot be tried.
+/// Solves several tasks in parallel, with the results of `solve` for each task.
+///
+/// Parameters
+/// ----------
+/// tasks : sequence of Task
+///     Tasks to solve.
+/// tools, effort, model, out_of_range, seed, replays, robustness, time_limit, fit, threads
+///     Options for every task, see `solve`.
+///
+/// Returns
+/// -------
+/// list of Solution
+///     Solutions in the order of the tasks.
+///
+/// Raises
+/// ------
+/// PushplanError or ValueError
+///     For the first task that `solve` would reject.
 #[pyfunction]
 #[pyo3(signature = (tasks, tools = None, *, effort = "standard", model = None, out_of_range = "warn",
                     seed = 0, replays = None, robustness = None, time_limit = None, fit = None,
@@ -120,7 +180,7 @@ fn solve_each(
     tasks.par_iter().map(|task| planner.solve_with(task, library, cancel)).collect()
 }
 
-/// Options of solving, in words.
+/// Arguments of `solve` as given by the caller.
 pub struct Asked<'a> {
     pub effort: &'a str,
     pub model: Option<&'a str>,
@@ -164,9 +224,32 @@ fn solution(
     Ok(PySolution { task, source, solution, fit: planner.fit().cloned() })
 }
 
-/// What `model` predicts for a plan, frame by frame: "network", "prior", "planar", "3d" and so on.
-/// A network knows what the plan says of its table. Raises `RefusedError` where the model should not be
-/// trusted and `out_of_range` is "refuse".
+/// Predicts the motion of the objects under a plan, frame by frame.
+///
+/// Parameters
+/// ----------
+/// plan : Plan
+///     Plan to predict. A table fit of the plan applies if `model` is the plan's own model.
+/// model : str, default "network"
+///     Effect model, such as "network", "prior" (the analytic model), "planar" or "3d".
+/// out_of_range : {"warn", "simulate", "refuse"}, default "warn"
+///     Action outside the model's validity range, see `solve`.
+/// threads : int, default 0
+///     Number of worker threads; 0 means one per core.
+///
+/// Returns
+/// -------
+/// Trajectory
+///     Predicted motion, with the warnings of the model.
+///
+/// Raises
+/// ------
+/// ModelError
+///     If `model` is not the name of an effect model.
+/// RefusedError
+///     If `out_of_range` is "refuse" and the plan is outside the model's validity range.
+/// ValueError
+///     If `out_of_range` or `threads` has an invalid value.
 #[pyfunction]
 #[pyo3(signature = (plan, model = "network", *, out_of_range = "warn", threads = 0))]
 pub fn predict(
@@ -183,7 +266,11 @@ pub fn predict(
     let model = arguments::fitted(py, &spec, arguments::out_of_range(out_of_range)?, fit)?;
     let trajectory = work::run(py, arguments::threads(threads)?, |_| predicted(&model, file))?;
     if trajectory.warnings.contains(&Warning::Refused) {
-        let message = format!("{} gives no prediction for this plan", trajectory.by);
+        let message = format!(
+            "`out_of_range` is \"refuse\", and the plan is outside the validity range of the model \
+             `{}`; use another model, or `out_of_range=\"simulate\"`",
+            trajectory.by
+        );
         return Err(errors::refused(py, &message, &trajectory.warnings));
     }
     Ok(PyTrajectory::new(&Arc::new(file.task.clone()), trajectory))
@@ -216,11 +303,41 @@ pub fn predicted(model: &Fallback, file: &PlanFile) -> Trajectory {
     trajectory
 }
 
-/// Replays a plan in both engines, as written and `replays` times in each with starts and
-/// frictions slightly off.
+/// Verifies a plan by nominal and perturbed replays in the 2-D and the 3-D engine.
 ///
-/// `robustness` is the share of the disturbed replays that must reach the goal, by default the
-/// task's; `time_limit` is in seconds, and replays that are not over then do not pass.
+/// Perturbed replays have small errors of starts, frictions, support and contact height. The
+/// verifier adds replays until the verdict is clear.
+///
+/// Parameters
+/// ----------
+/// plan : Plan
+///     Plan to verify.
+/// replays : int, default 8
+///     Minimum number of perturbed replays in each engine, at most 100000.
+/// seed : int, default 0
+///     Seed of the perturbations.
+/// robustness : float, optional
+///     Minimum share of the perturbed replays that must reach the goal, 0 to 1; by default the
+///     task's.
+/// time_limit : float, optional
+///     Maximum duration, seconds. Replays that are unfinished then do not pass.
+/// threads : int, default 0
+///     Number of worker threads; 0 means one per core.
+///
+/// Returns
+/// -------
+/// Verdict
+///     Verdict with all replays.
+///
+/// Raises
+/// ------
+/// ValueError
+///     If an argument has an invalid value.
+///
+/// Examples
+/// --------
+/// >>> verdict = pushplan.verify(solution.best, replays=32)
+/// >>> print(verdict.passed, verdict.robustness)
 #[pyfunction]
 #[pyo3(signature = (plan, *, replays = 8, seed = 0, robustness = None, time_limit = None,
                     threads = 0))]
@@ -234,7 +351,7 @@ pub fn verify(
     threads: usize,
 ) -> PyResult<PyVerdict> {
     if replays > 100_000 {
-        let message = "`replays` is at most 100000";
+        let message = format!("`replays` must be at most 100000, found {replays}");
         return Err(pyo3::exceptions::PyValueError::new_err(message));
     }
     let mut file = plan.file.clone();

@@ -1,4 +1,4 @@
-//! Table fits, learnt from pushes recorded on a table.
+//! Table fits from pushes recorded on a table.
 
 use std::path::PathBuf;
 
@@ -14,25 +14,42 @@ use pyo3::types::PyAny;
 use crate::belief::PyRecording;
 use crate::{arguments, errors, json, work};
 
-/// What recordings of one table taught: how things rub and rest, and a change of the network's last
-/// layer. `solve` and `run` take it.
+/// Table fit: friction, support and a change of the network's last layer, from recordings of one
+/// table. It is an argument of `solve` and `run`, and a result of `fit` and `run`.
 #[pyclass(name = "TableFit", module = "pushplan", frozen)]
 pub struct PyTableFit(pub TableFit);
 
 #[pymethods]
 impl PyTableFit {
-    /// Reads a file that `save` or `pushplan fit --save-fit` wrote. Raises `FileError`.
+    /// Reads a table fit.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : str or path-like
+    ///     File that `save` or the command `pushplan fit --save-fit` wrote.
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     If the file is unreadable or invalid.
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         TableFit::load(path).map(Self).map_err(|faults| errors::files(py, &faults, None))
     }
 
-    /// Writes the file; a partial one is never left behind.
+    /// Writes the table fit (JSON).
+    ///
+    /// The file is replaced as a whole, so that no partial file remains after an error.
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     If the file cannot be written.
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         self.0.write(path).map_err(|faults| errors::files(py, &faults, None))
     }
 
-    /// Reads what pickle keeps.
+    /// Restores a table fit from the text that pickle stores.
     #[staticmethod]
     fn parse(text: &str) -> PyResult<Self> {
         serde_json::from_str(text).map(Self).map_err(json::damaged)
@@ -44,43 +61,44 @@ impl PyTableFit {
         json::unpickled(py, "TableFit", &kept)
     }
 
-    /// Number of pushes that taught it.
+    /// Number of recorded pushes of the fit.
     #[getter]
     fn pushes(&self) -> usize {
         self.0.pushes
     }
 
-    /// Names of the objects that were pushed.
+    /// Names of the pushed objects.
     #[getter]
     fn objects(&self) -> Vec<&str> {
         self.0.objects.iter().map(|object| object.name.as_str()).collect()
     }
 
-    /// Coefficient of friction of tool and objects, where recordings tell it.
+    /// Friction coefficient of tool and objects; `None` if the recordings do not determine it.
     #[getter]
     fn friction(&self) -> Option<f64> {
         self.0.friction
     }
 
-    /// Share of the corners' distance at which objects rest, where recordings tell it.
+    /// Support of the objects as a share of the corners' distance; `None` if the recordings do not
+    /// determine it.
     #[getter]
     fn support(&self) -> Option<f64> {
         self.0.support
     }
 
-    /// Width of what nothing explains, metres.
+    /// Scale of the residual errors, metres.
     #[getter]
     fn noise(&self) -> f64 {
         self.0.noise
     }
 
-    /// Whether the network's last layer was changed.
+    /// Whether the fit changes the network's last layer.
     #[getter]
     fn changes_network(&self) -> bool {
         self.0.head.iter().any(|value| *value != 0.0)
     }
 
-    /// The keys of its file.
+    /// Returns the table fit with the keys of its file.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         json::text(py, &self.0.to_json())
     }
@@ -94,8 +112,31 @@ impl PyTableFit {
     }
 }
 
-/// Learns from recorded pushes, best fifty or more of one object, how it rests on the table and rubs on
-/// the pusher, and lets the shipped network learn what these numbers leave.
+/// Fits friction, support and the network's last layer to recorded pushes.
+///
+/// Fifty or more pushes of one object give the best results.
+///
+/// Parameters
+/// ----------
+/// recordings : sequence of Recording
+///     Recordings of one table.
+/// threads : int, default 0
+///     Number of worker threads; 0 means one per core.
+///
+/// Returns
+/// -------
+/// TableFit
+///     Fit for `solve` and `run`.
+///
+/// Raises
+/// ------
+/// ValueError
+///     If no object moves in the recordings.
+///
+/// Examples
+/// --------
+/// >>> fit = pushplan.fit([pushplan.Recording.load(path) for path in paths])
+/// >>> solution = pushplan.solve(task, fit=fit)
 #[pyfunction]
 #[pyo3(signature = (recordings, *, threads = 0))]
 pub fn fit(
@@ -115,6 +156,8 @@ pub fn fit(
     match learnt {
         Some(Ok(fit)) => Ok(PyTableFit(fit)),
         Some(Err(error)) => Err(PyRuntimeError::new_err(error.to_string())),
-        None => Err(PyValueError::new_err("nothing moves in these recordings")),
+        None => Err(PyValueError::new_err(
+            "no object moves in `recordings`; pass recordings of pushes that move an object",
+        )),
     }
 }

@@ -19,10 +19,11 @@ use crate::moved::moved;
 use crate::tool::PyToolLibrary;
 use crate::{arrays, errors};
 
-/// A scene, a robot, what pushes are allowed, and a goal.
+/// Planning task: scene, robot, allowed pushes and goals.
 ///
-/// Lengths are metres, angles radians, masses kilograms; in files and mappings, keys that end in
-/// `_deg` are degrees. x points forward from the robot's base, which is the origin.
+/// Lengths are metres, angles radians and masses kilograms. In files and mappings, keys that end in
+/// `_deg` are degrees. The robot's base is the origin, and x points forward from it. Instances come
+/// from `Task.load`, `Task.example`, `Task.parse`, `Task.from_dict` and `import_task`.
 #[pyclass(name = "Task", module = "pushplan", frozen)]
 pub struct PyTask {
     pub task: Arc<Task>,
@@ -32,8 +33,20 @@ pub struct PyTask {
 
 #[pymethods]
 impl PyTask {
-    /// Reads a task file (YAML). Raises `FileError` with all its faults; names of tools that are
-    /// not among `tools` are faults, too, where those are given.
+    /// Reads a task file (YAML).
+    ///
+    /// Parameters
+    /// ----------
+    /// path : str or path-like
+    ///     Task file.
+    /// tools : ToolLibrary, optional
+    ///     Tools to check the names of the task against; by default names are not checked.
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     If the file is unreadable or invalid, or names a tool that `tools` lacks. It lists all
+    ///     faults.
     #[staticmethod]
     #[pyo3(signature = (path, tools = None))]
     fn load(py: Python<'_>, path: PathBuf, tools: Option<&PyToolLibrary>) -> PyResult<Self> {
@@ -45,8 +58,23 @@ impl PyTask {
         Ok(Self { task: Arc::new(task), source: Some(TaskSource::of(path)) })
     }
 
-    /// A shipped task; `Task.examples` lists them. Raises `FileError` if there is none of this name,
-    /// and if it names tools that are not among `tools`, where those are given.
+    /// Returns a task shipped with the package.
+    ///
+    /// Parameters
+    /// ----------
+    /// name : str
+    ///     Name of the task, one of `Task.examples()`.
+    /// tools : ToolLibrary, optional
+    ///     Tools to check the names of the task against; by default names are not checked.
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     If no shipped task has this name, or the task names a tool that `tools` lacks.
+    ///
+    /// Examples
+    /// --------
+    /// >>> task = pushplan.Task.example("pull-back-behind-wall")
     #[staticmethod]
     #[pyo3(signature = (name, tools = None))]
     fn example(py: Python<'_>, name: &str, tools: Option<&PyToolLibrary>) -> PyResult<Self> {
@@ -58,13 +86,25 @@ impl PyTask {
         Ok(Self { task: Arc::new(task), source: Some(TaskSource::Example(name.to_owned())) })
     }
 
-    /// Names of the shipped tasks.
+    /// Returns the names of the shipped tasks.
     #[staticmethod]
     fn examples() -> Vec<&'static str> {
         Task::examples().collect()
     }
 
-    /// Reads the text of a task file; `name` names it in faults, and a task without a name.
+    /// Reads the text of a task file.
+    ///
+    /// Parameters
+    /// ----------
+    /// text : str
+    ///     Content of the file (YAML).
+    /// name : str, default "task"
+    ///     File name in error messages; also the name of a task that states none.
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     If the text is invalid; it lists all faults.
     #[staticmethod]
     #[pyo3(signature = (text, name = "task"))]
     fn parse(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
@@ -72,27 +112,39 @@ impl PyTask {
         Ok(Self { task: Arc::new(task), source: None })
     }
 
-    /// Builds a task from a mapping with the keys of a task file: lengths in metres, masses in
-    /// kilograms, angles in degrees. See `pushplan.files.TaskFile`.
+    /// Builds a task from a mapping with the keys of a task file.
+    ///
+    /// Parameters
+    /// ----------
+    /// mapping : pushplan.files.TaskFile
+    ///     Mapping with lengths in metres, masses in kilograms and angles in degrees. NumPy arrays
+    ///     count as lists.
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     If a value is invalid; it lists all faults with their keys.
+    /// TypeError
+    ///     If the mapping contains other types than a file.
     #[staticmethod]
     fn from_dict(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
         let task = Text::of(mapping)?.read(py, "task", Task::parse)?;
         Ok(Self { task: Arc::new(task), source: None })
     }
 
-    /// Its name.
+    /// Name of the task.
     #[getter]
     fn name(&self) -> &str {
         &self.task.name
     }
 
-    /// One line for people.
+    /// Description for people, one line; may be empty.
     #[getter]
     fn description(&self) -> &str {
         &self.task.description
     }
 
-    /// Names of the objects; arrays of poses are in this order.
+    /// Names of the objects, in the order of arrays of poses.
     #[getter]
     fn objects(&self) -> Vec<&str> {
         self.task.scene.things().map(|(_, object)| object.name.as_str()).collect()
@@ -105,7 +157,7 @@ impl PyTask {
         arrays::poses(py, &poses)
     }
 
-    /// Names of the tools to choose from; `None` for all of the library.
+    /// Names of the tools to choose from; `None` stands for the whole library.
     #[getter]
     fn tools(&self) -> Option<Vec<String>> {
         match &self.task.tools {
@@ -114,7 +166,7 @@ impl PyTask {
         }
     }
 
-    /// Name of the object to bring to the goal.
+    /// Name of the object of the first goal.
     #[getter]
     fn goal_object(&self) -> &str {
         &self.task.scene.objects[self.task.goals[0].object].name
@@ -127,97 +179,132 @@ impl PyTask {
         names.map(String::as_str).collect()
     }
 
-    /// Wanted position of the first goal at the start, metres.
+    /// Position of the first goal, metres, with all objects at the start.
     #[getter]
     fn goal_position(&self) -> (f64, f64) {
         let goal = self.task.goals[0].place(&self.task.scene.start());
         (goal.x, goal.y)
     }
 
-    /// Largest distance from the goal that still counts as success, metres.
+    /// Maximum distance from the first goal that counts as success, metres.
     #[getter]
     fn tolerance(&self) -> f64 {
         self.task.goals[0].tolerance()
     }
 
-    /// Wanted heading, radians, where one is asked for.
+    /// Heading of the first goal, radians; `None` if it states none.
     #[getter]
     fn goal_heading(&self) -> Option<f64> {
         self.task.goals[0].heading().map(|facing| facing.heading)
     }
 
-    /// Largest heading error that still counts as success, radians, where one is asked for.
+    /// Maximum heading error that counts as success, radians; `None` without a heading.
     #[getter]
     fn heading_tolerance(&self) -> Option<f64> {
         self.task.goals[0].heading().map(|facing| facing.tolerance)
     }
 
-    /// Turns of the end effector against world +x that a plan may choose from, radians.
+    /// Allowed rotations of the end effector against world +x, radians.
     #[getter]
     fn grip_yaws(&self) -> Vec<f64> {
         self.task.pushes.grip_yaws.clone()
     }
 
-    /// Travel of a push unless it says another, metres.
+    /// Default travel of a push, metres.
     #[getter]
     fn push_length(&self) -> f64 {
         self.task.pushes.length
     }
 
-    /// Speed of a push unless it says another, m/s.
+    /// Default speed of a push, m/s.
     #[getter]
     fn push_speed(&self) -> f64 {
         self.task.pushes.speed
     }
 
-    /// Largest number of pushes in a plan.
+    /// Maximum number of pushes in a plan.
     #[getter]
     fn max_pushes(&self) -> usize {
         self.task.pushes.max_count
     }
 
-    /// Smallest and largest distance of the end effector from the robot's base, metres.
+    /// Minimum and maximum distance of the end effector from the robot's base, metres.
     #[getter]
     fn reach(&self) -> (f64, f64) {
         (self.task.robot.reach_min, self.task.robot.reach_max)
     }
 
-    /// Share of the disturbed replays that must reach the goal for a plan to count, 0 to 1.
+    /// Minimum share of the perturbed replays that must reach the goal, 0 to 1.
     #[getter]
     fn robustness(&self) -> f64 {
         self.task.robustness
     }
 
-    /// The task with its objects at these poses, `[objects, 3]` (x and y in metres, heading in
-    /// radians): to plan on from where they are by now. Joints move along.
+    /// Returns the task with other initial poses, for planning from the current state.
+    ///
+    /// Joints move with their objects.
+    ///
+    /// Parameters
+    /// ----------
+    /// poses : array_like, `[objects, 3]`
+    ///     Poses of the objects: x and y in metres, heading in radians.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If the array has another shape or a number is not finite.
     fn at(&self, poses: Numbers<'_>) -> PyResult<Self> {
         let poses = self.poses(&poses)?;
         Ok(Self { task: Arc::new(moved(&self.task, &poses)), source: self.source.clone() })
     }
 
-    /// Error of the goals with the objects at rest at these poses, `[objects, 3]`, in units of the
-    /// tolerances, the largest of all demands of all goals: at most 1 is success.
+    /// Returns the largest error of all goals in units of their tolerances; at most 1 is success.
+    ///
+    /// Parameters
+    /// ----------
+    /// poses : array_like, `[objects, 3]`
+    ///     Poses of the objects at rest: x and y in metres, heading in radians.
     fn score(&self, poses: Numbers<'_>) -> PyResult<f64> {
         Ok(self.task.score(&State::at_rest(self.poses(&poses)?)))
     }
 
-    /// Whether each goal is reached with the objects at rest at these poses, `[objects, 3]`.
+    /// Returns for each goal whether the objects reach it at these poses, at rest.
+    ///
+    /// Parameters
+    /// ----------
+    /// poses : array_like, `[objects, 3]`
+    ///     Poses of the objects: x and y in metres, heading in radians.
     fn reached(&self, poses: Numbers<'_>) -> PyResult<Vec<bool>> {
         let state = State::at_rest(self.poses(&poses)?);
         Ok(self.task.goals.iter().map(|goal| goal.reached(&state)).collect())
     }
 
-    /// Names of the objects that errors of the goals are of with the objects at these poses,
-    /// `[objects, 3]`, in the order of the goals: of a goal that leaves a choice the one that misses it.
+    /// Returns for each goal the name of the object to which its error refers.
+    ///
+    /// A goal may allow several objects; the error then refers to the object that misses the goal.
+    ///
+    /// Parameters
+    /// ----------
+    /// poses : array_like, `[objects, 3]`
+    ///     Poses of the objects at rest: x and y in metres, heading in radians.
     fn goal_subjects(&self, poses: Numbers<'_>) -> PyResult<Vec<&str>> {
         let state = State::at_rest(self.poses(&poses)?);
         let subjects = self.task.goals.iter().map(|goal| goal.subject(&state));
         Ok(subjects.map(|k| self.task.scene.objects[k].name.as_str()).collect())
     }
 
-    /// Offsets from the goals with the objects at these poses, `[objects, 3]`, as `[goals, 3]`: x and y
-    /// from the nearest wanted place to the object, metres, and its turn from the wanted heading, radians;
-    /// 0 where none is asked for.
+    /// Returns the offsets of the objects from their goals.
+    ///
+    /// Parameters
+    /// ----------
+    /// poses : array_like, `[objects, 3]`
+    ///     Poses of the objects at rest: x and y in metres, heading in radians.
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, `[goals, 3]`
+    ///     Offset from the nearest goal position to the object, x and y in metres, and rotation
+    ///     from the goal heading, radians. Values without a criterion in the goal are 0.
     fn goal_offsets<'py>(
         &self,
         py: Python<'py>,
@@ -231,12 +318,12 @@ impl PyTask {
         arrays::array(py, offsets.collect(), [self.task.goals.len(), 3])
     }
 
-    /// The keys of its file, from which `Task.from_dict` makes it again.
+    /// Returns the task with the keys of a task file, for `Task.from_dict`.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         dict(py, &self.task.to_json())
     }
 
-    /// The text of its file.
+    /// Returns the text of a task file (YAML).
     fn to_yaml(&self, py: Python<'_>) -> PyResult<String> {
         self.task.to_yaml().map_err(|faults| errors::files(py, &faults, None))
     }
@@ -266,7 +353,8 @@ impl PyTask {
         let (poses, objects) = (poses.as_array(), self.task.scene.things().count());
         arrays::finite("poses", &poses)?;
         if *poses.shape() != [objects, 3] {
-            let message = format!("`poses` is [{objects}, 3], found {:?}", poses.shape());
+            let message =
+                format!("`poses` must have the shape [{objects}, 3], found {:?}", poses.shape());
             return Err(PyValueError::new_err(message));
         }
         Ok(self.task.scene.with_parts(arrays::state(poses).poses))
@@ -279,7 +367,10 @@ impl PyTask {
             Some(share) if (0.0..=1.0).contains(&share) => {
                 Ok(Arc::new(Task::clone(&self.task).robust(share)))
             }
-            Some(_) => Err(PyValueError::new_err("`robustness` is a share from 0 to 1")),
+            Some(found) => {
+                let message = format!("`robustness` must be a share from 0 to 1, found {found}");
+                Err(PyValueError::new_err(message))
+            }
         }
     }
 }

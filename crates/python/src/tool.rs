@@ -13,48 +13,87 @@ use crate::errors;
 use crate::json::{dict, unpickled};
 use crate::mapping::Text;
 
-/// One rigid piece of upright solids, held by the end effector at its grip.
+/// Rigid tool of upright solids, which the end effector holds at its grip.
 ///
-/// Two tools are equal if all their numbers are.
+/// Instances come from `Tool.load`, `Tool.parse`, `Tool.from_dict` and `ToolLibrary`. Two tools are
+/// equal if all their values are equal.
 #[pyclass(name = "Tool", module = "pushplan", frozen, eq)]
 #[derive(PartialEq)]
 pub struct PyTool(pub Arc<Tool>);
 
 #[pymethods]
 impl PyTool {
-    /// Reads a tool file (YAML). Raises `FileError` with all its faults.
+    /// Reads a tool file (YAML).
+    ///
+    /// Parameters
+    /// ----------
+    /// path : str or path-like
+    ///     Tool file.
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     If the file is unreadable or invalid; it lists all faults.
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         read(py, Tool::load(path))
     }
 
-    /// Reads the text of a tool file; `name` names it in faults.
+    /// Reads the text of a tool file.
+    ///
+    /// Parameters
+    /// ----------
+    /// text : str
+    ///     Content of the file (YAML).
+    /// name : str, default "tool"
+    ///     File name in error messages.
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     If the text is invalid; it lists all faults.
     #[staticmethod]
     #[pyo3(signature = (text, name = "tool"))]
     fn parse(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
         read(py, Tool::parse(text, name))
     }
 
-    /// Builds a tool from a mapping with the keys of a tool file: lengths in metres, angles in
-    /// degrees. See `pushplan.files.ToolFile`.
+    /// Builds a tool from a mapping with the keys of a tool file.
+    ///
+    /// Parameters
+    /// ----------
+    /// mapping : pushplan.files.ToolFile
+    ///     Mapping with lengths in metres and angles in degrees. NumPy arrays count as lists.
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     If a value is invalid; it lists all faults with their keys.
+    /// TypeError
+    ///     If the mapping contains other types than a file.
+    ///
+    /// Examples
+    /// --------
+    /// >>> bar = {"name": "bar", "size": [0.2, 0.04, 0.05], "position": [0.1, 0]}
+    /// >>> tool = pushplan.Tool.from_dict({"name": "short-stick", "parts": [bar]})
     #[staticmethod]
     fn from_dict(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
         Ok(Self(Arc::new(Text::of(mapping)?.read(py, "tool", Tool::parse)?)))
     }
 
-    /// Its name, unique in a library.
+    /// Name of the tool, unique in a library.
     #[getter]
     fn name(&self) -> &str {
         &self.0.name
     }
 
-    /// One line for people.
+    /// Description for people, one line; may be empty.
     #[getter]
     fn description(&self) -> &str {
         &self.0.description
     }
 
-    /// Friction value; the coefficient of a pair is the mean of the two values.
+    /// Friction value; the friction coefficient of a pair is the mean of its two values.
     #[getter]
     fn friction(&self) -> f64 {
         self.0.friction
@@ -67,7 +106,7 @@ impl PyTool {
         (grip.position.x, grip.position.y, grip.heading)
     }
 
-    /// The keys of its file, from which `Tool.from_dict` makes it again.
+    /// Returns the tool with the keys of a tool file, for `Tool.from_dict`.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         dict(py, &self.0.to_json())
     }
@@ -86,38 +125,59 @@ fn read(py: Python<'_>, tool: Result<Tool, Faults>) -> PyResult<PyTool> {
     Ok(PyTool(Arc::new(tool)))
 }
 
-/// Tools with unique names, sorted by name.
+/// Collection of tools with unique names, sorted by name.
+///
+/// `library[name]` returns a tool, and `name in library` checks for one.
 #[pyclass(name = "ToolLibrary", module = "pushplan", frozen)]
 pub struct PyToolLibrary(pub ToolLibrary);
 
 #[pymethods]
 impl PyToolLibrary {
-    /// The tools that come with the package, without files.
+    /// Returns the tools shipped with the package.
     #[staticmethod]
     fn shipped(py: Python<'_>) -> PyResult<Self> {
         library(py, ToolLibrary::embedded())
     }
 
-    /// Every tool file (`.yaml`, `.yml`) of a folder. Raises `FileError` with all faults of all
-    /// files.
+    /// Reads every tool file (`.yaml`, `.yml`) of a folder.
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     If a file is unreadable or invalid; it lists all faults of all files.
     #[staticmethod]
     fn load(py: Python<'_>, folder: PathBuf) -> PyResult<Self> {
         library(py, ToolLibrary::load(folder))
     }
 
-    /// These tools alone.
+    /// Returns a library of the given tools.
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     If two tools have the same name.
     #[staticmethod]
     fn of(py: Python<'_>, tools: Vec<Py<PyTool>>) -> PyResult<Self> {
         let add = |library: ToolLibrary, tool: &Py<PyTool>| library.with(tool.get().0.clone());
         library(py, tools.iter().try_fold(ToolLibrary::default(), add))
     }
 
-    /// These tools and one more.
+    /// Returns a library with one more tool.
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     If the library already has a tool of this name.
     fn with_tool(&self, py: Python<'_>, tool: &PyTool) -> PyResult<Self> {
         library(py, self.0.clone().with(tool.0.clone()))
     }
 
-    /// These tools and those of a folder.
+    /// Returns a library that also contains the tools of a folder.
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     If a file is invalid, or the library already has a tool of a file's name.
     fn with_folder(&self, py: Python<'_>, folder: PathBuf) -> PyResult<Self> {
         library(py, self.0.clone().with_folder(folder))
     }
@@ -183,7 +243,7 @@ pub fn tool(
         return Ok(tool.get().0.clone());
     }
     let Ok(name) = tool.extract::<String>() else {
-        return Err(PyTypeError::new_err("`tool` is a Tool or the name of one"));
+        return Err(PyTypeError::new_err("`tool` must be a `Tool` or the name of one"));
     };
     let library = given(py, tools)?;
     let found = library.get(&name).cloned();

@@ -1,4 +1,4 @@
-//! Motion of the objects, frame by frame.
+//! Trajectories of objects and tool.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use serde_json::json;
 
 use crate::{arrays, json};
 
-/// What pushes do according to one model, frame by frame until everything rests.
+/// Motion of objects and tool under one model, frame by frame until all objects rest.
 #[pyclass(name = "Trajectory", module = "pushplan", frozen)]
 pub struct PyTrajectory {
     pub trajectory: Trajectory,
@@ -21,7 +21,7 @@ pub struct PyTrajectory {
 
 #[pymethods]
 impl PyTrajectory {
-    /// The model that computed it.
+    /// Name of the model that computed the motion.
     #[getter]
     fn model(&self) -> String {
         self.trajectory.by.to_string()
@@ -39,8 +39,8 @@ impl PyTrajectory {
         arrays::times(py, &self.trajectory)
     }
 
-    /// Poses of all objects, `[frames, objects, 3]`: x and y in metres, heading in radians (which
-    /// counts its turns).
+    /// Poses of all objects, `[frames, objects, 3]`: x and y in metres, heading in radians.
+    /// Headings are continuous, without wrapping at pi.
     #[getter]
     fn poses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let frames = &self.trajectory.frames;
@@ -50,8 +50,8 @@ impl PyTrajectory {
         arrays::array(py, numbers, [frames.len(), self.objects.len(), 3])
     }
 
-    /// Poses of all objects in space where something leaves the plane, `[frames, objects, 7]`: x, y
-    /// and z in metres, and the quaternion x, y, z, w; `None` where nothing does.
+    /// Poses of all objects in space, `[frames, objects, 7]`: x, y and z in metres, and the
+    /// quaternion x, y, z, w. `None` if no object leaves the plane.
     #[getter]
     fn space<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArray3<f64>>>> {
         let frames = &self.trajectory.frames;
@@ -66,7 +66,7 @@ impl PyTrajectory {
         arrays::array(py, numbers, [frames.len(), self.objects.len(), 7]).map(Some)
     }
 
-    /// How much higher the levered edge lay at the end of each lever-up, metres.
+    /// Rise of the levered edge at the end of each lever-up, metres.
     #[getter]
     fn raised(&self) -> Vec<f64> {
         self.trajectory.lifts.iter().map(|lift| lift.raised).collect()
@@ -80,25 +80,25 @@ impl PyTrajectory {
         arrays::array(py, numbers, [frames.len(), 3])
     }
 
-    /// Distance of the goal's object from the goal at the end, metres.
+    /// Final distance of the goal's object from the goal, metres.
     #[getter]
     fn error(&self) -> f64 {
         self.outcome.error()
     }
 
-    /// Heading error at the end, radians, where a heading is asked for.
+    /// Final heading error, radians; `None` if the goal states no heading.
     #[getter]
     fn heading_error(&self) -> Option<f64> {
         self.outcome.heading_error()
     }
 
-    /// Whether the goal is reached, at rest and with nothing gone wrong on the way.
+    /// Whether the objects rest at the goal and no failure occurred before, such as a fall.
     #[getter]
     fn reached(&self) -> bool {
         self.outcome.reached
     }
 
-    /// What lowers the trust in it.
+    /// Warnings about the reliability of the motion.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.trajectory.warnings.iter().map(Warning::to_string).collect()
@@ -112,12 +112,12 @@ impl PyTrajectory {
         let reached = if self.outcome.reached { "reached" } else { "not reached" };
         let (by, frames) = (&self.trajectory.by, self.trajectory.frames.len());
         format!(
-            "<Trajectory of {frames} frames by {by}: goal {reached}, off by {:.2} mm>",
+            "<Trajectory of {frames} frames by {by}: goal {reached}, error {:.2} mm>",
             1e3 * self.outcome.error()
         )
     }
 
-    /// Reads what pickle keeps.
+    /// Restores a trajectory from the text that pickle stores.
     #[staticmethod]
     fn parse(text: &str) -> PyResult<Self> {
         let mut kept = json::kept(text)?;

@@ -17,7 +17,7 @@ use serde_json::json;
 use crate::trajectory::PyTrajectory;
 use crate::{arguments, arrays, json, page};
 
-/// Whether a plan works when it is replayed in both engines, as written and disturbed.
+/// Verdict on a plan after nominal and perturbed replays in the 2-D and the 3-D engine.
 #[pyclass(name = "Verdict", module = "pushplan", frozen)]
 pub struct PyVerdict {
     /// Plan that was replayed.
@@ -27,40 +27,40 @@ pub struct PyVerdict {
 
 #[pymethods]
 impl PyVerdict {
-    /// Whether the plan breaks no rule of its task, reaches the goal at rest in both engines as
-    /// written, and in the wanted share of the disturbed replays.
+    /// Whether the plan violates no rule of its task and its nominal replays in both engines reach
+    /// the goal at rest. The required share of the perturbed replays must also reach it.
     #[getter]
     fn passed(&self) -> bool {
         self.verdict.passed
     }
 
-    /// Whether it works as written, though perhaps too seldom under disturbances.
+    /// Whether the nominal replays reach the goal, even if too few perturbed replays do.
     #[getter]
     fn nominal_ok(&self) -> bool {
         self.verdict.nominal_ok()
     }
 
-    /// Share of the disturbed replays that reach the goal, 0 to 1, in the engine in which fewer do;
-    /// `None` if there was none.
+    /// Share of the perturbed replays that reach the goal, 0 to 1, in the engine with the lower
+    /// share; `None` without perturbed replays.
     #[getter]
     fn robustness(&self) -> Option<f64> {
         self.verdict.robustness
     }
 
-    /// The verdict and why, in a sentence.
+    /// Verdict with its reason, one sentence.
     #[getter]
     fn reason(&self) -> String {
         let json = verdict_document(&self.file, &self.verdict).json;
         json["reason"].as_str().unwrap_or_default().to_owned()
     }
 
-    /// What a reader should know about the replays as written.
+    /// Warnings of the nominal replays.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         replay_warnings(&self.verdict)
     }
 
-    /// All replays, those as written first.
+    /// Replays, the nominal ones first.
     #[getter]
     fn replays(&self) -> Vec<PyReplay> {
         let task = Arc::new(self.file.task.clone());
@@ -69,19 +69,19 @@ impl PyVerdict {
         self.verdict.evidence.iter().map(replay).collect()
     }
 
-    /// Everything, in the keys of `pushplan verify --json`.
+    /// Returns the verdict with the keys of `pushplan verify --json`.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         json::text(py, &verdict_document(&self.file, &self.verdict).to_json())
     }
 
-    /// A page that plays the replays: one HTML file, without server or network.
+    /// Returns the interactive report: one HTML file that plays the replays offline.
     fn page(&self) -> String {
         let task = TaskSource::File(format!("{}.yaml", self.file.task.name));
         let recipe = Origin { task, ..Origin::default() }.plan(&self.file.plan);
         verdict_page(&self.file, None, &self.verdict, recipe, PageView::Above)
     }
 
-    /// Reads what pickle keeps.
+    /// Restores a verdict from the text that pickle stores.
     #[staticmethod]
     fn parse(text: &str) -> PyResult<Self> {
         let mut kept = json::kept(text)?;
@@ -91,7 +91,7 @@ impl PyVerdict {
         Ok(Self { file, verdict })
     }
 
-    /// Without the replays' frames, which replaying the plan gives again.
+    /// Omits the frames of the replays; `verify` computes them again.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         json::unpickled(py, "Verdict", &self.kept())
     }
@@ -121,7 +121,7 @@ impl PyVerdict {
     }
 }
 
-/// One replay of a plan in an engine.
+/// Replay of a plan in one engine.
 #[pyclass(name = "Replay", module = "pushplan", frozen)]
 pub struct PyReplay {
     task: Arc<Task>,
@@ -130,13 +130,13 @@ pub struct PyReplay {
 
 #[pymethods]
 impl PyReplay {
-    /// `"planar"` or `"3d"`.
+    /// Engine of the replay: `"planar"` (2-D) or `"3d"`.
     #[getter]
     fn engine(&self) -> &'static str {
         arguments::engine(self.evidence.engine)
     }
 
-    /// Number of the disturbance, from 1 and the same in both engines; `None` as written.
+    /// Number of the perturbation, from 1, equal in both engines; `None` for a nominal replay.
     #[getter]
     fn draw(&self) -> Option<usize> {
         match self.evidence.perturbation {
@@ -145,43 +145,43 @@ impl PyReplay {
         }
     }
 
-    /// Distance of the goal's object from the goal at the end, metres.
+    /// Final distance of the goal's object from the goal, metres.
     #[getter]
     fn error(&self) -> f64 {
         self.evidence.outcome.error()
     }
 
-    /// Heading error at the end, radians, where a heading is asked for.
+    /// Final heading error, radians; `None` if the goal states no heading.
     #[getter]
     fn heading_error(&self) -> Option<f64> {
         self.evidence.outcome.heading_error()
     }
 
-    /// Whether the goal is reached, at rest and with nothing gone wrong on the way.
+    /// Whether the objects rest at the goal and no failure occurred before, such as a fall.
     #[getter]
     fn reached(&self) -> bool {
         self.evidence.outcome.reached
     }
 
-    /// Poses of all objects at the end, `[objects, 3]`: x and y in metres, heading in radians.
+    /// Final poses of all objects, `[objects, 3]`: x and y in metres, heading in radians.
     #[getter]
     fn poses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         arrays::poses(py, &self.evidence.outcome.state.poses)
     }
 
-    /// Largest force of the tool that lasted, newtons; to within a factor of two.
+    /// Largest sustained force of the tool, newtons, to within a factor of two; `None` if unknown.
     #[getter]
     fn force(&self) -> Option<f64> {
         self.evidence.force.map(|force| force.lasting)
     }
 
-    /// What happened on the way.
+    /// Warnings of the replay, such as a toppled object.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.evidence.warnings.iter().map(Warning::to_string).collect()
     }
 
-    /// What happened frame by frame, of a replay as written.
+    /// Motion, frame by frame; `None` for a perturbed replay.
     #[getter]
     fn trajectory(&self) -> Option<PyTrajectory> {
         let trajectory = self.evidence.trajectory.clone()?;
@@ -190,9 +190,9 @@ impl PyReplay {
 
     fn __repr__(&self) -> String {
         let reached = if self.reached() { "reached" } else { "not reached" };
-        let how = self.draw().map_or("as written".to_owned(), |draw| format!("draw {draw}"));
+        let how = self.draw().map_or("nominal".to_owned(), |draw| format!("perturbation {draw}"));
         format!(
-            "<Replay {} {how}: goal {reached}, off by {:.2} mm>",
+            "<Replay {} {how}: goal {reached}, error {:.2} mm>",
             self.engine(),
             1e3 * self.error()
         )

@@ -56,7 +56,9 @@ fn watched<T: Send>(
             match receiver.recv_timeout(LOOK) {
                 Ok(done) => return done.map(|done| stopped.map_or(Ok(done), Err)),
                 Err(RecvTimeoutError::Disconnected) => {
-                    return Ok(Err(PyRuntimeError::new_err("the work ended without a result")));
+                    return Ok(Err(PyRuntimeError::new_err(
+                        "the worker thread ended without a result; please report this as a bug",
+                    )));
                 }
                 Err(RecvTimeoutError::Timeout) if cancel.cancelled() => {}
                 Err(RecvTimeoutError::Timeout) => {
@@ -83,7 +85,9 @@ fn pool(threads: usize) -> PyResult<Arc<ThreadPool>> {
     }
     let built = ThreadPoolBuilder::new().num_threads(threads).build();
     let built = built.map_err(|error| {
-        PyRuntimeError::new_err(format!("cannot start {threads} threads: {error}"))
+        PyRuntimeError::new_err(format!(
+            "cannot start {threads} worker threads: {error}; choose fewer `threads`"
+        ))
     })?;
     let pool = Arc::new(built);
     pools.insert(threads, Arc::clone(&pool));

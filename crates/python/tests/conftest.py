@@ -1,4 +1,4 @@
-"""Where the repository and the command are, and a task that most tests use."""
+"""Fixtures: folder of the repository, commands, and a task for most tests."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def command() -> Callable[..., subprocess.CompletedProcess[str]]:
 
 @pytest.fixture
 def learn() -> Callable[..., subprocess.CompletedProcess[str]]:
-    """Runs the command that makes training data, which `.ci/run` has built, too."""
+    """Runs the command that creates training data, which `.ci/run` has also built."""
     return runner(os.environ.get("PUSHPLAN_LEARN", str(ROOT / "target/release/pushplan-learn")))
 
 

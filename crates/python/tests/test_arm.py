@@ -1,4 +1,4 @@
-"""Motions of arms' joints, judged by Pinocchio from the URDF itself."""
+"""Joint trajectories of arms, checked by Pinocchio with the URDF file."""
 
 from __future__ import annotations
 
@@ -39,5 +39,5 @@ def test_pinocchio_finds_the_tool_where_the_plan_has_it(arm: str, tmp_path: Path
     plan = json.loads((tmp_path / "push.plan.json").read_text())
     faults, worst = arms.Judge(urdf, flange).faults(plan, 0.2)
     assert faults == []
-    # Between points a centimetre apart, joints follow cubics; at the points the two kinematics agree.
+    # Joints follow cubics between points a centimetre apart; at the points both kinematics agree.
     assert worst < 2e-4

@@ -1,4 +1,4 @@
-"""Joints are inferred from motion, and what Python says of them is what the command says."""
+"""Joints are inferred from motion, with equal results in Python and in the command."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ import pushplan
 
 
 def recorded(task: pushplan.Task) -> dict[str, Any]:
-    """A push of two cans that are fixed to each other, as a camera would have seen it.
+    """Returns a recording of a push of two cans with a fixed joint.
 
-    Their joint is stated, or the rules of recordings would ask what moves the other one; `infer`
-    does not read it.
+    It states the joint because the rules of recordings otherwise find no cause for the motion of
+    the second can. `infer` does not read the joint.
     """
     keys: Any = task.to_dict()
     push = pushplan.Push.before(task.goal_object, 0.0, offset=0.01)

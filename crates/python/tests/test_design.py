@@ -1,4 +1,4 @@
-"""Tools that are proposed through Python are those of the command."""
+"""Python and the command propose the same tools."""
 
 from __future__ import annotations
 

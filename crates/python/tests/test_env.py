@@ -1,4 +1,4 @@
-"""The environment keeps Gymnasium's rules, and ours."""
+"""The environments satisfy the rules of Gymnasium and of tasks."""
 
 from __future__ import annotations
 
@@ -148,7 +148,7 @@ def test_a_push_is_steered_piece_by_piece(task: pushplan.Task) -> None:
             break
     assert reached and (made + 1) * env.stride == pytest.approx(push.length, abs=0.04)
     assert seen[-2:] == pytest.approx(np.array(push.start) + (made + 1) * env.stride * way, abs=1e-5)
-    # The whole push gives the same result, apart from objects that come to rest in between.
+    # The whole push gives the same result, except that objects do not rest in between.
     whole = pushplan.predict(best, "planar").poses[-1]
     assert np.linalg.norm(env.poses[0, :2] - whole[0, :2]) < 0.03
     # Out of reach, nothing moves.

@@ -1,4 +1,4 @@
-"""The examples and the README's Python run as they stand."""
+"""The examples and the Python blocks of the README run unchanged."""
 
 from __future__ import annotations
 

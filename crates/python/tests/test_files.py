@@ -1,4 +1,4 @@
-"""Files, texts and mappings obey the same rules, and faults say where."""
+"""Files, texts and mappings obey the same rules, and faults state their location."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def test_what_no_file_can_hold_is_refused(task: pushplan.Task) -> None:
     build: Any = pushplan.Task.from_dict
     with pytest.raises(TypeError, match="robustness: expected numbers"):
         build({**keys, "robustness": {0.5}})
-    with pytest.raises(TypeError, match="keys are strings"):
+    with pytest.raises(TypeError, match="keys must be strings"):
         build({1: 2})
     endless: list[Any] = []
     endless.append(endless)
@@ -169,7 +169,7 @@ def test_the_types_have_the_keys_of_the_schema(schema: dict[str, Any], keys: Any
 
 
 def compared(schema: dict[str, Any], keys: Any) -> int:
-    """Compares a map of the schema with a typed dictionary; how many keys they have."""
+    """Compares a map of the schema with a typed dictionary; returns the number of keys."""
     assert set(schema["properties"]) == set(get_type_hints(keys)), keys
     # In a variant every key is optional, but exactly one is required.
     assert set(schema.get("required", [])) == set(keys.__required_keys__), keys

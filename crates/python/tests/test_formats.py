@@ -1,4 +1,4 @@
-"""Formats that others read: MuJoCo opens our scenes, `mcap` our recordings, NumPy our data."""
+"""Other programs read the formats: MuJoCo scenes, `mcap` recordings, and NumPy data."""
 
 from __future__ import annotations
 

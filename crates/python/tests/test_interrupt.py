@@ -1,4 +1,4 @@
-"""Ctrl-C stops long work at once, and other Python threads run meanwhile."""
+"""Ctrl-C stops long work at once, and other Python threads run during the work."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""LeRobot data sets, read back by what reads them."""
+"""LeRobot data sets are readable with pyarrow."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Logs of trackers: what they are, and what they cannot be."""
+"""Valid and invalid logs of trackers."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Row = list[float]
 
 
 def rows() -> list[Row]:
-    """A finger pushes a box by 5 cm; it turns by 0.3 rad on the way, from half a turn on."""
+    """Returns a log in which a finger pushes a box by 5 cm and rotates it by 0.3 rad, past pi."""
     found = []
     for k in range(101):
         tip = 0.001 * k
@@ -83,16 +83,16 @@ def set_at(column: int, value: Callable[[int, float], float]) -> list[Row]:
 @pytest.mark.parametrize(
     ("table", "stated", "message"),
     [
-        (rows(), {"length": "m"}, "is `m` the unit of length"),
-        ([[a, b / 1e3, c, d / 1e3, e, f] for a, b, c, d, e, f in rows()], {}, "is `mm` the unit"),
-        (rows(), {"angle": "deg"}, "wraps at pi: its unit is `rad`"),
-        (set_at(5, lambda k, yaw: math.degrees(yaw)), {}, "its unit is `deg`"),
-        (rows(), {"clock": "ns"}, "is `clock` its unit"),
+        (rows(), {"length": "m"}, "check `length`, here `m`"),
+        ([[a, b / 1e3, c, d / 1e3, e, f] for a, b, c, d, e, f in rows()], {}, "check `length`, here `mm`"),
+        (rows(), {"angle": "deg"}, "wraps at pi; set `angle` to `rad`"),
+        (set_at(5, lambda k, yaw: math.degrees(yaw)), {}, "set `angle` to `deg`"),
+        (rows(), {"clock": "ns"}, "check the unit of time, `clock`"),
         (edited(lambda k, row: None if 60 <= k < 80 else row), {}, ":62: 0.42 s are missing"),
-        (set_at(0, lambda k, t: 0.0 if k == 50 else t), {}, ":52: the time does not go on"),
+        (set_at(0, lambda k, t: 0.0 if k == 50 else t), {}, ":52: the time does not increase"),
         (set_at(1, lambda k, x: math.nan if k == 3 else x), {}, ":5: `tip_x` is 'nan'"),
-        (rows(), {"time": "time"}, "no column time; there are t, tip_x"),
-        (rows(), {"poses": {"pusher": ("tip_x", "tip_y")}}, "names columns of pusher, box"),
+        (rows(), {"time": "time"}, "no column time; the file has t, tip_x"),
+        (rows(), {"poses": {"pusher": ("tip_x", "tip_y")}}, "must have the keys pusher, box, found pusher"),
     ],
 )
 def test_what_a_log_cannot_be_is_said(
@@ -106,16 +106,18 @@ def test_stale_poses_and_small_angles_are_said(tmp_path: Path) -> None:
     def frozen(k: int, row: Row) -> Row:
         return [*row[:3], *rows()[60][3:]] if 60 <= k < 80 else row
 
-    with pytest.raises(ValueError, match="`box` stands still to the bit for 0.38 s"):
+    with pytest.raises(ValueError, match="the pose of `box` is constant for 0.38 s"):
         logs.read_csv(written(tmp_path / "log.csv", edited(frozen)), **STATED)
     small = set_at(5, lambda k, yaw: 0.002 * k)
-    with pytest.warns(UserWarning, match="are they radians"):
+    with pytest.warns(UserWarning, match="if they are radians"):
         logs.read_csv(written(tmp_path / "log.csv", small), **{**STATED, "angle": "deg"})
 
 
 def bag(path: Path, table: list[Row], late: float = 0.0) -> Path:
-    """The same as rosbag2 writes it, by somebody else's code: the box turned in space by a quaternion, and
-    its stamps `late`."""
+    """Writes the log as a bag of rosbag2 with an independent library.
+
+    The rotation of the box is a quaternion, and its stamps are shifted by `late`, seconds.
+    """
     support = pytest.importorskip("mcap_ros2.writer")
     stamp = "int32 sec\nuint32 nanosec\n"
     header = "builtin_interfaces/Time stamp\nstring frame_id\n"
@@ -181,7 +183,7 @@ def test_a_bag_of_ros_is_the_same_recording(tmp_path: Path) -> None:
     assert len(part) == 51
     with pytest.raises(ValueError, match=r"/tf \(tf2_msgs/msg/TFMessage\)"):
         logs.read_mcap(tmp_path / "log.mcap", **{**ROS, "topics": {"box": "/tf#bottle", "pusher": "/tip/pose"}})
-    with pytest.raises(ValueError, match="names those of pusher, box"):
+    with pytest.raises(ValueError, match="must have the keys pusher, box, found box"):
         logs.read_mcap(tmp_path / "log.mcap", **{**ROS, "topics": {"box": "/tf#box"}})
     with pytest.raises(ValueError, match="no plan of pushplan"):
         logs.read_mcap(tmp_path / "log.mcap")

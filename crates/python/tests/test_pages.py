@@ -1,4 +1,4 @@
-"""In a notebook a plan shows its page, which cannot reach the notebook."""
+"""In a notebook a plan displays its report, which has no access to the notebook."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ import pushplan
 
 
 def shown(element: str) -> str:
-    """The page in a frame."""
+    """Returns the page in a frame."""
     found = re.fullmatch(r'<iframe srcdoc="([^"]*)" sandbox="allow-scripts" [^>]*></iframe>', element)
     assert found, element[:200]
     return html.unescape(found.group(1))

@@ -1,4 +1,4 @@
-"""Tags that MuJoCo's camera renders are where they are said to be, as well as it is said."""
+"""Tags rendered by MuJoCo are located correctly, within the stated covariance."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def scene(folder: Path, eye: Any, at: npt.NDArray[np.float64]) -> Any:
 
 
 def looking(eye: Any) -> npt.NDArray[np.float64]:
-    """The axes of a camera that looks at the middle of the table: x right, y down, z ahead, as columns."""
+    """Returns the axes (x right, y down, z ahead) of a camera towards the table, as columns."""
     ahead = np.array([0.55, 0.0, 0.05]) - np.asarray(eye)
     ahead /= np.linalg.norm(ahead)
     right = np.cross(ahead, [0.0, 0.0, 1.0])

@@ -1,4 +1,4 @@
-"""Puzzles of PushWorld become tasks, cell by cell."""
+"""Puzzles of PushWorld are converted to tasks, cell by cell."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def test_cells_become_metres(pushworld: ModuleType) -> None:
     m0, m1 = task["scene"]["objects"]
     assert m0["position"] == pytest.approx([0.36 + 2.5 * 0.08, 0.16])
     assert m0["shape"]["cuboid"]["size"] == pytest.approx([0.064, 0.064, 0.05])
-    # An L of three cells: two along the row, and two along the column that share one cell with them.
+    # An L of three cells: two along the row, and two along the column with one common cell.
     assert m1["shape"]["cuboid"]["size"] == pytest.approx([0.064, 0.144, 0.05])
     assert m1["mass"] == pytest.approx(0.3)
     [part] = m1["parts"]
@@ -50,10 +50,10 @@ def test_cells_become_metres(pushworld: ModuleType) -> None:
 @pytest.mark.parametrize(
     ("text", "fault"),
     [
-        (" . .\n .", "of one length"),
-        (" . X\n . .", "row 1, column 2: `X` is no cell"),
-        (" . G0\n . .", "`G0` is the goal of no movable"),
-        ("", "of one length"),
+        (" . .\n .", "the same number of cells"),
+        (" . X\n . .", "row 1, column 2: `X` is no cell; expected"),
+        (" . G0\n . .", "`G0` has no movable; add `M0`"),
+        ("", "the same number of cells"),
     ],
 )
 def test_what_is_no_puzzle_is_refused(pushworld: ModuleType, text: str, fault: str) -> None:

@@ -1,4 +1,4 @@
-"""Rollouts into arrays are the predictions, one by one."""
+"""Rollouts into arrays equal the single predictions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The node of ROS 2 with a simulated robot on the loopback interface: plans, feedback, cancel, restarts."""
+"""ROS 2 node with a simulated robot on the loopback interface: plans, feedback, cancel, restart."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ TASK: Any = {
 
 
 class Robot:
-    """Says where the can is, and pushes it as the planar engine has it; ``stuck`` never says that it is done."""
+    """Publishes the pose of the can, and pushes it in the 2-D engine unless it is ``stuck``."""
 
     def __init__(self, task: pushplan.Task, stuck: bool = False) -> None:
         parts = ros._ros()
@@ -94,7 +94,7 @@ def wait(until: Callable[[], bool], seconds: float) -> None:
 
 
 class Turning:
-    """A node that is turned in a thread of its own, on a context of its own."""
+    """Node that spins in its own thread on its own context."""
 
     def __init__(self, node: Any) -> None:
         self.node = node
@@ -127,7 +127,7 @@ def test_a_run_looks_plans_sends_and_ends_at_the_goal(context: None) -> None:
     _, node, robot, turning = started()
     solved = robot.call("solve")
     assert solved["success"] and solved["status"] == "solved" and solved["plan"]["steps"]
-    assert (robot.poses == np.array(robot.task.start)).all(), "a plan that is asked for moves nothing"
+    assert (robot.poses == np.array(robot.task.start)).all(), "`~/solve` moves nothing"
     assert robot.call("run")["success"]
     ended = robot.state("ended", "failed")
     assert ended["state"] == "ended" and ended["reached"], robot.states
@@ -184,7 +184,7 @@ def test_a_task_with_one_of_two_goals_met_is_not_reached() -> None:
 
 @pytest.fixture(scope="module")
 def types(tmp_path_factory: pytest.TempPathFactory) -> Any:
-    """The action `Push`, whose types are generated and compiled here."""
+    """Builds and imports the types of the action `Push`."""
     for module in ("rosidl_adapter.action", "rosidl_generator_c", "catkin_pkg", "em"):
         pytest.importorskip(module)
     from pushplan import ros_types
@@ -196,7 +196,7 @@ def types(tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 
 class Client:
-    """Asks for what a task says, as a client of the action."""
+    """Client of the action."""
 
     def __init__(self, node: Any, kind: Any) -> None:
         from rclpy.action import ActionClient  # type: ignore[import-not-found,unused-ignore]

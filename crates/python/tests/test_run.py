@@ -1,4 +1,4 @@
-"""The closed loop, in a drawn world and in one that Python acts in."""
+"""Closed loop in a simulated world and in a world implemented in Python."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import pushplan
 
 
 class Table:
-    """A table that this package simulates: what a robot and a camera would be."""
+    """World that this package simulates, in place of a robot and a camera."""
 
     def __init__(self, task: pushplan.Task) -> None:
         self.task = task

@@ -1,4 +1,4 @@
-"""Solving through Python is solving: same plans to the bit, whatever the number of threads."""
+"""Python and the command find bit-identical plans, for any number of threads."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import pytest
 
 import pushplan
 
-# One solved at once, one by two pushes among obstacles, one without a solution.
+# A task with one push, a task with two pushes among obstacles, and a task without a solution.
 TASKS = ["pull-back-behind-wall", "pull-back-twice", "narrow-gap"]
 
 
@@ -72,7 +72,7 @@ def test_efforts_differ_and_unknown_words_are_refused(task: pushplan.Task) -> No
     draft = pushplan.solve(task, effort="draft").to_dict()
     standard = pushplan.solve(task).to_dict()
     assert draft["statistics"]["rollouts"] < standard["statistics"]["rollouts"]
-    with pytest.raises(ValueError, match='effort: "hard" is not known; use "draft"'):
+    with pytest.raises(ValueError, match='effort: unknown value "hard"; use "draft"'):
         pushplan.solve(task, effort="hard")  # type: ignore[arg-type]
     with pytest.raises(pushplan.ModelError, match="use network, prior, planar"):
         pushplan.solve(task, model="quasi-static")

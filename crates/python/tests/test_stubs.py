@@ -1,4 +1,4 @@
-"""The stubs say what is there, and all of the package's Python is typed."""
+"""The stubs match the package, and all Python code is typed."""
 
 from __future__ import annotations
 
