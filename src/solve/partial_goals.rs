@@ -30,7 +30,7 @@ pub(super) fn meet_some_goals(
         return Ok(());
     }
     let situation = stated(task);
-    watch.stage("plans for some of the goals");
+    watch.stage("plans for a subset of the goals");
     // Milestones of partial plans are not reported.
     let quiet = Quiet(watch);
     for met in sets(task) {

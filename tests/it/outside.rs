@@ -62,7 +62,7 @@ fn outside_of_it_simulation_takes_its_place_or_nothing_does() {
     let guarded = routed(Outside::Simulate);
     let said = guarded.trust(&scene, &job(&scene)).warnings();
     assert!(said.iter().all(|w| matches!(w, Warning::Simulated { .. })) && !said.is_empty());
-    assert!(said[0].to_string().contains("simulated in the plane instead"), "{}", said[0]);
+    assert!(said[0].to_string().contains("the 2-D simulation was used instead"), "{}", said[0]);
 
     let refused = run(Outside::Refuse, &scene);
     assert_eq!(refused.outcome(), &scene.start());
