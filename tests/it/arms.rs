@@ -267,9 +267,15 @@ fn faults(robot: &str) -> String {
 #[test]
 fn faults_of_arms_say_where_and_what_to_do() {
     for (robot, message) in [
-        ("{urdf: six.urdf, flange: tool0, reach: {max: 0.9}}", "an arm has a `reach` of its own"),
-        ("{urdf: six.urdf, flange: tool0, base: 0.1}", "an arm has a base of its own"),
-        ("{urdf: six.urdf, flange: tool0, hand: none}", "an arm has a `hand` of its own"),
+        (
+            "{urdf: six.urdf, flange: tool0, reach: {max: 0.9}}",
+            "`reach` is already defined by the arm",
+        ),
+        (
+            "{urdf: six.urdf, flange: tool0, base: 0.1}",
+            "with an arm, it states how the arm is mounted",
+        ),
+        ("{urdf: six.urdf, flange: tool0, hand: none}", "`hand` is already defined by the arm"),
         ("{urdf: six.urdf}", "an arm needs a `flange`"),
         ("{urdf: six.urdf, flange: tool1}", "there is no link `tool1`"),
         ("{urdf: seven.urdf, flange: tool0}", "seven.urdf"),
@@ -283,8 +289,11 @@ fn faults_of_arms_say_where_and_what_to_do() {
             "at home joint `elbow` is at 5",
         ),
         ("{urdf: six.urdf, flange: tool0, base: {height: 5}}", "holds no tool over the table"),
-        ("{flange: tool0, reach: {max: 0.9}}", "`flange` is of an arm, and there is none"),
-        ("{base: {height: 0.1}, reach: {max: 0.9}}", "`base` says how an arm stands"),
+        (
+            "{flange: tool0, reach: {max: 0.9}}",
+            "`flange` is a key of an arm, but the task has no arm",
+        ),
+        ("{base: {height: 0.1}, reach: {max: 0.9}}", "`base` states how an arm is mounted"),
         ("{home: [0, 0, 0], reach: {max: 0.9}}", "expected a list of 2 numbers, found one of 3"),
         ("{home: [0, 0]}", "missing key `reach`"),
         ("{arm: {name: six}}", "no arm: missing field"),

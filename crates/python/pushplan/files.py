@@ -151,7 +151,7 @@ class FrictionKeys(TypedDict):
 
 
 class SceneKeys(TypedDict):
-    """What stands on the table."""
+    """The scene on the table."""
 
     objects: Sequence[ObjectKeys]
     table: NotRequired[TableKeys]

@@ -132,7 +132,7 @@ impl PyPlan {
         self.file.plan.pushes().iter().map(PyPush::from).collect()
     }
 
-    /// Turn of the end effector against world +x, radians.
+    /// Rotation of the end effector against world +x, radians.
     #[getter]
     fn grip_yaw(&self) -> f64 {
         self.file.plan.grip_yaw()

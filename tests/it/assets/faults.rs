@@ -277,7 +277,7 @@ fn text_that_is_not_yaml() {
 #[test]
 fn a_tag_has_no_meaning() {
     assert_snapshot!(task(&[("name: box", "name: !secret box")]), @r#"
-    t.yaml:5:13: error: not valid YAML: scene.objects[1].name: tags such as `!name` have no meaning here
+    t.yaml:5:13: error: not valid YAML: scene.objects[1].name: tags such as `!name` are not supported here
       help: write the value without a tag
     "#);
 }
@@ -353,7 +353,7 @@ fn control_characters_are_shown_and_not_sent_to_the_terminal() {
     let file = "a\u{9b}2J.yaml";
     assert_snapshot!(Tool::load(file).unwrap_err(), @r#"
     a\u009b2J.yaml: error: cannot read the file: No such file or directory (os error 2)
-      help: check the path; it is relative to the folder you are in
+      help: check the path; it is relative to the current folder
     "#);
 }
 
@@ -362,6 +362,6 @@ fn a_missing_file() {
     let faults = Task::load("no/such/file.yaml").unwrap_err();
     assert_snapshot!(faults, @r#"
     no/such/file.yaml: error: cannot read the file: No such file or directory (os error 2)
-      help: check the path; it is relative to the folder you are in
+      help: check the path; it is relative to the current folder
     "#);
 }
