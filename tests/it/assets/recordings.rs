@@ -222,12 +222,12 @@ fn everything_wrong_is_said_with_its_place() {
         (
             "yaw_deg: 10}",
             "yaw_deg: 10}\n  frictions:\n    - {between: [can, bax], coefficient: 0.02}",
-            "r.yaml:8:23: error: nothing is called `bax`",
+            "r.yaml:8:23: error: no body is called `bax`",
         ),
         (
             "yaw_deg: 10}",
             "yaw_deg: 10}\n  frictions:\n    - {between: [tool, table], coefficient: 0.02}",
-            "r.yaml:8:17: error: neither of the two is an object",
+            "r.yaml:8:17: error: neither of the two bodies is an object",
         ),
         (
             "yaw_deg: 10}",
