@@ -15,7 +15,7 @@ use crate::task::PyTask;
 use crate::tool::{PyTool, PyToolLibrary, given};
 use crate::{errors, json, words, work};
 
-/// A tool that was proposed for a task, and what the tools that there are make of it.
+/// A tool that was proposed for a task, and what existing tools make of it.
 #[pyclass(name = "Design", module = "pushplan", frozen)]
 pub struct PyDesign {
     task: Arc<Task>,
@@ -45,7 +45,7 @@ impl PyDesign {
         self.design.proposal.as_ref().map(|proposal| self.solved(&proposal.solution))
     }
 
-    /// The task solved with the tools that there are, whichever it names.
+    /// The task solved with existing tools, whichever it names.
     #[getter]
     fn known(&self) -> PySolution {
         self.solved(&self.design.known)

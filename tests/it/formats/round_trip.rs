@@ -203,7 +203,7 @@ goal: {{object: a, {goal}}}
         assert_eq!(found, None, "{goal}");
         let [note] = &notes[..] else { panic!("{goal}: {notes:?}") };
         assert!(
-            note.contains("the goal of `object/a` is left out") && note.contains(what),
+            note.contains("the goal of `object/a` is ignored") && note.contains(what),
             "{note}"
         );
     }

@@ -111,7 +111,7 @@ fn check(asked: &Asked, ledger: &mut Ledger) {
 fn check_part(between: &Node, edge: Option<&str>, scene: &Node, ledger: &mut Ledger) {
     let Some(Span { low, high }) = span(between) else { return };
     if high - low < SHORTEST {
-        let message = format!("no edge has a range from {low} to {high}");
+        let message = format!("the range from {low} to {high} is reversed or too short");
         let advice =
             format!("write the smaller value first, with at least {SHORTEST} m between them");
         ledger.fault(between, message, advice);
