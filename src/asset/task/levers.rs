@@ -44,9 +44,9 @@ const RULES: Value = Value::Map(&[
                 max: 8,
             },
         ]),
-        "Axes about which the blade may rotate: distance from the edge, inward, in metres (below \
-         zero behind the edge, to pry), or `auto`, the line about which the plate rotates; default \
-         auto, 0.16 and -0.012.",
+        "Axes about which the blade may rotate, as distances from the edge, inward, in metres \
+         (below zero behind the edge, to pry). `auto` is the line about which the plate rotates. \
+         Default auto, 0.16 and -0.012.",
     ),
     Key::optional(
         "speed",

@@ -65,11 +65,11 @@ const UNKNOWN: Value = Value::List {
 };
 
 const UNKNOWN_MEANING: &str = "Properties of the scene that are unknown, so that `pushplan run` \
-    has to estimate them by pushing: `joints` (any two objects with a gap below 30 mm may be \
-    joined; none are stated then), `masses` (within a factor of 2 of the stated one, nine times in \
-    ten), `frictions` (of objects and table, within a factor of 1.5), `support` (anything from \
-    even pressure to the corners). Stated values are the middle of the range, with which `pushplan \
-    solve` plans; by default nothing is unknown.";
+    has to estimate them by pushing. `joints`: any two objects with a gap below 30 mm may be \
+    joined, and the scene states no joints. `masses`: within a factor of 2 of the stated value, \
+    nine times in ten. `frictions`, of objects and table: within a factor of 1.5. `support`: \
+    anything from even pressure to the corners. Stated values are the middle of the range, with \
+    which `pushplan solve` plans; by default nothing is unknown.";
 
 const SCENE: Value = Value::Map(&[
     TABLE,

@@ -43,8 +43,8 @@ pub(super) const COVERAGE: Ask = Ask {
                 "Heading of the target outline, degrees; default 0.",
             ),
         ]),
-        "Required coverage of a target outline (the object's own shape at a given pose) by the \
-         object, seen from above, with all parts; Push-T measures this. By default any.",
+        "Required coverage of a target outline by the object, seen from above, with all parts. The \
+         target outline is the object's own outline at a given pose, as in Push-T. By default any.",
     )],
     about: About::Pose,
     read: |goal, object, scene| {

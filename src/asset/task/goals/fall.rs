@@ -41,9 +41,10 @@ pub(super) const OFF_TABLE: Ask = Ask {
             ]),
         ]),
         "Edge of the table over which the object must fall instead of coming to rest, seen from \
-         the robot: `any`, `far` (+x), `near` (-x), `left` (+y) or `right` (-y), or an `edge` with \
-         a range `between` along it. The object falls once its centre of mass is beyond the edge; \
-         all other objects must stay unless they may fall. By default the object must stay.",
+         the robot: `any`, `far` (+x), `near` (-x), `left` (+y) or `right` (-y). A map of `edge` \
+         and `between` restricts it to a range of the edge. The object falls once its centre of \
+         mass is beyond the edge; all other objects must stay unless they may fall. By default the \
+         object must stay.",
     )],
     about: About::Pose,
     read: |goal, object, scene| Some(Demand::Fall(fall(goal.get("off_table")?, object, scene)?)),
