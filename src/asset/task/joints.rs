@@ -47,14 +47,9 @@ const KEYS: &[Key] = &[
     Key::required(
         "kind",
         Value::Word(&["fixed", "revolute", "prismatic"]),
-        "Motion that the joint allows: none, rotation about a vertical axis, or displacement along \
-         a line.",
+        "Motion that it allows: none, rotation about a vertical axis, or sliding along a line.",
     ),
-    Key::optional(
-        "at",
-        POSITION,
-        "Position of the axis of a revolute joint, [x, y] in metres; no default.",
-    ),
+    Key::optional("at", POSITION, "Axis of a revolute joint, [x, y] in metres; no default."),
     Key::optional(
         "limits_deg",
         numbers(&ANGLE_LIMIT, 2),
@@ -322,9 +317,8 @@ impl Groups {
     fn hold(&mut self, object: usize, node: &Node, name: &str, ledger: &mut Ledger) {
         let group = self.sets.lowest(object);
         if std::mem::replace(&mut self.held[group], true) {
-            let message = format!(
-                "`{name}` is joined to the world twice, directly or through another object"
-            );
+            let message =
+                format!("`{name}` is joined to the world twice, maybe through another object");
             ledger.fault(node, message, "remove one of the joints; joined objects must form trees");
         }
     }
@@ -337,8 +331,7 @@ impl Groups {
             ledger.fault(
                 node,
                 format!(
-                    "this joint of `{}` and `{}` closes a loop, which the simulator does not \
-                     support",
+                    "this joint of `{}` and `{}` closes a loop, which is not supported",
                     names[0], names[1]
                 ),
                 "remove one joint of the loop; joined objects must form trees",

@@ -177,7 +177,7 @@ fn two_joints_and_a_loop() {
     assert_snapshot!(faults(&[("  obstacles:", "    - {between: [b, a], kind: fixed}\n    - {between: [a, d], kind: fixed}\n  obstacles:")]), @r#"
     t.yaml:11:7: error: `b` and `a` already have a joint
       help: keep one of the two; two objects can have only one joint
-    t.yaml:12:7: error: this joint of `a` and `d` closes a loop, which the simulator does not support
+    t.yaml:12:7: error: this joint of `a` and `d` closes a loop, which is not supported
       help: remove one joint of the loop; joined objects must form trees
     "#);
 }
