@@ -35,8 +35,9 @@ const PART: Value = Value::Map(&[
     Key::required(
         "position",
         PLACE,
-        "Its centre in the object's frame, [x, y] in metres; [0, 0] is the object's position. A third \
-         number is `z`. On an object with `clearance` or `z`, from the origin of its corners.",
+        "Its centre in the object's frame, [x, y] in metres; [0, 0] is the object's position. A \
+         third number is `z`. On an object with `clearance` or `z`, positions are from the origin \
+         of its corners.",
     ),
     Key::optional("yaw_deg", ANGLE, "Rotation in the object's frame, degrees; default 0."),
     Key::optional(
