@@ -111,8 +111,7 @@ impl Ledger {
                 first.message
             ),
             count => format!(
-                "{of} contains elements that cannot be imported and are ignored: {}, and {} other \
-                 errors",
+                "{of} contains elements that cannot be imported and are ignored: {}, and {} more",
                 first.message,
                 count - 1
             ),

@@ -217,7 +217,7 @@ fn everything_wrong_is_said_with_its_place() {
         (
             "[0.5, 0.1, 10]]}\n  - {pusher: [0.10",
             "[0.52, 0.1, 10]]}\n  - {pusher: [0.10",
-            "r.yaml:11:46: error: the recording starts in motion: `box` moves 20.0 mm",
+            "r.yaml:11:46: error: the recording starts in motion: `box` moves by 20.0 mm",
         ),
         (
             "yaw_deg: 10}",

@@ -130,8 +130,8 @@ fn only_what_was_chosen_may_refuse() {
     assert_eq!(task.scene.objects.len(), 1);
     for said in [
         "omitted, with all bodies attached to them: upper",
-        "has a spring, and 1 other faults",
-        "`post` is passed over",
+        "has a spring, and 1 more",
+        "`post` contains an element",
     ] {
         assert!(notes.contains(said), "{notes}");
     }
