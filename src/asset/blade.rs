@@ -25,9 +25,9 @@ pub(super) const BLADE_TOOL_KEYS: &[Key] = &[
             Key::required(
                 "length",
                 SIZE,
-                "From the tip to where the end effector holds the tool, metres.",
+                "Distance from the tip to the end effector's grip, metres.",
             ),
-            Key::required("width", SIZE, "Along the edge that it goes under, metres."),
+            Key::required("width", SIZE, "Width along the edge that the blade lifts, metres."),
             Key::required(
                 "thickness",
                 Value::Number(Range {
@@ -36,10 +36,10 @@ pub(super) const BLADE_TOOL_KEYS: &[Key] = &[
                     high: 0.1,
                     advice: "2 mm is 0.002",
                 }),
-                "Height in metres; must fit below the edge.",
+                "Thickness in metres; must be less than the clearance below the edge.",
             ),
         ]),
-        "The blade that goes under an edge; a tool that has one levers and does not push.",
+        "The blade that lifts an edge; a tool with a blade levers and does not push.",
     ),
 ];
 
@@ -59,7 +59,7 @@ pub(super) fn blade_tool_of(root: &Node, ledger: &mut Ledger) -> Option<Tool> {
         friction: number_or(root, "friction", Tool::FRICTION)?,
     };
     if blade.thickness >= blade.length {
-        let advice = "the length runs from the tip to the grip; a screwdriver has 0.12";
+        let advice = "the length is measured from the tip to the grip; a screwdriver has 0.12";
         ledger.fault(node, "the blade is thicker than it is long", advice);
     }
     let description = root.get("description").and_then(Node::text).unwrap_or_default();

@@ -52,7 +52,7 @@ impl Fault {
     pub fn io(path: &Path, doing: &str, error: &std::io::Error) -> Self {
         use std::io::ErrorKind;
         let advice = match error.kind() {
-            ErrorKind::NotFound => "check the path; it is relative to the folder you are in",
+            ErrorKind::NotFound => "check the path; it is relative to the current folder",
             ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
                 "check the permissions, or name another folder"
             }

@@ -32,7 +32,7 @@ pub fn recordings_in(folder: &Path) -> Result<Vec<(PathBuf, Vec<PathBuf>)>, Faul
     }
     if found.is_empty() {
         let message = "the folder holds no recordings (*.json, *.yaml)";
-        let advice = "`pushplan check --schema recording` shows what belongs in such files";
+        let advice = "`pushplan check --schema recording` prints the format of such files";
         return Err(Fault::of_file(&folder.display().to_string(), message, advice));
     }
     Ok(found)

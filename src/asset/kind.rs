@@ -93,7 +93,7 @@ fn recognise(file: &str, text: &str) -> Result<Kind, Faults> {
         (Some(kind), None) => Ok(kind),
         _ => {
             let message = "this is not a tool, task, plan, trajectory, recording or world file";
-            let advice = "`pushplan check --schema KIND` shows what belongs in such files";
+            let advice = "`pushplan check --schema KIND` prints the format of such files";
             Err(Fault::of_file(file, message, advice).into())
         }
     }

@@ -87,7 +87,7 @@ impl ToolLibrary {
         let files = files_in(path, &["yaml", "yml"])?;
         if files.is_empty() {
             let message = "the folder holds no tool files (*.yaml)";
-            let advice = "name the folder with the tools, such as `tools`";
+            let advice = "name the folder that contains the tools, such as `tools`";
             return Err(Fault::of_file(&path.display().to_string(), message, advice).into());
         }
         let names: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
@@ -151,7 +151,7 @@ impl ToolLibrary {
                 files.insert(name, file);
             } else {
                 let first = files.get(&name).copied().unwrap_or("the library");
-                let message = format!("its tool `{name}` is already in {first}");
+                let message = format!("its tool `{name}` is already defined in {first}");
                 faults.push(Fault::of_file(file, message, "rename one of the two"));
             }
         }

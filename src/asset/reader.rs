@@ -37,7 +37,7 @@ const MAX_DEPTH: usize = 32;
 /// 30 ms.
 const OPENERS_AT_ONCE: usize = 2000;
 
-const TAGS: &str = "tags such as `!name` have no meaning here";
+const TAGS: &str = "tags such as `!name` are not supported here";
 
 const DEEP: &str = "lists and maps are nested too deeply";
 
@@ -50,7 +50,7 @@ impl Node {
         let Source { file, text, language } = source;
         if language == Language::Yaml && text.len() > MAX_YAML_BYTES {
             let message =
-                format!("the file has {} bytes; at most {MAX_YAML_BYTES} are read", text.len());
+                format!("the file has {} bytes; the limit is {MAX_YAML_BYTES}", text.len());
             return Err(Fault::of_file(file, message, "is this the right file?").into());
         }
         check_depth(source)
@@ -78,15 +78,15 @@ impl Failure {
         let advice = if message.contains(TAGS) {
             "write the value without a tag"
         } else if message.contains(DEEP) {
-            "look for brackets that are never closed; is this the right file?"
+            "look for brackets that are never closed, or check whether this is the right file"
         } else if message.contains("number out of range") {
             "write a number that is smaller than 1e308"
         } else if text.trim().is_empty() {
-            "the file is empty; `pushplan check --schema KIND` shows what belongs in it"
+            "the file is empty; `pushplan check --schema KIND` prints its format"
         } else if language == Language::Yaml && text.contains('\t') {
-            "YAML indents with spaces; tabs are not allowed"
+            "indent YAML with spaces; tabs are not allowed"
         } else if language == Language::Json && names_no_number(text) {
-            "JSON has no NaN and no Infinity: leave out what was not measured"
+            "JSON has no NaN and no Infinity; leave out values that were not measured"
         } else {
             "check indentation, brackets and quotes around this place"
         };
@@ -286,7 +286,7 @@ impl<'de> Visitor<'de> for Reader<'_> {
         let (words, most) = self.words;
         words.set(words.get() + value.len());
         if words.get() > most {
-            return Err(E::custom(format_args!("more than {most} bytes of words")));
+            return Err(E::custom(format_args!("more than {most} bytes of text")));
         }
         self.leaf(Content::Text(value.into()))
     }
@@ -338,7 +338,7 @@ mod tests {
     fn long_words_are_not_repeated_for_ever() {
         let text = format!("a: &a {}\nb: [{}]\n", "x".repeat(9000), "*a, ".repeat(200));
         let faults = Node::parse(Source::yaml("t", &text)).unwrap_err().to_string();
-        assert!(faults.contains("bytes of words"), "{faults}");
+        assert!(faults.contains("bytes of text"), "{faults}");
     }
 
     #[test]

@@ -7,29 +7,31 @@ use super::strict::describe;
 use super::text::LONGEST_NAME;
 
 /// Description of tool files.
-const TOOL_RULES: &str = "One rigid piece of upright solids, held at its grip, that pushes; or a flat \
-`blade`, held at the end of its shaft, that levers. Lengths are in metres, angles in degrees. Unknown \
-keys are faults.";
+const TOOL_RULES: &str = "A rigid body of upright solids, held at its grip, that pushes; or a flat \
+    `blade`, held at the end of its shaft, that levers. Lengths are in metres, angles in degrees. \
+    Unknown keys are errors.";
 
 /// Description of task files.
 const TASK_RULES: &str = "A scene, a robot, the tools and pushes that it allows, and a goal. \
-Lengths are in metres, masses in kilograms, angles in degrees. The table is the plane z = 0; x \
-points forward from the robot, whose base is the origin. The friction coefficient of any pair, \
-object and table included, is the mean of the two friction values. Up to 12 objects may be \
-connected by joints, without loops. The goal is reached when everything rests and the object's \
-centre is within the tolerance, and its heading too where one is asked for; headings at which the \
-object looks the same count alike unless the goal says otherwise. The position of a body is that of \
-its centre; of a prism, whose corners are written from any origin, that of its centre of mass. A \
-prism turns as heavily as an even plate on its base, about its centre of mass. A task with `levers`, or \
-a goal with `outside`, `raised` or `flipped`, allows lever-ups: its objects are flat, on feet or on \
-obstacles, and a blade goes level under an edge, pointing inward, and turns about a level axis; the \
-edge goes up. The blade is held at the other end of its shaft, which stays within the reach. \
-Unknown keys are faults.";
+    Lengths are in metres, masses in kilograms, angles in degrees. The table is the plane z = 0; x \
+    points forward from the robot, whose base is the origin. The friction coefficient of any pair, \
+    object and table included, is the mean of the two friction values. Up to 12 objects may be \
+    connected by joints, without loops. The goal is reached when all objects rest and the object's \
+    centre is within the tolerance, and its heading too if the goal has one. Headings at which the \
+    object looks the same count alike unless the goal states otherwise. The position of a body is \
+    its centre; the position of a prism, whose corners are written from any origin, is its centre \
+    of mass. The moment of inertia of a prism equals that of a uniform plate with its base, about \
+    its centre of mass. A task with `levers`, or a goal with `outside`, `raised` or `flipped`, \
+    allows lever-ups: its objects are flat and stand on feet or on obstacles. The blade enters \
+    level below an edge, pointing inward, and rotates about a level axis, which raises the edge. \
+    The end effector holds the other end of the blade's shaft and stays within the reach. Unknown \
+    keys are errors.";
 
 /// Description of world files.
-const WORLD_RULES: &str = "What is really there where a task does not know it, for `pushplan run`: \
-what is not said here is as the task states it, and no planner sees it. Lengths are in metres, masses in \
-kilograms, angles in degrees. Unknown keys are faults.";
+const WORLD_RULES: &str = "The ground truth of properties that a task leaves unknown, for \
+    `pushplan run`. Properties that are not given here are as in the task, and no planner reads \
+    this file. Lengths are in metres, masses in kilograms, angles in degrees. Unknown keys are \
+    errors.";
 
 /// Returns the schema of tool files.
 pub fn tool_schema() -> Json {

@@ -43,7 +43,7 @@ const PLACED_PRISM: Value = Value::Map(&[
     Key::optional(
         "origin",
         POSITION,
-        "The point whose place `position` names, [x, y] in metres from the same origin; by default the \
+        "The point located by `position`, [x, y] in metres from the same origin; by default the \
          centre of mass.",
     ),
 ]);
@@ -60,8 +60,8 @@ const HEIGHT: Key = Key::required("height", SIZE, "Height in metres.");
 const CENTRE: Key = Key::optional(
     "centre_of_mass",
     POSITION,
-    "Centre of mass, [x, y] in metres from the same origin; by default the centroid of the base. The \
-     body's position is where this is.",
+    "Centre of mass, [x, y] in metres from the same origin; by default the centroid of the base. \
+     It is the point located by the body's position.",
 );
 
 /// Returns the solid under `shape`.
@@ -123,16 +123,16 @@ pub(super) fn check_base(node: &Node, ledger: &mut Ledger) {
     let list = node.get("corners");
     let corner = |k: usize| list.and_then(|list| list.items().get(k));
     let (place, advice) = match error {
-        PolygonError::Count(_) => (list, "leave out corners that matter least"),
-        PolygonError::Doubled(k) => (corner(k), "leave it out; corners are 1 mm apart or more"),
-        PolygonError::Straight(k) => (corner(k), "leave it out; the outline is the same"),
+        PolygonError::Count(_) => (list, "leave out the corners that matter least"),
+        PolygonError::Doubled(k) => (corner(k), "leave it out; corners must be 1 mm apart or more"),
+        PolygonError::Straight(k) => (corner(k), "leave it out; the outline does not change"),
         PolygonError::Inwards(k) => {
             (corner(k), "make it convex, or join several convex objects by fixed joints")
         }
-        PolygonError::Crossing => (list, "write the corners in the order around the outline"),
+        PolygonError::Crossing => (list, "write the corners in their order around the outline"),
         PolygonError::Size => (list, "lengths are in metres: 50 mm is 0.05"),
         PolygonError::Unbalanced => {
-            (node.get("centre_of_mass"), "it is counted from the same origin as the corners")
+            (node.get("centre_of_mass"), "it is measured from the same origin as the corners")
         }
     };
     ledger.fault(place.unwrap_or(node), error.to_string(), advice);

@@ -99,7 +99,7 @@ pub(super) const ANGLE_LIMIT: Value = Value::Number(Range {
     what: "a limit in degrees",
     low: -340.0,
     high: 340.0,
-    advice: "limits are in degrees from the start; leave them out where a joint turns freely",
+    advice: "limits are in degrees from the start; leave them out if the joint rotates freely",
 });
 
 /// Limit of a prismatic joint.
@@ -112,7 +112,7 @@ pub(super) const FRICTION: Value = Value::Number(Range {
     what: "a friction value",
     low: 0.05,
     high: 2.0,
-    advice: "wood on wood is about 0.4, rubber about 0.8; without friction nothing comes to rest",
+    advice: "wood on wood is about 0.4, rubber about 0.8; without friction no object comes to rest",
 });
 
 /// Mass.
@@ -128,7 +128,7 @@ pub(super) const FORCE: Value = Value::Number(Range {
     what: "a force in newtons",
     low: 0.1,
     high: 1e6,
-    advice: "pushing 1 kg over wood takes about 5 N; small arms press with 50 to 150 N",
+    advice: "pushing 1 kg over wood takes about 5 N; small arms exert 50 to 150 N",
 });
 
 #[cfg(test)]

@@ -178,8 +178,8 @@ fn check_keys(node: &mut Node, keys: &[Key], ledger: &mut Ledger) -> Vec<String>
 fn tilted(name: &str, keys: &[Key]) -> Option<String> {
     let stands = keys.iter().any(|key| ["yaw_deg", "radius"].contains(&key.name));
     (stands && TILTS.contains(&name)).then(|| {
-        "everything stands upright and turns by `yaw_deg` alone: a box that lies has other sizes; a can that lies \
-         would roll, which nothing here models"
+        "all bodies stand upright and rotate by `yaw_deg` only: write a lying box with other \
+         sizes; a lying can would roll, which is not modelled"
             .to_owned()
     })
 }

@@ -58,7 +58,7 @@ impl TableFit {
     /// # Errors
     /// The errors of [`TableFit::load`].
     pub fn parse(text: &str, file: &str) -> Result<Self, Fault> {
-        let again = "make it again with `pushplan fit RECORDINGS --save-fit FILE`";
+        let again = "create it again with `pushplan fit RECORDINGS --save-fit FILE`";
         let broken = |error: serde_json::Error| {
             let message = error.to_string();
             let message = message.split(" at line ").next().unwrap_or_default();
@@ -67,12 +67,12 @@ impl TableFit {
         };
         let Form { schema_version, kind } = serde_json::from_str(text).map_err(broken)?;
         if kind != KIND {
-            let message = format!("expected a fit of a table, found the kind `{kind}`");
+            let message = format!("expected a table fit, found the kind `{kind}`");
             return Err(Fault::of_file(file, message, again));
         }
         if schema_version != FIT_VERSION {
             let message = format!(
-                "the fit is of version {schema_version}, this program reads version {FIT_VERSION}"
+                "the fit has version {schema_version}, but this program reads version {FIT_VERSION}"
             );
             return Err(Fault::of_file(file, message, again));
         }
@@ -86,7 +86,9 @@ impl TableFit {
         }
         match unsound(&fit) {
             None => Ok(fit),
-            Some(what) => Err(Fault::of_file(file, format!("no fit has {what}"), again)),
+            Some(what) => {
+                Err(Fault::of_file(file, format!("a table fit cannot have {what}"), again))
+            }
         }
     }
 
@@ -120,15 +122,15 @@ fn unsound(fit: &TableFit) -> Option<&'static str> {
     if !fit.head.iter().all(small) {
         Some("a head with such numbers")
     } else if !positive(fit.spread.prior) || !positive(fit.noise) {
-        Some("such a width")
+        Some("this width")
     } else if !directions.iter().all(|one| fits(one.direction.len())) {
-        Some("directions of another length than its head")
+        Some("directions whose length differs from the head's")
     } else if !directions.iter().all(|one| (0.0..=1.0).contains(&one.left)) {
-        Some("such a share of the prior's variance")
+        Some("this share of the prior's variance")
     } else if fit.friction.is_some_and(|friction| !positive(friction)) {
-        Some("such a friction")
+        Some("this friction")
     } else if fit.support.is_some_and(|support| !(0.0..=1.0).contains(&support)) {
-        Some("such a support")
+        Some("this support")
     } else {
         None
     }
@@ -167,10 +169,10 @@ mod tests {
         let message =
             |text: &str| TableFit::parse(text, "table.fit.json").expect_err("a fault").message;
         assert!(message(&text.replace("0.47", "0.48")).contains("damaged"));
-        assert!(message(&text.replace("table_fit", "plan")).contains("expected a fit"));
+        assert!(message(&text.replace("table_fit", "plan")).contains("expected a table fit"));
         assert!(message(&text.replace("version\":1", "version\":9")).contains("version 9"));
         assert!(message(&text[..text.len() / 2]).contains("EOF"));
         let wild = TableFit { head: vec![1e9, 0.0], ..some() };
-        assert!(message(&wild.to_json()).contains("no fit has"));
+        assert!(message(&wild.to_json()).contains("a table fit cannot have"));
     }
 }

@@ -34,15 +34,15 @@ pub(super) const TOOL_KEYS: &[Key] = &[
             Key::required(
                 "position",
                 POSITION,
-                "Where the end effector holds the tool, [x, y] in metres in the tool frame.",
+                "Position of the end effector, [x, y] in metres in the tool frame.",
             ),
             Key::optional(
                 "yaw_deg",
                 ANGLE,
-                "Turn of the end effector in the tool frame, degrees; default 0.",
+                "Rotation of the end effector in the tool frame, degrees; default 0.",
             ),
         ]),
-        "The end effector's pose in the tool frame; by default its origin, unturned.",
+        "The end effector's pose in the tool frame; by default its origin, not rotated.",
     ),
     Key::required(
         "friction",
@@ -52,7 +52,7 @@ pub(super) const TOOL_KEYS: &[Key] = &[
     Key::required(
         "parts",
         Value::List { of: &PART, items: "parts", min: 1, max: MAX_PARTS },
-        "The solids that make the tool; parts that touch (gap up to 0.1 mm) are joined rigidly.",
+        "The solids of the tool; parts that touch (gap up to 0.1 mm) are joined rigidly.",
     ),
     Key::optional(
         "joints",
@@ -62,7 +62,7 @@ pub(super) const TOOL_KEYS: &[Key] = &[
             min: 0,
             max: 64,
         },
-        "Pairs of parts joined rigidly although they do not touch; by default none.",
+        "Pairs of parts that are joined rigidly although they do not touch; by default none.",
     ),
 ];
 
@@ -73,19 +73,20 @@ const PART_KEYS: &[Key] = &[
     Key::optional(
         "size",
         EXTENTS,
-        "Full extents [x, y, z] of a cuboid in metres; no default, a part has this or `shape`.",
+        "Full extents [x, y, z] of a cuboid in metres; no default, a part has either this or \
+         `shape`.",
     ),
     Key::optional(
         "shape",
         SHAPE,
-        "The part's solid, standing upright; no default, a part has this or `size`.",
+        "The part's solid, which stands upright; no default, a part has either this or `size`.",
     ),
     Key::required(
         "position",
         Value::List { of: &COORDINATE, items: "numbers", min: 2, max: 3 },
         "The part's centre in the tool frame, [x, y] or [x, y, 0] in metres.",
     ),
-    Key::optional("yaw_deg", ANGLE, "Turn of the part in the tool frame, degrees; default 0."),
+    Key::optional("yaw_deg", ANGLE, "Rotation of the part in the tool frame, degrees; default 0."),
 ];
 
 impl Tool {
@@ -149,7 +150,8 @@ pub(super) fn tool_of(root: &Node, ledger: &mut Ledger) -> Option<Tool> {
             ledger.fault(
                 node,
                 "parts at different heights are not supported",
-                "write 0; all parts stand side by side with their undersides at the push's `lift`",
+                "write 0; all parts stand side by side, and the push's `lift` is the height of \
+                 their undersides",
             );
         }
     }

@@ -22,12 +22,12 @@ pub enum ModelError {
         error: WeightsError,
     },
     /// A model from outside the library.
-    #[error("the library has no model `{0}`; build it where it is defined")]
+    #[error("the library has no model `{0}`; create it with the crate that defines it")]
     Custom(&'static str),
     /// A table fit that was learned with another network.
     #[error(
-        "the fit was learnt with other weights ({weights}) than those of the model; fit again with \
-         this model"
+        "the fit was learnt with other weights ({weights}) than the model has; fit again with this \
+         model"
     )]
     Fit {
         /// Checksum of the weights with which the fit was learned.

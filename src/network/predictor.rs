@@ -74,7 +74,7 @@ impl Card for PredictorCard {
         check_config(self.config)?;
         check_normaliser(&self.normaliser, &Tables::PUSHES)?;
         if let Some((name, value)) = self.ranges.unsound() {
-            let (name, expected) = (format!("ranges.{name}"), "a number up to its upper end");
+            let (name, expected) = (format!("ranges.{name}"), "a number up to the upper limit");
             return Err(WeightsError::Value { name, value, expected });
         }
         if let Some(doubt) = &self.doubt {

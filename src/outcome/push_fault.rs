@@ -31,36 +31,42 @@ pub enum PushFault {
 impl fmt::Display for PushFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Form => write!(f, "is not of the form that the task allows"),
+            Self::Form => {
+                write!(f, "does not have the form (`placed` or `chained`) that the task requires")
+            }
             Self::Lift(lift) => {
                 write!(
                     f,
-                    "holds the tool {:.1} mm above the table, which the task does not",
+                    "holds the tool {:.1} mm above the table, not at the `lift` of the task",
                     lift * 1e3
                 )
             }
             Self::Home(distance) => {
                 write!(
                     f,
-                    "begins {:.1} mm from the robot's home, where chained pushes begin",
+                    "begins {:.1} mm from the robot's home, where chained pushes must begin",
                     distance * 1e3
                 )
             }
             Self::Apart(distance) => write!(
                 f,
-                "begins {:.1} mm from where the last one ended, and the tool stays down",
+                "begins {:.1} mm from the end of the previous push, although the tool is not \
+                 lifted between the two",
                 distance * 1e3
             ),
             Self::Direction(direction) => write!(
                 f,
-                "goes along {:.1} degrees, far from any direction that the task allows",
+                "has the direction {:.1} degrees, which is far from every direction that the task \
+                 allows",
                 direction.to_degrees()
             ),
             Self::Length(length) => {
                 write!(f, "is {:.1} mm long, longer than the task allows", length * 1e3)
             }
-            Self::Speed(speed) => write!(f, "goes at {speed} m/s, faster than the task says"),
-            Self::TooLong(duration) => write!(f, "takes {duration:.0} s, too long to be replayed"),
+            Self::Speed(speed) => {
+                write!(f, "has a speed of {speed} m/s, faster than the task allows")
+            }
+            Self::TooLong(duration) => write!(f, "takes {duration:.0} s, too long for a replay"),
         }
     }
 }

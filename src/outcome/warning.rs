@@ -296,7 +296,7 @@ impl Warning {
     /// Returns a short name of the warning, for tables.
     pub fn word(&self) -> &'static str {
         match self {
-            Warning::OutsideRange { .. } => "outside its range",
+            Warning::OutsideRange { .. } => "out of range",
             Warning::Declined { .. } => "declined",
             Warning::NotAtRest { .. } => "not at rest",
             Warning::Doubtful { .. } => "doubtful",
@@ -305,17 +305,17 @@ impl Warning {
             Warning::Toppled { .. } => "toppled",
             Warning::Jammed { .. } => "jammed",
             Warning::OffTable { .. } => "off the table",
-            Warning::NotKept { .. } => "not kept",
-            Warning::KeptOut { .. } => "not kept out",
+            Warning::NotKept { .. } => "kept object moved",
+            Warning::KeptOut { .. } => "in a keep-out region",
             Warning::Fell { .. } => "fallen",
             Warning::Hangs { .. } => "hanging",
             Warning::TooMuchForce { .. } => "too much force",
-            Warning::HardPush { .. } => "a hard push",
+            Warning::HardPush { .. } => "high force",
             Warning::OutOfReach { .. } => "out of reach",
             Warning::ThroughObstacle { .. } => "through an obstacle",
             Warning::HandThrough { .. } => "hand through an obstacle",
-            Warning::NoWay { .. } => "no way to a push",
-            Warning::Arm { .. } => "not for the arm",
+            Warning::NoWay { .. } => "no path to a push",
+            Warning::Arm { .. } => "infeasible for the arm",
             Warning::ForbiddenTool { .. }
             | Warning::ForbiddenYaw { .. }
             | Warning::TooManyPushes { .. }
@@ -324,7 +324,7 @@ impl Warning {
             | Warning::CannotLever { .. } => "forbidden",
             Warning::Slipped { .. } => "slipped off the blade",
             Warning::Strained => "jammed",
-            Warning::SetDownOn { .. } => "set down on it",
+            Warning::SetDownOn { .. } => "tool set down on it",
             Warning::Pressed { .. } => "pressed",
             Warning::Overlap { .. } => "overlapping",
             Warning::LooseJoint { .. } => "loose joint",

@@ -10,7 +10,7 @@ use thiserror::Error;
 #[serde(rename_all = "snake_case")]
 pub enum Infeasible {
     /// The face passes next to or above the object.
-    #[error("the face does not meet the object")]
+    #[error("the face misses the object")]
     NoContact,
     /// Another part of the tool meets the object before the face does, or overlaps it.
     #[error("another part of the tool meets the object first")]
@@ -19,18 +19,18 @@ pub enum Infeasible {
     #[error("the tool would come down on an object")]
     OnObject,
     /// The tool would come down on an obstacle or pass through one.
-    #[error("an obstacle, or a region that is kept out of, is in the tool's way")]
+    #[error("an obstacle or a keep-out region obstructs the tool")]
     Obstacle,
     /// The hand or the handle of the tool would meet an obstacle or an object taller than the tool.
-    #[error("the hand would meet something")]
+    #[error("the hand would collide with another body")]
     Hand,
     /// The object would topple instead of sliding.
-    #[error("the object would topple, pushed so high: see `pushes.lift`")]
+    #[error("the object would topple at this height; see `pushes.lift`")]
     Topples,
     /// The end effector would leave the robot's reach.
     #[error("the end effector would leave the robot's reach")]
     Reach,
     /// Hardly any travel is left before the end of the reach or an obstacle.
-    #[error("there is no room to push")]
+    #[error("there is no room for a push")]
     NoRoom,
 }

@@ -48,22 +48,25 @@ pub enum ArmFault {
 impl fmt::Display for ArmFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Unreachable => write!(f, "no pose of the arm reaches all of it"),
-            Self::Limit { joint } => write!(f, "joint `{joint}` would leave its limits"),
+            Self::Unreachable => write!(f, "no arm configuration reaches the whole push"),
+            Self::Limit { joint } => write!(f, "joint `{joint}` would exceed its position limits"),
             Self::TooFast { joint, needed, limit } => write!(
                 f,
-                "joint `{joint}` would have to move at {needed:.2} a second and does at most \
-                 {limit:.2}"
+                "joint `{joint}` would need a speed of {needed:.2}, above its limit of {limit:.2} \
+                 (rad/s or m/s)"
             ),
-            Self::Singular => write!(f, "the arm comes too near to a singular pose"),
-            Self::Collides { between: [a, b] } => write!(f, "`{a}` runs into `{b}`"),
+            Self::Singular => write!(f, "the arm comes too close to a singularity"),
+            Self::Collides { between: [a, b] } => write!(f, "`{a}` collides with `{b}`"),
             Self::Off { distance } => {
-                write!(f, "the joints hold the tool {:.1} mm off the plan", distance * 1e3)
+                write!(f, "the tool would deviate from the plan by {:.1} mm", distance * 1e3)
             }
             Self::NoWay { between: [a, b] } => {
-                write!(f, "the arm finds no way there: `{a}` runs into `{b}`")
+                write!(
+                    f,
+                    "the arm has no collision-free path to the push: `{a}` collides with `{b}`"
+                )
             }
-            Self::OfAnother => write!(f, "the joint trajectory is one of another arm or plan"),
+            Self::OfAnother => write!(f, "the joint trajectory belongs to another arm or plan"),
         }
     }
 }

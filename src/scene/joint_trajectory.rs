@@ -59,10 +59,12 @@ impl JointTrajectory {
         for point in &self.points {
             let numbers = point.positions.iter().chain(&point.velocities);
             if point.positions.len() != count || point.velocities.len() != count {
-                return Some("a point has not as many numbers as there are joints");
+                return Some("every point must have one number per joint");
             }
             if !numbers.chain([&point.time]).all(|v| v.is_finite()) || point.time <= before {
-                return Some("times must rise from point to point, and all numbers be finite");
+                return Some(
+                    "times must increase from point to point, and all numbers must be finite",
+                );
             }
             before = point.time;
         }

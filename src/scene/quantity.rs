@@ -56,14 +56,14 @@ impl fmt::Display for Quantity {
             Quantity::SizeY => "size along y (m)",
             Quantity::SideRatio => "ratio of sides",
             Quantity::Height => "height (m)",
-            Quantity::Slant => "corner off a right angle (rad)",
-            Quantity::Imbalance => "centre of mass off the centroid (m)",
+            Quantity::Slant => "deviation of a corner from a right angle (rad)",
+            Quantity::Imbalance => "offset of the centre of mass (m)",
             Quantity::Parts => "number of parts",
             Quantity::Length => "length (m)",
             Quantity::Width => "width (m)",
             Quantity::Speed => "speed (m/s)",
-            Quantity::Slide => "sliding on (m)",
-            Quantity::Turn => "turn of the tool (rad/m)",
+            Quantity::Slide => "free sliding (m)",
+            Quantity::Turn => "tool rotation (rad/m)",
         })
     }
 }

@@ -47,7 +47,7 @@ impl Region {
     pub fn words(&self) -> String {
         let all = [(self.objects, "objects"), (self.tool, "tool"), (self.hand, "hand")];
         let all: Vec<&str> = all.iter().filter(|(out, _)| *out).map(|(_, word)| *word).collect();
-        format!("no place for {}", all.join(", "))
+        format!("keep-out region for {}", all.join(", "))
     }
 
     /// Returns `true` if this footprint at `pose` is in the region or nearer to it than `margin`

@@ -41,7 +41,7 @@ pub(super) fn check<'a>(
         }
     }
     if task.robustness > 1.0 {
-        return fault(format!("the robustness is {}, but must be a share", task.robustness));
+        return fault(format!("the robustness is {}, but must be at most 1", task.robustness));
     }
     if robot.max_force.is_some_and(|force| !(force.is_finite() && force > 0.0)) {
         return fault("the largest force of the robot must be a positive number".into());
@@ -51,19 +51,19 @@ pub(super) fn check<'a>(
     }
     let ends = scene.table_top;
     if ends.is_some_and(|top| !top.size.iter().chain(top.middle.iter()).all(|v| v.is_finite())) {
-        return fault("the table must end somewhere finite, or nowhere".into());
+        return fault("the size and position of the table must be finite".into());
     }
     let headings = rules.directions.headings();
     let lists: [(&str, &[f64]); 2] = [("directions", &headings), ("grip yaws", &rules.grip_yaws)];
     for (name, list) in lists {
         if list.is_empty() || list.iter().any(|v| !v.is_finite()) {
-            return fault(format!("the {name} must be finite numbers, at least one"));
+            return fault(format!("the {name} must be one or more finite numbers"));
         }
     }
     if let Offsets::List(list) = &rules.offsets
         && (list.is_empty() || list.iter().any(|v| !v.is_finite()))
     {
-        return fault("the offsets must be finite numbers, at least one".into());
+        return fault("the offsets must be one or more finite numbers".into());
     }
     if task.goals.is_empty() {
         return fault("the task has no goal".into());
@@ -84,7 +84,7 @@ pub(super) fn check<'a>(
     }
     let counts = [start.poses.len(), start.velocities.len(), physics.masses.len()];
     if counts.iter().chain([&physics.frictions.len()]).any(|&n| n != scene.objects.len()) {
-        return fault("start and physics need one entry for every object".into());
+        return fault("start and physics must have one entry per object".into());
     }
     if !start.is_finite() {
         return fault("the start must be finite".into());
@@ -109,8 +109,8 @@ pub(super) fn check<'a>(
         let limited = joint.limits().is_none_or(|span| span.low <= 0.0 && span.high >= 0.0);
         if a == b || a.max(b) >= scene.objects.len() || !placed || !limited {
             return fault(format!(
-                "the joint between objects {a} and {b} needs two different objects of the scene, \
-                 a finite axis (of length one) and limits that hold the start"
+                "the joint between objects {a} and {b} needs two different objects of the scene, a \
+                 finite unit axis and limits that contain the start"
             ));
         }
     }
@@ -134,7 +134,7 @@ pub(super) fn check<'a>(
             && is_friction(obstacle.friction);
         if !sound {
             return fault(format!(
-                "obstacle `{}` needs a positive finite size, a finite place and friction",
+                "obstacle `{}` needs a positive finite size, a finite position and friction",
                 obstacle.name
             ));
         }
@@ -159,7 +159,7 @@ pub(super) fn check<'a>(
         return fault(wrong);
     }
     if tools.is_some_and(<[_]>::is_empty) {
-        return fault("it allows no tool".into());
+        return fault("the task allows no tool".into());
     }
     Ok(())
 }

@@ -83,52 +83,54 @@ impl fmt::Display for Cause {
         let centimetres = |metres: f64| (metres * 100.0).round() / 100.0;
         match self {
             Cause::Pushes { allowed, needed } => {
-                write!(f, "it takes {needed} pushes, and `pushes.max_count` is {allowed}")
+                write!(f, "the task needs {needed} pushes, but `pushes.max_count` is {allowed}")
             }
             Cause::Length { allowed, needed } => write!(
                 f,
-                "pushes are too short; `pushes.length` is {allowed} m, and {} would do",
+                "pushes are too short: `pushes.length` is {allowed} m, but {} m would suffice",
                 centimetres(*needed)
             ),
             Cause::Directions => f.write_str(
-                "no allowed direction leads there, and others do; widen `pushes.directions`",
+                "no allowed direction leads to the goal, but others do; widen `pushes.directions`",
             ),
             Cause::GripYaws { needed } => write!(
                 f,
-                "the tool would have to be gripped at another turn; {:.0} degrees in \
-                 `pushes.grip_yaws_deg` would do",
+                "no allowed grip yaw works, but {:.0} degrees would; add it to \
+                 `pushes.grip_yaws_deg`",
                 needed.to_degrees()
             ),
             Cause::Far { allowed, needed } => write!(
                 f,
-                "it is too far away; the end effector would have to reach {} m, and \
-                 `robot.reach.max` is {allowed}",
+                "the pushes are too far away: the end effector would have to reach {} m, but \
+                 `robot.reach.max` is {allowed} m",
                 centimetres(*needed)
             ),
             Cause::Near { allowed, needed } => write!(
                 f,
-                "it is too near; the end effector would have to come within {} m of the base, and \
-                 `robot.reach.min` is {allowed}",
+                "the pushes are too near: the end effector would have to come within {} m of the \
+                 base, but `robot.reach.min` is {allowed} m",
                 centimetres(*needed)
             ),
             Cause::Tool { needed } => {
-                write!(f, "the tools do not do; `{needed}` would, which `tools` does not name")
+                write!(f, "no allowed tool works, but `{needed}` does; add it to `tools`")
             }
             Cause::Joined { needed } => write!(
                 f,
-                "`goal.object` cannot be pushed there itself; `{needed}` can, which hangs together \
-                 with it"
+                "`goal.object` cannot be pushed there directly, but `{needed}`, which is joined to \
+                 it, can"
             ),
-            Cause::Kept => f.write_str("what `keep` or `keep_out` names is in the way"),
-            Cause::Hand => f.write_str(
-                "the hand would meet something; without it there is a way, see `robot.hand`",
-            ),
-            Cause::Arm { fault } => {
-                write!(f, "there are plans that the arm cannot carry out; in the best one {fault}")
+            Cause::Kept => {
+                f.write_str("a body or region named by `keep` or `keep_out` obstructs every plan")
             }
-            Cause::Base => f.write_str("the robot's base is in the way, see `robot.base`"),
-            Cause::Obstacle { name } => write!(f, "obstacle `{name}` is in the way"),
-            Cause::Several => f.write_str("no wider limit alone would do"),
+            Cause::Hand => {
+                f.write_str("a collision of the hand obstructs every plan; see `robot.hand`")
+            }
+            Cause::Arm { fault } => {
+                write!(f, "plans exist, but the arm cannot execute them; in the best one {fault}")
+            }
+            Cause::Base => f.write_str("the robot's base obstructs every plan; see `robot.base`"),
+            Cause::Obstacle { name } => write!(f, "obstacle `{name}` obstructs every plan"),
+            Cause::Several => f.write_str("relaxing any single limit is not enough"),
         }
     }
 }

@@ -29,13 +29,15 @@ pub(super) fn check_levers(
     let rules = task.lever_rules();
     let spans = [rules.depth, rules.angle];
     if !spans.iter().all(|[low, high]| positive(*low) && high.is_finite() && low <= high) {
-        return fault("depths and angles need a smallest and a largest, both positive".into());
+        return fault(
+            "depths and angles need a smallest and a largest value, both positive".into(),
+        );
     }
     if !positive(rules.speed) || !from_zero(rules.hold) || !from_zero(rules.retreat) {
         return fault("speed, hold and retreat of the blade must be finite and positive".into());
     }
     if rules.pivots.is_empty() {
-        return fault("it allows no pivot".into());
+        return fault("the task allows no pivot".into());
     }
     for tool in blades {
         let blade = tool.blade().unwrap_or_default();
@@ -45,10 +47,10 @@ pub(super) fn check_levers(
         }
     }
     if task.levers.is_some() && blades.is_empty() {
-        return fault("it allows no tool with a blade".into());
+        return fault("the task allows no tool with a blade".into());
     }
     if task.levers.is_none() && task.pushes.max_count == 0 {
-        return fault("it allows neither pushes nor lever-ups".into());
+        return fault("the task allows neither pushes nor lever-ups".into());
     }
     Ok(())
 }

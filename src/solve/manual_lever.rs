@@ -47,7 +47,7 @@ pub enum LeverActionError {
         edges: usize,
     },
     /// No axis follows from the plate.
-    #[error("no support line follows from this lever point; give the pivot as a number")]
+    #[error("this lever point defines no support line; give the pivot as a number")]
     NoSupport,
 }
 

@@ -53,10 +53,10 @@ pub enum ManualStart {
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ActionError {
     /// A chained push has a start of its own.
-    #[error("chained pushes go on where the last one ended")]
+    #[error("chained pushes start at the end of the previous push")]
     ChainBroken,
     /// A chained push starts in front of an object.
-    #[error("the pushes of this task are chained: the first starts at home")]
+    #[error("the pushes of this task are chained, so the first one starts at home")]
     Chained,
     /// A placed push has no start.
     #[error("a push of this task needs a start")]

@@ -30,7 +30,7 @@ pub(super) fn meet_some_goals(
         return Ok(());
     }
     let situation = stated(task);
-    progress.stage("plans for some of the goals");
+    progress.stage("plans for a subset of the goals");
     // Milestones of partial plans are not reported.
     let quiet = Quiet(progress);
     for met in sets(task) {

@@ -216,7 +216,8 @@ impl Planner {
     ) -> Result<Prediction, SolveError> {
         let situation = stated(task);
         check(task, &situation, tools)?;
-        let what = || format!("a plan of other tools: {}", plan.tools().join(", "));
+        let what =
+            || format!("the plan uses tools that were not given: {}", plan.tools().join(", "));
         let unfit = || SolveError::BadTask { task: task.name.clone(), what: what() };
         let motions = plan.slides(tools).ok_or_else(unfit)?;
         self.refuse(task, &situation, motions.into_iter())?;

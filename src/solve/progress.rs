@@ -26,9 +26,9 @@ enum Milestone {
 impl Milestone {
     fn words(self) -> &'static str {
         match self {
-            Milestone::Found => "a first look says that it reaches the goal",
-            Milestone::Refined => "predicted to reach the goal",
-            Milestone::Works => "works as written in both engines",
+            Milestone::Found => "the screening model predicts success",
+            Milestone::Refined => "the final model predicts success",
+            Milestone::Works => "the nominal replays succeed in both engines",
             Milestone::Passes => "passes",
         }
     }

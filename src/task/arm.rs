@@ -134,8 +134,9 @@ pub fn read_arms_with(reader: ArmReader) {
 /// Reads an arm with the registered reader.
 pub(crate) fn read_arm(stated: &StatedArm) -> Result<Arc<dyn RobotArm>, ArmRefusal> {
     let none = || ArmRefusal {
-        message: "this program reads no arms".into(),
-        advice: "register a reader of arms first, such as that of the crate `pushplan-arm`".into(),
+        message: "this program cannot read arms".into(),
+        advice: "register a reader of arms first, such as the one in the crate `pushplan-arm`"
+            .into(),
         at_home: false,
     };
     READER.get().ok_or_else(none)?(stated)

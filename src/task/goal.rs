@@ -205,11 +205,11 @@ impl Goal {
     /// Returns the reason why no plan can be judged by it, if any.
     pub fn fault(&self, scene: &Scene) -> Option<String> {
         if self.demands.is_empty() {
-            return Some("the goal asks for nothing".to_owned());
+            return Some("the goal has no criterion".to_owned());
         }
         let lost = |other: usize| other >= scene.objects.len() || other == self.object;
         if self.demands.iter().filter_map(|demand| demand.kind().relative()).any(lost) {
-            return Some("a goal is relative to another object of the scene".to_owned());
+            return Some("a goal must be relative to another object of the scene".to_owned());
         }
         self.demands.iter().find_map(|demand| demand.kind().fault(self.object, scene))
     }
@@ -246,7 +246,7 @@ impl Goal {
             let other = demand.kind().relative().filter(|other| !frames.contains(other));
             frames.extend(other);
             let of = other.and_then(|other| scene.objects.get(other));
-            let of = of.map_or(String::new(), |other| format!(" as {} sees it", other.name));
+            let of = of.map_or(String::new(), |other| format!(" in the frame of {}", other.name));
             format!("{}{of}", demand.kind().words(self.object, scene))
         };
         others.into_iter().chain(poses).map(&mut phrase).collect::<Vec<_>>().join(", ")

@@ -187,7 +187,7 @@ fn joints_are_exported_for_ros_and_as_a_table() {
     write(folder, "push.yaml", &TASK.replace("ROBOT", "{reach: {min: 0.2, max: 0.8}}"));
     assert_eq!(solve(folder).status.code(), Some(0));
     let output = run(&["export", &plan, "--format", "trajectory", "--out", &out]);
-    assert!(stderr(&output).contains("no motion of joints"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("no joint motion"), "{}", stderr(&output));
 }
 
 #[test]
@@ -227,7 +227,7 @@ fn servos_of_a_panda_carry_plans_out_in_mujoco() {
         &at(folder, "again.yaml"),
     ]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(stderr(&output).contains("the arm, which holds the tool, is left out"));
+    assert!(stderr(&output).contains("the arm that holds the tool is ignored"));
     let again = Task::load(folder.join("again.yaml")).expect("a task");
     assert_eq!(again.scene.objects.len(), 1);
 
@@ -267,27 +267,39 @@ fn faults(robot: &str) -> String {
 #[test]
 fn faults_of_arms_say_where_and_what_to_do() {
     for (robot, message) in [
-        ("{urdf: six.urdf, flange: tool0, reach: {max: 0.9}}", "an arm has a `reach` of its own"),
-        ("{urdf: six.urdf, flange: tool0, base: 0.1}", "an arm has a base of its own"),
-        ("{urdf: six.urdf, flange: tool0, hand: none}", "an arm has a `hand` of its own"),
+        (
+            "{urdf: six.urdf, flange: tool0, reach: {max: 0.9}}",
+            "`reach` is already defined by the arm",
+        ),
+        (
+            "{urdf: six.urdf, flange: tool0, base: 0.1}",
+            "with an arm, it states how the arm is mounted",
+        ),
+        ("{urdf: six.urdf, flange: tool0, hand: none}", "`hand` is already defined by the arm"),
         ("{urdf: six.urdf}", "an arm needs a `flange`"),
         ("{urdf: six.urdf, flange: tool1}", "there is no link `tool1`"),
         ("{urdf: seven.urdf, flange: tool0}", "seven.urdf"),
-        ("{urdf: push.yaml, flange: tool0}", "no XML"),
+        ("{urdf: push.yaml, flange: tool0}", "not valid XML"),
         (
             "{urdf: six.urdf, flange: tool0, home: [0, 0]}",
-            "`home` has 2 numbers, and the arm 6 joints",
+            "`home` has 2 numbers, but the arm has 6 joints",
         ),
         (
             "{urdf: six.urdf, flange: tool0, home: [0, 0, 5, 0, 0, 0]}",
             "at home joint `elbow` is at 5",
         ),
-        ("{urdf: six.urdf, flange: tool0, base: {height: 5}}", "holds no tool over the table"),
-        ("{flange: tool0, reach: {max: 0.9}}", "`flange` is of an arm, and there is none"),
-        ("{base: {height: 0.1}, reach: {max: 0.9}}", "`base` says how an arm stands"),
+        (
+            "{urdf: six.urdf, flange: tool0, base: {height: 5}}",
+            "cannot hold a tool above the table",
+        ),
+        (
+            "{flange: tool0, reach: {max: 0.9}}",
+            "`flange` is a key of an arm, but the task has no arm",
+        ),
+        ("{base: {height: 0.1}, reach: {max: 0.9}}", "`base` states how an arm is mounted"),
         ("{home: [0, 0, 0], reach: {max: 0.9}}", "expected a list of 2 numbers, found one of 3"),
         ("{home: [0, 0]}", "missing key `reach`"),
-        ("{arm: {name: six}}", "no arm: missing field"),
+        ("{arm: {name: six}}", "the arm is not valid: missing field"),
     ] {
         let found = faults(robot);
         assert!(found.contains(message), "{robot}: {found}");
@@ -298,22 +310,22 @@ fn faults_of_arms_say_where_and_what_to_do() {
 #[test]
 fn a_damaged_arm_is_a_fault_with_its_place_in_the_urdf() {
     for (good, bad, message) in [
-        ("upper=\"2.7\"", "upper=\"-2.8\"", "joint `elbow` has no room between its limits"),
+        ("upper=\"2.7\"", "upper=\"-2.8\"", "joint `elbow` has an empty range of positions"),
         ("lower=\"-2.7\"", "lower=\"${low}\"", "`lower` has `${low}`"),
         (
             "name=\"wrist3\" type=\"continuous\"",
             "name=\"wrist3\" type=\"planar\"",
-            "joint `wrist3` is `planar`",
+            "joint `wrist3` has the type `planar`",
         ),
-        ("<child link=\"roll\"/>", "<child link=\"lower\"/>", "is attached by two joints"),
-        ("<parent link=\"foot\"/>", "<parent link=\"tool0\"/>", "go in a circle"),
+        ("<child link=\"roll\"/>", "<child link=\"lower\"/>", "is the child of two joints"),
+        ("<parent link=\"foot\"/>", "<parent link=\"tool0\"/>", "form a loop"),
         (
             "<sphere radius=\"0.04\"/>",
             "<mesh filename=\"package://no/such.stl\"/>",
             "there is no mesh",
         ),
         ("<sphere radius=\"0.04\"/>", "<sphere radius=\"-1\"/>", "its `radius` must be positive"),
-        ("<axis xyz=\"0 1 0\"/>", "<axis xyz=\"0 0 0\"/>", "has no length"),
+        ("<axis xyz=\"0 1 0\"/>", "<axis xyz=\"0 0 0\"/>", "has length zero"),
     ] {
         let folder = folder(ROBOT);
         assert!(URDF.contains(good), "{good}");

@@ -326,7 +326,7 @@ fn check_says_why_there_is_no_plan_only_when_asked() {
     assert_eq!(message(&["check", &far], 0), format!("{far}: task, fine\n"));
     let text = message(&["check", "--why", &far, &near, "tasks/levers/raise-plate.yaml"], 4);
     assert!(
-        text.contains("fine\n  no plan: it takes 2 pushes, and `pushes.max_count` is 1"),
+        text.contains("fine\n  no plan: the task needs 2 pushes, but `pushes.max_count` is 1"),
         "{text}"
     );
     assert!(

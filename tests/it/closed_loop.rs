@@ -219,10 +219,7 @@ fn a_lost_object_is_an_error_only_if_the_goal_is_about_it() {
     assert!(trace.end == Some(End::Reached) && notes(&trace.steps) == [Note::Unseen { object: 1 }]);
     let (ended, _) = spoilt(&task, vec![0], hide(0));
     let error = ended.expect_err("nobody knows where it is");
-    assert_eq!(
-        error.to_string(),
-        "`near` is not seen, though the tool is lifted and 3 looks were taken"
-    );
+    assert_eq!(error.to_string(), "`near` was not observed in 3 observations with the tool lifted");
     let (ended, _) = spoilt(&task, Vec::new(), |_, looks| {
         looks.iter_mut().for_each(|look| look.seen.truncate(1));
     });

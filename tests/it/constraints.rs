@@ -120,7 +120,7 @@ fn regions_of_every_outline_are_written_and_read() {
         Task::parse(&text, "task.yaml").expect_err("a fault").to_string()
     };
     let there = fault("{name: a, area: {circle: {radius: 0.1}}, position: [0.5, 0]}");
-    assert!(there.contains("`can` stands in `a`, which objects keep out of"), "{there}");
+    assert!(there.contains("`can` stands in the keep-out region `a`"), "{there}");
     let named = fault("{name: can, area: {circle: {radius: 0.1}}, position: [0.9, 0]}");
     assert!(named.contains("can"), "{named}");
     let bent =
@@ -157,5 +157,5 @@ fn what_may_fall_is_pushed_off_and_said_to_fall() {
     assert_eq!(Task::parse(&free.to_yaml().expect("a file"), "task.yaml"), Ok(free));
     let goal = text.replace("position: [0.5, 0]}", "position: [0.5, 0], may_fall: true}");
     let fault = Task::parse(&goal, "task.yaml").expect_err("a fault").to_string();
-    assert!(fault.contains("`box` is to be moved and may fall"), "{fault}");
+    assert!(fault.contains("`box` has a goal on the table but may fall"), "{fault}");
 }

@@ -109,11 +109,11 @@ fn faults_of_joints_to_the_world_are_told() {
     let text = faults("joint_deg: 40", "joint: 0.1, tolerance: 0.01");
     assert!(text.contains("the joint of `door` is not prismatic"), "{text}");
     let text = faults(", joint_deg: 40, heading_tolerance_deg: 5", "");
-    assert!(text.contains("this goal asks for nothing"), "{text}");
+    assert!(text.contains("the goal has no criterion"), "{text}");
     let text = faults("joint_deg: 40", "joint_deg: 85");
-    assert!(text.contains("the joint of `door` only comes from -25 to 80"), "{text}");
+    assert!(text.contains("the joint of `door` moves only from -25 to 80"), "{text}");
     let text = faults("joint_deg: 40", "joint_deg: 40, heading_deg: 10");
-    assert!(text.contains("`heading_deg` and `joint_deg` ask for the same"), "{text}");
+    assert!(text.contains("`heading_deg` and `joint_deg` constrain the same property"), "{text}");
     let text = faults("joint_deg: 40, heading_tolerance_deg: 5", "position: [0.6, 0]");
     assert!(text.contains("`position` needs a `tolerance`"), "{text}");
 }
@@ -260,5 +260,5 @@ goal: {object: door, heading_deg: 195, heading_tolerance_deg: 5}
 fn limits_of_turns_leave_something_out() {
     let text = WIDE.replace("[-10, 225]", "[-120, 225]");
     let faults = Task::parse(&text, "furniture.yaml").expect_err("a fault").to_string();
-    assert!(faults.contains("from -120 to 225 is more than 340 degrees"), "{faults}");
+    assert!(faults.contains("the range from -120 to 225 is larger than 340 degrees"), "{faults}");
 }

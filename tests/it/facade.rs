@@ -112,9 +112,9 @@ fn tools_are_added_to_a_library_unless_their_name_is_taken() {
     write("twin.yaml", "paddle-2");
     let error = library.with_folder(folder.path()).unwrap_err();
     let [rake, twin] = &error.0[..] else { panic!("two faults: {error}") };
-    assert_eq!(rake.message, "its tool `rake` is already in the library");
+    assert_eq!(rake.message, "its tool `rake` is already defined in the library");
     assert!(
-        twin.message.contains("`paddle-2` is already in ")
+        twin.message.contains("`paddle-2` is already defined in ")
             && twin.message.ends_with("paddle-2.yaml")
     );
 }

@@ -262,20 +262,20 @@ fn faults(changes: &[(&str, &str)]) -> String {
 #[test]
 fn faults_of_files_say_what_and_where() {
     insta::assert_snapshot!(faults(&[(", position: [0.6, 0], tolerance: 0.01", "")]), @r"
-    task.yaml:7:9: error: pushes may follow, but the goal names no place to push to
+    task.yaml:7:9: error: pushes may follow, but the goal states no position to push to
       help: add `position` and `tolerance` to the goal, or remove this
     ");
     insta::assert_snapshot!(faults(&[("max_count: 1", "form: chained")]), @r"
-    task.yaml:7:16: error: pushes that follow a lever-up are placed, none goes on from `home`
+    task.yaml:7:16: error: pushes that follow a lever-up are placed and cannot continue from `home`
       help: remove `form`
     ");
     insta::assert_snapshot!(faults(&[("screwdriver, paddle", "screwdriver")]), @r"
-    task.yaml:6:8: error: pushes may follow, but none of these tools pushes
-      help: name one that pushes, too, or remove `pushes`
+    task.yaml:6:8: error: the task allows pushes, but none of these tools can push
+      help: add a tool that can push, or remove `pushes`
     ");
     insta::assert_snapshot!(faults(&[("screwdriver, paddle", "stick, paddle")]), @r"
     task.yaml:6:8: error: none of these tools has a blade
-      help: name one that levers, too
+      help: name a tool that levers as well
     ");
     insta::assert_snapshot!(faults(&[("max_count: 1", "grip_yaws_deg: [0, 360]")]), @r"
     task.yaml:7:29: error: this is the same as item 1 of `grip_yaws_deg`

@@ -209,7 +209,7 @@ tools: [screwdriver]
 goal: {{object: disc, flipped: true}}\n"
     );
     let faults = Task::parse(&text, "scene.yaml").expect_err("no edge").to_string();
-    assert!(faults.contains("`cylinder` does not go together with lever-ups"), "{faults}");
+    assert!(faults.contains("`cylinder` cannot be combined with lever-ups"), "{faults}");
 }
 
 #[test]

@@ -147,12 +147,12 @@ fn faults(changes: &[(&str, &str)]) -> String {
 fn faults_of_files_say_what_and_where() {
     assert_eq!(faults(&[]), "");
     insta::assert_snapshot!(faults(&[("clearance: 0.006", "clearance: 0.001")]), @r"
-    task.yaml:6:9: error: `screwdriver` does not fit: its blade is 2 mm thick, but only 1 mm are free below `plate`
-      help: name a thinner tool, or mind the clearance
+    task.yaml:6:9: error: `screwdriver` does not fit: its blade is 2 mm thick, but the clearance below `plate` is 1 mm
+      help: name a thinner tool, or check the clearance
     ");
     insta::assert_snapshot!(faults(&[("clearance: 0.006", "clearance: 0.006, z: 0.02")]), @r"
-    task.yaml:4:114: error: nothing holds `plate` at 0.02 m
-      help: obstacles below it must end at `z` on both sides of its centre of mass; or let it stand on feet: leave `z` out
+    task.yaml:4:114: error: no obstacle supports `plate` at 0.02 m
+      help: obstacles below it must end at `z` on both sides of its centre of mass; leave `z` out for an object on feet
     ");
     insta::assert_snapshot!(faults(&[("[screwdriver]", "[stick]"), ("flipped: true", "raised: 30")]), @r"
     task.yaml:6:9: error: `stick` has no blade, so it cannot lever
@@ -168,7 +168,7 @@ fn faults_of_files_say_what_and_where() {
     task.yaml:8:32: error: no obstacle is called `tray`
     ");
     insta::assert_snapshot!(faults(&[(", flipped: true", "")]), @r"
-    task.yaml:8:7: error: this goal asks for nothing
+    task.yaml:8:7: error: the goal has no criterion
       help: add `position`, `region`, `gap`, `coverage`, `off_table`, `outside`, `raised`, `flipped`, `heading_deg`, `joint_deg` or `joint`
     ");
     insta::assert_snapshot!(faults(&[("levers: {pivot: auto}", "levers: {pivot: front, depth: [0.02, 0.01]}")]), @r#"

@@ -165,5 +165,8 @@ fn a_part_of_an_edge_lies_on_the_table() {
     let part = "off_table: {edge: left, between: [1.0, 1.2]}";
     let faults =
         Task::parse(&text.replace("off_table: left", part), "fall.yaml").expect_err("off it");
-    assert!(faults.to_string().contains("the left edge goes from 0.150 to 0.950"), "{faults}");
+    assert!(
+        faults.to_string().contains("the left edge ranges only from 0.150 to 0.950"),
+        "{faults}"
+    );
 }

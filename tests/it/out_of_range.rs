@@ -64,7 +64,11 @@ fn outside_of_it_simulation_takes_its_place_or_nothing_does() {
     assert!(
         warnings.iter().all(|w| matches!(w, Warning::Simulated { .. })) && !warnings.is_empty()
     );
-    assert!(warnings[0].to_string().contains("simulated in the plane instead"), "{}", warnings[0]);
+    assert!(
+        warnings[0].to_string().contains("the 2-D simulation was used instead"),
+        "{}",
+        warnings[0]
+    );
 
     let refused = run(OutOfRange::Refuse, &scene);
     assert_eq!(refused.outcome(), &scene.start());

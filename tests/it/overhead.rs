@@ -118,7 +118,7 @@ fn what_is_tall_is_stopped_by_the_shelf_in_every_engine_and_what_is_low_is_not()
     // A place with room only for low objects is a valid goal only for them.
     let there = SHELF.replace("height: 0.07", "height: 0.12");
     let faults = Task::parse(&there, "there.yaml").expect_err("no room").to_string();
-    assert!(faults.contains("at the goal `tin` would be inside `shelf`"), "{faults}");
+    assert!(faults.contains("at the goal `tin` would overlap `shelf`"), "{faults}");
     let sunk = SHELF.replace("0.72, 0, 0.09", "0.72, 0, -0.02");
     let faults = Task::parse(&sunk, "sunk.yaml").expect_err("below the table").to_string();
     assert!(faults.contains("below it"), "{faults}");

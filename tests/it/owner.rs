@@ -268,7 +268,7 @@ fn what_is_kept_is_there_and_not_what_is_moved() {
         Task::parse(&text, "task.yaml").expect_err("a fault").to_string()
     };
     assert!(faults("{objects: [urn]}").contains("no object is called `urn`"));
-    assert!(faults("{objects: [box]}").contains("`box` is to be moved and kept"));
+    assert!(faults("{objects: [box]}").contains("`box` is named by a goal and by `keep`"));
 }
 
 #[test]

@@ -74,7 +74,7 @@ fn what_makes_no_sense_in_a_list_is_a_fault_with_its_place() {
     let unknown = faults(|yaml| yaml.replace("object: box, position", "object: bx, position"));
     assert!(unknown.contains("no object is called `bx`"), "{unknown}");
     let kept = faults(|yaml| format!("{yaml}\nkeep: {{objects: [box]}}\n"));
-    assert!(kept.contains("`box` is to be moved and kept"), "{kept}");
+    assert!(kept.contains("`box` is named by a goal and by `keep`"), "{kept}");
     let none = faults(|yaml| {
         let at = yaml.find("goal:").unwrap();
         format!("{}goal: []\n", &yaml[..at])

@@ -112,11 +112,14 @@ impl Arm {
             |pose: &Pose3| pose.is_finite() && (pose.rotation.coords.norm() - 1.0).abs() < 1e-6;
         let count = self.joints.len();
         if count == 0 || count > MAX_JOINTS {
-            return Some(format!("an arm has 1 to {MAX_JOINTS} joints that move, this {count}"));
+            return Some(format!(
+                "an arm must have 1 to {MAX_JOINTS} movable joints, but this one has {count}"
+            ));
         }
         if self.bodies.len() != count + 1 || self.home.len() != count {
             return Some(
-                "an arm has one body more than joints, and a position at home for each".into(),
+                "an arm must have one body more than joints, and one home position per joint"
+                    .into(),
             );
         }
         for joint in &self.joints {
@@ -127,9 +130,7 @@ impl Arm {
             let axis = (joint.axis.norm() - 1.0).abs() < 1e-6;
             if !(finite(&joint.origin) && axis && limits && speed) {
                 let name = &joint.name;
-                return Some(format!(
-                    "joint `{name}` needs a finite pose, an axis of length one, and limits"
-                ));
+                return Some(format!("joint `{name}` needs a finite pose, a unit axis and limits"));
             }
         }
         for (joint, at) in self.joints.iter().zip(&self.home) {
@@ -148,11 +149,11 @@ impl Arm {
         };
         for body in &self.bodies {
             if body.solids.len() > MOST || !body.solids.iter().all(sound) {
-                return Some(format!("the solids of `{}` are not finite, or too many", body.name));
+                return Some(format!("the solids of `{}` are not finite or too many", body.name));
             }
         }
         if self.pairs.iter().flatten().any(|body| *body > count) {
-            return Some("its pairs name bodies that it does not have".into());
+            return Some("the pairs of the arm name bodies that it does not have".into());
         }
         let mount = self.mount.length.is_finite() && self.mount.yaw.is_finite();
         (!(finite(&self.base) && finite(&self.flange) && mount))

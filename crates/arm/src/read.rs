@@ -19,7 +19,7 @@ use super::room::pairs;
 /// Error message and remedy.
 pub(super) type Wrong = (String, String);
 
-const AGAIN: &str = "the file is damaged or of another version; make it again";
+const AGAIN: &str = "the file is damaged or from another version; create it again";
 
 /// Registers the reader of this crate, for arms of URDF files and of plan files.
 pub fn install() {
@@ -31,15 +31,18 @@ fn read(stated: &StatedArm) -> Result<Arm, ArmRefusal> {
     let saved = matches!(stated.source, ArmSource::Saved(_));
     let mut arm = match &stated.source {
         ArmSource::Saved(json) => serde_json::from_value(json.clone())
-            .map_err(|error| refused((format!("no arm: {error}"), AGAIN.into())))?,
+            .map_err(|error| refused((format!("the arm is not valid: {error}"), AGAIN.into())))?,
         urdf => from_urdf(urdf).map_err(refused)?,
     };
     if let Some(home) = &stated.home {
         if home.len() != arm.joints.len() {
             let names: Vec<&str> = arm.joints.iter().map(|joint| &*joint.name).collect();
-            let message =
-                format!("`home` has {} numbers, and the arm {} joints", home.len(), names.len());
-            let advice = format!("write one for each of {}, radians", names.join(", "));
+            let message = format!(
+                "`home` has {} numbers, but the arm has {} joints",
+                home.len(),
+                names.len()
+            );
+            let advice = format!("give one number for each of {}, radians", names.join(", "));
             return Err(ArmRefusal { message, advice, at_home: true });
         }
         arm.home.clone_from(home);
@@ -54,10 +57,12 @@ fn read(stated: &StatedArm) -> Result<Arm, ArmRefusal> {
     let known = Some(arm.places.clone()).filter(Places::known);
     let Some(places) = known.or_else(|| find_places(&arm, stated.lift)) else {
         let message = format!(
-            "this arm holds no tool over the table, with its flange {:.2} m above it and pointing down",
+            "this arm cannot hold a tool above the table with its flange {:.2} m above it and \
+             pointing down",
             arm.mount.length + stated.lift
         );
-        let advice = "the z axis of `flange` points out of it; look at `base` and `tool_mount` too";
+        let advice =
+            "the z axis of `flange` must point out of it; check `base` and `tool_mount` as well";
         return Err(refused((message, advice.into())));
     };
     arm.places = places;
@@ -82,7 +87,7 @@ fn from_urdf(source: &ArmSource) -> Result<Arm, Wrong> {
 #[cfg(not(feature = "urdf"))]
 fn from_urdf(_: &ArmSource) -> Result<Arm, Wrong> {
     let advice = "build it with the feature `urdf` of `pushplan-arm`";
-    Err(("this program was built without reading URDF".into(), advice.into()))
+    Err(("this program was built without support for URDF".into(), advice.into()))
 }
 
 impl RobotArm for Arm {

@@ -33,7 +33,10 @@ struct File<'a> {
 pub(crate) fn chain(path: &Path, flange: &str) -> Result<Arm, Wrong> {
     let (_, text) = read_text(path).map_err(|fault| (fault.to_string(), String::new()))?;
     let document = Document::parse(&text).map_err(|error| {
-        (format!("{}: no XML: {error}", path.display()), "is this the right file?".to_owned())
+        (
+            format!("{}: not valid XML: {error}", path.display()),
+            "is this the right file?".to_owned(),
+        )
     })?;
     let files = Files::of(path, Some(Path::new("/")));
     let file = File { path, document: &document, files };
@@ -41,7 +44,7 @@ pub(crate) fn chain(path: &Path, flange: &str) -> Result<Arm, Wrong> {
     if !root.has_tag_name("robot") {
         return Err(file.wrong(
             root,
-            "this is no URDF: <robot> is missing",
+            "this is not a URDF file: <robot> is missing",
             "is this the right file?",
         ));
     }
@@ -68,22 +71,26 @@ impl<'a> File<'a> {
         for joint in named("joint") {
             if joints.insert(end(joint, "child"), joint).is_some() {
                 let message =
-                    format!("the link `{}` is attached by two joints", end(joint, "child"));
-                return Err(self.wrong(joint, message, "a link has one parent"));
+                    format!("the link `{}` is the child of two joints", end(joint, "child"));
+                return Err(self.wrong(joint, message, "a link can have only one parent"));
             }
         }
         if !links.contains_key(flange) {
             let mut known: Vec<&str> = links.keys().copied().collect();
             known.sort_unstable();
             let message = format!("there is no link `{flange}`");
-            return Err(self.wrong(root, message, format!("its links are {}", known.join(", "))));
+            return Err(self.wrong(
+                root,
+                message,
+                format!("the file has the links {}", known.join(", ")),
+            ));
         }
         // The chain is collected from the flange upwards, then reversed.
         let mut chain = Vec::new();
         let mut link = flange;
         while let Some(joint) = joints.get(link) {
             if chain.len() > joints.len() {
-                return Err(self.wrong(*joint, "these joints go in a circle", "break it"));
+                return Err(self.wrong(*joint, "these joints form a loop", "remove one of them"));
             }
             chain.push(*joint);
             link = end(*joint, "parent");
@@ -160,8 +167,9 @@ impl<'a> File<'a> {
         let name = joint.attribute("name").unwrap_or_default().to_owned();
         let axis = axis(joint).map_err(|flaw| self.flawed(flaw))?;
         if element(joint, "mimic").is_some() {
-            let message = format!("joint `{name}` follows another one, which arms here do not");
-            return Err(self.wrong(joint, message, "name a `flange` before it"));
+            let message =
+                format!("joint `{name}` follows another joint (<mimic>), which is not supported");
+            return Err(self.wrong(joint, message, "choose a `flange` before it"));
         }
         let kind = joint.attribute("type").unwrap_or_default();
         let slides = kind == "prismatic";
@@ -172,15 +180,15 @@ impl<'a> File<'a> {
             "revolute" | "prismatic" => {
                 let limits = [lower.unwrap_or(0.0), upper.unwrap_or(0.0)];
                 if limits[0] >= limits[1] {
-                    let message = format!("joint `{name}` has no room between its limits");
-                    let advice = "write <limit lower=... upper=.../>, or `continuous` for its type";
+                    let message = format!("joint `{name}` has an empty range of positions");
+                    let advice = "write <limit lower=... upper=.../>, or the type `continuous`";
                     return Err(self.wrong(joint, message, advice));
                 }
                 Some(limits)
             }
             other => {
-                let message = format!("joint `{name}` is `{other}`");
-                let advice = "arms have joints that are revolute, continuous, prismatic or fixed";
+                let message = format!("joint `{name}` has the type `{other}`");
+                let advice = "joints of arms must be revolute, continuous, prismatic or fixed";
                 return Err(self.wrong(joint, message, advice));
             }
         };
@@ -224,7 +232,7 @@ impl<'a> File<'a> {
             }
             other => {
                 let tag = if let Outline::Other(tag) = other { tag } else { "solid".to_owned() };
-                let message = format!("a {tag} is not read");
+                let message = format!("a {tag} is not supported");
                 Err(self.wrong(collision, message, "use a box, cylinder or mesh"))
             }
         }
@@ -238,7 +246,7 @@ impl<'a> File<'a> {
     ) -> Result<Hull, Wrong> {
         let path = self.files.find("", name).map_err(|_| {
             let advice =
-                "put it where the URDF says, or write boxes and cylinders instead of meshes";
+                "put it at the path given in the URDF, or replace meshes by boxes and cylinders";
             self.wrong(collision, format!("there is no mesh `{name}`"), advice)
         })?;
         let (corners, _) = load(&path)

@@ -52,11 +52,12 @@ pub fn design(
     progress: &dyn Progress,
 ) -> Result<Design, SolveError> {
     if task.in_space() {
-        let what = "tools are proposed for tasks of pushing, and this is one of levering".into();
+        let what =
+            "tools are proposed only for tasks of pushing, but this task has lever-ups".into();
         return Err(SolveError::BadTask { task: task.name.clone(), what });
     }
     let situation = stated(task);
-    progress.stage("the tools that there are");
+    progress.stage("existing tools");
     let all = Task { tools: ToolChoice::All, ..task.clone() };
     let known = planner.solve_from(&situation, &all, library, progress)?;
     let mut design =
@@ -66,7 +67,7 @@ pub fn design(
         return Ok(design);
     }
 
-    progress.stage("looking at tools");
+    progress.stage("evaluating proposed tools");
     let (model, field) = (planner.screen(), CostToGo::new(task));
     let spread = Uncertainty::around(&situation);
     let looking = Looking { task, situation: &situation, model, field, spread, progress };
@@ -83,7 +84,7 @@ pub fn design(
     let mut best: Option<(Option<Grade>, Proposal)> = None;
     let finalists = kept(&seen, settings.solved, OF_A_FORM);
     for (k, one) in finalists.iter().enumerate() {
-        progress.stage("solving with the best tools");
+        progress.stage("solving with the best proposed tools");
         progress.update(k as u64, finalists.len() as u64);
         let tool = named(one, task, library);
         let Some(proposal) = tool.map(|tool| solved(planner, task, tool, progress)) else {

@@ -45,13 +45,13 @@ const FLAT: f64 = 1e-3;
 
 /// Writes the joint trajectory: a row for each point.
 pub(super) fn way(xml: &mut Xml, path: &JointTrajectory) {
-    xml.comment("How joints move: of each point the time, then positions, then velocities.");
+    xml.comment("Joint trajectory: for each point the time, then positions, then velocities.");
     for (k, point) in path.points.iter().enumerate() {
         let mut row = vec![point.time];
         row.extend(point.positions.iter().chain(&point.velocities));
         numeric(xml, &format!("joints {}", k + 1), &row);
     }
-    xml.comment("At which of them pushes begin and end, counted from 1.");
+    xml.comment("Points at which pushes begin and end, counted from 1.");
     let ends = path.pushes.iter().flatten().map(|point| *point as f64 + 1.0);
     numeric(xml, "pushes of joints", &ends.collect::<Vec<_>>());
 }
@@ -157,7 +157,7 @@ pub(super) fn pairs(arm: &Arm, scene: &Scene, tool: &Tool) -> Vec<Pair> {
 
 /// Writes two servos for each joint: the first follows the position, the second the velocity.
 pub(super) fn servos(xml: &mut Xml, arm: &Arm) {
-    xml.comment("Of each joint a servo of its position, and one of its speed.");
+    xml.comment("One position servo and one velocity servo per joint.");
     xml.open("actuator", &[]);
     for joint in &arm.joints {
         let [stiffness, damping] = if joint.slides { SLIDING } else { TURNING };

@@ -143,7 +143,7 @@ fn written(
             let own = |one: &Taken| one.motion.tool.name == motion.tool.name;
             vec![tools.iter().position(own).unwrap_or(0) as f64 + 1.0; motion.strokes.len()]
         };
-        xml.comment("Which tool makes each push.");
+        xml.comment("Tool of each push.");
         numeric(&mut xml, "tools", &motions.iter().flat_map(number).collect::<Vec<_>>());
     }
     match holder {
@@ -192,7 +192,7 @@ fn written(
         }
     }
     xml.close();
-    xml.comment("Friction is the mean of the two values; nothing else touches.");
+    xml.comment("Friction is the mean of the two values; all other pairs do not collide.");
     xml.open("contact", &[]);
     let named: Vec<(&str, &Tool)> =
         tools.iter().map(|one| (one.prefix.as_str(), &*one.motion.tool)).collect();
@@ -228,18 +228,23 @@ fn settings(xml: &mut Xml, meshes: bool) {
     ];
     xml.open("option", &option);
     if meshes {
-        xml.comment("On a single point a prism that is pushed flush would slip aside, by 3 %.");
+        xml.comment(
+            "With a single contact point, a prism pushed by a flush face would slip sideways, by 3 \
+             %.",
+        );
         xml.leaf("flag", &[("multiccd", "enable".into())]);
     } else {
         xml.comment(
-            "Several points of a cylinder at a tool's corner would take the next face's normal.",
+            "Several contact points of a cylinder at a tool's corner would take the next face's \
+             normal.",
         );
         xml.leaf("flag", &[("multiccd", "disable".into())]);
     }
     xml.close();
     xml.open("default", &[]);
     xml.comment(
-        "Only the pairs at the end touch: elsewhere the larger friction of two would count.",
+        "Only the pairs listed at the end collide; otherwise MuJoCo would use the larger of the \
+         two friction values.",
     );
     xml.leaf("geom", &[("contype", "0".into()), ("conaffinity", "0".into())]);
     xml.leaf("pair", &CONTACT.map(|(key, value)| (key, value.to_owned())));

@@ -139,7 +139,7 @@ fn settings(xml: &mut Xml) {
     xml.leaf("flag", &[("multiccd", "enable".into())]);
     xml.close();
     xml.open("default", &[]);
-    xml.comment("Only the pairs at the end touch.");
+    xml.comment("Only the pairs listed at the end collide.");
     xml.leaf("geom", &[("contype", "0".into()), ("conaffinity", "0".into())]);
     xml.leaf("pair", &CONTACT.map(|(key, value)| (key, value.to_owned())));
     xml.close();

@@ -13,8 +13,8 @@ const ABOVE: f64 = 0.01;
 /// Writes the strokes of the tool.
 pub(super) fn strokes(xml: &mut Xml, motions: &[ToolMotion]) {
     xml.comment(
-        "Where the tool begins and ends (x, y, x, y), how long it takes, whether it then waits; \
-         where it turns, its headings there.",
+        "Start and end of the tool (x, y, x, y), duration, and whether it then waits; if it \
+         rotates, its headings at both.",
     );
     let turns = turns(motions);
     let strokes = motions.iter().flat_map(|motion| &motion.strokes);
@@ -27,13 +27,15 @@ pub(super) fn strokes(xml: &mut Xml, motions: &[ToolMotion]) {
         }
         numeric(xml, &format!("push {}", index + 1), &values);
     }
-    xml.comment("Rest is slower than this; it is looked for this often, and this many times.");
+    xml.comment(
+        "Speed below which an object rests, period of this check, and maximum number of checks.",
+    );
     numeric(xml, "rest", &[REST_SPEED, COAST_FRAME, MAX_COAST_FRAMES as f64]);
 }
 
 /// Writes the retreat of the tool before it is lifted, and its lifting height.
 pub(super) fn retreats(xml: &mut Xml, scene: &Scene, motions: &[ToolMotion]) {
-    xml.comment("How far it goes back then, the way it came, before it is lifted, and how high.");
+    xml.comment("Distance of the retreat before the tool is lifted, and lifting height.");
     let each = motions.iter().flat_map(|motion| {
         (0..motion.strokes.len()).map(move |stroke| motion.retreat(scene, stroke))
     });

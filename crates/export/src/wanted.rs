@@ -45,8 +45,8 @@ pub(super) fn wanted(xml: &mut Xml, file: &PlanFile) {
             continue;
         };
         xml.comment(
-            "Of a goal that is a position, a heading or both: x, y, tolerance; where it matters, heading, its \
-             tolerance, and the number of headings in a turn that look alike.",
+            "Goal with a position, a heading or both: x, y, tolerance; if required, heading, its \
+             tolerance, and the number of equivalent headings per rotation.",
         );
         numeric(xml, &format!("goal of object/{name}"), &values);
     }
@@ -54,7 +54,7 @@ pub(super) fn wanted(xml: &mut Xml, file: &PlanFile) {
         numeric(xml, &format!("may fall of object/{}", object.name), &[1.0]);
     }
     if let Some(evidence) = file.verdict.as_ref().and_then(|v| v.nominal(Engine::Spatial)) {
-        xml.comment("Where our own 3-D replay ends: x, y, heading.");
+        xml.comment("Final pose in pushplan's own 3-D replay: x, y, heading.");
         for (object, pose) in scene.objects.iter().zip(&evidence.outcome.state.poses) {
             let values = [pose.position.x, pose.position.y, pose.heading];
             numeric(xml, &format!("3-D replay of object/{}", object.name), &values);

@@ -106,9 +106,12 @@ impl Ledger {
         let Some(first) = faults.first() else { return };
         let place = first.place.map_or(String::new(), |at| format!("{}:{}:", at.line, at.column));
         let note = match faults.len() {
-            1 => format!("{of} is passed over, which cannot be imported: {}", first.message),
+            1 => format!(
+                "{of} contains an element that cannot be imported and is ignored: {}",
+                first.message
+            ),
             count => format!(
-                "{of} is passed over, which cannot be imported: {}, and {} other faults",
+                "{of} contains elements that cannot be imported and are ignored: {}, and {} more",
                 first.message,
                 count - 1
             ),

@@ -94,7 +94,7 @@ pub(super) fn parsed(
             let message = format!("<{other}> is neither <mujoco> (MJCF) nor <robot> (URDF)");
             let advice = match other {
                 "sdf" => "convert SDF to URDF or MJCF first",
-                "mujocoinclude" => "name the file that includes this one",
+                "mujocoinclude" => "give the file that includes this one",
                 _ => "is this the right file?",
             };
             source.fault(root, message, advice);

@@ -23,13 +23,13 @@ pub(super) struct Gazebo {
 pub(super) fn friction<'a>(source: &mut Source<'a>, link: Node<'a, 'a>) -> Option<Option<f64>> {
     let contact = element(link, "contact")?;
     for (name, what) in [
-        ("rolling_friction", "rolls as if it had none"),
-        ("spinning_friction", "spins on its support as wide as that is"),
+        ("rolling_friction", "rolls without resistance"),
+        ("spinning_friction", "has the spinning friction of its support"),
     ] {
         let stated = element(contact, name).and_then(|node| node.attribute("value"));
         if stated.is_some_and(|value| value.trim().parse() != Ok(0.0)) {
             let place = source.place(contact);
-            source.ledger.note(place, format!("<{name}> is left out: the link {what}"));
+            source.ledger.note(place, format!("<{name}> is ignored: the link {what}"));
         }
     }
     let value = element(contact, "lateral_friction")?.attribute_node("value")?;
@@ -49,7 +49,7 @@ pub(super) fn drake<'a>(source: &mut Source<'a>, collision: Node<'a, 'a>) -> Opt
     if let Some(sticks) = sticks {
         let place = source.place_of(sticks);
         if source.number(sticks)? != friction {
-            let note = "of two values of friction that of sliding is taken";
+            let note = "of the two friction values the dynamic one is used";
             source.ledger.note(place, note);
         }
     }
@@ -72,20 +72,20 @@ pub(super) fn gazebo<'a>(source: &mut Source<'a>, root: Node<'a, 'a>) -> HashMap
             let text = if text.is_empty() { stated.attribute("value").unwrap_or("") } else { text };
             let number = text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
             if number.is_none() {
-                source.fault(stated, "this friction is not a number", "write one such as 0.4");
+                source.fault(stated, "this friction is not a number", "write a number such as 0.4");
             }
             number
         });
         for (name, bad, what) in [
-            ("turnGravityOff", ["true", "1"], "does not weigh what it should"),
-            ("gravity", ["false", "0"], "does not weigh what it should"),
-            ("static", ["true", "1"], "does not move"),
+            ("turnGravityOff", ["true", "1"], "does not have its full weight"),
+            ("gravity", ["false", "0"], "does not have its full weight"),
+            ("static", ["true", "1"], "is fixed"),
             ("kinematic", ["true", "1"], "is moved by a program"),
         ] {
             let word = element(node, name).and_then(|node| node.text()).unwrap_or_default();
             if bad.contains(&word.trim()) {
-                let message = format!("<{name}> says that this link {what}");
-                source.fault(node, message, "take it out");
+                let message = format!("<{name}> states that this link {what}");
+                source.fault(node, message, "remove it");
             }
         }
         let known = found.entry(link.to_owned()).or_default();

@@ -87,7 +87,7 @@ impl Spliced {
             self.append(index, from, &text[from..node.range().start]);
             from = node.range().end;
             let Some(named) = node.attribute("file") else {
-                let advice = "name its `file`".to_owned();
+                let advice = "add its `file`".to_owned();
                 return Err(fault(node, "this <include> names no file".to_owned(), advice, self));
             };
             let path = files
@@ -101,8 +101,8 @@ impl Spliced {
                 })
                 .map_err(|refused| fault(node, refused.message, refused.advice, self))?;
             if stack.contains(&path) || self.files.len() > MOST || self.text.len() > LONGEST {
-                let message = "these files include each other, or far too many".to_owned();
-                return Err(fault(node, message, "break the circle".to_owned(), self));
+                let message = "these files include each other, or are far too many".to_owned();
+                return Err(fault(node, message, "break the cycle".to_owned(), self));
             }
             let bytes = Files::bytes(&path)
                 .map_err(|refused| fault(node, refused.message, refused.advice, self))?;
@@ -145,8 +145,8 @@ pub(super) fn document<'a>(text: &'a str, file: &str) -> Result<Document<'a>, Fa
         Fault {
             file: file.to_owned(),
             place: Some(asset::Place { line: at.row as usize, column: at.col as usize }),
-            message: format!("this is not XML: {error}"),
-            advice: "MJCF and URDF are XML, meshes end in .stl or .obj; other files are for \
+            message: format!("this is not valid XML: {error}"),
+            advice: "MJCF and URDF are XML, meshes end in .stl or .obj; check other files with \
                      `pushplan check`"
                 .to_owned(),
         }

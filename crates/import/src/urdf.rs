@@ -44,7 +44,7 @@ pub(super) fn model<'a>(
         let name = node.attribute("name").unwrap_or_default();
         if name.is_empty() || links.iter().any(|(other, _)| *other == name) {
             let message = format!("two links are called `{name}`, or one has no name");
-            source.fault(node, message, "give each link a name of its own");
+            source.fault(node, message, "give each link a unique name");
             return None;
         }
         links.push((name, Link { node, joint: None }));
@@ -63,9 +63,12 @@ pub(super) fn model<'a>(
             }
             tag if node.tag_name().namespace().is_some() => {
                 let place = source.place(node);
-                source.ledger.note(place, format!("<{tag}> of another program is left out"));
+                source.ledger.note(
+                    place,
+                    format!("<{tag}> is an extension of another program and is ignored"),
+                );
             }
-            tag => source.fault(node, format!("<{tag}> is not read"), "take it out"),
+            tag => source.fault(node, format!("<{tag}> is not supported"), "remove it"),
         }
     }
     let gazebo = gazebo(source, root);
@@ -96,7 +99,11 @@ pub(super) fn model<'a>(
         }
     }
     if let Some(index) = waiting.first() {
-        source.fault(links[*index].1.node, "the joints of this link go in a circle", "break it");
+        source.fault(
+            links[*index].1.node,
+            "the joints of this link form a loop",
+            "remove one of them",
+        );
     }
     Some(model)
 }
@@ -112,7 +119,11 @@ fn hang<'a>(
     for name in [parent, child] {
         if !known(name) {
             let message = format!("there is no link `{name}`");
-            source.fault(joint, message, "`<parent link>` and `<child link>` name links");
+            source.fault(
+                joint,
+                message,
+                "`<parent link>` and `<child link>` must name links of the file",
+            );
             return None;
         }
     }
@@ -120,8 +131,8 @@ fn hang<'a>(
     match found {
         Some((_, link)) if link.joint.is_none() && child != WORLD => link.joint = Some(joint),
         _ => {
-            let message = format!("the link `{child}` is attached by two joints");
-            source.fault(joint, message, "a link has one parent, and `world` has none");
+            let message = format!("the link `{child}` is the child of two joints");
+            source.fault(joint, message, "a link can have only one parent, and `world` has none");
             return None;
         }
     }
@@ -141,7 +152,7 @@ fn take<'a>(
     let (pose, motion) = match link.joint {
         Some(node) => {
             let pose = above * origin(source, node).unwrap_or_default();
-            let unknown = || Motion::Other("a joint that cannot be read".to_owned());
+            let unknown = || Motion::Other("a joint that cannot be imported".to_owned());
             (pose, motion(source, node, pose).unwrap_or_else(unknown))
         }
         // An unattached link is free, as in Bullet and MuJoCo.
@@ -190,8 +201,8 @@ fn motion<'a>(
     let limits = [limit("lower")?, limit("upper")?];
     if let Some(mimic) = element(joint, "mimic") {
         let leader = mimic.attribute("joint").unwrap_or_default();
-        let message = format!("this joint follows `{leader}` (<mimic>), which none here does");
-        source.fault(mimic, message, "take <mimic> out if the joint may move by itself");
+        let message = format!("this joint follows `{leader}` (<mimic>), which is not supported");
+        source.fault(mimic, message, "remove <mimic> if the joint may move by itself");
     }
     let loss = |dynamics: &Node<'a, 'a>| {
         let stated = |name: &str| dynamics.attribute(name).unwrap_or("0").parse() != Ok(0.0);
@@ -199,7 +210,7 @@ fn motion<'a>(
     };
     if let Some(dynamics) = element(joint, "dynamics").filter(loss) {
         let place = source.place(dynamics);
-        source.ledger.note(place, "damping and friction of joints are left out");
+        source.ledger.note(place, "damping and friction of joints are ignored");
     }
     Some(match joint.attribute("type").unwrap_or_default() {
         "revolute" => {
@@ -211,7 +222,7 @@ fn motion<'a>(
         "planar" if axis.xy().norm() < 1e-3 => Motion::Free,
         "planar" => Motion::Other("a planar joint that is not level".to_owned()),
         other => {
-            let message = format!("`{other}` is not a type of joint");
+            let message = format!("`{other}` is not a joint type");
             let advice = "write fixed, floating, revolute, continuous or prismatic";
             source.fault(joint, message, advice);
             return None;
@@ -254,7 +265,7 @@ fn solids<'a>(
     if found.is_empty()
         && let Some(seen) = shapes("visual").next()
     {
-        let message = "this link is only seen: it has <visual> but no <collision>";
+        let message = "this link is only visual: it has <visual> but no <collision>";
         source.fault(seen, message, "add a <collision> with its box, cylinder or prism");
     }
     found
@@ -287,7 +298,7 @@ fn mesh(file: &str, scale: [f64; 3], files: &Files) -> Outline {
     let closed = enclosed.filter(|mesh| mesh.is_closed() && mesh.volume > 0.0);
     match closed.or_else(|| Mesh::new(points, faces, Counted::Hull)) {
         Some(mesh) => Outline::Mesh(Arc::new(mesh)),
-        None => Outline::Other("a mesh that is flat, or whose numbers are none".to_owned()),
+        None => Outline::Other("a mesh that is flat or contains invalid numbers".to_owned()),
     }
 }
 

@@ -60,8 +60,8 @@ impl<'a> Source<'a> {
             // Attributes of other namespaces are ignored.
             if attribute.namespace().is_none() && !known.iter().any(|list| list.contains(&name)) {
                 let tag = node.tag_name().name();
-                let message = format!("<{tag}> has an attribute `{name}` that is not known");
-                self.fault_of(attribute, message, "correct its name, or take it out");
+                let message = format!("<{tag}> has the unknown attribute `{name}`");
+                self.fault_of(attribute, message, "correct its name, or remove it");
             }
         }
     }

@@ -61,7 +61,7 @@ def test_an_exported_scene_opens_in_mujoco_and_comes_back(task: pushplan.Task, t
     pushplan.export_mjcf(plan(task), tmp_path / "scene.xml")
     assert (tmp_path / "scene.xml").read_text() == plan(task).to_mjcf()
     model = mujoco.MjModel.from_xml_path(str(tmp_path / "scene.xml"))
-    with pytest.warns(UserWarning, match="the tool is left out"):
+    with pytest.warns(UserWarning, match="the tool is not imported here"):
         again = pushplan.import_task(tmp_path / "scene.xml")
     assert again.objects == task.objects and again.goal_object == task.goal_object
     assert again.start == pytest.approx(task.start, abs=1e-9)
@@ -97,7 +97,7 @@ def test_a_loaded_model_becomes_what_its_file_does(root: Path, task: pushplan.Ta
     assert_alike(wanted.to_dict()["scene"], found.to_dict()["scene"])
     # Without a file, and with the goal stored in an exported plan.
     model = mujoco.MjModel.from_xml_string(plan(task).to_mjcf())
-    with pytest.warns(UserWarning, match="the tool is left out"):
+    with pytest.warns(UserWarning, match="the tool is not imported here"):
         again = pushplan.scene_from(model)
     assert again.objects == task.objects and again.goal_position == pytest.approx(task.goal_position)
     assert again.start == pytest.approx(task.start, abs=1e-9)
@@ -297,7 +297,7 @@ def test_a_mesh_of_a_library_is_what_mujoco_compiles(tmp_path: Path) -> None:
     )
     with pytest.raises(pushplan.FileError, match="no body of the file moves freely"):
         pushplan.import_task(tmp_path / "block.xml")
-    with pytest.warns(UserWarning, match="there is no table"):
+    with pytest.warns(UserWarning, match="the file has no table"):
         task = pushplan.import_task(tmp_path / "block.xml", free=["object"])
     scene: Any = task.to_dict()["scene"]
     [thing] = scene["objects"]

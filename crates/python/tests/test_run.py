@@ -74,7 +74,7 @@ def test_what_a_world_raises_comes_back(task: pushplan.Task) -> None:
         def look(self) -> Any:
             return np.zeros((7, 3))
 
-    with pytest.raises(ValueError, match="7 objects are reported"):
+    with pytest.raises(ValueError, match="7 objects were observed"):
         pushplan.run(task, Elsewhere(task))
 
     class Flat(Table):

@@ -210,8 +210,8 @@ mod tests {
         ];
         let verdict = Verdict::judge(Vec::new(), evidence, 0.75);
         insta::assert_snapshot!(replay_warnings(&verdict).join("\n"), @r"
-        planar and 3-D: the tool came down on can for push 2 instead of next to it, so the plan does not work as written
-        3-D: can toppled; its pose on the table means little; push lower or slower
+        planar and 3-D: can is below the tool when it is set down for push 2, so the nominal replay fails
+        3-D: can toppled, so its pose on the table is unreliable; push lower or slower
         ");
     }
 }

@@ -28,36 +28,43 @@ pub(in crate::asset) fn check(robot: &Node, ledger: &mut Ledger) -> bool {
     let Some(which) = urdf.or(arm) else {
         for (key, node) in OF_URDF.map(|key| (key, robot.get(key))) {
             if let Some(node) = node {
-                let message = format!("`{key}` is of an arm, and there is none");
+                let message = format!("`{key}` is a key of an arm, but the task has no arm");
                 ledger.fault(node, message, "add `urdf`, the file of the arm");
             }
         }
         if let Some(base) = map("base") {
-            let advice =
-                "add `urdf`, the file of the arm; of a robot without one, `base` is a number";
-            ledger.fault(base, "`base` says how an arm stands, and there is none", advice);
+            let advice = "add `urdf`, the file of the arm; without an arm, `base` is a number";
+            ledger.fault(
+                base,
+                "`base` states how an arm is mounted, but the task has no arm",
+                advice,
+            );
         }
         return false;
     };
     if let (Some(_), Some(arm)) = (urdf, arm) {
-        ledger.fault(arm, "`urdf` and `arm` both say what the arm is", "keep one of them");
+        ledger.fault(arm, "`urdf` and `arm` both define the arm", "keep one of them");
     }
     let inside = |key: &&&str| urdf.is_none() && robot.get(key).is_some();
     for key in OWN.iter().filter(|key| robot.get(key).is_some()) {
-        let message = format!("an arm has a `{key}` of its own");
+        let message = format!("`{key}` is already defined by the arm");
         ledger.fault(robot.get(key).unwrap_or(which), message, format!("remove `{key}`"));
     }
     if let Some(base) = robot.get("base").filter(|_| urdf.is_some() && map("base").is_none()) {
         let advice = "write `base: {height: 0.1}`, or remove it";
-        ledger.fault(base, "an arm has a base of its own; `base` says how it stands", advice);
+        ledger.fault(
+            base,
+            "`base` is not a number here: with an arm, it states how the arm is mounted",
+            advice,
+        );
     }
     for key in ["base", "flange", "tool_mount", "home"].iter().filter(inside) {
-        let message = format!("`arm` says its `{key}` itself");
+        let message = format!("`{key}` is already defined by `arm`");
         ledger.fault(robot.get(key).unwrap_or(which), message, format!("remove `{key}`"));
     }
     if let Some(urdf) = urdf.filter(|_| robot.get("flange").is_none()) {
         let advice =
-            "add `flange`, the link on which tools are mounted, its z axis pointing out of it";
+            "add `flange`, the link on which tools are mounted, with its z axis pointing out of it";
         ledger.fault(urdf, "an arm needs a `flange`", advice);
     }
     true

@@ -6,16 +6,16 @@ use crate::scene::MAX_JOINTS;
 pub(in crate::asset) const URDF: Key = Key::optional(
     "urdf",
     Value::Text,
-    "A URDF file of the arm, as seen from this file; then reach, hand and base are the arm's own, \
-     plans carry the motion of its joints, and what it cannot do is no plan. By default the robot is a \
-     hand within a reach.",
+    "A URDF file of the arm, relative to this file. The arm then defines reach, hand and base, \
+     plans contain its joint motion, and plans that it cannot execute are rejected. By default the \
+     robot is an end effector within a reach.",
 );
 
 pub(in crate::asset) const FLANGE: Key = Key::optional(
     "flange",
     Value::Text,
     "With `urdf`: the link on which the tool is mounted, its z axis pointing out of it, such as \
-     `panda_link8` or `tool0`; what hangs on it in the file is left out. No default.",
+     `panda_link8` or `tool0`; links attached to it in the file are ignored. No default.",
 );
 
 pub(in crate::asset) const TOOL_MOUNT: Key = Key::optional(
@@ -34,16 +34,16 @@ pub(in crate::asset) const TOOL_MOUNT: Key = Key::optional(
         Key::optional(
             "yaw_deg",
             ANGLE,
-            "Turn of the tool about the flange's z axis, degrees; default 0.",
+            "Rotation of the tool about the flange's z axis, degrees; default 0.",
         ),
     ]),
-    "With `urdf`: how the tool hangs on the flange; by default 0.15 m below it.",
+    "With `urdf`: how the tool is mounted on the flange; by default 0.15 m below it.",
 );
 
 pub(in crate::asset) const ARM: Key = Key::optional(
     "arm",
     Value::Anything,
-    "The arm as plan files hold it, instead of `urdf`; by default none.",
+    "The arm as stored in plan files, instead of `urdf`; by default none.",
 );
 
 pub(in crate::asset) const BASE: Key = Key::optional(
@@ -55,20 +55,24 @@ pub(in crate::asset) const BASE: Key = Key::optional(
             Key::optional(
                 "height",
                 COORDINATE,
-                "Height of the arm's root over the table, metres; default 0.",
+                "Height of the arm's root above the table, metres; default 0.",
             ),
-            Key::optional("yaw_deg", ANGLE, "Turn of the arm about the vertical; default 0."),
+            Key::optional(
+                "yaw_deg",
+                ANGLE,
+                "Rotation of the arm about the vertical, degrees; default 0.",
+            ),
         ]),
     ]),
-    "Half the side in metres of the square column at the origin on which the arm stands, or \
-     `none`; by default 0.08, or as much less as the hand comes nearer: 0.06 less than the \
-     smallest reach. With `urdf` how the arm stands at the origin: `height` and `yaw_deg`.",
+    "Half the side in metres of the square column at the origin that carries the arm, or `none`. \
+     By default 0.08, or 0.06 less than the smallest reach if that is less. With `urdf`, how the \
+     arm is mounted at the origin: `height` and `yaw_deg`.",
 );
 
 pub(in crate::asset) const HOME: Key = Key::optional(
     "home",
     Value::List { of: &COORDINATE, items: "numbers", min: 1, max: MAX_JOINTS },
-    "Where chained pushes start, [x, y] in metres; by default the nearest point of the reach \
-     in front of the base. With `urdf` the joint positions at which plans begin, radians (metres of \
-     joints that slide); by default above the middle of what the arm reaches.",
+    "Where chained pushes start, [x, y] in metres; by default the nearest point of the reach in \
+     front of the base. With `urdf`, the joint positions at which plans begin, radians (metres for \
+     prismatic joints); by default above the middle of the arm's reach.",
 );

@@ -12,7 +12,7 @@ pub(super) fn times(root: &Node, ledger: &mut Ledger) -> Option<Vec<f64>> {
     let count = frames.items().len();
     match (root.get("frame_time"), root.get("times")) {
         (Some(_), Some(times)) => {
-            let advice = "keep one of the two: `times` where frames are not evenly spaced";
+            let advice = "keep one of the two; use `times` if frames are not evenly spaced";
             ledger.fault(times, "both `frame_time` and `times` are given", advice);
             None
         }
@@ -41,12 +41,12 @@ fn listed(times: &Node, count: usize, ledger: &mut Ledger) -> Option<Vec<f64>> {
     for (k, pair) in values.windows(2).enumerate() {
         if pair[1] <= pair[0] {
             let message = format!(
-                "frame {} is at {} s, not after frame {k} at {} s",
+                "frame {} is at {} s, which is not after frame {k} at {} s",
                 k + 1,
                 pair[1],
                 pair[0]
             );
-            ledger.fault(&times.items()[k + 1], message, "times increase from frame to frame");
+            ledger.fault(&times.items()[k + 1], message, "times must increase from frame to frame");
             sound = false;
         }
     }
@@ -65,8 +65,12 @@ pub(super) fn frames(
     let (first, last) = (nodes.first()?, nodes.last()?);
     for (frame, which) in [(first, "first"), (last, "last")] {
         if frame.get("objects").is_none() {
-            let message = format!("the {which} frame does not say where the objects are");
-            ledger.fault(frame, message, "add `objects`; only frames between may leave it out");
+            let message = format!("the {which} frame does not state the poses of the objects");
+            ledger.fault(
+                frame,
+                message,
+                "add `objects`; only frames between the first and the last may omit it",
+            );
             return None;
         }
     }
@@ -124,8 +128,8 @@ fn frame(
             let (has, had) = if *usual == 2 { ("a", "none") } else { ("no", "one") };
             ledger.fault(
                 pose,
-                format!("frame {index} has {has} heading where frame 0 has {had}"),
-                "give a body's heading in all frames or in none",
+                format!("frame {index} has {has} heading, but frame 0 has {had}"),
+                "state a body's heading in all frames or in none",
             );
             sound = false;
         }
@@ -144,8 +148,9 @@ fn unseen(
     ledger: &mut Ledger,
 ) -> Option<RecordedFrame> {
     if usual.first().is_some_and(|usual| *usual != pusher.items().len()) {
-        let message = format!("frame {index} has not as many numbers for the pusher as frame 0");
-        ledger.fault(pusher, message, "give a body's heading in all frames or in none");
+        let message =
+            format!("the pusher of frame {index} has a different number of values than in frame 0");
+        ledger.fault(pusher, message, "state a body's heading in all frames or in none");
         return None;
     }
     let (tool, lifted) = (pose(pusher)?, lifted(index, node));
@@ -183,18 +188,18 @@ fn steps(
                 Body::Pusher => (
                     "the pusher".to_owned(),
                     nodes[k].get("pusher"),
-                    "where it was lifted and set down again, write `\"lifted\": true`; else \
-                     frames are missing",
+                    "if the pusher was lifted and set down again, write `\"lifted\": true`; \
+                     otherwise frames are missing",
                 ),
                 Body::Object(index) => (
                     format!("`{}`", names[index]),
                     nodes[k].get("objects").and_then(|list| list.items().get(index)),
-                    "frames are missing here, or the tracker has mixed up bodies",
+                    "frames are missing here, or the tracker has swapped bodies",
                 ),
             };
             let what = match what {
                 Strange::Moves(travel) => format!("moves {:.0} cm", travel * 100.0),
-                Strange::Turns(turn) => format!("turns by {:.0} degrees", turn.to_degrees()),
+                Strange::Turns(turn) => format!("rotates by {:.0} degrees", turn.to_degrees()),
             };
             let message = format!("{name} {what} between frames {} and {k}", k - 1);
             ledger.fault(place.unwrap_or(&nodes[k]), message, advice);
@@ -221,8 +226,9 @@ pub(super) fn set_down(root: &Node, recording: &Recording, ledger: &mut Ledger) 
         let name = &recording.scene.objects[object].name;
         ledger.fault(
             nodes[frame].get("pusher").unwrap_or(&nodes[frame]),
-            format!("in frame {frame} the pusher stands inside `{name}`"),
-            "check its size and the origin of its positions: they are those of centres",
+            format!("in frame {frame} the pusher overlaps `{name}`"),
+            "check the size of the pusher and the origin of its positions, which must be its \
+             centre",
         );
     }
 }
@@ -234,14 +240,14 @@ pub(super) fn starts(root: &Node, recording: &Recording, ledger: &mut Ledger) {
         let name = &recording.scene.objects[object].name;
         let poses = nodes[frame].get("objects");
         let message = format!(
-            "the recording starts in motion: `{name}` moves {:.1} mm and turns by {:.1} degrees in \
-             the first {:.2} s although nothing touches it",
+            "the recording starts in motion: `{name}` moves by {:.1} mm and rotates by {:.1} \
+             degrees in the first {:.2} s although nothing touches it",
             1e3 * travel,
             turn.to_degrees(),
             recording.frames[frame].time
         );
-        let advice = "begin with a frame in which everything rests, or state `velocity` and `spin_deg` of \
-                      the objects in it";
+        let advice = "begin with a frame in which all objects rest, or state `velocity` and \
+                      `spin_deg` of the moving objects";
         let place = poses.and_then(|list| list.items().get(object)).unwrap_or(&nodes[frame]);
         ledger.fault(place, message, advice);
     }

@@ -104,8 +104,8 @@ fn complete(object: &mut Node, pose: &Node, ledger: &mut Ledger) {
             matches!((stated, found.number()), (Some(a), Some(b)) if (a - b).abs() > 1e-3)
         };
         if differs(0, x) || differs(1, y) {
-            let message = "the object starts elsewhere in the first frame";
-            ledger.fault(stated, message, "leave `position` out: the first frame says where it is");
+            let message = "`position` differs from the object's position in the first frame";
+            ledger.fault(stated, message, "remove `position`; the first frame defines it");
         }
     }
     let Content::Map(pairs) = &mut object.content else { return };
@@ -144,14 +144,14 @@ fn pusher(node: &Node, ledger: &mut Ledger) -> Option<(Arc<Tool>, f64)> {
         _ => {
             let advice = "write one of `cylinder: {radius: r, height: h}`, `cuboid: {size: [x, y, \
                           z]}` and `tool: {...}`";
-            ledger.fault(node, "a pusher has one solid", advice);
+            ledger.fault(node, "a pusher has exactly one solid", advice);
             return None;
         }
     }
     if let Some(tool) = node.get("tool") {
         if let Some(friction) = node.get("friction") {
             let advice = "remove it; the tool has its own friction value";
-            ledger.fault(friction, "`friction` as well as a tool", advice);
+            ledger.fault(friction, "`friction` is given in addition to a tool", advice);
         }
         return Some((Arc::new(tool::tool_of(tool, ledger)?), lift?));
     }

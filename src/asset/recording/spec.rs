@@ -21,25 +21,26 @@ pub(in crate::asset) static RECORDING: Value = Value::Map(RECORDING_KEYS);
 /// Keys of a recording.
 pub(in crate::asset) const RECORDING_KEYS: &[Key] = &[
     Key::required("schema_version", version(SCHEMA_VERSION), "Version of the format, 1."),
-    Key::required("kind", Value::Word(&["recording"]), "What the file is."),
+    Key::required("kind", Value::Word(&["recording"]), "Kind of the file."),
     Key::optional("name", Value::Name, "The recording's name; by default the file's."),
     Key::optional("description", Value::Text, "One line for people; by default empty."),
-    Key::required("scene", SCENE, "What stands on the table."),
-    Key::required("pusher", Value::Map(PUSHER_KEYS), "What moves the objects."),
+    Key::required("scene", SCENE, "The scene on the table."),
+    Key::required("pusher", Value::Map(PUSHER_KEYS), "The body that pushes the objects."),
     Key::optional(
         "frame_time",
         TIME_STEP,
-        "Time between two frames, seconds; no default, a recording has this or `times`.",
+        "Time between two frames, seconds; no default, a recording has either this or `times`.",
     ),
     Key::optional(
         "times",
         Value::List { of: &TIME, items: "times", min: 2, max: MOST_FRAMES },
-        "Time of each frame, seconds; no default, a recording has this or `frame_time`.",
+        "Time of each frame, seconds; no default, a recording has either this or `frame_time`.",
     ),
     Key::required(
         "frames",
         Value::List { of: &FRAME, items: "frames", min: 2, max: MOST_FRAMES },
-        "Where everything was, instant by instant; in the first frame all rests that states no `velocity`.",
+        "Poses of all bodies, instant by instant; in the first frame every object rests unless it \
+         states a `velocity`.",
     ),
 ];
 
@@ -56,7 +57,7 @@ const SCENE: Value = Value::Map(&[
     Key::optional(
         "joints",
         JOINTS,
-        "Joints between objects, as they are in the first frame; by default none.",
+        "Joints between objects, at their poses in the first frame; by default none.",
     ),
     OBSTACLES,
     FRICTIONS,
@@ -71,13 +72,13 @@ const OBJECT: Value = Value::Map(&[
     Key::optional(
         "position",
         POSITION,
-        "Centre at the start, [x, y] in metres; by default, and at any rate, that of the first \
-         frame.",
+        "Centre at the start, [x, y] in metres; by default the position in the first frame, which \
+         any stated value must equal.",
     ),
     Key::optional(
         "yaw_deg",
         ANGLE,
-        "Heading at the start where the frames hold positions alone, degrees; default 0.",
+        "Heading at the start, degrees, for objects whose frames hold positions only; default 0.",
     ),
     Key::optional(
         "velocity",
@@ -87,7 +88,7 @@ const OBJECT: Value = Value::Map(&[
     Key::optional(
         "spin_deg",
         SPIN,
-        "Turn in the first frame, degrees a second, counter-clockwise; default 0.",
+        "Angular velocity in the first frame, degrees per second, counter-clockwise; default 0.",
     ),
 ]);
 
@@ -96,16 +97,16 @@ const VELOCITY: Value = numbers(
         what: "a speed in m/s",
         low: -10.0,
         high: 10.0,
-        advice: "speeds are in metres a second: 50 mm/s is 0.05",
+        advice: "speeds are in metres per second: 50 mm/s is 0.05",
     }),
     2,
 );
 
 const SPIN: Value = Value::Number(Range {
-    what: "a turn in degrees a second",
+    what: "an angular velocity in degrees per second",
     low: -7200.0,
     high: 7200.0,
-    advice: "a turn a second is 360",
+    advice: "one rotation per second is 360",
 });
 
 /// Keys of a pusher.
@@ -113,17 +114,17 @@ pub(super) const PUSHER_KEYS: &[Key] = &[
     Key::optional(
         "cylinder",
         CYLINDER,
-        "An upright cylinder; no default, a pusher has this, `cuboid` or `tool`.",
+        "An upright cylinder; no default, a pusher has either this, `cuboid` or `tool`.",
     ),
     Key::optional(
         "cuboid",
         CUBOID,
-        "A cuboid; no default, a pusher has this, `cylinder` or `tool`.",
+        "A cuboid; no default, a pusher has either this, `cylinder` or `tool`.",
     ),
     Key::optional(
         "tool",
         Value::Map(TOOL_KEYS),
-        "A tool, as in a tool file; no default, a pusher has this, `cylinder` or `cuboid`.",
+        "A tool, as in a tool file; no default, a pusher has either this, `cylinder` or `cuboid`.",
     ),
     Key::optional("friction", FRICTION, "Friction value of a cylinder or cuboid; default 0.4."),
     Key::optional(
@@ -137,23 +138,23 @@ const TIME_STEP: Value = Value::Number(Range {
     what: "a time step in seconds",
     low: 1e-4,
     high: 10.0,
-    advice: "thirty frames a second are 0.0333",
+    advice: "thirty frames per second are 0.0333",
 });
 
 const TIME: Value = Value::Number(Range {
     what: "a time in seconds",
     low: -1e10,
     high: 1e10,
-    advice: "times are in seconds; only their differences count",
+    advice: "times are in seconds; only their differences matter",
 });
 
 const FRAME: Value = Value::Map(&[
-    Key::required("pusher", POSE, "Where the pusher is, [x, y] or [x, y, yaw_deg]."),
+    Key::required("pusher", POSE, "Pose of the pusher, [x, y] or [x, y, yaw_deg]."),
     Key::optional(
         "objects",
         Value::List { of: &POSE, items: "poses, one per object", min: 1, max: 64 },
-        "Where each object is, [x, y] or [x, y, yaw_deg], in the order of the scene; may be left out \
-         between the first and the last frame, where only the pusher was seen; by default unseen.",
+        "Pose of each object, [x, y] or [x, y, yaw_deg], in the order of the scene; by default not \
+         observed, which is allowed between the first and the last frame.",
     ),
     Key::optional(
         "lifted",
@@ -169,7 +170,7 @@ const POSE: Value = Value::List {
         what: "a finite number",
         low: -1e6,
         high: 1e6,
-        advice: "leave out frames in which a body was not seen, and give `times`",
+        advice: "leave out frames in which a body was not observed, and give `times`",
     }),
     items: "numbers, [x, y] or [x, y, yaw_deg]",
     min: 2,

@@ -57,7 +57,7 @@ impl<'a> Opened<'a> {
                 file: self.source.file.into(),
                 place: Some(Place::in_json(self.source.text, error.line(), error.column())),
                 message: message.into(),
-                advice: "the file is damaged or of another version; make it again".into(),
+                advice: "the file is damaged or from another version; create it again".into(),
             }
         })
     }
@@ -65,13 +65,17 @@ impl<'a> Opened<'a> {
     /// Checks that the joint trajectory belongs to the task's arm.
     pub fn check_joints(&mut self, joints: Option<&JointTrajectory>) {
         let (Some(joints), Some(node)) = (joints, self.root.get("joints")) else { return };
-        let again = "the file is damaged; make it again";
+        let again = "the file is damaged; create it again";
         if let Some(fault) = joints.fault() {
             self.ledger.fault(node, fault, again);
         }
         let arm = self.task.as_ref().map(|task| task.arm.as_deref());
         if arm == Some(None) {
-            self.ledger.fault(node, "the task has no arm whose joints could move", again);
+            self.ledger.fault(
+                node,
+                "the file contains joint motion, but its task has no arm",
+                again,
+            );
         }
     }
 
@@ -79,7 +83,7 @@ impl<'a> Opened<'a> {
     pub fn check_plan(&mut self, plan: &Plan) {
         let Some(node) = self.root.get("plan") else { return };
         let tools: Vec<&str> = self.tools.iter().map(|tool| tool.name.as_str()).collect();
-        let mixed = "the file mixes two; make it again";
+        let mixed = "the file mixes two plans; create it again";
         if let Some(tool) = plan.tools().into_iter().find(|tool| !tools.contains(tool)) {
             let message =
                 format!("the plan uses `{tool}`, the file holds `{}`", tools.join("`, `"));
@@ -101,7 +105,7 @@ impl<'a> Opened<'a> {
         for lever in plan.lever_steps().map(|step| &step.lever) {
             if lever.place.edge >= task.scene.edges(lever.plate) {
                 let message = "the plan levers an edge that does not exist";
-                self.ledger.fault(node, message, "the file is damaged; make it again");
+                self.ledger.fault(node, message, "the file is damaged; create it again");
             }
         }
     }
@@ -114,7 +118,7 @@ impl<'a> Opened<'a> {
         let found: Vec<usize> = outcome.goals.iter().map(|miss| miss.object).collect();
         if wanted != found {
             let message = format!("expected ends of objects {wanted:?}, found {found:?}");
-            self.ledger.fault(node, message, "the file is damaged; make it again");
+            self.ledger.fault(node, message, "the file is damaged; create it again");
         }
     }
 
@@ -127,11 +131,11 @@ impl<'a> Opened<'a> {
         for (what, found, expected) in [
             ("poses", state.poses.len(), solids),
             ("velocities", state.velocities.len(), solids),
-            ("poses in space", space, things),
+            ("3-D poses", space, things),
         ] {
             if found != expected {
                 let message = format!("expected {expected} {what}, one per object, found {found}");
-                self.ledger.fault(node, message, "the file is damaged; make it again");
+                self.ledger.fault(node, message, "the file is damaged; create it again");
             }
         }
     }

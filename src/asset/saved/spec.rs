@@ -28,8 +28,8 @@ pub(in crate::asset) static PLAN_FILE: Value = Value::Map(&[
     Key::optional(
         "joints",
         Value::Anything,
-        "How the joints of the task's arm carry the plan out: positions and velocities at times; by \
-         default unsaid.",
+        "Joint trajectory with which the task's arm executes the plan: positions and velocities at \
+         times; by default none.",
     ),
 ]);
 
@@ -40,7 +40,7 @@ pub(in crate::asset) static TRAJECTORY_FILE: Value = Value::Map(&[
     TASK,
     TOOLS,
     Key::required("plan", STEPS, "The steps."),
-    Key::required("trajectory", TRAJECTORY, "What happened."),
+    Key::required("trajectory", TRAJECTORY, "The trajectory."),
 ]);
 
 const TASK: Key = Key::required("task", Value::Map(TASK_KEYS), "The task, as in a task file.");
@@ -48,7 +48,7 @@ const TASK: Key = Key::required("task", Value::Map(TASK_KEYS), "The task, as in 
 const TOOLS: Key = Key::required(
     "tools",
     Value::List { of: &OF_TOOL_FILE, items: "tools", min: 0, max: 64 },
-    "The tools that the steps name, as in tool files.",
+    "The tools named by the steps, as in tool files.",
 );
 
 static OF_TOOL_FILE: Value = Value::Dependent { by: tool_of_file, of: &TOOLS_OF_FILES };
@@ -61,16 +61,16 @@ fn tool_of_file(_: &Node) -> &'static Value {
 const PREDICTED: Key = Key::optional(
     "predicted",
     Value::Either(&[OUTCOME, Value::Nothing]),
-    "Where the model says the plan ends; by default unknown.",
+    "Predicted end of the plan; by default unknown.",
 );
 
 const JUDGED: Key = Key::optional(
     "verdict",
     Value::Either(&[VERDICT, Value::Nothing]),
-    "Whether simulation confirms it; by default unknown.",
+    "Result of the verification in simulation; by default unknown.",
 );
 
-const MODEL: &str = "The effect model that predicted where the plan ends; by default unknown.";
+const MODEL: &str = "The effect model that predicted the end of the plan; by default unknown.";
 
 /// Returns the specification of a format version; any other version is refused.
 pub(in crate::asset) const fn version(number: u32) -> Value {
@@ -78,7 +78,7 @@ pub(in crate::asset) const fn version(number: u32) -> Value {
         what: "the schema version",
         low: number as f64,
         high: number as f64,
-        advice: "the file is of another version of pushplan; make it again with this one",
+        advice: "the file is from another version of pushplan; create it again with this one",
     })
 }
 
@@ -104,7 +104,7 @@ pub(super) const INDEX: Value =
     Value::Count(Range { what: "an index", low: 0.0, high: 1e6, advice: "is the file damaged?" });
 
 pub(super) const DRAW: Value = Value::Count(Range {
-    what: "the number of a draw",
+    what: "the number of a perturbed replay",
     low: 1.0,
     high: 1e6,
     advice: "is the file damaged?",
@@ -117,12 +117,12 @@ pub(super) const VECTOR: Value = numbers(&REAL, 2);
 
 pub(super) const POSE: Value = Value::Map(&[
     Key::required("position", VECTOR, "Position of the centre, metres."),
-    Key::required("heading", REAL, "Turn about the vertical, radians."),
+    Key::required("heading", REAL, "Rotation about the vertical, radians."),
 ]);
 
 const VELOCITY: Value = Value::Map(&[
-    Key::required("linear", VECTOR, "Of the centre, m/s."),
-    Key::required("angular", REAL, "About the vertical, rad/s."),
+    Key::required("linear", VECTOR, "Velocity of the centre, m/s."),
+    Key::required("angular", REAL, "Angular velocity about the vertical, rad/s."),
 ]);
 
 pub(super) const STATE: Value = Value::Map(&[
@@ -139,7 +139,7 @@ pub(super) const STATE: Value = Value::Map(&[
     Key::optional(
         "space",
         Value::List { of: &POSE_IN_SPACE, items: "poses", min: 1, max: 64 },
-        "Poses in space, once something has left the plane; by default nothing has.",
+        "3-D poses, once an object has left the plane; by default none.",
     ),
 ]);
 
@@ -147,17 +147,17 @@ const TRAJECTORY: Value = Value::Map(&[
     Key::required("by", Value::Text, "The model or engine that computed it."),
     Key::required("frames", FRAMES, "The recorded instants, in order of time."),
     Key::required("contacts", CONTACTS, "First contacts, in order of time."),
-    Key::required("warnings", WARNINGS, "What a reader should know."),
-    Key::optional("force", FORCE, "How hard the tool pressed; by default unknown."),
-    Key::optional("spreads", SPREADS, "How far off objects may end; by default unsaid."),
+    Key::required("warnings", WARNINGS, "Warnings and notes."),
+    Key::optional("force", FORCE, "Contact force of the tool; by default unknown."),
+    Key::optional("spreads", SPREADS, "Errors of the objects' final poses; by default unknown."),
     Key::optional(
         "lifts",
         Value::List { of: &LIFT, items: "lever-ups", min: 0, max: 64 },
-        "What each lever-up has come to; by default there is none.",
+        "Result of each lever-up; by default there is none.",
     ),
 ]);
 
-const FIT: &str = "What the model knew of the table, see `fit --save-fit`; by default nothing.";
+const FIT: &str = "Table fit that the model used, see `fit --save-fit`; by default none.";
 
 const FRAMES: Value = Value::List { of: &FRAME, items: "frames", min: 1, max: 100_000 };
 const CONTACTS: Value = Value::List { of: &CONTACT, items: "contacts", min: 0, max: 100_000 };
@@ -174,19 +174,19 @@ pub(super) const FORCE: Value = Value::Map(&[
 
 const FRAME: Value = Value::Map(&[
     Key::required("time", UNSIGNED, "Since the start, seconds."),
-    Key::required("stroke", INDEX, "Index of the push that this instant belongs to."),
+    Key::required("stroke", INDEX, "Index of the push at this instant."),
     Key::required("tool", POSE, "Pose of the tool frame."),
-    Key::required("state", STATE, "Every object."),
+    Key::required("state", STATE, "States of all objects."),
     Key::optional(
         "blade",
         POSE_IN_SPACE,
-        "Middle of the blade while something is levered; by default nothing is.",
+        "Position of the blade's middle during a lever-up; by default none.",
     ),
 ]);
 
 const CONTACT: Value = Value::Map(&[
-    Key::required("frame", INDEX, "Index of the frame that ends with the contact made."),
-    Key::required("object", INDEX, "Index of the object that is touched."),
+    Key::required("frame", INDEX, "Index of the frame at whose end the contact is made."),
+    Key::required("object", INDEX, "Index of the touched object."),
     Key::required(
         "with",
         Value::Variant(&[
@@ -195,9 +195,10 @@ const CONTACT: Value = Value::Map(&[
             Key::optional(
                 "part",
                 INDEX,
-                "Index of a part of the tool that moves then, as its file lists them; no default.",
+                "Index of the tool part that moves at that time, in the order of its file; no \
+                 default.",
             ),
         ]),
-        "What it touches.",
+        "The body that it touches.",
     ),
 ]);

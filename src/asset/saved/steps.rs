@@ -8,7 +8,7 @@ use super::spec::{INDEX, POSE, POSITIVE, REAL, SHARE, UNSIGNED, VECTOR};
 pub(super) const STEPS: Value = Value::Map(&[Key::required(
     "steps",
     Value::List { of: &STEP, items: "steps", min: 0, max: 64 },
-    "In order; none if nothing is to be done.",
+    "The steps in order; empty if the goal is already reached.",
 )]);
 
 const STEP: Value = Value::Variant(&[
@@ -18,8 +18,8 @@ const STEP: Value = Value::Variant(&[
 
 const PUSH_STEP: Value = Value::Map(&[
     Key::required("tool", Value::Name, "Name of the tool."),
-    Key::required("grip_yaw", REAL, "Turn of the end effector against world +x, radians."),
-    Key::required("form", Value::Word(&["placed", "chained"]), "How the push starts."),
+    Key::required("grip_yaw", REAL, "Rotation of the end effector against world +x, radians."),
+    Key::required("form", Value::Word(&["placed", "chained"]), "Start of the push."),
     Key::required("lift", UNSIGNED, "Height of the tool's underside above the table, metres."),
     Key::required("start", VECTOR, "End-effector position at the start, metres."),
     Key::required("direction", REAL, "Heading of the motion, radians from world +x."),
@@ -29,7 +29,7 @@ const PUSH_STEP: Value = Value::Map(&[
 
 const LEVER_STEP: Value = Value::Map(&[
     Key::required("tool", Value::Name, "Name of the tool."),
-    Key::required("object", INDEX, "Index of the object that is levered."),
+    Key::required("object", INDEX, "Index of the object to lever."),
     PLACE,
     DEPTH,
     PIVOT,
@@ -40,7 +40,7 @@ const LEVER_STEP: Value = Value::Map(&[
     Key::optional(
         "expected",
         POSE,
-        "Where the object is expected by then; by default where the task has it.",
+        "Expected pose of the object before the step; by default its pose in the task.",
     ),
 ]);
 
@@ -48,17 +48,19 @@ const PLACE: Key = Key::required(
     "place",
     Value::Map(&[
         Key::required("edge", INDEX, "The edge from this corner to the next."),
-        Key::required("fraction", SHARE, "How far along it."),
+        Key::required("fraction", SHARE, "Position along the edge."),
     ]),
-    "Where the blade goes under its outline.",
+    "Where the blade enters below the outline.",
 );
 const DEPTH: Key = Key::required("depth", LEVER, "How far the tip lies behind the edge, metres.");
 const PIVOT: Key =
     Key::required("pivot", REAL, "Distance of the axis from the edge, inward, metres.");
-const ANGLE: Key = Key::required("angle", TURN, "Turn of the blade, radians.");
+const ANGLE: Key = Key::required("angle", TURN, "Rotation of the blade, radians.");
 const SPEED: Key = Key::required("speed", LEVER, "Speed of the tip, m/s.");
-const HOLD: Key = Key::required("hold", UNSIGNED, "How long the blade then stands still, seconds.");
-const RETREAT: Key = Key::required("retreat", UNSIGNED, "How far it is then drawn back, metres.");
+const HOLD: Key =
+    Key::required("hold", UNSIGNED, "Time for which the blade then stands still, seconds.");
+const RETREAT: Key =
+    Key::required("retreat", UNSIGNED, "Distance by which the blade is then drawn back, metres.");
 
 /// Large enough for any lever, small enough that no lever-up takes hours.
 const LEVER: Value = Value::Number(Range {
@@ -69,7 +71,7 @@ const LEVER: Value = Value::Number(Range {
 });
 
 const TURN: Value = Value::Number(Range {
-    what: "a turn in radians",
+    what: "a rotation in radians",
     low: 0.0,
     high: 3.2,
     advice: "half a turn is 3.14",
@@ -81,10 +83,10 @@ pub(super) const POSE_IN_SPACE: Value = Value::Map(&[
 ]);
 
 pub(super) const LIFT: Value = Value::Map(&[
-    Key::required("object", INDEX, "Index of the object that is levered."),
-    Key::required("raised", REAL, "How much higher its edge lies at the end of the turn, metres."),
-    Key::required("held", Value::Switch, "Whether it lies on the blade then."),
-    Key::required("tilt", REAL, "How far it is tilted, radians."),
+    Key::required("object", INDEX, "Index of the levered object."),
+    Key::required("raised", REAL, "Height gained by its edge at the end of the rotation, metres."),
+    Key::required("held", Value::Switch, "Whether the object then lies on the blade."),
+    Key::required("tilt", REAL, "Tilt of the object, radians."),
 ]);
 
 pub(super) const SCORE: Value = Value::Number(Range {

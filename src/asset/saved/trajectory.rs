@@ -73,14 +73,15 @@ fn check_frames(opened: &mut Opened, nodes: &[Node], own: &Own) {
     for (k, (node, frame)) in nodes.iter().zip(frames).enumerate() {
         opened.check_state(node.get("state"), &frame.state);
         if k > 0 && frame.time < frames[k - 1].time {
-            let message = format!("frame {k} is at {} s, before the one before it", frame.time);
-            opened.ledger.fault(node, message, "frames are in order of time");
+            let message =
+                format!("frame {k} is at {} s, earlier than the frame before it", frame.time);
+            opened.ledger.fault(node, message, "frames must be in order of time");
         }
         // The start belongs to step 0, even in a plan without steps.
         if frame.stroke >= own.plan.steps.len().max(1) {
             let steps = own.plan.steps.len();
-            let message = format!("step {} of a plan with {steps}", frame.stroke + 1);
-            opened.ledger.fault(node, message, "the file is damaged; make it again");
+            let message = format!("step {} does not exist: the plan has {steps}", frame.stroke + 1);
+            opened.ledger.fault(node, message, "the file is damaged; create it again");
         }
     }
 }
@@ -97,8 +98,8 @@ fn check_contacts(opened: &mut Opened, nodes: &[Node], own: &Own) {
             Body::Part(index) => index < parts,
         };
         if !known || object >= scene.objects.len() || frame >= own.trajectory.frames.len() {
-            let message = "a contact with a body or in a frame that does not exist";
-            opened.ledger.fault(node, message, "the file is damaged; make it again");
+            let message = "a contact refers to a body or frame that does not exist";
+            opened.ledger.fault(node, message, "the file is damaged; create it again");
         }
     }
 }

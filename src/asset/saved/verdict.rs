@@ -15,13 +15,14 @@ const MISS: Value = Value::Map(&[
     Key::optional(
         "heading_error",
         HEADING_ERROR,
-        "Heading error, radians; by default none is asked for.",
+        "Heading error, radians; by default the goal has no heading.",
     ),
-    Key::required("score", SCORE, "The demand that is met worst, at most 1 if it is met."),
+    Key::required("score", SCORE, "The least satisfied criterion, at most 1 if it is met."),
     Key::optional(
         "raised",
         REAL,
-        "Height by which a blade had lifted an edge at the end of its turn, metres; by default none did.",
+        "Height by which the blade had lifted the edge at the end of its rotation, metres; by \
+         default there was no lever-up.",
     ),
 ]);
 
@@ -42,10 +43,15 @@ pub(super) const VERDICT: Value = Value::Map(&[
     Key::required(
         "passed",
         Value::Switch,
-        "Whether the plan breaks no rule and reaches the goal, as written and often enough disturbed.",
+        "Whether the plan breaks no rule, and reaches the goal in the nominal replays and in \
+         enough of the perturbed ones.",
     ),
-    Key::optional("reason", REASON, "Why not; by default unknown."),
-    Key::optional("forbidden", WARNINGS, "What the task does not allow; by default nothing."),
+    Key::optional("reason", REASON, "Reason for the rejection; by default none."),
+    Key::optional(
+        "forbidden",
+        WARNINGS,
+        "Rules of the task that the plan breaks; by default none.",
+    ),
     Key::required(
         "evidence",
         Value::List { of: &EVIDENCE, items: "replays", min: 0, max: 200_002 },
@@ -54,72 +60,69 @@ pub(super) const VERDICT: Value = Value::Map(&[
     Key::optional(
         "robustness",
         Value::Either(&[SHARE, Value::Nothing]),
-        "Share of the disturbed replays that reach the goal; by default none was made.",
+        "Share of the perturbed replays that reach the goal; by default there was no perturbed \
+         replay.",
     ),
 ]);
 
 const REASON: Value = Value::Variant(&[
-    Key::optional(
-        "forbidden",
-        Value::Anything,
-        "The plan does what its task does not allow; no default.",
-    ),
-    Key::optional(
-        "goes_wrong",
-        GOES_WRONG,
-        "Something goes wrong when it is replayed as written; no default.",
-    ),
+    Key::optional("forbidden", Value::Anything, "The plan breaks a rule of its task; no default."),
+    Key::optional("goes_wrong", GOES_WRONG, "The nominal replay fails; no default."),
     Key::optional("misses", MISSES, "The object misses the goal; no default."),
     Key::optional(
         "fragile",
         FRAGILE,
-        "Too few of the disturbed replays reach the goal; no default.",
+        "Too few of the perturbed replays reach the goal; no default.",
     ),
-    Key::optional("never_on", NEVER_ON, "On one support none of them does; no default."),
+    Key::optional(
+        "never_on",
+        NEVER_ON,
+        "With one support model no perturbed replay reaches the goal; no default.",
+    ),
 ]);
 
 const NEVER_ON: Value = Value::Map(&[
-    Key::required("engine", ENGINE, "In which engine."),
-    Key::required("support", Value::Anything, "What objects rest on then."),
-    Key::required("replays", INDEX, "Disturbed replays on it."),
+    Key::required("engine", ENGINE, "Engine of the replays."),
+    Key::required("support", Value::Anything, "Support model of the objects in these replays."),
+    Key::required("replays", INDEX, "Number of perturbed replays with it."),
 ]);
 
 const GOES_WRONG: Value = Value::Map(&[
-    Key::required("engine", ENGINE, "Which engine says so."),
-    Key::required("fault", Value::Anything, "What goes wrong."),
+    Key::required("engine", ENGINE, "Engine of the replay."),
+    Key::required("fault", Value::Anything, "The failure."),
 ]);
 
 const MISSES: Value = Value::Map(&[
-    Key::required("engine", ENGINE, "Which engine says so."),
+    Key::required("engine", ENGINE, "Engine of the replay."),
     Key::required("error", UNSIGNED, "Largest distance of an object from its goal, metres."),
     Key::optional(
         "heading_error",
         HEADING_ERROR,
-        "Heading error, radians; by default none is asked for.",
+        "Heading error, radians; by default the goal has no heading.",
     ),
 ]);
 
 const FRAGILE: Value = Value::Map(&[
-    Key::required("engine", ENGINE, "In which engine fewer reach it."),
-    Key::required("reached", INDEX, "Disturbed replays that reach the goal."),
-    Key::required("replays", INDEX, "Disturbed replays."),
-    Key::required("wanted", SHARE, "Share that was asked for."),
+    Key::required("engine", ENGINE, "Engine in which fewer replays reach the goal."),
+    Key::required("reached", INDEX, "Number of perturbed replays that reach the goal."),
+    Key::required("replays", INDEX, "Number of perturbed replays."),
+    Key::required("wanted", SHARE, "Required share."),
 ]);
 
 const PERTURBED: Key = Key::required(
     "perturbed",
-    Value::Map(&[Key::required("draw", DRAW, "Number of the draw, from 1.")]),
-    "Starts and frictions were, by little and at random.",
+    Value::Map(&[Key::required("draw", DRAW, "Number of the perturbed replay, from 1.")]),
+    "Small random changes of starts and frictions.",
 );
 
 const EVIDENCE: Value = Value::Map(&[
-    Key::required("engine", ENGINE, "Which engine replayed it."),
+    Key::required("engine", ENGINE, "Engine of the replay."),
     Key::required(
         "perturbation",
         Value::Either(&[Value::Word(&["nominal"]), Value::Variant(&[PERTURBED])]),
-        "What was changed: `nominal` for nothing.",
+        "Perturbation: `nominal` for none.",
     ),
-    Key::required("outcome", OUTCOME, "Where it ended."),
-    Key::optional("warnings", WARNINGS, "What a reader should know; by default nothing."),
-    Key::optional("force", FORCE, "How hard the tool pressed; by default unknown."),
+    Key::required("outcome", OUTCOME, "Final state."),
+    Key::optional("warnings", WARNINGS, "Warnings and notes; by default none."),
+    Key::optional("force", FORCE, "Contact force of the tool; by default unknown."),
 ]);

@@ -20,7 +20,7 @@ pub(super) fn check_blades(root: &Node, library: &ToolLibrary, ledger: &mut Ledg
         let blade = mm(blade.thickness);
         (blade > mm(clearance) + 1e-6).then(|| {
             let free = mm(clearance);
-            format!("its blade is {blade} mm thick, but only {free} mm are free below `{name}`")
+            format!("its blade is {blade} mm thick, but the clearance below `{name}` is {free} mm")
         })
     };
     let Some(tools) = root.get("tools") else { return };
@@ -29,10 +29,14 @@ pub(super) fn check_blades(root: &Node, library: &ToolLibrary, ledger: &mut Ledg
     let named = || tools.items().iter().filter_map(Node::text);
     if root.get("pushes").is_some() && tools.text().is_none() {
         if named().any(pushing) && named().all(|name| levering(name).is_none()) {
-            ledger.fault(tools, "none of these tools has a blade", "name one that levers, too");
+            ledger.fault(
+                tools,
+                "none of these tools has a blade",
+                "name a tool that levers as well",
+            );
         } else if named().all(|name| levering(name).is_some()) {
-            let message = "pushes may follow, but none of these tools pushes";
-            ledger.fault(tools, message, "name one that pushes, too, or remove `pushes`");
+            let message = "the task allows pushes, but none of these tools can push";
+            ledger.fault(tools, message, "add a tool that can push, or remove `pushes`");
         }
     }
     for node in tools.items() {
@@ -46,7 +50,7 @@ pub(super) fn check_blades(root: &Node, library: &ToolLibrary, ledger: &mut Ledg
             (Some(blade), Some(clearance)) => {
                 if let Some(message) = fault(&blade, clearance) {
                     let message = format!("`{name}` does not fit: {message}");
-                    ledger.fault(node, message, "name a thinner tool, or mind the clearance");
+                    ledger.fault(node, message, "name a thinner tool, or check the clearance");
                 }
             }
             (Some(_), None) => {}
@@ -60,8 +64,8 @@ pub(super) fn check_blades(root: &Node, library: &ToolLibrary, ledger: &mut Ledg
             .min_by(|(_, a), (_, b)| a.thickness.total_cmp(&b.thickness))
         && let Some(message) = fault(&thinnest, clearance)
     {
-        let message = format!("no tool fits, the thinnest is `{name}`: {message}");
-        ledger.fault(tools, message, "add a thinner tool, or mind the clearance");
+        let message = format!("no blade is thin enough; the thinnest is `{name}`: {message}");
+        ledger.fault(tools, message, "add a thinner tool, or check the clearance");
     }
 }
 

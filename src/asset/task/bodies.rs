@@ -50,8 +50,8 @@ pub(super) fn known_object<'a>(
     let found = objects.iter().find(|object| name_of(object) == Some(wanted));
     if found.is_none() {
         if obstacles.iter().any(|obstacle| name_of(obstacle) == Some(wanted)) {
-            let message = format!("`{wanted}` is an obstacle, fixed to the table");
-            ledger.fault(name, message, "name an object; objects can be pushed");
+            let message = format!("`{wanted}` is an obstacle, which is fixed to the table");
+            ledger.fault(name, message, "name an object; only objects can be pushed");
         } else {
             let advice = did_you_mean(wanted, objects.iter().filter_map(name_of));
             ledger.fault(name, format!("no object is called `{wanted}`"), advice);

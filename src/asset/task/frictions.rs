@@ -18,15 +18,16 @@ const TOOL: &str = "tool";
 pub(in crate::asset) const FRICTIONS: Key = Key::optional(
     "frictions",
     Value::List { of: &FRICTION, items: "frictions", min: 0, max: 256 },
-    "Coefficients of friction of pairs that are not the mean of the two values; by default none.",
+    "Friction coefficients of pairs for which it is not the mean of the two values; by default \
+     none.",
 );
 
 const FRICTION: Value = Value::Map(&[
     Key::required(
         "between",
         Value::List { of: &Value::Name, items: "names", min: 2, max: 2 },
-        "An object and what it touches: another object, an obstacle, `table`, or `tool` for \
-         any tool or pusher.",
+        "An object and the body that it touches: another object, an obstacle, `table`, or `tool` \
+         for any tool or pusher.",
     ),
     Key::required(
         "coefficient",
@@ -36,7 +37,7 @@ const FRICTION: Value = Value::Map(&[
             high: 2.0,
             advice: "steel on steel with oil is about 0.1, rubber on wood about 0.8",
         }),
-        "Their coefficient of friction.",
+        "Friction coefficient of the pair.",
     ),
 ]);
 
@@ -83,15 +84,16 @@ pub(super) fn check(frictions: &[Node], objects: &[Node], obstacles: &[Node], le
         if let Some(node) = strange {
             let name = node.text().unwrap_or_default();
             let advice = did_you_mean(name, bodies().chain([TABLE, TOOL]));
-            ledger.fault(node, format!("nothing is called `{name}`"), advice);
+            ledger.fault(node, format!("no body is called `{name}`"), advice);
         } else if let Some(name) = reserved {
-            let message = format!("`{name}` is a body here as well as the {name} itself");
+            let message =
+                format!("`{name}` is the name of a body and also the reserved word for the {name}");
             ledger.fault(between, message, "give the body another name");
         } else if first == second {
             let advice = "name two different bodies";
-            ledger.fault(between, "a friction of a body with itself", advice);
+            ledger.fault(between, "a friction coefficient of a body with itself", advice);
         } else if !is_object(first) && !is_object(second) {
-            let message = "neither of the two is an object";
+            let message = "neither of the two bodies is an object";
             ledger.fault(between, message, "name an object; only objects are pushed");
         } else if known.contains(&[first, second]) || known.contains(&[second, first]) {
             let message = format!("the friction of `{first}` and `{second}` is given twice");
@@ -104,7 +106,9 @@ pub(super) fn check(frictions: &[Node], objects: &[Node], obstacles: &[Node], le
             && coefficient < LEAST_ON_TABLE
         {
             let message = format!("a coefficient of {coefficient} between an object and the table");
-            let advice = format!("give at least {LEAST_ON_TABLE}: with less nothing comes to rest");
+            let advice = format!(
+                "give at least {LEAST_ON_TABLE}; with less friction no object comes to rest"
+            );
             ledger.fault(value, message, advice);
         }
     }

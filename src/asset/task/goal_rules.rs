@@ -23,7 +23,7 @@ pub(super) fn check(goal: &Node, scene: &Node, ledger: &mut Ledger) {
     let other = relative.and_then(|other| known_object(other, objects, obstacles, ledger));
     if let Some(node) = relative.filter(|_| other.is_some_and(|other| other.id == object.id)) {
         let advice = "name another object, or leave it out for the world";
-        ledger.fault(node, "an object is always where it is to itself", advice);
+        ledger.fault(node, "an object cannot be relative to itself", advice);
     }
     let solid = object.get("shape").and_then(shape);
     // A levered object may end on top of another body.
@@ -76,13 +76,13 @@ fn demands(goal: &Node, ledger: &mut Ledger) {
     let (places, turns) =
         (asking(goal, &[About::Place, About::Pose]), asking(goal, &[About::Turn]));
     for twice in [&places, &turns].into_iter().filter(|keys| keys.len() > 1) {
-        let message = format!("`{}` and `{}` ask for the same", twice[0], twice[1]);
+        let message = format!("`{}` and `{}` constrain the same property", twice[0], twice[1]);
         ledger.fault(goal.get(twice[1]).unwrap_or(goal), message, "keep one of them");
     }
     for key in asking(goal, &[About::Pose]) {
         if let (Some(node), Some(turn)) = (goal.get(key), turns.first()) {
-            let message = format!("`{key}` does not go together with `{turn}`");
-            let advice = "keep one of them; a coverage has a heading of its own";
+            let message = format!("`{key}` cannot be combined with `{turn}`");
+            let advice = "keep one of them; a coverage has its own heading";
             ledger.fault(node, message, advice);
         }
     }
@@ -91,7 +91,7 @@ fn demands(goal: &Node, ledger: &mut Ledger) {
         let strange = goal.pairs().iter().any(|(key, _)| !is_key(key.text()));
         if !strange {
             let advice = format!("add {}", ways_to_ask());
-            ledger.fault(goal, "this goal asks for nothing", advice);
+            ledger.fault(goal, "the goal has no criterion", advice);
         }
     }
 }
@@ -119,7 +119,7 @@ fn room_at_the_goal(
             let [object, other] = [name.text(), name_of(other)].map(|n| n.unwrap_or("?"));
             ledger.fault(
                 node,
-                format!("at the goal `{object}` would be inside `{other}`"),
+                format!("at the goal `{object}` would overlap `{other}`"),
                 "move the goal or the obstacle, or allow a larger tolerance",
             );
         }

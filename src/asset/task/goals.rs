@@ -58,14 +58,14 @@ const SHARED: [Key; 5] = [
     Key::optional(
         "objects",
         Value::List { of: &Value::Name, items: "names of objects", min: 1, max: 16 },
-        "Names of objects that are all to be brought to the goal; by default `object` names one.",
+        "Names of objects that must all be brought to the goal; by default `object` names one.",
     ),
     group::AT_LEAST,
     Key::optional(
         "relative_to",
         Value::Name,
-        "Another object in whose frame position, region and heading are, wherever that has come to; by \
-         default the world.",
+        "Another object that defines the frame of position, region and heading, at its final pose; \
+         by default the world.",
     ),
     Key::optional(
         "weight",
@@ -75,8 +75,8 @@ const SHARED: [Key; 5] = [
             high: 1000.0,
             advice: "1 is usual, 2 counts twice",
         }),
-        "How much it counts where not all of several goals can be met: a plan meets those that weigh most \
-         together, and is called partial; default 1.",
+        "Weight of the goal if not all of several goals can be met: a plan meets the goals of the \
+         largest total weight and is called partial; default 1.",
     ),
 ];
 

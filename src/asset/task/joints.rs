@@ -41,45 +41,41 @@ const KEYS: &[Key] = &[
     Key::required(
         "between",
         Value::List { of: &Value::Name, items: "object names", min: 2, max: 2 },
-        "The names of the two objects. `world`, or an obstacle, in the place of one joins the other to \
-         the table, as a door or a drawer is.",
+        "The names of the two objects. `world`, or an obstacle, in place of one of them joins the \
+         other to the table, like a door or a drawer.",
     ),
     Key::required(
         "kind",
         Value::Word(&["fixed", "revolute", "prismatic"]),
-        "What it allows: nothing, turning about a vertical axis, or sliding along a line.",
+        "Motion that it allows: none, rotation about a vertical axis, or sliding along a line.",
     ),
-    Key::optional(
-        "at",
-        POSITION,
-        "Where the axis of a revolute joint stands, [x, y] in metres; no default.",
-    ),
+    Key::optional("at", POSITION, "Axis of a revolute joint, [x, y] in metres; no default."),
     Key::optional(
         "limits_deg",
         numbers(&ANGLE_LIMIT, 2),
-        "Smallest and largest turn of the second object against the first, [low, high] in degrees \
-         counter-clockwise from the start (revolute joints only); by default unlimited.",
+        "Smallest and largest rotation of the second object relative to the first, [low, high] in \
+         degrees counter-clockwise from the start (revolute joints only); by default unlimited.",
     ),
     Key::optional(
         "axis",
         numbers(&ALONG, 2),
-        "Direction in which a prismatic joint slides, [x, y] of any length; no default.",
+        "Direction of displacement of a prismatic joint, [x, y] of any length; no default.",
     ),
     Key::optional(
         "limits",
         numbers(&SHIFT_LIMIT, 2),
-        "Smallest and largest shift of the second object against the first, [low, high] in metres \
-         along the axis from the start (prismatic joints only); by default unlimited.",
+        "Smallest and largest displacement of the second object relative to the first, [low, high] \
+         in metres along the axis from the start (prismatic joints only); by default unlimited.",
     ),
     Key::optional(
         "guessed",
         Value::Switch,
-        "Whether only the kind is known, and `at` or `axis` is a guess; default false.",
+        "Whether only the kind is known and `at` or `axis` is a guess; default false.",
     ),
 ];
 
 const ALONG: Value = Value::Number(Range {
-    what: "a part of a direction",
+    what: "a component of a direction",
     low: -1000.0,
     high: 1000.0,
     advice: "only the direction counts: [1, 0] is +x",
@@ -159,8 +155,8 @@ pub(super) fn check(joints: &[Node], objects: &[Node], obstacles: &[Node], ledge
         if known.contains(&pair) || known.contains(&[pair[1], pair[0]]) {
             ledger.fault(
                 node,
-                format!("`{}` and `{}` have a joint already", names[0], names[1]),
-                "keep one of the two; two objects can have one joint",
+                format!("`{}` and `{}` already have a joint", names[0], names[1]),
+                "keep one of the two; two objects can have only one joint",
             );
             continue;
         }
@@ -204,15 +200,15 @@ fn check_keys(joint: &Node, ledger: &mut Ledger) {
     for (key, owner) in keys.filter(|(_, owner)| *owner != kind) {
         let Some(node) = joint.get(key) else { continue };
         let advice = match (key, kind) {
-            ("limits", "revolute") => "turns are limited by `limits_deg`, in degrees".into(),
-            ("limits_deg", "prismatic") => "shifts are limited by `limits`, in metres".into(),
-            _ => format!("remove it; only a {owner} joint has one"),
+            ("limits", "revolute") => "limits of rotation are `limits_deg`, in degrees".into(),
+            ("limits_deg", "prismatic") => "limits of displacement are `limits`, in metres".into(),
+            _ => format!("remove it; only a {owner} joint has this key"),
         };
         ledger.fault(node, format!("a {kind} joint has no `{key}`"), advice);
     }
     let needed = match kind {
-        "revolute" => ("at", "add `at: [x, y]`, where the axis stands"),
-        "prismatic" => ("axis", "add `axis: [x, y]`, the direction of sliding"),
+        "revolute" => ("at", "add `at: [x, y]`, the position of the axis"),
+        "prismatic" => ("axis", "add `axis: [x, y]`, the direction of displacement"),
         _ => return,
     };
     // A misspelled key is one fault, not two.
@@ -251,15 +247,15 @@ fn check_limits(joint: &Node, ledger: &mut Ledger) {
         } else if key == "limits_deg" && high - low > MOST_TURN {
             ledger.fault(
                 node,
-                format!("from {low} to {high} is more than {MOST_TURN} degrees"),
-                "leave the limits out where a joint turns freely",
+                format!("the range from {low} to {high} is larger than {MOST_TURN} degrees"),
+                "leave the limits out if the joint rotates freely",
             );
         } else if low > 0.0 || high < 0.0 {
             ledger.fault(
                 node,
                 format!("the start, a {what} of 0, violates the limits {low} to {high}"),
-                "limits count from where the objects stand at the start: widen them to hold 0, or \
-                 move the objects",
+                "limits are relative to the poses at the start: widen them to contain 0, or move \
+                 the objects",
             );
         }
     }
@@ -289,7 +285,7 @@ fn check_distances(joint: &Node, first: &Node, second: &Node, ledger: &mut Ledge
         let [a, b] = names();
         ledger.fault(
             node,
-            format!("the axis stands {beyond:.2} m beyond `{a}` and `{b}`; at most {FAR} m can be"),
+            format!("the axis is {beyond:.2} m away from `{a}` and `{b}`; the limit is {FAR} m"),
             "`at` is in the world frame, in metres",
         );
     }
@@ -322,8 +318,8 @@ impl Groups {
         let group = self.sets.lowest(object);
         if std::mem::replace(&mut self.held[group], true) {
             let message =
-                format!("`{name}` is joined to the world twice, if by way of another object");
-            ledger.fault(node, message, "remove one of the joints; joined objects form trees");
+                format!("`{name}` is joined to the world twice, maybe through another object");
+            ledger.fault(node, message, "remove one of the joints; joined objects must form trees");
         }
     }
 
@@ -335,10 +331,10 @@ impl Groups {
             ledger.fault(
                 node,
                 format!(
-                    "this joint of `{}` and `{}` closes a loop that the simulator cannot hold",
+                    "this joint of `{}` and `{}` closes a loop, which is not supported",
                     names[0], names[1]
                 ),
-                "remove one joint of the loop; joined objects form trees",
+                "remove one joint of the loop; joined objects must form trees",
             );
             return;
         }
@@ -347,7 +343,8 @@ impl Groups {
             ledger.fault(
                 node,
                 format!(
-                    "with this joint {} objects are joined together; at most {GROUP} can be simulated",
+                    "this joint connects {} objects; at most {GROUP} joined objects can be \
+                     simulated",
                     a_size + b_size
                 ),
                 "remove a joint, or write objects with fixed joints as one cuboid",
@@ -358,7 +355,11 @@ impl Groups {
                 "this joint closes a loop through the world: `{}` and `{}` are both joined to it",
                 names[0], names[1]
             );
-            ledger.fault(node, message, "remove one joint of the loop; joined objects form trees");
+            ledger.fault(
+                node,
+                message,
+                "remove one joint of the loop; joined objects must form trees",
+            );
         }
         self.sets.join(pair);
         let fixed = node.get("kind").and_then(Node::text) == Some("fixed");
@@ -386,8 +387,8 @@ impl Groups {
                 ledger.fault(
                     heaviest.1,
                     format!(
-                        "this object has {ratio:.1} times the mass of the lightest that it is \
-                         joined with ({} kg); at most {most} times can be simulated",
+                        "this object has {ratio:.1} times the mass of the lightest object joined \
+                         to it ({} kg); at most {most} times can be simulated",
                         lightest.0
                     ),
                     "bring the masses of joined objects closer together",

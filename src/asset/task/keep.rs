@@ -25,11 +25,15 @@ pub(in crate::asset) const KEEP: Key = Key::optional(
         Key::required(
             "objects",
             Value::List { of: &Value::Name, items: "names of objects", min: 1, max: 64 },
-            "Names of objects that stay where they are.",
+            "Names of objects that must stay in place.",
         ),
-        Key::optional("within", SIZE, "How far they may be moved, metres; default 0.005."),
+        Key::optional(
+            "within",
+            SIZE,
+            "Largest displacement of a kept object, metres; default 0.005.",
+        ),
     ]),
-    "What no plan may move; by default everything may be pushed aside, though nothing may topple \
+    "Objects that no plan may move; by default every object may be displaced, but none may topple \
      or fall.",
 );
 
@@ -37,19 +41,19 @@ pub(in crate::asset) const KEEP: Key = Key::optional(
 pub(in crate::asset) const KEEP_OUT: Key = Key::optional(
     "keep_out",
     Value::List { of: &REGION, items: "regions", min: 0, max: 16 },
-    "Regions of the table that objects, tool or hand keep out of, from the table to the ceiling; by \
+    "Keep-out regions of the table for objects, tool or hand, from the table to the ceiling; by \
      default none.",
 );
 
 const REGION: Value = Value::Map(&[
-    Key::required("name", Value::Name, "The region's name, unlike that of any body."),
+    Key::required("name", Value::Name, "The region's name, different from the name of any body."),
     AREA,
     AREA_POSITION,
     AREA_YAW,
     Key::optional(
         "for",
         Value::List { of: &Value::Word(WORDS), items: "words", min: 1, max: 3 },
-        "What keeps out of it: `objects`, `tool`, `hand`; by default all of them.",
+        "Kinds of bodies that must stay out: `objects`, `tool`, `hand`; by default all of them.",
     ),
 ]);
 
@@ -59,7 +63,7 @@ pub(super) const AREA: Key = Key::required(
     Value::Variant(&[
         Key::optional(
             "circle",
-            Value::Map(&[Key::required("radius", SIZE, "Its radius in metres.")]),
+            Value::Map(&[Key::required("radius", SIZE, "Radius in metres.")]),
             "A circle; no default.",
         ),
         Key::optional(
@@ -76,23 +80,23 @@ pub(super) const AREA: Key = Key::required(
             Value::Map(&[Key::required(
                 "corners",
                 Value::List { of: &POSITION, items: "corners", min: 3, max: MAX_CORNERS },
-                "Its corners in order, [x, y] in metres from the region's position.",
+                "Corners in order, [x, y] in metres from the region's position.",
             )]),
             "A convex polygon; no default.",
         ),
     ]),
-    "Its outline.",
+    "Outline of the region.",
 );
 
 /// Key of the position of a region.
 pub(super) const AREA_POSITION: Key = Key::optional(
     "position",
     POSITION,
-    "Where it is, [x, y] in metres: the middle of a circle or rectangle; default [0, 0].",
+    "Position, [x, y] in metres: the middle of a circle or rectangle; default [0, 0].",
 );
 
 /// Key of the rotation of a region.
-pub(super) const AREA_YAW: Key = Key::optional("yaw_deg", ANGLE, "Its turn, degrees; default 0.");
+pub(super) const AREA_YAW: Key = Key::optional("yaw_deg", ANGLE, "Rotation, degrees; default 0.");
 
 const WORDS: &[&str] = &["objects", "tool", "hand"];
 
@@ -156,7 +160,8 @@ pub(super) fn check(root: &Node, bodies: &[&Node], objects: &[Node], ledger: &mu
     for (k, node) in regions.iter().enumerate() {
         let taken = |other: &&Node| name_of(other).is_some() && name_of(other) == name_of(node);
         if bodies.iter().copied().chain(&regions[..k]).any(|other| taken(&other)) {
-            let message = format!("something else is called `{}`", name_of(node).unwrap_or("?"));
+            let message =
+                format!("another body or region is called `{}`", name_of(node).unwrap_or("?"));
             ledger.fault(
                 node.get("name").unwrap_or(node),
                 message,
@@ -169,8 +174,7 @@ pub(super) fn check(root: &Node, bodies: &[&Node], objects: &[Node], ledger: &mu
             let inside = body(object).is_some_and(|(shape, pose)| region.holds(&shape, &pose, 0.0));
             if inside {
                 let name = name_of(object).unwrap_or("?");
-                let message =
-                    format!("`{name}` stands in `{}`, which objects keep out of", region.name);
+                let message = format!("`{name}` stands in the keep-out region `{}`", region.name);
                 ledger.fault(node, message, "move one of them, or leave `objects` out of `for`");
             }
         }

@@ -15,9 +15,9 @@ use super::goals;
 pub(super) const LEVERS: Key = Key::optional(
     "levers",
     RULES,
-    "The lever-ups that a plan may contain; every key has a default. A goal with `outside`, `raised` \
-     or `flipped` allows them, too; by default there are none. A plan is then one lever-up, unless \
-     `pushes` is given and `tools` names some that push as well.",
+    "The lever-ups that a plan may contain; every key has a default. A goal with `outside`, \
+     `raised` or `flipped` also allows them; by default there are none. A plan then has one \
+     lever-up, unless `pushes` is given and `tools` also names tools that push.",
 );
 
 const RULES: Value = Value::Map(&[
@@ -30,7 +30,7 @@ const RULES: Value = Value::Map(&[
     Key::optional(
         "angle_deg",
         Value::List { of: &TURN, items: "angles in degrees", min: 2, max: 2 },
-        "Smallest and largest turn of the blade, degrees; default 30 and 150.",
+        "Smallest and largest rotation of the blade, degrees; default 30 and 150.",
     ),
     Key::optional(
         "pivot",
@@ -44,9 +44,9 @@ const RULES: Value = Value::Map(&[
                 max: 8,
             },
         ]),
-        "Where the axis lies that the blade turns about: its distance from the edge, inward, in \
-         metres (below zero behind the edge, to pry), or `auto`, the line that the plate turns \
-         about; default auto, 0.16 and -0.012.",
+        "Axes about which the blade may rotate, as distances from the edge, inward, in metres \
+         (below zero behind the edge, to pry). `auto` is the line about which the plate rotates. \
+         Default auto, 0.16 and -0.012.",
     ),
     Key::optional(
         "speed",
@@ -66,7 +66,7 @@ const RULES: Value = Value::Map(&[
             high: 10.0,
             advice: "a fifth of a second is 0.2",
         }),
-        "How long the blade stands still at the end, seconds; default 0.2.",
+        "Time for which the blade stands still at the end, seconds; default 0.2.",
     ),
     Key::optional(
         "retreat",
@@ -76,8 +76,8 @@ const RULES: Value = Value::Map(&[
             high: 1.0,
             advice: "10 cm is 0.10",
         }),
-        "How far the blade is drawn back along its shaft, and from how far it comes, metres; default \
-         0.10.",
+        "Distance by which the blade is drawn back along its shaft, and from which it approaches, \
+         metres; default 0.10.",
     ),
 ]);
 
@@ -99,7 +99,7 @@ const DEPTH: Value = Value::Number(Range {
 });
 
 const TURN: Value = Value::Number(Range {
-    what: "a turn in degrees",
+    what: "a rotation in degrees",
     low: 1.0,
     high: 150.0,
     advice: "plates turn over at about 90 degrees",
@@ -189,12 +189,12 @@ pub(super) fn check(levers: &Node, ledger: &mut Ledger) {
 /// state a position.
 pub(super) fn check_follow_up(pushes: &Node, goal: &Node, ledger: &mut Ledger) {
     if let Some(node) = pushes.get("form").filter(|form| form.text() == Some("chained")) {
-        let message = "pushes that follow a lever-up are placed, none goes on from `home`";
+        let message = "pushes that follow a lever-up are placed and cannot continue from `home`";
         ledger.fault(node, message, "remove `form`");
     }
     let wanted = ["position", "region", "gap", "coverage", "off_table", "joint", "joint_deg"];
     if goal.get("object").is_some() && !wanted.iter().any(|key| goal.get(key).is_some()) {
-        let message = "pushes may follow, but the goal names no place to push to";
+        let message = "pushes may follow, but the goal states no position to push to";
         ledger.fault(pushes, message, "add `position` and `tolerance` to the goal, or remove this");
     }
 }

@@ -173,8 +173,9 @@ pub(in crate::asset) fn scene_of(node: &Node, slack: f64, ledger: &mut Ledger) -
 
 fn unknown_tool(name: &str, library: &ToolLibrary) -> (String, String) {
     if library.get(name).is_some() {
-        let message = format!("`{name}` has a blade: it levers, and this task is one of pushes");
-        return (message, "name a tool that pushes, or add `levers` for a task of levering".into());
+        let message =
+            format!("`{name}` has a blade, so it levers, but this task allows only pushes");
+        return (message, "name a tool that pushes, or add `levers` to allow levering".into());
     }
     let known = library.iter().map(|tool| tool.name.as_str());
     (format!("unknown tool `{name}`"), did_you_mean(name, known))

@@ -21,22 +21,22 @@ pub(in crate::asset) const OBJECT_NAME: Key =
 
 /// Key of an object's shape.
 pub(in crate::asset) const OBJECT_SHAPE: Key =
-    Key::required("shape", SHAPE, "The object's solid, standing upright.");
+    Key::required("shape", SHAPE, "The object's solid, which stands upright.");
 
 /// Key of the free height for a blade below an object.
 const CLEARANCE: Key = Key::optional(
     "clearance",
     HEIGHT,
-    "Free height below the underside at its edge, metres: room for a blade. An object that lies no \
-     higher stands on feet of this height at its corners; default `z`.",
+    "Free height below the underside at its edge, metres: room for a blade. An object whose `z` \
+     equals this height stands on feet at its corners; default `z`.",
 );
 
 /// Key of an object's height above the table.
 const Z: Key = Key::optional(
     "z",
     HEIGHT,
-    "Height of the underside above the table, metres; default `clearance`, or else 0. An object that \
-     lies higher than its clearance needs obstacles below it.",
+    "Height of the underside above the table, metres; default `clearance`, or 0 without one. An \
+     object that lies higher than its clearance needs obstacles below it.",
 );
 
 const HEIGHT: Value = Value::Number(Range {
@@ -47,7 +47,7 @@ const HEIGHT: Value = Value::Number(Range {
 });
 
 const SHARE: Value = Value::Number(Range {
-    what: "a share of a colour",
+    what: "a colour component",
     low: 0.0,
     high: 1.0,
     advice: "white is [1, 1, 1], red is [1, 0, 0]",
@@ -66,7 +66,7 @@ const FIELDS: [Field<Object>; 13] = [
         fault: |_| None,
     },
     Field {
-        key: Key::required("shape", PLACED_SHAPE, "The object's solid, standing upright."),
+        key: Key::required("shape", PLACED_SHAPE, "The object's solid, which stands upright."),
         read: |_, node, object| set(&mut object.shape, shape(node)),
         write: |object| {
             Some(if object.in_space() { drawn(&object.shape) } else { put::shape(&object.shape) })
@@ -82,7 +82,7 @@ const FIELDS: [Field<Object>; 13] = [
     // Parts are separate objects of the scene, which reads and writes them.
     Field { key: PARTS, read: |_, _, _| Some(()), write: |_| None, fault: |_| None },
     Field {
-        key: Key::required("mass", MASS, "Mass in kg, parts included."),
+        key: Key::required("mass", MASS, "Mass in kg, including parts."),
         read: |_, node, object| set(&mut object.mass, node.number()),
         write: |object| Some(json!(object.mass)),
         fault: |object| positive(object.mass),
@@ -108,7 +108,7 @@ const FIELDS: [Field<Object>; 13] = [
         key: Key::optional(
             "may_fall",
             Value::Switch,
-            "Whether it may topple or be pushed off the table; default false.",
+            "Whether the object may topple or fall off the table; default false.",
         ),
         read: |_, node, object| set(&mut object.may_fall, node.switch()),
         write: |object| object.may_fall.then_some(Json::Bool(true)),
@@ -118,8 +118,8 @@ const FIELDS: [Field<Object>; 13] = [
         key: Key::optional(
             "max_force",
             FORCE,
-            "Largest force in newtons with which a tool may press on it, parts included, for longer than an \
-             impact; by default any.",
+            "Largest force in newtons with which a tool may press on the object, including its \
+             parts, for longer than an impact; by default any.",
         ),
         read: |_, node, object| set(&mut object.max_force, node.number().map(Some)),
         write: |object| object.max_force.map(|force| json!(force)),
@@ -129,7 +129,8 @@ const FIELDS: [Field<Object>; 13] = [
         key: Key::optional(
             "color",
             numbers(&SHARE, 3),
-            "Red, green and blue, each from 0 to 1, for simulators and viewers; by default their own.",
+            "Red, green and blue, each from 0 to 1, for simulators and viewers; by default chosen \
+             by them.",
         ),
         read: |_, node, object| {
             let [red, green, blue] = node.items() else { return None };
@@ -139,7 +140,8 @@ const FIELDS: [Field<Object>; 13] = [
         write: |object| object.color.map(|color| json!(color)),
         fault: |object| {
             let inside = |share: &f64| (0.0..=1.0).contains(share);
-            (!object.color.iter().flatten().all(inside)).then_some("must be of numbers from 0 to 1")
+            (!object.color.iter().flatten().all(inside))
+                .then_some("must contain numbers from 0 to 1")
         },
     },
     Field {

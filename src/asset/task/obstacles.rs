@@ -13,7 +13,7 @@ use crate::scene::{Obstacle, Scene};
 pub(in crate::asset) const OBSTACLES: Key = Key::optional(
     "obstacles",
     Value::List { of: &OBSTACLE, items: "obstacles", min: 0, max: 64 },
-    "Cuboids that do not move, such as walls, shelves, and floor and standoffs of a tray; by default \
+    "Fixed cuboids, such as walls, shelves, and the floor and standoffs of a tray; by default \
      none.",
 );
 
@@ -23,8 +23,8 @@ const OBSTACLE: Value = Value::Map(&[
     Key::required(
         "position",
         PLACE,
-        "Centre, [x, y] in metres; a third number is the height of its underside above the table; \
-         without one it stands there.",
+        "Centre, [x, y] in metres; a third number is the height of its underside above the table, \
+         by default 0.",
     ),
     Key::optional("yaw_deg", ANGLE, "Heading, degrees; default 0."),
     Key::optional("friction", FRICTION, "Friction value; default 0.5."),
@@ -56,9 +56,11 @@ pub(in crate::asset) fn check(obstacles: &[Node], ledger: &mut Ledger) {
             && let Some(z) = height(place, 0.0).filter(|z| *z < 0.0)
         {
             let name = name_of(node).unwrap_or("?");
-            let message = format!("the underside of `{name}` is {z} m above the table: below it");
-            let advice = "the third number is the height of the underside; leave it out where it stands \
-                          on the table";
+            let message = format!(
+                "the underside of `{name}` is {z} m above the table, which is below the table"
+            );
+            let advice = "the third number is the height of the underside; leave it out if the \
+                          obstacle stands on the table";
             ledger.fault(place, message, advice);
         }
     }

@@ -14,7 +14,7 @@ use super::support::OBJECT_SUPPORT;
 pub(super) const PARTS: Key = Key::optional(
     "parts",
     Value::List { of: &PART, items: "parts", min: 0, max: 16 },
-    "Further solids that are one with it, as a mug's handle is; by default none.",
+    "Further solids that are rigidly attached, like the handle of a mug; by default none.",
 );
 
 /// Height of a part above its object's underside, metres; limited like the heights of solids.
@@ -22,33 +22,36 @@ const RISE: Value = Value::Number(Range {
     what: "a height in metres",
     low: 0.0,
     high: 10.0,
-    advice: "heights are in metres, upward from the underside of the object: 60 mm is 0.06",
+    advice: "heights are in metres, measured up from the underside of the object: 60 mm is 0.06",
 });
 
 const PART: Value = Value::Map(&[
     Key::optional(
         "name",
         Value::Name,
-        "What messages call it, after the object's name and a slash; by default its number.",
+        "Name in messages, after the object's name and a slash; by default its number.",
     ),
-    Key::required("shape", PLACED_SHAPE, "The part's solid, upright."),
+    Key::required("shape", PLACED_SHAPE, "The part's solid, which stands upright."),
     Key::required(
         "position",
         PLACE,
-        "Its centre in the object's frame, [x, y] in metres; [0, 0] is the object's position. A third \
-         number is `z`. On an object with `clearance` or `z`, from the origin of its corners.",
+        "Its centre in the object's frame, [x, y] in metres; [0, 0] is the object's position. A \
+         third number is `z`. On an object with `clearance` or `z`, positions are from the origin \
+         of its corners.",
     ),
-    Key::optional("yaw_deg", ANGLE, "Its turn in the object's frame, degrees; default 0."),
+    Key::optional("yaw_deg", ANGLE, "Rotation in the object's frame, degrees; default 0."),
     Key::optional(
         "z",
         RISE,
-        "Height of its underside above the object's, metres; default 0, or on top of an object with \
-         `clearance` or `z`. What is higher than 0 carries no weight, and lower things pass below it.",
+        "Height of its underside above the object's, metres; default 0, or on top of an object \
+         with `clearance` or `z`. A part above 0 carries no weight, and lower bodies can pass \
+         below it.",
     ),
     Key::optional(
         "mass",
         MASS,
-        "Its share of the object's mass, kg; by default what the others leave, by volume.",
+        "Mass of the part, kg; by default a share, by volume, of the mass that the other parts \
+         leave.",
     ),
     Key::optional("friction", FRICTION, "Friction value; by default the object's."),
     OBJECT_SUPPORT,

@@ -97,9 +97,9 @@ pub(super) fn check(object: &Node, ledger: &mut Ledger) {
         ledger.fault(
             node,
             format!(
-                "the parts alone have {stated} kg, so nothing is left for the object's own solid"
+                "the parts alone have {stated} kg, so no mass is left for the object's own solid"
             ),
-            "`mass` is that of everything, parts included",
+            "`mass` is the total mass, including parts",
         );
     }
 }
@@ -117,21 +117,25 @@ fn above(object: &Node, ledger: &mut Ledger) {
     for (k, part) in parts.iter().enumerate() {
         let solid = &solids[k + 1];
         if hanging.contains(&(k + 1)) {
-            let message =
-                format!("`{}` hangs in the air: it touches nothing of its object", solid.name);
+            let message = format!(
+                "`{}` hangs in the air: it touches no other solid of its object",
+                solid.name
+            );
             let advice = "move it until it touches another part, seen from above and from the side";
             ledger.fault(part.get("z").unwrap_or(part), message, advice);
         }
         if let Some(support) = part.get("support").filter(|_| solid.is_raised()) {
-            let message = format!("`{}` is above the table and rests on nothing", solid.name);
+            let message =
+                format!("`{}` is above the table and has no support below it", solid.name);
             ledger.fault(support, message, "leave `support` out, or `z`");
         }
     }
     if bearings(&solids.iter().collect::<Vec<_>>()).is_none() {
         ledger.fault(
             object.get("parts").unwrap_or(object),
-            "the object would fall: its centre of mass does not lie above what it stands on",
-            "what is above the table carries nothing; make it lighter, or let more stand",
+            "the object would topple: its centre of mass is not above its support",
+            "solids above the table carry no weight; make them lighter, or add solids that stand \
+             on the table",
         );
     }
 }

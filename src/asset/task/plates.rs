@@ -143,7 +143,7 @@ pub(super) fn heights(object: &Node, ledger: &mut Ledger) {
         && let (Some(clearance), Some(z)) = (clearance.number(), node.number())
         && z < clearance
     {
-        let message = format!("the underside is at {z} m, but {clearance} m are free below");
+        let message = format!("the underside is at {z} m, but the clearance is {clearance} m");
         ledger.fault(node, message, "raise `z`, or lower the clearance");
     }
 }
@@ -153,8 +153,7 @@ pub(super) fn bodies(objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) 
     let Some(solids) = objects_of(objects) else {
         let unread = |node: &&Node| objects_of(std::slice::from_ref(*node)).is_none();
         for node in objects.iter().filter(|node| is_plate(node)).filter(unread) {
-            let message =
-                "the outline of `shape` does not lie around the centre of mass of all parts";
+            let message = "the outline of `shape` does not contain the centre of mass of all parts";
             let advice =
                 "a blade lifts that outline: enlarge it, move the parts, or make them lighter";
             ledger.fault(node.get("shape").unwrap_or(node), message, advice);
@@ -172,14 +171,15 @@ pub(super) fn bodies(objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) 
             let deep = |a: &Solid| others.iter().any(|b| a.depth(b) > SLACK);
             if own.iter().any(deep) {
                 let message = format!("`{}` overlaps `{name}`", plate.name);
-                let advice = "move one of them, or mind `z`; bodies may touch but not share space";
+                let advice = "move one of them, or check `z`; bodies may touch but not overlap";
                 ledger.fault(place, message, advice);
             }
         }
         if !plate.has_feet() && !is_held(plate, &blocks) {
-            let message = format!("nothing holds `{}` at {} m", plate.name, micrometres(plate.z));
+            let message =
+                format!("no obstacle supports `{}` at {} m", plate.name, micrometres(plate.z));
             let advice = "obstacles below it must end at `z` on both sides of its centre of mass; \
-                          or let it stand on feet: leave `z` out";
+                          leave `z` out for an object on feet";
             ledger.fault(node.get("z").unwrap_or(place), message, advice);
         }
     }

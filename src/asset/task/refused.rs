@@ -7,9 +7,10 @@ use crate::asset::take::name_of;
 use super::{goals, part, plates};
 
 /// Reason against cylinders.
-const EDGES: &str = "a blade goes under a straight edge";
+const EDGES: &str = "a blade can enter only below a straight edge";
 /// Reason against a stated centre of mass of a solid.
-const EVEN: &str = "give parts with a `mass` of their own to what a blade lifts";
+const EVEN: &str = "to shift the centre of mass of a levered object, give it parts with their own \
+    `mass`";
 
 /// Reports the keys that a task with lever-ups cannot have.
 pub(super) fn check(root: &Node, ledger: &mut Ledger) {
@@ -49,7 +50,7 @@ fn refuse(node: Option<&Node>, keys: &[&str], reason: &str, ledger: &mut Ledger)
         let none = Content::List(Vec::new());
         let found = node.and_then(|node| node.get(key)).filter(|found| found.content != none);
         if let Some(found) = found {
-            ledger.fault(found, format!("`{key}` does not go together with lever-ups"), reason);
+            ledger.fault(found, format!("`{key}` cannot be combined with lever-ups"), reason);
         }
     }
 }
@@ -57,7 +58,7 @@ fn refuse(node: Option<&Node>, keys: &[&str], reason: &str, ledger: &mut Ledger)
 /// Reports objects that state a height in a task without lever-ups.
 pub(super) fn check_heights(objects: &[Node], ledger: &mut Ledger) {
     let advice =
-        "add `levers`, or remove it: pushes alone are planned for what stands on the table";
+        "add `levers`, or remove it; in tasks of pushes only, all objects stand on the table";
     for object in objects {
         for key in ["clearance", "z"] {
             if let Some(node) = object.get(key) {

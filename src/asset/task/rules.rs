@@ -86,7 +86,7 @@ fn unknown(unknown: &Node, scene: &Node, ledger: &mut Ledger) {
         && joints
     {
         let advice = "remove them, or `joints` from `unknown`";
-        ledger.fault(stated, "joints are stated and unknown at once", advice);
+        ledger.fault(stated, "joints are both stated and unknown", advice);
     }
 }
 
@@ -127,8 +127,8 @@ fn keep(keep: &Node, goals: &[Node], objects: &[Node], ledger: &mut Ledger) {
         } else if wanted.contains(&name) {
             ledger.fault(
                 node,
-                format!("`{name}` is to be moved and kept"),
-                "take it from one of both",
+                format!("`{name}` is named by a goal and by `keep`"),
+                "remove it from one of them",
             );
         }
     }
@@ -142,8 +142,9 @@ fn may_fall(goal: &Node, objects: &[Node], ledger: &mut Ledger) {
     let wanted = goal.get("object").and_then(Node::text);
     for object in objects.iter().filter(|object| wanted.is_some() && name_of(object) == wanted) {
         if let Some(node) = object.get("may_fall").filter(|node| node.switch() == Some(true)) {
-            let message = format!("`{}` is to be moved and may fall", wanted.unwrap_or_default());
-            ledger.fault(node, message, "leave it out: what has fallen is at no goal");
+            let message =
+                format!("`{}` has a goal on the table but may fall", wanted.unwrap_or_default());
+            ledger.fault(node, message, "leave it out; a fallen object reaches no goal");
         }
     }
 }
@@ -168,7 +169,8 @@ fn on_table(scene: &Node, goals: &[Node], ledger: &mut Ledger) {
         if vector(position).is_some_and(|position| !top.holds(position)) {
             let (size, middle) = (top.size, top.middle);
             let message = format!(
-                "{what} lies beyond the table, which is {} x {} m about ({}, {})",
+                "{what} lies beyond the table, whose size is {} x {} m and whose middle is ({}, \
+                 {})",
                 size[0], size[1], middle.x, middle.y
             );
             ledger.fault(position, message, "move it, make the table larger, or move the table");
@@ -213,7 +215,7 @@ fn overlaps(objects: &[(Node, usize)], obstacles: &[Node], slack: f64, ledger: &
                 ledger.fault(
                     node.get("position").unwrap_or(node),
                     format!("`{}` overlaps `{}`", name(node), name(other)),
-                    "move one of them; bodies may touch but not share space",
+                    "move one of them; bodies may touch but not overlap",
                 );
             }
         }
@@ -228,10 +230,12 @@ fn stands(object: &Node, ledger: &mut Ledger) {
     {
         ledger.fault(
             node,
-            "the object would fall: its centre does not lie between these points",
+            "the object would topple: its centre is not inside the polygon of these points",
             match object.get("shape").and_then(|shape| shape.get("prism")) {
                 Some(_) => "the points are in the frame of the prism's corners",
-                None => "the points are in the object's own frame, [0, 0] being its centre",
+                None => {
+                    "the points are in the object's own frame, whose origin [0, 0] is its centre"
+                }
             },
         );
     }
@@ -276,7 +280,7 @@ pub(super) fn without_arm(robot: &Node, ledger: &mut Ledger) {
         && !matches!(home.items().len(), 0 | 2)
     {
         let message = format!("expected a list of 2 numbers, found one of {}", home.items().len());
-        ledger.fault(home, message, "joint positions are of arms, which `urdf` names");
+        ledger.fault(home, message, "joint positions need an arm, which `urdf` defines");
     }
 }
 
@@ -337,7 +341,7 @@ fn push_rules(pushes: &Node, objects: &[Node], ledger: &mut Ledger) {
     if let (Some(PushForm::Chained), Some(offsets)) = (form(pushes), pushes.get("offsets")) {
         ledger.fault(
             offsets,
-            "chained pushes have no offsets: they start from `home`",
+            "chained pushes start from `home`, so they have no offsets",
             "remove `offsets`, or use `form: placed`",
         );
     }
@@ -352,8 +356,8 @@ fn push_rules(pushes: &Node, objects: &[Node], ledger: &mut Ledger) {
     {
         ledger.fault(
             pushes.get("lift").or_else(|| objects.first()).unwrap_or(pushes),
-            format!("at a lift of {lift} m the tool passes over every object ({highest} m high)"),
-            "lower `lift` below the objects' height",
+            format!("at a lift of {lift} m the tool passes above every object ({highest} m high)"),
+            "lower `lift` below the height of the objects",
         );
     }
 }

@@ -19,21 +19,22 @@ pub(in crate::asset) static TASK: Value = Value::Map(TASK_KEYS);
 pub(in crate::asset) const TASK_KEYS: &[Key] = &[
     Key::optional("name", Value::Name, "The task's name; by default the file's."),
     Key::optional("description", Value::Text, "One line for people; by default empty."),
-    Key::required("scene", SCENE, "What stands on the table."),
+    Key::required("scene", SCENE, "The scene on the table."),
     UNKNOWN_KEY,
-    Key::required("robot", ROBOT, "Where the end effector can be."),
+    Key::required("robot", ROBOT, "Limits of the robot."),
     TOOLS,
     LEVERS,
     Key::optional(
         "pushes",
         PUSHES,
-        "The pushes a plan may contain; every key has a default. Where lever-ups are allowed they come \
-         before or after one, and there are none without this key.",
+        "The pushes that a plan may contain; every key has a default. In a task with lever-ups, \
+         pushes come before or after the lever-up, and only if this key is given.",
     ),
     Key::required(
         "goal",
         Value::Either(&[GOAL, Value::List { of: &GOAL, items: "goals", min: 1, max: 8 }]),
-        "Where an object must come to rest, or how; or a list, for several objects, in any order.",
+        "Required final pose or state of an object; or a list of such goals, in any order, for \
+         several objects.",
     ),
     KEEP,
     KEEP_OUT,
@@ -49,8 +50,8 @@ const ROBUSTNESS: Key = Key::optional(
         high: 1.0,
         advice: "three quarters are 0.75",
     }),
-    "Share of the replays with small errors of starts and frictions that must reach the goal \
-     for a plan to count; default 0.75.",
+    "Share of the perturbed replays (small errors of starts and frictions) that must reach the \
+     goal for a plan to pass; default 0.75.",
 );
 
 /// Key of the unknown properties of a scene.
@@ -63,11 +64,12 @@ const UNKNOWN: Value = Value::List {
     max: 4,
 };
 
-const UNKNOWN_MEANING: &str = "What is not known about the scene, so that `pushplan run` has to find it out \
-by pushing: `joints` (any two objects with a gap below 30 mm may be joined; none are stated then), \
-`masses` (within a factor of 2 of the stated one, nine times in ten), `frictions` (of objects and \
-table, within a factor of 1.5), `support` (anything from even pressure to the corners). What is stated \
-is the middle of the possible values, and `pushplan solve` plans with it; by default nothing is unknown.";
+const UNKNOWN_MEANING: &str = "Properties of the scene that are unknown, so that `pushplan run` \
+    has to estimate them by pushing. `joints`: any two objects with a gap below 30 mm may be \
+    joined, and the scene states no joints. `masses`: within a factor of 2 of the stated value, \
+    nine times in ten. `frictions`, of objects and table: within a factor of 1.5. `support`: \
+    anything from even pressure to the corners. Stated values are the middle of the range, with \
+    which `pushplan solve` plans; by default nothing is unknown.";
 
 const SCENE: Value = Value::Map(&[
     TABLE,
@@ -91,9 +93,9 @@ pub(in crate::asset) const PUSH_HEIGHT: Key = Key::optional(
         high: 1.0,
         advice: "a fingertip at half the height of the middle is 0.5",
     }),
-    "How high the tool presses on objects, as a share of the mean height of where their faces \
-     meet: 0 at the table, 1 in the middle. The higher, the more of an object's weight moves \
-     ahead; by default unknown, as between two flat faces.",
+    "Height at which the tool presses on objects, as a share of the mean height of the contacting \
+     faces: 0 at the table, 1 in the middle. With a larger height more of the object's weight \
+     moves to its front. By default unknown, like the contact of two flat faces.",
 );
 
 /// Key of the table.
@@ -104,16 +106,17 @@ pub(in crate::asset) const TABLE: Key = Key::optional(
         Key::optional(
             "size",
             numbers(&SIZE, 2),
-            "Extents [x, y] of the table top in metres; by default unlimited. An object whose \
-             centre leaves it has fallen off.",
+            "Size [x, y] of the table top in metres; by default unlimited. An object whose centre \
+             leaves it has fallen off.",
         ),
         Key::optional(
             "position",
             POSITION,
-            "Middle of a table top with a size, [x, y] in metres; default [0, 0], the robot's base.",
+            "Middle of a table top with a size, [x, y] in metres; default [0, 0], the robot's \
+             base.",
         ),
     ]),
-    "The table; by default of friction 0.5 and unlimited.",
+    "The table; by default unlimited, with friction 0.5.",
 );
 
 /// Specification of the joints of a scene.
@@ -125,8 +128,8 @@ const ROBOT: Value = Value::Map(&[
     Key::optional(
         REACH_KEY.name,
         REACH_KEY.value,
-        "Distances from the base, at the origin, at which the end effector can be; no default, but \
-         with `urdf`, where they are the arm's own.",
+        "Range of distances of the end effector from the base, which is the origin; no default, \
+         except with `urdf`, which defines it.",
     ),
     URDF,
     FLANGE,
@@ -142,21 +145,21 @@ const ROBOT: Value = Value::Map(&[
                 Key::optional(
                     "from",
                     SIZE,
-                    "Height above the table at which it begins, metres; by default where the tool \
-                     at the grip ends, but at least 0.12.",
+                    "Height of its lower end above the table, metres; by default the height of the \
+                     tool's upper end at the grip, but at least 0.12.",
                 ),
             ]),
         ]),
-        "The hand about the end effector, an upright cylinder that keeps clear of all that is as \
-         high, or `none`; by default a usual gripper. Behind a blade it is fingers, which need 2 cm on \
-         both sides of the shaft.",
+        "The hand about the end effector: an upright cylinder that must not touch bodies at its \
+         height, or `none`; by default a usual gripper. Behind a blade, the hand is fingers, which \
+         need 2 cm on both sides of the shaft.",
     ),
     BASE,
     Key::optional(
         "travel",
         SIZE,
-        "Height above the table at which the tool's underside travels between pushes, metres: what ends \
-         higher is gone around; default 0.3.",
+        "Height above the table at which the tool's underside travels between pushes, metres; the \
+         tool bypasses taller bodies. Default 0.3.",
     ),
 ]);
 
@@ -164,8 +167,8 @@ const ROBOT: Value = Value::Map(&[
 const MAX_FORCE: Key = Key::optional(
     "max_force",
     FORCE,
-    "Largest force in newtons that the arm can keep up; what strikes at first touch is not limited. By \
-     default any, with a warning above 150.",
+    "Largest force in newtons that the arm can sustain; impacts are not limited. By default any, \
+     with a warning above 150.",
 );
 
 /// Key of the reach of the end effector.
@@ -175,7 +178,7 @@ pub(super) const REACH_KEY: Key = Key::required(
         Key::optional("min", REACH, "Smallest distance from the base, metres; default 0."),
         Key::required("max", REACH, "Largest distance from the base, metres."),
     ]),
-    "Distances from the base, at the origin, at which the end effector can be.",
+    "Range of distances of the end effector from the base, which is the origin.",
 );
 
 const REACH: Value = Value::Number(Range {
@@ -190,9 +193,9 @@ const PUSHES: Value = Value::Map(&[
     Key::optional(
         "form",
         Value::Word(&["placed", "chained"]),
-        "`placed`: each push starts where it is best, the tool comes from above, and goes back by \
-         5 mm and lifts after it; `chained`: all start from `home`, each continues where the last \
-         ended; default placed.",
+        "`placed`: each push has its own best start; the tool is lowered to it, and after the push \
+         it retreats by 5 mm and is lifted. `chained`: the first push starts at `home`, and each \
+         further push continues from the end of the previous one. Default placed.",
     ),
     Key::optional(
         "directions",
@@ -206,38 +209,39 @@ const PUSHES: Value = Value::Map(&[
             }),
             Value::List { of: &ANGLE, items: "angles in degrees", min: 1, max: 64 },
         ]),
-        "Directions of pushes in the world frame: `principal` (+x, -x, +y, -y), a number of equal \
-         directions, or a list in degrees; default principal.",
+        "Directions of pushes in the world frame: `principal` (+x, -x, +y, -y), a number of \
+         equally spaced directions, or a list in degrees; default principal.",
     ),
     Key::optional(
         "offsets",
         Value::List { of: &OFFSET, items: "offsets", min: 1, max: 64 },
         "Signed distances in metres of the object's centre from the centre line of the contacting \
-         face, left of the direction positive (placed pushes only); by default chosen by the \
-         planner.",
+         face, positive to the left of the direction (placed pushes only); by default chosen by \
+         the planner.",
     ),
     Key::optional(
         "grip_yaws_deg",
         Value::List { of: &ANGLE, items: "angles in degrees", min: 1, max: 16 },
-        "Turns of the end effector against world +x, degrees; default 0, 90, -90. A plan keeps to one \
-         unless it needs several.",
+        "Rotations of the end effector against world +x, degrees; default 0, 90, -90. A plan uses \
+         one of them unless it needs several.",
     ),
     Key::optional(
         "length",
         LENGTH,
-        "Travel of a push in metres, which planning may shorten or lengthen by half; default 0.20.",
+        "Length of a push in metres, which planning may shorten or lengthen by half; default 0.20.",
     ),
     Key::optional("speed", SPEED, "Speed of a push in m/s; default 0.10."),
     Key::optional(
         "max_count",
         MAX_COUNT,
-        "Largest number of pushes in a plan; default 3. More are tried only where fewer do not do.",
+        "Maximum number of pushes in a plan; default 3. More pushes are tried only if fewer do not \
+         suffice.",
     ),
     Key::optional(
         "tool_changes",
         TOOL_CHANGES,
-        "Largest number of changes to another tool in a plan, of placed pushes; by default any. Plans that \
-         change it are tried only where none with one tool does.",
+        "Maximum number of tool changes in a plan of placed pushes; by default any. Plans with \
+         tool changes are tried only if no single tool suffices.",
     ),
     Key::optional(
         "lift",
@@ -257,7 +261,7 @@ const LENGTH: Value = Value::Number(Range {
     what: "a length in metres",
     low: 0.01,
     high: 2.0,
-    advice: "20 cm is 0.20; longer ways are several pushes, see `max_count`",
+    advice: "20 cm is 0.20; longer distances take several pushes, see `max_count`",
 });
 
 const SPEED: Value = Value::Number(Range {
@@ -271,14 +275,14 @@ const TOOL_CHANGES: Value = Value::Count(Range {
     what: "a number of changes",
     low: 0.0,
     high: 64.0,
-    advice: "0 keeps every plan to one tool",
+    advice: "0 allows a single tool per plan",
 });
 
 const MAX_COUNT: Value = Value::Count(Range {
     what: "a number of pushes",
     low: 1.0,
     high: 16.0,
-    advice: "three pushes bring an object around a corner",
+    advice: "three pushes move an object around a corner",
 });
 
 /// Height of a tool's underside above the table.

@@ -10,8 +10,11 @@ use crate::asset::take::vector;
 use crate::scene::Support;
 
 /// Key of an object's support.
-pub(in crate::asset) const OBJECT_SUPPORT: Key =
-    Key::optional("support", SUPPORT, "How the weight rests on the table; default `even`.");
+pub(in crate::asset) const OBJECT_SUPPORT: Key = Key::optional(
+    "support",
+    SUPPORT,
+    "Support model: how the weight rests on the table; default `even`.",
+);
 
 /// Specification of the distribution of an object's weight over its underside.
 const SUPPORT: Value = Value::Either(&[
@@ -25,13 +28,14 @@ const SUPPORT: Value = Value::Either(&[
                 high: 1.0,
                 advice: "1 is the corners, or the rim; even pressure is like 0.5 to 0.7",
             }),
-            "Share of the corners' distance, or of the radius, at which it rests; no default.",
+            "Radius of the support, as a share of the corners' distance or of the radius; no \
+             default.",
         ),
         Key::optional(
             "points",
             Value::List { of: &POSITION, items: "points", min: 3, max: 8 },
-            "Points that it stands on, [x, y] in metres in the object's frame, or in that of a \
-             prism's corners; no default.",
+            "Support points, [x, y] in metres in the object's frame, or in the frame of a prism's \
+             corners; no default.",
         ),
     ]),
 ]);

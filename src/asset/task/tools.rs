@@ -21,7 +21,8 @@ pub(super) const TOOLS: Key = Key::required(
             max: 64,
         },
     ]),
-    "Names of the tools to choose from, or `all`; instead of a name `{name: hook, cost: 2}`.",
+    "Names of the tools to choose from, or `all`; a cost is given by `{name: hook, cost: 2}` \
+     instead of the name.",
 );
 
 const NAME: Key = Key::required("name", Value::Name, "The tool's name.");
@@ -32,10 +33,10 @@ const COST: Key = Key::optional(
         what: "a cost",
         low: 0.0,
         high: 1e6,
-        advice: "only which of two tools costs more matters",
+        advice: "only the order of the costs matters",
     }),
-    "What using it costs: of plans of as many pushes that are as good the one that costs less comes first; \
-     default 0. Tools of levering have none.",
+    "Cost of using the tool: among equally good plans with the same number of pushes, the cheaper \
+     one ranks first; default 0. Tools for levering have none.",
 );
 
 /// Returns the name of a tool in the list.
@@ -82,7 +83,7 @@ pub(super) fn check_tools(tools: &Node, ledger: &mut Ledger) {
 /// Reports costs where they have no effect.
 pub(super) fn check_free(tools: &Node, ledger: &mut Ledger) {
     for tool in tools.items().iter().filter(|node| node.get("name").is_some()) {
-        let advice = "write its name alone: only tools of tasks of pushes have costs";
-        ledger.fault(tool, "a tool of levering has no cost", advice);
+        let advice = "write its name only; only tools of tasks of pushes have costs";
+        ledger.fault(tool, "a tool for levering has no cost", advice);
     }
 }

@@ -30,10 +30,10 @@ pub(super) fn moving<'a>(
 /// Reports the faults that are specific to joints to the world.
 pub(super) fn check(joint: &Node, ledger: &mut Ledger) {
     if joint.get("kind").and_then(Node::text) == Some("fixed") {
-        ledger.fault(joint, "what is fixed to the world does not move", "make it an obstacle");
+        ledger.fault(joint, "an object fixed to the world cannot move", "make it an obstacle");
     }
     if let Some(guessed) = joint.get("guessed").filter(|guessed| guessed.switch() == Some(true)) {
-        let advice = "remove it; what joins an object to the world is always known";
+        let advice = "remove it; joints to the world must be known";
         ledger.fault(guessed, "a joint to the world cannot be a guess", advice);
     }
 }

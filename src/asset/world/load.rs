@@ -63,7 +63,8 @@ fn rules(root: &Node, task: &Task, ledger: &mut Ledger) {
             && carries(&points).is_none()
         {
             let node = object.get("support").unwrap_or(object);
-            let message = "the object would fall: its centre does not lie between these points";
+            let message =
+                "the object would topple: its centre is not inside the polygon of these points";
             ledger.fault(node, message, "the points are in the object's own frame");
         }
     }
@@ -88,14 +89,14 @@ fn rules(root: &Node, task: &Task, ledger: &mut Ledger) {
             continue;
         };
         if read.between[0] == read.between[1] || !sets.join(read.between) {
-            let message = "this joint closes a loop that the simulator cannot hold";
+            let message = "this joint closes a loop, which the simulator does not support";
             ledger.fault(joint, message, "remove one joint of the loop");
         }
         if read
             .limits()
             .is_some_and(|span| span.low > 0.0 || span.high < 0.0 || span.low >= span.high)
         {
-            let advice = "limits count from where the objects stand at the start: let them hold 0";
+            let advice = "limits are relative to the poses at the start: they must contain 0";
             ledger.fault(joint, "the start violates these limits", advice);
         }
     }

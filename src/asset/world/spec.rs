@@ -11,13 +11,13 @@ pub(in crate::asset) const WORLD_KEYS: &[Key] = &[
     Key::optional(
         "joints",
         JOINTS,
-        "Joints between objects as in a task, where the objects stand as the world has them; by default \
-         those of the task.",
+        "Joints between objects, as in a task, at the objects' poses in this file; by default the \
+         task's.",
     ),
     Key::optional(
         "objects",
         Value::List { of: &OBJECT, items: "objects", min: 0, max: 64 },
-        "Objects of the task that are not as it states them; by default none.",
+        "Objects of the task whose properties differ; by default none.",
     ),
     Key::optional(
         "table_friction",
@@ -27,11 +27,11 @@ pub(in crate::asset) const WORLD_KEYS: &[Key] = &[
     Key::optional(
         "engine",
         Value::Word(&["planar", "3d"]),
-        "What moves the world: `planar` or `3d`; default planar.",
+        "Engine of the world: `planar` or `3d`; default planar.",
     ),
-    Key::optional("noise", NOISE, "Errors of what is seen; by default 1 mm and 0.5 degrees."),
-    Key::optional("headings", Value::Switch, "Whether headings are seen; default true."),
-    Key::optional("seed", SEED, "Seed of the errors of what is seen; default 0."),
+    Key::optional("noise", NOISE, "Observation errors; by default 1 mm and 0.5 degrees."),
+    Key::optional("headings", Value::Switch, "Whether headings are observed; default true."),
+    Key::optional("seed", SEED, "Seed of the observation errors; default 0."),
 ];
 
 const OBJECT: Value = Value::Map(&[
@@ -39,7 +39,7 @@ const OBJECT: Value = Value::Map(&[
     Key::optional("mass", MASS, "Mass in kg; by default the task's."),
     Key::optional("friction", FRICTION, "Friction value; by default the task's."),
     Key {
-        meaning: "How the weight rests on the table; by default as the task says.",
+        meaning: "Support model: how the weight rests on the table; by default the task's.",
         ..OBJECT_SUPPORT
     },
     Key::optional("position", POSITION, "Centre, [x, y] in metres; by default the task's."),
@@ -55,7 +55,7 @@ const NOISE: Value = Value::Map(&[
             high: 0.1,
             advice: "1 mm is 0.001",
         }),
-        "Standard deviation of either coordinate, metres; default 0.001.",
+        "Standard deviation of each coordinate, metres; default 0.001.",
     ),
     Key::optional(
         "heading_deg",
@@ -73,5 +73,5 @@ const SEED: Value = Value::Count(Range {
     what: "a seed",
     low: 0.0,
     high: 1e15,
-    advice: "any whole number will do",
+    advice: "any whole number is valid",
 });

@@ -26,7 +26,7 @@ pub enum LeverNetworkError {
         error: WeightsError,
     },
     /// Weights whose input widths contradict their card.
-    #[error("the weights have other inputs than their card says")]
+    #[error("the inputs of the weights do not match their card")]
     Inputs,
 }
 

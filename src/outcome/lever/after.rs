@@ -51,7 +51,7 @@ impl Task {
         goals.first()?;
         Some(Task {
             name: self.name.chars().take(NAME).chain("-push".chars()).collect(),
-            description: format!("What is left of {} after the lever-up.", self.name),
+            description: format!("Remaining task for {} after the lever-up.", self.name),
             scene: left.scene(self),
             unknown: Unknowns::NONE,
             arm: None,

@@ -20,7 +20,7 @@ impl fmt::Display for LeverWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Slipped => "the plate slipped off the blade",
-            Self::Jammed => "something is jammed",
+            Self::Jammed => "an object is jammed",
             Self::Moving => "the plate did not come to rest",
         })
     }

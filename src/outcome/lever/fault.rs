@@ -48,15 +48,15 @@ impl fmt::Display for LeverFault {
             Self::NoBlade => f.write_str("the tool has no blade"),
             Self::NearCorner => f.write_str("the lever point is too close to a corner"),
             Self::TooThick => f.write_str("the blade is thicker than the clearance below the edge"),
-            Self::TooDeep => f.write_str("the blade would reach through under the whole plate"),
-            Self::Meets { body } => write!(f, "the blade would go through {body}"),
+            Self::TooDeep => f.write_str("the blade would reach through below the whole plate"),
+            Self::Meets { body } => write!(f, "the blade would pass through {body}"),
             Self::HandMeets { body } => {
-                write!(f, "the fingers behind the blade would go through {body}")
+                write!(f, "the fingers behind the blade would pass through {body}")
             }
-            Self::BelowTable => f.write_str("the shaft would go through the table"),
+            Self::BelowTable => f.write_str("the shaft would pass through the table"),
             Self::OutOfReach => f.write_str("the end effector would leave its reach"),
-            Self::TooLong => f.write_str("it would take more than two minutes"),
-            Self::NoSupport => f.write_str("no support line to turn about"),
+            Self::TooLong => f.write_str("the lever-up would take more than two minutes"),
+            Self::NoSupport => f.write_str("no support line defines the axis of rotation"),
         }
     }
 }

@@ -12,19 +12,22 @@ impl Warning {
                 let value = distinguished(*value, [*low, *high]);
                 format!("{of}: {quantity} = {value} is outside the model's range {low} to {high}")
             }
-            Warning::Declined { model } => format!("`{model}` does not take this motion"),
+            Warning::Declined { model } => format!("model `{model}` does not support this motion"),
             Warning::Pressed { object, between: [a, b] } => {
                 format!("{object} is pressed between {a} and {b}")
             }
             Warning::Overlap { between: [a, b], depth } => {
-                format!("{a} and {b} are predicted {:.1} mm inside each other", depth * 1e3)
+                format!("the prediction makes {a} and {b} overlap by {:.1} mm", depth * 1e3)
             }
             Warning::LooseJoint { between: [a, b], distance } => {
                 let millimetres = distance * 1e3;
-                format!("the joint of {a} and {b} is predicted {millimetres:.1} mm off")
+                format!("the prediction separates the joint of {a} and {b} by {millimetres:.1} mm")
             }
             Warning::Doubtful { object, within } => {
-                format!("{object} may end up to {:.0} mm from where it is predicted", within * 1e3)
+                format!(
+                    "the predicted position of {object} may be wrong by up to {:.0} mm",
+                    within * 1e3
+                )
             }
             Warning::NotFinite => "the prediction became NaN or infinite".to_owned(),
             other => other.to_string(),
@@ -37,90 +40,91 @@ impl fmt::Display for Warning {
         match self {
             Warning::OutsideRange { .. } | Warning::Declined { .. } => write!(
                 f,
-                "{}; predictions may be wrong, `--out-of-range simulate` simulates instead",
+                "{}, so predictions may be wrong; `--out-of-range simulate` simulates instead",
                 self.fact()
             ),
             Warning::Pressed { .. } => write!(
                 f,
-                "{}; its motion is then unpredictable, `--out-of-range simulate` simulates instead",
+                "{}, which makes its motion unpredictable; `--out-of-range simulate` simulates \
+                 instead",
                 self.fact()
             ),
             Warning::Doubtful { .. } => write!(
                 f,
-                "{}, says the model itself; `--out-of-range simulate` simulates instead",
+                "{} (the model's own estimate); `--out-of-range simulate` simulates instead",
                 self.fact()
             ),
             Warning::Overlap { .. } | Warning::LooseJoint { .. } => write!(
                 f,
-                "{}, which cannot happen on a table; `--out-of-range simulate` simulates instead",
+                "{}, which is physically impossible; `--out-of-range simulate` simulates instead",
                 self.fact()
             ),
             Warning::Differs { object, distance } => write!(
                 f,
-                "the planar simulation of this motion puts {object} {:.1} mm from where it is \
-                 predicted",
+                "prediction and 2-D simulation of {object} differ by {:.1} mm",
                 distance * 1e3
             ),
             Warning::Simulated { reason } => {
-                write!(f, "{}; simulated in the plane instead", reason.fact())
+                write!(f, "{}; the 2-D simulation was used instead", reason.fact())
             }
             Warning::Refused => write!(
                 f,
-                "no prediction was made; `--out-of-range simulate` simulates instead, `--out-of-range warn` \
-                 predicts all the same"
+                "no prediction was made; use `--out-of-range simulate` to simulate, or \
+                 `--out-of-range warn` to predict anyway"
             ),
             Warning::Guessed { unknown } => write!(
                 f,
-                "the task does not know its {unknown}, so this assumes the middle of what they may \
-                 be; `pushplan run` finds out by pushing"
+                "the task leaves {unknown} unknown, so the middle of the range is assumed; \
+                 `pushplan run` finds the values by pushing"
             ),
             Warning::NotAtRest { waited } => write!(
                 f,
-                "something still moved {waited:.1} s after the push ended; the outcome is not at \
-                 rest; raise the friction"
+                "an object still moved {waited:.1} s after the end of the push, so the outcome is \
+                 not at rest; raise the friction"
             ),
             Warning::SetDownOn { object, stroke } => write!(
                 f,
-                "the tool came down on {object} for push {} instead of next to it, so the plan does \
-                 not work as written",
+                "{object} is below the tool when it is set down for push {}, so the nominal replay \
+                 fails",
                 stroke + 1
             ),
             Warning::Jammed { object, against, depth } => write!(
                 f,
-                "{object} jams against {against}: it would have to go {:.1} mm into it, so the tool \
-                 cannot go on",
+                "{object} jams against {against} and would have to penetrate it by {:.1} mm, so \
+                 the tool cannot continue",
                 depth * 1e3
             ),
-            Warning::Stopped => write!(f, "the replay was stopped before it was over"),
+            Warning::Stopped => write!(f, "the replay was stopped before its end"),
             Warning::OffTable { object } => {
                 write!(f, "{object} is pushed off the table")
             }
             Warning::NotKept { object, moved, within } => write!(
                 f,
-                "{object} is moved by {:.1} mm, and the task keeps it within {:.1}",
+                "{object} is moved by {:.1} mm, but `keep` allows only {:.1} mm",
                 moved * 1e3,
                 within * 1e3
             ),
             Warning::KeptOut { object, region } => {
-                write!(f, "{object} comes into {region}, which objects keep out of")
+                write!(f, "{object} enters the keep-out region {region}")
             }
             Warning::Hangs { object } => {
-                write!(f, "{object} hangs over the edge of the table: something holds it up")
+                write!(f, "{object} hangs over the edge of the table, held up by another body")
             }
-            Warning::Fell { object } => write!(f, "{object} falls, which it may"),
+            Warning::Fell { object } => write!(f, "{object} falls, which the task allows"),
             Warning::TooMuchForce { object: Some(object), needed, limit } => write!(
                 f,
-                "the tool presses on {object} with about {needed:.1} N for longer than an impact, and may \
-                 with {limit:.1}"
+                "the tool presses on {object} with about {needed:.1} N for longer than an impact; \
+                 its `max_force` is {limit:.1} N"
             ),
             Warning::TooMuchForce { object: None, needed, limit } => write!(
                 f,
-                "pushing takes about {needed:.0} N for longer than an impact, and the robot has {limit:.0}"
+                "pushing takes about {needed:.0} N for longer than an impact; `robot.max_force` is \
+                 {limit:.0} N"
             ),
             Warning::HardPush { needed } => write!(
                 f,
-                "pushing takes about {needed:.0} N for longer than an impact, more than most arms have; \
-                 state `robot.max_force`"
+                "pushing takes about {needed:.0} N for longer than an impact, more than most arms \
+                 can exert; state `robot.max_force`"
             ),
             Warning::OutOfReach { push } => {
                 write!(f, "the end effector leaves the robot's reach in push {}", push + 1)
@@ -135,8 +139,8 @@ impl fmt::Display for Warning {
                 let (before, push) = (push, push + 1);
                 write!(
                     f,
-                    "the tool does not get from push {before} to push {push}: {obstacle} is in the way, \
-                     and higher than `robot.travel`"
+                    "{obstacle} obstructs the path of the tool from push {before} to push {push} \
+                     and is higher than `robot.travel`"
                 )
             }
             Warning::Arm { push, fault } => {
@@ -149,18 +153,21 @@ impl fmt::Display for Warning {
                 write!(f, "the task does not allow a grip yaw of {:.1} degrees", yaw.to_degrees())
             }
             Warning::TooManyPushes { pushes, allowed } => {
-                write!(f, "{pushes} pushes in a row, and the task allows {allowed}")
+                write!(f, "the plan has {pushes} pushes in a row, but the task allows {allowed}")
             }
             Warning::TooManyToolChanges { changes, allowed } => {
-                write!(f, "the tool is changed {changes} times, and {allowed} are allowed")
+                write!(
+                    f,
+                    "the plan changes the tool {changes} times, but the task allows {allowed}"
+                )
             }
             Warning::ForbiddenPush { push, fault } => write!(f, "push {} {fault}", push + 1),
             Warning::CannotLever { step, fault } => write!(f, "step {}: {fault}", step + 1),
             Warning::Slipped { object } => write!(f, "{object} slipped off the blade"),
-            Warning::Strained => write!(f, "something is jammed"),
+            Warning::Strained => write!(f, "an object is jammed"),
             Warning::Toppled { object } => write!(
                 f,
-                "{object} toppled; its pose on the table means little; push lower or slower"
+                "{object} toppled, so its pose on the table is unreliable; push lower or slower"
             ),
             Warning::NotFinite => {
                 write!(

@@ -220,7 +220,7 @@ impl Kind for Coverage {
 
     fn fault(&self, object: usize, scene: &Scene) -> Option<String> {
         if !(0.0 < self.share && self.share < 1.0) {
-            return Some("the share to be covered lies between 0 and 1".to_owned());
+            return Some("the share to cover must be between 0 and 1".to_owned());
         }
         let turn = self.facing.as_ref().and_then(|facing| facing.fault(object, scene));
         self.place.fault(object, scene).or(turn)

@@ -182,7 +182,7 @@ impl Kind for Gap {
 
     fn fault(&self, object: usize, _: &Scene) -> Option<String> {
         let sound = self.min >= 0.0 && self.max > self.min && self.to != Body::Object(object);
-        (!sound).then(|| "a gap is to something else, its limits are in order".to_owned())
+        (!sound).then(|| "a gap needs another body and limits in ascending order".to_owned())
     }
 
     fn check(&self, object: usize, scene: &Scene) -> Check {

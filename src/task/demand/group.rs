@@ -154,16 +154,20 @@ impl Kind for Group {
     fn fault(&self, _: usize, scene: &Scene) -> Option<String> {
         let count = self.members.len();
         if self.at_least == 0 || self.at_least > count || count > MOST {
-            return Some(format!("a group of 1 to {MOST} goals asks for 1 of them to all"));
+            return Some(format!(
+                "a group has 1 to {MOST} goals and requires at least one and at most all of them"
+            ));
         }
         let objects = self.movers();
         let twice = |k: usize| objects[..k].contains(&objects[k]);
         if objects.iter().any(|k| *k >= scene.objects.len()) || (0..count).any(twice) {
-            return Some("the goals of a group are of different objects of the scene".to_owned());
+            return Some(
+                "the goals of a group must be for different objects of the scene".to_owned(),
+            );
         }
         let words = |member: &Goal| member.clone().alike(1).words(scene);
         if self.members.iter().any(|member| words(member) != words(&self.members[0])) {
-            return Some("the goals of a group have the same demands".to_owned());
+            return Some("the goals of a group must have the same demands".to_owned());
         }
         self.members.iter().find_map(|member| member.fault(scene))
     }

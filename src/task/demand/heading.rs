@@ -97,11 +97,11 @@ impl Kind for Facing {
     fn words(&self, object: usize, scene: &Scene) -> String {
         let alike = match self.symmetry {
             1 => String::new(),
-            alike => format!(", or any of {alike} that look the same"),
+            alike => format!(", or any of {alike} equivalent headings"),
         };
         let start = scene.start();
         let by = self.limit_middle.and_then(|_| self.turned(&End::resting(object, &start)));
-        let by = by.map_or(String::new(), |turn| format!(", a turn by {}", degrees(-turn)));
+        let by = by.map_or(String::new(), |turn| format!(", a rotation by {}", degrees(-turn)));
         let [heading, within] = [self.heading, self.tolerance].map(degrees);
         format!("heading {heading} \u{00b1} {within}{alike}{by}")
     }
@@ -147,7 +147,7 @@ impl Kind for Facing {
             && self.limit_middle.is_none_or(f64::is_finite)
             && self.tolerance.is_finite()
             && self.tolerance > 0.0;
-        (!sound).then(|| "the goal must be finite, its heading tolerance positive".to_owned())
+        (!sound).then(|| "the goal must be finite and its heading tolerance positive".to_owned())
     }
 
     fn check(&self, object: usize, scene: &Scene) -> Check {

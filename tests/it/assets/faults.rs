@@ -75,7 +75,7 @@ fn misspelled_and_unknown_keys() {
 fn what_is_tilted_elsewhere_stands_here() {
     assert_snapshot!(task(&[("mass: 0.4", "mass: 0.4, pitch_deg: 90")]), @r#"
     t.yaml:4:79: error: unknown key `pitch_deg`
-      help: everything stands upright and turns by `yaw_deg` alone: a box that lies has other sizes; a can that lies would roll, which nothing here models
+      help: all bodies stand upright and rotate by `yaw_deg` only: write a lying box with other sizes; a lying can would roll, which is not modelled
     "#);
 }
 
@@ -117,7 +117,7 @@ fn numbers_out_of_range() {
     t.yaml:4:75: error: expected a mass in kg from 0.001 to 1000, found the number NaN
       help: masses are in kilograms: 250 g is 0.25
     t.yaml:4:91: error: expected a friction value from 0.05 to 2, found the number 0
-      help: wood on wood is about 0.4, rubber about 0.8; without friction nothing comes to rest
+      help: wood on wood is about 0.4, rubber about 0.8; without friction no object comes to rest
     t.yaml:6:31: error: expected a size in metres from 0.001 to 10, found the number 80
       help: lengths are in metres: 50 mm is 0.05
     t.yaml:6:35: error: expected a size in metres from 0.001 to 10, found the number 100
@@ -127,7 +127,7 @@ fn numbers_out_of_range() {
     t.yaml:14:67: error: expected a speed in m/s from 0.01 to 1, found the number 10
       help: 10 cm/s is 0.10
     t.yaml:14:82: error: expected a number of pushes from 1 to 16, found the number 99
-      help: three pushes bring an object around a corner
+      help: three pushes move an object around a corner
     "#);
 }
 
@@ -139,7 +139,7 @@ fn numbers_that_no_computer_holds() {
     t.yaml:7:13: error: expected a mass in kg from 0.001 to 1000, found a number beyond 1e308
       help: masses are in kilograms: 250 g is 0.25
     t.yaml:14:83: error: expected a number of pushes from 1 to 16, found the text "nan"
-      help: three pushes bring an object around a corner
+      help: three pushes move an object around a corner
     "#);
     let file = r#"{"schema_version": 1, "kind": "plan", "model": 1e999}"#;
     assert_snapshot!(PlanFile::parse(file, "t").unwrap_err(), @r#"
@@ -164,9 +164,9 @@ fn bodies_that_overlap_or_share_a_name() {
     t.yaml:5:13: error: two bodies are called `can`
       help: rename one; plans and messages refer to names
     t.yaml:9:17: error: `can` overlaps `can`
-      help: move one of them; bodies may touch but not share space
+      help: move one of them; bodies may touch but not overlap
     t.yaml:11:54: error: `wall` overlaps `can`
-      help: move one of them; bodies may touch but not share space
+      help: move one of them; bodies may touch but not overlap
     "#);
 }
 
@@ -176,7 +176,7 @@ fn faults_in_one_place_do_not_hide_those_in_another() {
     t.yaml:4:74: error: expected a mass in kg from 0.001 to 1000, found the text "heavy"
       help: write the bare number, without a unit; masses are in kilograms: 250 g is 0.25
     t.yaml:9:17: error: `box` overlaps `can`
-      help: move one of them; bodies may touch but not share space
+      help: move one of them; bodies may touch but not overlap
     t.yaml:12:32: error: the smallest reach, 0.1, is not below the largest, 0.05
       help: swap them, or widen the reach
     t.yaml:15:16: error: no object is called `cna`
@@ -187,8 +187,8 @@ fn faults_in_one_place_do_not_hide_those_in_another() {
 #[test]
 fn goals_that_cannot_be_meant() {
     assert_snapshot!(task(&[("object: can", "object: wall"), ("tolerance: 0.05", "tolerance: 0.05, heading_tolerance_deg: 5")]), @r#"
-    t.yaml:15:16: error: `wall` is an obstacle, fixed to the table
-      help: name an object; objects can be pushed
+    t.yaml:15:16: error: `wall` is an obstacle, which is fixed to the table
+      help: name an object; only objects can be pushed
     t.yaml:15:85: error: a heading tolerance without a heading
       help: add `heading_deg`, or remove it
     "#);
@@ -207,8 +207,8 @@ fn supports_that_do_not_carry() {
     let standing = |support: &str| ("mass: 0.4, ", format!("mass: 0.4, support: {support}, "));
     let (old, aside) = standing("{points: [[0.01, 0], [0.03, 0.01], [0.03, -0.01]]}");
     assert_snapshot!(task(&[(old, &aside)]), @r#"
-    t.yaml:4:88: error: the object would fall: its centre does not lie between these points
-      help: the points are in the object's own frame, [0, 0] being its centre
+    t.yaml:4:88: error: the object would topple: its centre is not inside the polygon of these points
+      help: the points are in the object's own frame, whose origin [0, 0] is its centre
     "#);
     let (old, wrong) = standing("{spread: 1.5}");
     assert_snapshot!(task(&[(old, &wrong)]), @r#"
@@ -230,7 +230,7 @@ fn a_goal_inside_an_obstacle() {
     let at = |x: &str| ("[0.35, 0.1], tolerance: 0.05", format!("[{x}, 0.1], tolerance: 0.03"));
     let (old, inside) = at("0.88");
     assert_snapshot!(task(&[(old, &inside)]), @r#"
-    t.yaml:15:31: error: at the goal `can` would be inside `wall`
+    t.yaml:15:31: error: at the goal `can` would overlap `wall`
       help: move the goal or the obstacle, or allow a larger tolerance
     "#);
     // With a gap of 3.5 cm to the wall, the can fits at a centre distance of 6.5 cm.
@@ -249,12 +249,12 @@ fn an_unreachable_home() {
 #[test]
 fn pushes_that_contradict_themselves() {
     assert_snapshot!(task(&[("form: placed, directions: principal", "form: chained, offsets: [0.01], directions: [180, 0, -180], lift: 0.2")]), @r#"
-    t.yaml:14:34: error: chained pushes have no offsets: they start from `home`
+    t.yaml:14:34: error: chained pushes start from `home`, so they have no offsets
       help: remove `offsets`, or use `form: placed`
     t.yaml:14:63: error: this is the same as item 1 of `directions`
       help: remove one of the two
-    t.yaml:14:76: error: at a lift of 0.2 m the tool passes over every object (0.1 m high)
-      help: lower `lift` below the objects' height
+    t.yaml:14:76: error: at a lift of 0.2 m the tool passes above every object (0.1 m high)
+      help: lower `lift` below the height of the objects
     "#);
 }
 
@@ -277,7 +277,7 @@ fn text_that_is_not_yaml() {
 #[test]
 fn a_tag_has_no_meaning() {
     assert_snapshot!(task(&[("name: box", "name: !secret box")]), @r#"
-    t.yaml:5:13: error: not valid YAML: scene.objects[1].name: tags such as `!name` have no meaning here
+    t.yaml:5:13: error: not valid YAML: scene.objects[1].name: tags such as `!name` are not supported here
       help: write the value without a tag
     "#);
 }
@@ -296,11 +296,11 @@ fn a_tool_full_of_faults() {
     t.yaml:1:1: error: unknown key `nmae`
       help: did you mean `name`?
     t.yaml:2:11: error: expected a friction value from 0.05 to 2, found the number inf
-      help: wood on wood is about 0.4, rubber about 0.8; without friction nothing comes to rest
+      help: wood on wood is about 0.4, rubber about 0.8; without friction no object comes to rest
     t.yaml:5:12: error: two parts are called `handle`
       help: rename one; plans and messages refer to names
     t.yaml:5:65: error: parts at different heights are not supported
-      help: write 0; all parts stand side by side with their undersides at the push's `lift`
+      help: write 0; all parts stand side by side, and the push's `lift` is the height of their undersides
     "#);
 }
 
@@ -344,7 +344,7 @@ fn an_unknown_tool_has_its_place() {
 fn control_characters_are_shown_and_not_sent_to_the_terminal() {
     assert_snapshot!(task(&[("mass: 0.4", "\"ma\\e[31mss\": 0.4"), ("object: can", "object: \"can\\u202e\\nt.yaml:1:1: error: forged\"")]), @r#"
     t.yaml:4:7: error: missing key `mass`
-      help: Mass in kg, parts included.
+      help: Mass in kg, including parts.
     t.yaml:4:68: error: unknown key `ma\u001b[31mss`
       help: use `name`, `shape`, `parts`, `mass`, `friction`, `support`, `may_fall`, `max_force`, `color`, `clearance`, `z`, `position` or `yaw_deg`
     t.yaml:15:16: error: expected a name, found the text "can\u202e\u000at.yaml:1:1: error: forged"
@@ -353,7 +353,7 @@ fn control_characters_are_shown_and_not_sent_to_the_terminal() {
     let file = "a\u{9b}2J.yaml";
     assert_snapshot!(Tool::load(file).unwrap_err(), @r#"
     a\u009b2J.yaml: error: cannot read the file: No such file or directory (os error 2)
-      help: check the path; it is relative to the folder you are in
+      help: check the path; it is relative to the current folder
     "#);
 }
 
@@ -362,6 +362,6 @@ fn a_missing_file() {
     let faults = Task::load("no/such/file.yaml").unwrap_err();
     assert_snapshot!(faults, @r#"
     no/such/file.yaml: error: cannot read the file: No such file or directory (os error 2)
-      help: check the path; it is relative to the folder you are in
+      help: check the path; it is relative to the current folder
     "#);
 }

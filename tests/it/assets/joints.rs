@@ -103,7 +103,7 @@ fn joints_and_round_parts_survive_plan_and_trajectory_files() {
 #[test]
 fn joints_of_what_is_not_there() {
     assert_snapshot!(faults(&[("[a, b]", "[aa, wall]"), ("[b, c]", "[b, b]"), ("[c, d]", "[c]"), ("kind: prismatic", "kind: sliding")]), @r#"
-    t.yaml:8:7: error: what is fixed to the world does not move
+    t.yaml:8:7: error: an object fixed to the world cannot move
       help: make it an obstacle
     t.yaml:8:18: error: no object is called `aa`
       help: did you mean `a`?
@@ -119,23 +119,23 @@ fn joints_of_what_is_not_there() {
 fn keys_of_another_kind() {
     assert_snapshot!(faults(&[("kind: fixed", "kind: fixed, at: [0, 0]"), ("at: [0.5, 0.135], limits_deg", "axis: [1, 0], limits"), ("axis: [3, 4], limits:", "at: [0.5, 0.2], limits_deg:")]), @r#"
     t.yaml:8:42: error: a fixed joint has no `at`
-      help: remove it; only a revolute joint has one
+      help: remove it; only a revolute joint has this key
     t.yaml:9:7: error: a revolute joint needs `at`
-      help: add `at: [x, y]`, where the axis stands
+      help: add `at: [x, y]`, the position of the axis
     t.yaml:9:47: error: a revolute joint has no `axis`
-      help: remove it; only a prismatic joint has one
+      help: remove it; only a prismatic joint has this key
     t.yaml:9:63: error: a revolute joint has no `limits`
-      help: turns are limited by `limits_deg`, in degrees
+      help: limits of rotation are `limits_deg`, in degrees
     t.yaml:9:64: error: expected a limit in metres from -10 to 10, found the number -30
       help: lengths are in metres: 50 mm is 0.05
     t.yaml:9:69: error: expected a limit in metres from -10 to 10, found the number 45
       help: lengths are in metres: 50 mm is 0.05
     t.yaml:10:7: error: a prismatic joint needs `axis`
-      help: add `axis: [x, y]`, the direction of sliding
+      help: add `axis: [x, y]`, the direction of displacement
     t.yaml:10:46: error: a prismatic joint has no `at`
-      help: remove it; only a revolute joint has one
+      help: remove it; only a revolute joint has this key
     t.yaml:10:70: error: a prismatic joint has no `limits_deg`
-      help: shifts are limited by `limits`, in metres
+      help: limits of displacement are `limits`, in metres
     "#);
 }
 
@@ -143,14 +143,14 @@ fn keys_of_another_kind() {
 fn missing_and_empty_geometry() {
     assert_snapshot!(faults(&[("at: [0.5, 0.135], ", ""), ("axis: [3, 4]", "axis: [0, 0]")]), @r#"
     t.yaml:9:7: error: a revolute joint needs `at`
-      help: add `at: [x, y]`, where the axis stands
+      help: add `at: [x, y]`, the position of the axis
     t.yaml:10:48: error: an axis of length zero has no direction
       help: write a direction, such as [1, 0] for +x
     "#);
     assert_snapshot!(faults(&[("at: [0.5", "att: [0.5"), ("axis: [3, 4]", "axis: [1, up]")]), @r#"
     t.yaml:9:41: error: unknown key `att`
       help: did you mean `at`?
-    t.yaml:10:52: error: expected a part of a direction from -1000 to 1000, found the text "up"
+    t.yaml:10:52: error: expected a component of a direction from -1000 to 1000, found the text "up"
       help: write the bare number, without a unit; only the direction counts: [1, 0] is +x
     "#);
 }
@@ -159,13 +159,13 @@ fn missing_and_empty_geometry() {
 fn limits_that_are_violated_or_empty() {
     assert_snapshot!(faults(&[("[-30, 45]", "[10, 45]"), ("[-0.05, 0.10]", "[0.05, -0.05]")]), @r#"
     t.yaml:9:71: error: the start, a turn of 0, violates the limits 10 to 45
-      help: limits count from where the objects stand at the start: widen them to hold 0, or move the objects
+      help: limits are relative to the poses at the start: widen them to contain 0, or move the objects
     t.yaml:10:64: error: the lower limit, 0.05, is not below the upper, -0.05
       help: write [low, high]; a joint that cannot move is `kind: fixed`
     "#);
     assert_snapshot!(faults(&[("[-30, 45]", "[-400, 45]"), ("[-0.05, 0.10]", "[-50]")]), @r#"
     t.yaml:9:72: error: expected a limit in degrees from -340 to 340, found the number -400
-      help: limits are in degrees from the start; leave them out where a joint turns freely
+      help: limits are in degrees from the start; leave them out if the joint rotates freely
     t.yaml:10:64: error: expected a list of 2 numbers, found a list of 1 item
     t.yaml:10:65: error: expected a limit in metres from -10 to 10, found the number -50
       help: lengths are in metres: 50 mm is 0.05
@@ -175,10 +175,10 @@ fn limits_that_are_violated_or_empty() {
 #[test]
 fn two_joints_and_a_loop() {
     assert_snapshot!(faults(&[("  obstacles:", "    - {between: [b, a], kind: fixed}\n    - {between: [a, d], kind: fixed}\n  obstacles:")]), @r#"
-    t.yaml:11:7: error: `b` and `a` have a joint already
-      help: keep one of the two; two objects can have one joint
-    t.yaml:12:7: error: this joint of `a` and `d` closes a loop that the simulator cannot hold
-      help: remove one joint of the loop; joined objects form trees
+    t.yaml:11:7: error: `b` and `a` already have a joint
+      help: keep one of the two; two objects can have only one joint
+    t.yaml:12:7: error: this joint of `a` and `d` closes a loop, which is not supported
+      help: remove one joint of the loop; joined objects must form trees
     "#);
 }
 
@@ -191,11 +191,11 @@ fn joints_over_the_whole_room() {
       help: lengths are in metres: 50 mm is 0.05
     t.yaml:9:50: error: expected a coordinate in metres from -10 to 10, found the number 13.5
       help: lengths are in metres: 50 mm is 0.05
-    t.yaml:10:49: error: expected a part of a direction from -1000 to 1000, found the number 3000
+    t.yaml:10:49: error: expected a component of a direction from -1000 to 1000, found the number 3000
       help: only the direction counts: [1, 0] is +x
     "#);
     assert_snapshot!(faults(&[("at: [0.5, 0.135]", "at: [1.5, 0.135]")]), @r#"
-    t.yaml:9:45: error: the axis stands 0.96 m beyond `b` and `c`; at most 0.5 m can be
+    t.yaml:9:45: error: the axis is 0.96 m away from `b` and `c`; the limit is 0.5 m
       help: `at` is in the world frame, in metres
     "#);
 }
@@ -203,7 +203,7 @@ fn joints_over_the_whole_room() {
 #[test]
 fn masses_too_far_apart_to_be_joined() {
     assert_snapshot!(faults(&[("mass: 0.4", "mass: 5")]), @r#"
-    t.yaml:3:68: error: this object has 12.5 times the mass of the lightest that it is joined with (0.4 kg); at most 10 times can be simulated
+    t.yaml:3:68: error: this object has 12.5 times the mass of the lightest object joined to it (0.4 kg); at most 10 times can be simulated
       help: bring the masses of joined objects closer together
     "#);
 }
@@ -230,7 +230,7 @@ fn row(count: usize) -> String {
 fn more_than_twelve_in_one_piece() {
     assert_eq!(Task::parse(&row(12), "t.yaml").unwrap().scene.joints.len(), 11);
     assert_snapshot!(Task::parse(&row(20), "t.yaml").unwrap_err(), @r#"
-    t.yaml:35:7: error: with this joint 13 objects are joined together; at most 12 can be simulated
+    t.yaml:35:7: error: this joint connects 13 objects; at most 12 joined objects can be simulated
       help: remove a joint, or write objects with fixed joints as one cuboid
     "#);
 }

@@ -182,7 +182,7 @@ fn everything_wrong_is_said_with_its_place() {
         (
             "[0.25, 0], [0.5, 0.1, 10]",
             "[0.25, 0], [0.5, 0.1]",
-            "r.yaml:13:46: error: frame 3 has no heading where frame 0 has one",
+            "r.yaml:13:46: error: frame 3 has no heading, but frame 0 has one",
         ),
         (
             "[0.25, 0], [0.5, 0.1, 10]",
@@ -192,14 +192,14 @@ fn everything_wrong_is_said_with_its_place() {
         (
             "[0.25, 0], [0.5, 0.1, 10]",
             "[0.25, 0], [0.5, 0.1, 190]",
-            "r.yaml:13:46: error: `box` turns by 180 degrees between frames 2 and 3",
+            "r.yaml:13:46: error: `box` rotates by 180 degrees between frames 2 and 3",
         ),
         (
             "pusher: [0.15, 0]",
             "pusher: [0.55, -0.2]",
             "r.yaml:13:14: error: the pusher moves 49 cm between frames 2 and 3",
         ),
-        ("5.2, 5.3]", "5.2, 5.2]", "r.yaml:8:24: error: frame 3 is at 5.2 s, not after frame 2"),
+        ("5.2, 5.3]", "5.2, 5.2]", "r.yaml:8:24: error: frame 3 is at 5.2 s, which is not after"),
         ("5.2, 5.3]", "5.2]", "r.yaml:8:8: error: 3 times for 4 frames"),
         ("5.2, 5.3]", "5.2, 5.9]", "error: frames are missing between frames 2 and 3"),
         ("times: [5.0, 5.1, 5.2, 5.3]\n", "", "error: neither `frame_time` nor `times` is given"),
@@ -207,7 +207,7 @@ fn everything_wrong_is_said_with_its_place() {
         (
             "pusher: [0.00, 0]",
             "pusher: [0.17, 0]",
-            "r.yaml:10:14: error: in frame 0 the pusher stands inside `can`",
+            "r.yaml:10:14: error: in frame 0 the pusher overlaps `can`",
         ),
         (
             "[0.5, 0.1, 10]]}\n  - {pusher: [0.05",
@@ -217,17 +217,17 @@ fn everything_wrong_is_said_with_its_place() {
         (
             "[0.5, 0.1, 10]]}\n  - {pusher: [0.10",
             "[0.52, 0.1, 10]]}\n  - {pusher: [0.10",
-            "r.yaml:11:46: error: the recording starts in motion: `box` moves 20.0 mm",
+            "r.yaml:11:46: error: the recording starts in motion: `box` moves by 20.0 mm",
         ),
         (
             "yaw_deg: 10}",
             "yaw_deg: 10}\n  frictions:\n    - {between: [can, bax], coefficient: 0.02}",
-            "r.yaml:8:23: error: nothing is called `bax`",
+            "r.yaml:8:23: error: no body is called `bax`",
         ),
         (
             "yaw_deg: 10}",
             "yaw_deg: 10}\n  frictions:\n    - {between: [tool, table], coefficient: 0.02}",
-            "r.yaml:8:17: error: neither of the two is an object",
+            "r.yaml:8:17: error: neither of the two bodies is an object",
         ),
         (
             "yaw_deg: 10}",
@@ -237,7 +237,7 @@ fn everything_wrong_is_said_with_its_place() {
         (
             "yaw_deg: 10}",
             "position: [0.6, 0.1]}",
-            "r.yaml:6:84: error: the object starts elsewhere in the first frame",
+            "r.yaml:6:84: error: `position` differs from the object's position in the first frame",
         ),
         (
             "radius: 0.05, height: 0.1}}}\n",
@@ -258,7 +258,7 @@ fn everything_wrong_is_said_with_its_place() {
         (
             "pusher: {cylinder: {radius: 0.05, height: 0.1}}",
             "pusher: {lift: 0.01}",
-            "r.yaml:7:9: error: a pusher has one solid",
+            "r.yaml:7:9: error: a pusher has exactly one solid",
         ),
     ];
     let mut missed = String::new();
@@ -328,7 +328,7 @@ frames:
     let last = replay.motion.strokes.last().expect("it moves");
     assert_eq!(last.to, recording.frames[2].tool);
     let missing = parse(&text.replace(", objects: [[0.11, 0.05]]", "")).expect_err("a fault");
-    assert!(missing.to_string().contains("the last frame does not say"), "{missing}");
+    assert!(missing.to_string().contains("the last frame does not state"), "{missing}");
 }
 
 #[test]

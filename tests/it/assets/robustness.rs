@@ -125,7 +125,7 @@ fn deep_nesting_is_refused_at_once_with_its_place() {
     assert_eq!(
         faults.to_string(),
         "t:1:33: error: lists and maps are nested too deeply: more than 32 levels\n  help: look for \
-         brackets that are never closed; is this the right file?"
+         brackets that are never closed, or check whether this is the right file"
     );
     let faults = PlanFile::parse(&closed("[", "]", 100_000), "t").unwrap_err();
     assert!(faults.to_string().starts_with("t:1:33: error: lists and maps"), "{faults}");

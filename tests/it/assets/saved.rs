@@ -128,7 +128,7 @@ fn damaged_plan_files_are_refused() {
     let version = format!("\"schema_version\":{PLAN_VERSION}");
     assert_snapshot!(damaged(&version, "\"schema_version\":7"), @r#"
     p.json:1:19: error: expected the schema version 2, found the number 7
-      help: the file is of another version of pushplan; make it again with this one
+      help: the file is from another version of pushplan; create it again with this one
     "#);
     assert_snapshot!(damaged("\"grip_yaw\"", "\"gripyaw\""), @r#"
     p.json:1:84: error: unknown key `gripyaw`
@@ -152,15 +152,15 @@ fn damaged_plan_files_are_refused() {
     "#);
     assert_snapshot!(damaged("\"push\":{\"tool\":\"stick\"", "\"push\":{\"tool\":\"rake\""), @r#"
     p.json:1:42: error: the plan uses `rake`, the file holds `stick`
-      help: the file mixes two; make it again
+      help: the file mixes two plans; create it again
     "#);
     assert_snapshot!(damaged("\"velocities\":[", "\"velocities\":[{\"linear\":[0,0],\"angular\":0},"), @r#"
     p.json:1:412: error: expected 1 velocities, one per object, found 2
-      help: the file is damaged; make it again
+      help: the file is damaged; create it again
     "#);
     assert_snapshot!(damaged("\"not_at_rest\"", "\"not_at_all\""), @r#"
     p.json:1:685: error: unknown variant `not_at_all`, expected one of `outside_range`, `declined`, `not_at_rest`, `doubtful`, `not_finite`, `stopped`, `toppled`, `jammed`, `off_table`, `not_kept`, `kept_out`, `fell`, `hangs`, `too_much_force`, `hard_push`, `out_of_reach`, `through_obstacle`, `hand_through`, `no_way`, `arm`, `forbidden_tool`, `forbidden_yaw`, `too_many_pushes`, `too_many_tool_changes`, `forbidden_push`, `cannot_lever`, `slipped`, `strained`, `set_down_on`, `pressed`, `overlap`, `loose_joint`, `differs`, `simulated`, `refused`, `guessed`
-      help: the file is damaged or of another version; make it again
+      help: the file is damaged or from another version; create it again
     "#);
     assert_snapshot!(damaged("\"kind\":\"plan\"", "\"kind\":\"trajectory\""), @r#"
     p.json:1:39: error: expected `plan`, found `trajectory`

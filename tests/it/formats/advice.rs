@@ -133,32 +133,27 @@ fn options_do_what_the_advice_says() {
     let jaw = mjcf(&format!("<body name='a'>{BOX}<body name='jaw'><joint/>{BOX}</body></body>"));
     let weld = "<equality><weld body1='b'/></equality></mujoco>";
     for (text, what, advice, wanted) in [
-        (held("<joint axis='0 1 0'/>"), O, "objects stand freely (--free NAME", freed("b")),
-        (held(""), O, "--free b lets it stand freely", freed("b")),
-        (high.clone(), O, "or name others with --body", named(&["b"])),
-        (inside, O, "move one of them, or name others with --body", named(&["c"])),
-        (
-            free(BOX).replace("</worldbody>", leaning),
-            O,
-            "with --body it is left out",
-            named(&["b"]),
-        ),
+        (held("<joint axis='0 1 0'/>"), O, "objects must be free (--free NAME", freed("b")),
+        (held(""), O, "--free b makes it free", freed("b")),
+        (high.clone(), O, "or select other bodies with --body", named(&["b"])),
+        (inside, O, "move one of them, or select other bodies with --body", named(&["c"])),
+        (free(BOX).replace("</worldbody>", leaning), O, "with --body it is ignored", named(&["b"])),
         (
             free(BOX).replace("</mujoco>", weld),
             O,
-            "name the bodies that are meant with --body",
+            "remove it, or select bodies with --body",
             named(&["b"]),
         ),
         (
             high.replace("1.05", ".05")
                 .replace("</mujoco>", "<contact><exclude body1='b' body2='c'/></contact></mujoco>"),
             O,
-            "name one of them with --body",
+            "or select one of them with --body",
             named(&["b"]),
         ),
-        (free(&BOX.replace("/>", " mass='0'/>")), O, "or what it is made of: --density 700", wood),
-        (fixed.clone(), T, "choose with --body: a, b", named(&["b"])),
-        (jaw.clone(), T, "or name a piece with --body", named(&["jaw"])),
+        (free(&BOX.replace("/>", " mass='0'/>")), O, "or its density, such as --density 700", wood),
+        (fixed.clone(), T, "select one with --body: a, b", named(&["b"])),
+        (jaw.clone(), T, "or select one with --body", named(&["jaw"])),
     ] {
         helped((&text, what, &Wanted::default()), advice, (&text, &wanted)).unwrap();
     }
@@ -166,9 +161,9 @@ fn options_do_what_the_advice_says() {
     // For unknown names, the advice lists the known ones.
     for (text, what, wrong, advice, right) in [
         (held(""), O, freed("x"), "bodies with solids are b", freed("b")),
-        (held(""), O, named(&["b"]), "it does not move: --free b lets it stand freely", freed("b")),
-        (free(BOX), O, named(&["x"]), "others are b", named(&["b"])),
-        (fixed, T, named(&["x"]), "choose with --body: a, b", named(&["a"])),
+        (held(""), O, named(&["b"]), "it is fixed; --free b makes it free", freed("b")),
+        (free(BOX), O, named(&["x"]), "other movable bodies are b", named(&["b"])),
+        (fixed, T, named(&["x"]), "select one with --body: a, b", named(&["a"])),
     ] {
         helped((&text, what, &wrong), advice, (&text, &right)).unwrap();
     }
@@ -188,28 +183,28 @@ fn tools_become_one_piece_as_the_advice_says() {
     let above_unseen = format!("pos='.1 0 .02' {unseen}");
     let rows: &[Row<'_>] = &[
         (tool(&format!("{BOX}{jaw}")), "fix it", &[("<joint/>", "")]),
-        (tool(&format!("{BOX}{jaw}")), "take it out", &[(jaw, "")]),
-        (tool(&many), "leave out those that meet no object", &[("pos='0 0 0'", &hidden)]),
+        (tool(&format!("{BOX}{jaw}")), "remove it", &[(jaw, "")]),
+        (tool(&many), "remove those that meet no object", &[("pos='0 0 0'", &hidden)]),
         (
             tool(&above),
-            "let it reach down",
+            "extend it down",
             &[("size='.05 .04 .03' pos='.1 0 .02'", "size='.05 .04 .05' pos='.1 0 0'")],
         ),
-        (tool(&above), "let it touch nothing", &[("pos='.1 0 .02'", &above_unseen)]),
-        (tool(&rough), "one friction value: make them alike", &[("friction='.4'", "")]),
+        (tool(&above), "disable its collision", &[("pos='.1 0 .02'", &above_unseen)]),
+        (tool(&rough), "a single friction value; use one for all parts", &[("friction='.4'", "")]),
         (
             tool(&BOX.replace("/>", " euler='0 20 0'/>")),
-            "turn it by multiples of 90 degrees",
+            "rotate it by multiples of 90 degrees",
             &[("'0 20 0'", "'90 0 0'")],
         ),
         (
             tool("<geom type='sphere' size='.05'/>"),
-            "put a box, an upright cylinder",
+            "replace it by a box, an upright cylinder",
             &[("type='sphere' size='.05'", "type='box' size='.05 .05 .05'")],
         ),
         (
             tool(""),
-            "solids that touch: <geom>",
+            "solids with collision: <geom>",
             &[("<body name='a'>", "<body name='a'><geom type='box' size='.05 .04 .05'/>")],
         ),
     ];

@@ -121,14 +121,14 @@ fn each_thing_that_cannot_be_said_is_refused() {
     let box_ = "<geom type='box' size='.05 .05 .05'/>";
     for (text, expected) in [
         (free("<geom type='capsule' size='.05 .05'/>"), "is a capsule"),
-        (free("<geom type='sphere' size='.05'/>"), "`b` is a sphere, and rolls"),
-        (free("<site/>"), "`b` has nothing that touches"),
+        (free("<geom type='sphere' size='.05'/>"), "`b` is a sphere, which rolls"),
+        (free("<site/>"), "`b` has no solid that collides"),
         (free("<geom type='cylinder' size='.05 .05' euler='90 0 0'/>"), "`b` lies on its side"),
-        (free("<geom type='box' size='.05 .05 .05' euler='10 0 0'/>"), "`b` leans"),
+        (free("<geom type='box' size='.05 .05 .05' euler='10 0 0'/>"), "`b` is tilted"),
         (free("<geom type='box' size='.05 .05 .05' class='x'/>"), "there is no class `x`"),
         (free("<geom type='box' size='.05 .05'/>"), "has 2 sizes"),
         (free("<geom type='box' size='.05 .05 nan'/>"), "not a number"),
-        (free(&format!("{box_}<composite/>")), "<composite> is not read"),
+        (free(&format!("{box_}<composite/>")), "<composite> is not supported"),
         (
             free(&format!("{box_}<body><joint type='ball'/>{box_}</body>")),
             "is attached to another body by a ball joint",
@@ -141,25 +141,25 @@ fn each_thing_that_cannot_be_said_is_refused() {
             free(&format!("{box_}<body pos='.2 0 0'><joint stiffness='1'/>{box_}</body>")),
             "has a spring",
         ),
-        (mjcf(&format!("<body name='arm'><joint axis='1 0 0'/>{box_}</body>")), "`arm` is held in the world by a hinge"),
+        (mjcf(&format!("<body name='arm'><joint axis='1 0 0'/>{box_}</body>")), "`arm` is attached to the world by a hinge"),
         (mjcf("<body name='can'/>"), "no body of the file moves freely"),
         (
             free(box_).replace("</worldbody>", "<body name='c' pos='0.5 0.3 0.4'><freejoint/><geom type='box' size='.1 .1 .1'/></body></worldbody>"),
-            "`c` is 300.0 mm above where the lowest object stands",
+            "`c` is 300.0 mm above the underside of the lowest object",
         ),
         (free(box_).replace("0.5 0 0.05", "0.5 0 0.4"), "350.0 mm above this plane"),
         (free(box_).replace("<worldbody>", "<option gravity='0 0 -1.6'/><worldbody>"), "gravity is 0 0 -1.6"),
         (free(box_).replace("<worldbody>", "<compiler eulerseq='xyzx'/><worldbody>"), "eulerseq=\"xyzx\" is not supported"),
-        (free(box_).replace("</worldbody>", "</worldbody><equality><weld/></equality>"), "<equality> is unknown to pushplan"),
+        (free(box_).replace("</worldbody>", "</worldbody><equality><weld/></equality>"), "<equality> is not supported"),
         (free(&box_.replace("/>", " mass='0'/>")), "`b` has no mass"),
         (free(&box_.replace("/>", " mass='1e7'/>")), "as a task: expected a mass in kg"),
-        ("<robot name='r'><link name='a'><visual/></link></robot>".into(), "is only seen"),
+        ("<robot name='r'><link name='a'><visual/></link></robot>".into(), "is only visual"),
         ("<robot name='r'><link name='a'><collision><geometry><box size='1 2'/></geometry></collision></link></robot>".into(), "has 2 numbers instead of 3"),
         ("<robot><link name='a'/><link name='a'/></robot>".into(), "two links are called `a`"),
-        ("<robot><link name='a'/><link name='b'/><joint type='fixed'><parent link='a'/><child link='b'/></joint><joint type='fixed'><parent link='b'/><child link='a'/></joint></robot>".into(), "go in a circle"),
+        ("<robot><link name='a'/><link name='b'/><joint type='fixed'><parent link='a'/><child link='b'/></joint><joint type='fixed'><parent link='b'/><child link='a'/></joint></robot>".into(), "form a loop"),
         (mjcf(&format!("{}{}", "<body>".repeat(20_000), "</body>".repeat(20_000))), "more than 200 levels of bodies"),
         ("<sdf/>".into(), "<sdf> is neither"),
-        ("<mujoco".into(), "this is not XML"),
+        ("<mujoco".into(), "this is not valid XML"),
     ] {
         let found = faults(&text, false);
         assert!(found.contains(expected), "{text}\n{found}\nnot: {expected}");
@@ -192,9 +192,9 @@ fn a_hand_of_an_arm_becomes_a_tool() {
         assert_eq!(part.pose.position, Vector::zeros());
     }
     for (bodies, expected) in [
-        (&[][..], "`link` moves against the tool, by a hinge"),
-        (&["eef"], "nothing of `eef` touches anything"),
-        (&["hand"], "choose with --body: base, link, palm"),
+        (&[][..], "`link` moves relative to the tool, by a hinge"),
+        (&["eef"], "no solid of `eef` collides"),
+        (&["hand"], "select one with --body: base, link, palm"),
     ] {
         let found = taken(&arm(&hand("palm")), bodies).expect_err("faults").to_string();
         assert!(found.contains(expected), "{found}");
@@ -207,11 +207,11 @@ fn tools_that_are_no_tools_are_refused() {
     for (text, expected) in [
         (
             mjcf(&format!("<body name='a'>{box_}</body><body name='b'>{box_}</body>")),
-            "there are 2 bodies, and a tool is one",
+            "there are 2 bodies, but a tool is a single one",
         ),
         (
             mjcf(&format!("<body name='a'>{box_}<body name='jaw'><joint/>{box_}</body></body>")),
-            "`jaw` moves against the tool, by a hinge",
+            "`jaw` moves relative to the tool, by a hinge",
         ),
         (
             mjcf(&format!(
@@ -219,7 +219,7 @@ fn tools_that_are_no_tools_are_refused() {
             )),
             "begins 20.0 mm above the lowest part",
         ),
-        (mjcf("<body name='a'/>"), "no body of the file touches anything"),
+        (mjcf("<body name='a'/>"), "no body of the file has a solid that collides"),
     ] {
         let found = faults(&text, true);
         assert!(found.contains(expected), "{text}\n{found}");

@@ -52,7 +52,7 @@ fn what_means_nothing_is_not_judged() {
     let (task, _) = taken(&urdf(&(link("a", "") + joint)), &all()).expect("a task");
     assert_eq!(task.scene.objects[0].pose.position, Vector::new(0.5, 0.0));
     let (_, notes) = taken(&urdf(&(link("a", "") + "<drake:joint/>")), &all()).expect("a task");
-    assert!(notes.contains("<joint> of another program is left out"), "{notes}");
+    assert!(notes.contains("<joint> is an extension of another program and is ignored"), "{notes}");
 }
 
 #[test]
@@ -70,7 +70,7 @@ fn friction_is_found_wherever_simulators_look() {
     let drake = "<drake:proximity_properties><drake:mu_static value='0.9'/>\
                  <drake:mu_dynamic value='0.8'/></drake:proximity_properties>";
     let (value, notes) = friction("", drake);
-    assert!(value == 0.8 && notes.contains("that of sliding is taken"), "{notes}");
+    assert!(value == 0.8 && notes.contains("the dynamic one is used"), "{notes}");
     let wrong = urdf(&(link("a", "") + "<gazebo reference='a'><mu1>x</mu1></gazebo>"));
     assert!(taken(&wrong, &all()).expect_err("a fault").contains("not a number"));
 }
@@ -86,7 +86,7 @@ fn what_moves_otherwise_is_a_fault_or_a_note() {
     };
     let mimic = slide("<mimic joint='k'/>", "lower='-1' upper='1'", "revolute");
     let fault = taken(&mimic, &all()).expect_err("a fault");
-    assert!(fault.contains("follows `k` (<mimic>)") && fault.contains("take <mimic> out"));
+    assert!(fault.contains("follows `k` (<mimic>)") && fault.contains("remove <mimic>"));
     taken(&mimic.replace("<mimic joint='k'/>", ""), &all()).expect("as the advice says");
     let limits = |low: &str, high: &str| {
         let text = slide("", &format!("lower='{low}' upper='{high}'"), "revolute");
@@ -95,20 +95,24 @@ fn what_moves_otherwise_is_a_fault_or_a_note() {
         (limits.map(|span| [span.low, span.high].map(|end| end.to_degrees().round())), notes)
     };
     let (any, notes) = limits("-7", "7");
-    assert!(any.is_none() && notes.contains("may turn by more than a turn"), "{notes}");
+    assert!(any.is_none() && notes.contains("may rotate by more than 360 degrees"), "{notes}");
     assert_eq!(limits("-1", "1").0, Some([-57.0, 57.0]));
     let (wide, notes) = limits("0", "3.1416");
-    assert!(wide == Some([0.0, 180.0]) && !notes.contains("may turn by"), "{notes}");
+    assert!(wide == Some([0.0, 180.0]) && !notes.contains("may rotate by"), "{notes}");
     let (wider, notes) = limits("-3.1", "3.1");
     assert!(wider == Some([-170.0, 170.0]) && notes.contains("-177.6 to 177.6"), "{notes}");
     let rolls = link("a", "")
         .replace("<inertial>", "<contact><rolling_friction value='0.1'/></contact><inertial>");
     assert!(
-        taken(&urdf(&rolls), &all()).expect("a task").1.contains("<rolling_friction> is left out")
+        taken(&urdf(&rolls), &all()).expect("a task").1.contains("<rolling_friction> is ignored")
     );
     let light =
         link("a", "") + "<gazebo reference='a'><turnGravityOff>true</turnGravityOff></gazebo>";
-    assert!(taken(&urdf(&light), &all()).expect_err("a fault").contains("does not weigh"));
+    assert!(
+        taken(&urdf(&light), &all())
+            .expect_err("a fault")
+            .contains("does not have its full weight")
+    );
 }
 
 #[test]
@@ -121,15 +125,13 @@ fn only_what_was_chosen_may_refuse() {
     )
     .replace("</mujoco>", "<contact><exclude body1='upper' body2='lower'/></contact></mujoco>");
     let fault = taken(&text, &all()).expect_err("faults");
-    assert!(
-        fault.contains("has a spring") && fault.contains("name those that are meant with --body")
-    );
+    assert!(fault.contains("has a spring") && fault.contains("select bodies with --body"));
     let (task, notes) = taken(&text, &body("block")).expect("as the advice says");
     assert_eq!(task.scene.objects.len(), 1);
     for note in [
-        "left out, with all that hangs on them: upper",
-        "has a spring, and 1 other faults",
-        "`post` is passed over",
+        "omitted, with all bodies attached to them: upper",
+        "has a spring, and 1 more",
+        "`post` contains an element",
     ] {
         assert!(notes.contains(note), "{notes}");
     }
@@ -147,7 +149,7 @@ fn a_body_of_several_solids_is_one_object_with_its_mass_where_it_should_be() {
     let scene = &task.scene;
     assert_eq!((scene.things().count(), scene.objects.len()), (1, 2));
     assert!(
-        (scene.mass(0) - 0.3).abs() < 1e-9 && notes.contains("split over its solids by volume")
+        (scene.mass(0) - 0.3).abs() < 1e-9 && notes.contains("divided among its solids by volume")
     );
     let centre: Vector =
         scene.objects.iter().map(|solid| solid.mass * solid.pose.position).sum::<Vector>() / 0.3;
@@ -175,7 +177,7 @@ fn bodies_stand_freely_where_somebody_says_so_and_are_set_down() {
     let held = "<mujoco><worldbody><body><body name='object'>\
                 <geom type='box' size='.05 .04 .03' density='100'/></body></body></worldbody></mujoco>";
     let fault = taken(held, &all()).expect_err("a fault");
-    assert!(fault.contains("--free object lets it stand freely"), "{fault}");
+    assert!(fault.contains("--free object makes it free"), "{fault}");
     let (task, _) = taken(held, &free("object")).expect("as the advice says");
     assert!((task.scene.objects[0].mass - 0.048).abs() < 1e-12);
     let fault = taken(held, &body("object")).expect_err("a fault");
@@ -191,14 +193,17 @@ fn bodies_stand_freely_where_somebody_says_so_and_are_set_down() {
     let (_, notes) = taken(&above("0.12"), &all()).expect("a task");
     assert!(notes.contains("`b` is 70 mm above the table"), "{notes}");
     let (_, notes) = taken(&above("0.03"), &all()).expect("a task");
-    assert!(notes.contains("`b` is 20 mm inside the table"), "{notes}");
+    assert!(notes.contains("`b` is 20 mm below the surface of the table"), "{notes}");
     assert!(
         taken(&above("0.4"), &all()).expect_err("a fault").contains("350.0 mm above this plane")
     );
     let planar = "<body name='t' pos='.5 0 .02'><joint type='slide' axis='1 0 0'/>\
                   <joint type='slide' axis='0 1 0'/><joint/><geom type='box' size='.05 .05 .02'/></body>";
     let (task, notes) = taken(&mjcf(planar), &all()).expect("a task");
-    assert!(task.scene.mounts.is_empty() && notes.contains("stands there freely"), "{notes}");
+    assert!(
+        task.scene.mounts.is_empty() && notes.contains("is imported as a free object"),
+        "{notes}"
+    );
 }
 
 #[test]
@@ -223,7 +228,7 @@ fn doors_and_drawers_are_joined_to_the_world() {
 fn a_centre_of_mass_outside_is_told_and_one_off_an_axis_makes_a_prism() {
     let text = urdf(&link("a", "").replace("<inertial>", "<inertial><origin xyz='0.2 0 0'/>"));
     let fault = taken(&text, &all()).expect_err("a fault");
-    assert!(fault.contains("200.0 mm off the middle, outside of what it covers"), "{fault}");
+    assert!(fault.contains("200.0 mm from the middle, outside its outline"), "{fault}");
     taken(&text.replace("0.2 0 0'", "0.02 0 0'"), &all()).expect("as the advice says");
     let can = mjcf(
         "<body name='can' pos='.5 0 .05'><freejoint/>\

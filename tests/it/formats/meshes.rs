@@ -112,7 +112,7 @@ fn meshes_and_includes_lie_beside_the_file_or_below_what_is_named() {
         [("scenes/scene.xml", scene.as_bytes()), ("parts/assets.xml", assets.as_bytes()), files[2]];
     let fault = taken_of(&files, &Reading::default(), &all()).expect_err("a fault");
     assert!(
-        fault.contains("outside of the file's own folder") && fault.contains("--root "),
+        fault.contains("outside the folder of the file") && fault.contains("--root "),
         "{fault}"
     );
     let root = Reading { root: Some("".into()), ..Reading::default() };

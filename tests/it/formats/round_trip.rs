@@ -197,13 +197,13 @@ goal: {{object: a, {goal}}}
         ("region: {area: {circle: {radius: 0.05}}, position: [0.6, 0.1]}", "in a circle"),
         ("coverage: {share: 0.9, position: [0.6, 0.1], heading_deg: 90}", "covering"),
         ("off_table: far", "off the table"),
-        ("position: [0.1, 0.0], tolerance: 0.02, relative_to: b", "as b sees it"),
+        ("position: [0.1, 0.0], tolerance: 0.02, relative_to: b", "in the frame of b"),
     ] {
         let (_, found, notes) = back(goal);
         assert_eq!(found, None, "{goal}");
         let [note] = &notes[..] else { panic!("{goal}: {notes:?}") };
         assert!(
-            note.contains("the goal of `object/a` is left out") && note.contains(what),
+            note.contains("the goal of `object/a` is ignored") && note.contains(what),
             "{note}"
         );
     }

@@ -21,7 +21,7 @@ pub enum ActError {
     #[error(transparent)]
     World(#[from] WorldError),
     /// The number of observed objects differs from the task.
-    #[error("{found} objects are reported where the task has {expected}")]
+    #[error("{found} objects were observed, but the task has {expected}")]
     Objects {
         /// Objects of the task.
         expected: usize,
@@ -29,7 +29,7 @@ pub enum ActError {
         found: usize,
     },
     /// The object of a goal is no longer observed.
-    #[error("`{object}` is not seen, though the tool is lifted and {looks} looks were taken")]
+    #[error("`{object}` was not observed in {looks} observations with the tool lifted")]
     Lost {
         /// Name of the object.
         object: String,
@@ -37,7 +37,7 @@ pub enum ActError {
         looks: usize,
     },
     /// The trace belongs to another run or is damaged.
-    #[error("the trace does not fit: {0}")]
+    #[error("the trace cannot be resumed: {0}")]
     Trace(String),
     /// The trace cannot be written.
     #[error(transparent)]

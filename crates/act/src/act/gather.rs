@@ -71,26 +71,30 @@ impl Note {
     pub fn words(&self, scene: &Scene) -> String {
         let name = |k: usize| scene.objects.get(k).map_or("?", |object| object.name.as_str());
         match *self {
-            Note::OutOfOrder => "looks came late and were put in order".to_owned(),
-            Note::Untimely => "looks from another time were left out".to_owned(),
+            Note::OutOfOrder => "observations arrived late and were sorted".to_owned(),
+            Note::Untimely => "observations with times outside the push were ignored".to_owned(),
             Note::Unreadable { object } => {
-                format!("{} was seen without a finite place; left out", name(object))
+                format!("the observed position of {} is not finite; ignored", name(object))
             }
             Note::Swapped { between: [a, b] } => {
-                format!("{} and {} were mistaken for each other; swapped back", name(a), name(b))
+                format!(
+                    "the identities of {} and {} were swapped by the tracker; swapped back",
+                    name(a),
+                    name(b)
+                )
             }
             Note::Jumped { object } => {
-                format!("{} was seen where it cannot be; left out", name(object))
+                format!("{} was observed at an impossible position; ignored", name(object))
             }
             Note::Unseen { object } => {
-                format!("{} was not seen at rest; taken to be where it was predicted", name(object))
+                format!("{} was not observed at rest; its predicted pose is used", name(object))
             }
             Note::Ended { ref why } => format!("the push ended early: {why}"),
             Note::Elsewhere { object } => format!(
-                "{} stands elsewhere than the task says; it is taken to be where it is seen",
+                "the pose of {} differs from the task; its observed pose is used",
                 name(object)
             ),
-            Note::Moved { object } => format!("{} was moved by somebody else", name(object)),
+            Note::Moved { object } => format!("{} was moved from outside", name(object)),
         }
     }
 }

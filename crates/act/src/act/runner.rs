@@ -148,12 +148,16 @@ impl<'a> Runner<'a> {
     fn begin(&self, trace: &Trace) -> Result<(Belief, Vec<Note>), ActError> {
         let Trace { task, settings, first, .. } = trace;
         if task.levers.is_some() {
-            let what = "what leaves the plane is planned, and run by nobody who looks".to_owned();
+            let what = "`run` does not support lever-ups, because the objects cannot be observed \
+                        after one"
+                .to_owned();
             return Err(SolveError::BadTask { task: task.name.clone(), what }.into());
         }
         let stated = task.scene.start();
         let mut gatherer = Gatherer::new(&stated, &stated);
-        let look = first.as_ref().ok_or_else(|| ActError::Trace("it has no first look".into()))?;
+        let look = first
+            .as_ref()
+            .ok_or_else(|| ActError::Trace("the first observation is missing".into()))?;
         let mut seen = gatherer.sights(look, 0.0)?;
         let mut notes = std::mem::take(&mut gatherer.notes);
         // The observation overrides the positions in the task.
@@ -264,16 +268,16 @@ impl<'a> Runner<'a> {
         let made = step.plan.pushes();
         let pushes = made.get(..step.pushes).filter(|pushes| !pushes.is_empty());
         let pushes =
-            pushes.ok_or_else(|| unfit("a step makes pushes that its plan does not have"))?;
+            pushes.ok_or_else(|| unfit("a step contains pushes that are not in its plan"))?;
         let count = trace.task.scene.objects.len();
         let world = step.world.as_ref().map_or(count, |world| world.state.poses.len());
         let before = trace.before.as_ref().map_or(count, |world| world.state.poses.len());
         if [step.state.poses.len(), world, before] != [count; 3] {
-            return Err(unfit("a step has another number of objects"));
+            return Err(unfit("a step has a different number of objects than the task"));
         }
         let can_be = |push: &Push| push.speed > 0.0 && (0.0..=10.0).contains(&push.length);
         if !pushes.iter().all(can_be) {
-            return Err(unfit("a step makes a push that cannot be made"));
+            return Err(unfit("a step contains an invalid push"));
         }
         let done = step.plan.first(pushes.len());
         let tool = Arc::new(step.tool.clone());
@@ -283,7 +287,7 @@ impl<'a> Runner<'a> {
         let mut gatherer = Gatherer::new(&now.start, predicted.outcome());
         let seen = gatherer.made(&motion, step.stop.as_ref(), step.looks.clone())?;
         let mut again = step.again.iter().cloned();
-        let mut look = || again.next().ok_or_else(|| unfit("a step misses a look"));
+        let mut look = || again.next().ok_or_else(|| unfit("an observation of a step is missing"));
         let observations = rests(trace, &mut gatherer, seen, &mut look)?;
         self.believe(belief, (&tool, done.lift()), observations);
         Ok(())

@@ -71,7 +71,7 @@ impl World for SimulatedWorld {
         let job = Job { start: self.state.clone(), motion: motion.clone().into(), physics };
         let run = self.simulator.run_by(&self.arm, &self.truth.scene, &job, Record::Frames);
         if let Some(warning) = run.warnings.iter().find(|warning| ends(warning)) {
-            return Err(WorldError(format!("the simulated world cannot go on: {warning}")));
+            return Err(WorldError(format!("the simulated world cannot continue: {warning}")));
         }
         let (stop, kept) = stop(motion, &run);
         let frames = &run.frames[..kept];

@@ -180,12 +180,12 @@ impl Trace {
         let strange = |step: &Step| step.predicted.iter().any(|frame| frame.stroke >= step.pushes);
         match trace.schema_version {
             TRACE_VERSION if trace.steps.iter().any(strange) => {
-                Err(fault("a step predicts frames of pushes that it does not make".to_owned()))
+                Err(fault("a step predicts frames of pushes that it does not contain".to_owned()))
             }
             TRACE_VERSION => Ok(trace),
             other => Err(fault(format!(
-                "it is of version {other}, this program goes on with {TRACE_VERSION} alone; without \
-                 --resume a new run begins"
+                "the trace has version {other}, but this program resumes version {TRACE_VERSION} \
+                 only; without --resume a new run begins"
             ))),
         }
     }

@@ -27,7 +27,7 @@ pub enum RegulatorError {
     #[error(transparent)]
     Network(#[from] ModelError),
     /// The weights were trained on other features.
-    #[error("the regulator was trained on {found} features of a pair, here there are {expected}")]
+    #[error("the regulator was trained on {found} features per pair, but this run has {expected}")]
     Features {
         /// Number of features of the weights.
         found: usize,

@@ -66,8 +66,8 @@ pub(super) fn draft(
     let reach = |foot: &&Solid| foot.pose.translation.z - radius(foot);
     let low = feet.iter().map(reach).fold(upright.low, f64::min);
     if let Some(foot) = feet.iter().find(|foot| reach(foot) > low + 1e-6) {
-        let message = format!("a sphere of `{name}` does not reach as low as it does");
-        ledger.fault(foot.place, message, "spheres are the points that a body stands on");
+        let message = format!("a sphere of `{name}` does not reach its lowest point");
+        ledger.fault(foot.place, message, "spheres must be the support points of a body");
         return None;
     }
     // The height of an object on feet includes the feet; otherwise the height keeps its exact
@@ -82,11 +82,12 @@ pub(super) fn draft(
     let reach = outline.iter().map(|corner| (corner - outline[0]).norm()).fold(0.0, f64::max);
     let longest = reach.max(height);
     if longest > LONGEST && matches!(solid.outline, Outline::Mesh(_)) {
-        let message = format!("`{name}` is {longest:.1} m long, which is no thing on a table");
+        let message =
+            format!("`{name}` is {longest:.1} m long, which is too large for an object on a table");
         let advice = if longest > 100.0 * LONGEST {
-            "its mesh is in millimetres: give it `scale` 0.001 0.001 0.001"
+            "its mesh is in millimetres: set its `scale` to 0.001 0.001 0.001"
         } else {
-            "give its mesh a smaller `scale`, such as 0.01 0.01 0.01; lengths are metres"
+            "set a smaller `scale` of its mesh, such as 0.01 0.01 0.01; lengths are metres"
         };
         ledger.fault(solid.place, message, advice);
         return None;
@@ -99,7 +100,8 @@ pub(super) fn draft(
             let side = if above > 0.0 { "above" } else { "below" };
             let by = 1e3 * above.abs();
             let note = format!(
-                "the centre of mass of `{name}` is {by:.1} mm {side} the middle, where pushplan has it"
+                "the centre of mass of `{name}` is {by:.1} mm {side} the middle; pushplan assumes \
+                 the middle"
             );
             ledger.note(solid.place, note);
         }
@@ -108,8 +110,8 @@ pub(super) fn draft(
         let ours = mass * footprint.gyration_radius().powi(2);
         if (stated - ours).abs() > WORTH_A_NOTE * ours {
             let note = format!(
-                "`{name}` states a moment of inertia about the vertical of {:.2} times that of an \
-                 even solid, which pushplan takes",
+                "`{name}` states {:.2} times the moment of inertia about the vertical of a uniform \
+                 solid; pushplan assumes the uniform solid",
                 stated / ours
             );
             ledger.note(solid.place, note);
@@ -132,7 +134,7 @@ pub(super) fn draft(
         _ => {
             let Some(support) = support(&points, &footprint) else {
                 let message = format!("`{name}` stands on {} spheres", feet.len());
-                ledger.fault(solid.place, message, "three to eight points can be stated");
+                ledger.fault(solid.place, message, "give it three to eight support points");
                 return None;
             };
             support
@@ -157,16 +159,16 @@ fn shape(
             Err(PolygonError::Unbalanced) => {
                 let by = 1e3 * off;
                 let message = format!(
-                    "the centre of mass of `{name}` is {by:.1} mm off the middle, outside of what it \
-                     covers"
+                    "the centre of mass of `{name}` is {by:.1} mm from the middle, outside its \
+                     outline"
                 );
-                let advice = "correct where its <inertial> has it (`origin` in URDF, `pos` in MJCF), \
-                              or take <inertial> out and say --density";
+                let advice = "correct the position in its <inertial> (`origin` in URDF, `pos` in \
+                              MJCF), or remove <inertial> and give --density";
                 ledger.fault(solid.place, message, advice);
             }
             Err(error) => {
-                let message = format!("`{name}` is not a prism that pushplan knows: {error}");
-                ledger.fault(solid.place, message, "put a box or a cylinder in its place");
+                let message = format!("`{name}` is not a prism that pushplan supports: {error}");
+                ledger.fault(solid.place, message, "replace it by a box or a cylinder");
             }
             Ok(_) => {}
         }
@@ -182,7 +184,8 @@ fn shape(
             if off > OFF_CENTRE && upright.rough.is_none() {
                 let by = 1e3 * off;
                 let note = format!(
-                    "the centre of mass of `{name}` is {by:.2} mm off its axis, here on it"
+                    "the centre of mass of `{name}` is {by:.2} mm off its axis; it was moved to \
+                     the axis"
                 );
                 ledger.note(solid.place, note);
             }
@@ -198,8 +201,8 @@ fn shape(
                 reach * Vector::new(angle.cos(), angle.sin())
             });
             let note = format!(
-                "the centre of mass of `{name}` is {:.1} mm off its axis: it is a prism of {corners} \
-                 corners, by up to {:.1} mm off the cylinder",
+                "the centre of mass of `{name}` is {:.1} mm off its axis; the cylinder is replaced \
+                 by a prism of {corners} corners, which deviates by up to {:.1} mm",
                 1e3 * off,
                 1e3 * (radius - reach * half.cos()).max(reach - radius)
             );
@@ -227,7 +230,8 @@ fn roughly(
         _ => "an upright cylinder".to_owned(),
     };
     let mut note = format!(
-        "`{name}` is {what} over all that it covers, {:.0} mm high, whose outline is up to {:.1} mm off",
+        "`{name}` is replaced by {what} around its outline, {:.0} mm high, whose sides deviate by \
+         up to {:.1} mm",
         1e3 * height,
         1e3 * rough.off
     );
@@ -256,16 +260,18 @@ fn standing_on(
     };
     if !inside(&corners) {
         let note = format!(
-            "`{name}` would not stand as the file has it: its centre of mass is not over what is \
-             lowest. It is taken as lying on all that it covers"
+            "`{name}` would not stand at the pose in the file, because its centre of mass is not \
+             above its lowest points. Its whole outline is used as support"
         );
         ledger.note(solid.place, note);
         return Support::Even;
     }
     if area(&corners) < STRIP * upright.area() {
         let share = 100.0 * area(&corners) / upright.area();
-        let note =
-            format!("`{name}` lies on {share:.0} % of what it covers, and is taken not to roll");
+        let note = format!(
+            "the support of `{name}` is {share:.0} % of its outline; pushplan assumes that it does \
+             not roll"
+        );
         ledger.note(solid.place, note);
     }
     // Relative to the centre of mass, and slightly inward, so that all points are under the object.

@@ -48,11 +48,13 @@ pub(super) fn frictions(
         }
     }
     if found.len() > MOST {
-        let message =
-            format!("{} pairs have another friction than the mean of their values", found.len());
+        let message = format!(
+            "{} pairs have a friction coefficient that is not the mean of their values",
+            found.len()
+        );
         ledger.fault_of_file(
             message,
-            format!("a task states at most {MOST} of them; make frictions alike"),
+            format!("a task can state at most {MOST} of them; use fewer different values"),
         );
     }
     found
@@ -72,8 +74,9 @@ fn coefficient(
         model.pairs.iter().filter(|(names, _)| of_them(names)).map(|(_, value)| *value);
     if let Some(first) = stated.next() {
         if stated.any(|other| (other - first).abs() > SAME) {
-            let message = format!("pairs of `{}` state different frictions", draft.object.name);
-            ledger.fault(draft.place, message, "state one for all solids of two bodies");
+            let message =
+                format!("pairs of `{}` state different friction coefficients", draft.object.name);
+            ledger.fault(draft.place, message, "state one for all solids of the two bodies");
             return None;
         }
         return Some(first);

@@ -60,23 +60,22 @@ pub(super) fn free(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Vec<u
             Motion::Free => found.push(index),
             motion if motion.is_planar() => {
                 let note = format!(
-                    "`{}` slides and turns on the table: it stands there freely, without what \
-                     limits its joints",
+                    "`{}` slides and turns on the table: it is imported as a free object, without \
+                     the limits of its joints",
                     body.name
                 );
                 ledger.note(body.place, note);
                 found.push(index);
             }
             _ if model.ours && body.name == Model::TOOL && wanted.bodies.is_empty() => {
-                ledger.note(body.place, "the tool is left out: `--as tool` imports it");
+                ledger.note(body.place, "the tool is not imported here; use `--as tool`");
             }
             motion if may_mount(motion) => found.push(index),
             motion => {
                 let how = held_by(motion);
-                let message = format!("`{}` is held in the world by {how}", body.name);
-                let advice = "objects stand freely (--free NAME, a <freejoint/>), turn about the \
-                              vertical or slide along the table; name those that are meant with \
-                              --body";
+                let message = format!("`{}` is attached to the world by {how}", body.name);
+                let advice = "objects must be free (--free NAME, a <freejoint/>), turn about the \
+                              vertical or slide along the table; select bodies with --body";
                 ledger.fault(body.place, message, advice);
             }
         }
@@ -85,15 +84,18 @@ pub(super) fn free(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Vec<u
         if !asked_for.iter().any(|name| same(asked, name)) {
             let held = (1..model.bodies.len()).find(|body| same(asked, model.name_of(*body)));
             let advice = match (held, &others[..]) {
-                (Some(_), _) => format!("it does not move: --free {asked} lets it stand freely"),
+                (Some(_), _) => format!("it is fixed; --free {asked} makes it free"),
                 (None, []) => "no body of the file moves freely".to_owned(),
-                _ => format!("others are {}", others.join(", ")),
+                _ => format!("other movable bodies are {}", others.join(", ")),
             };
             ledger.fault_of_file(format!("no movable body is called `{asked}`"), advice);
         }
     }
     if !others.is_empty() && !found.is_empty() && !wanted.bodies.is_empty() {
-        ledger.note_of_file(format!("left out, with all that hangs on them: {}", listed(&others)));
+        ledger.note_of_file(format!(
+            "omitted, with all bodies attached to them: {}",
+            listed(&others)
+        ));
     }
     found
 }
@@ -113,7 +115,7 @@ pub(super) fn judged(model: &Model, roots: &[usize], wanted: &Wanted, ledger: &m
             others.extend_from_slice(&body.faults);
         }
     }
-    ledger.pass_over(&others, "what is not imported");
+    ledger.pass_over(&others, "the remainder of the file");
     for (place, names) in &model.excluded {
         let both = names
             .iter()
@@ -128,9 +130,9 @@ pub(super) fn judged(model: &Model, roots: &[usize], wanted: &Wanted, ledger: &m
         };
         if both && !joined {
             let [a, b] = names;
-            let message = format!("`{a}` and `{b}` pass through each other (<exclude>)");
-            let advice = "everything touches everything here: take it out, or name one of them with \
-                          --body";
+            let message = format!("`{a}` and `{b}` do not collide (<exclude>)");
+            let advice = "in pushplan all bodies collide: remove the element, or select one of \
+                          them with --body";
             ledger.fault(*place, message, advice);
         }
     }
@@ -139,7 +141,7 @@ pub(super) fn judged(model: &Model, roots: &[usize], wanted: &Wanted, ledger: &m
 /// Describes the joint that holds a body.
 pub(super) fn held_by(motion: &Motion) -> String {
     match motion {
-        Motion::Fixed => "being fixed".to_owned(),
+        Motion::Fixed => "a fixed joint".to_owned(),
         Motion::Free => "a free joint".to_owned(),
         Motion::Hinge { .. } => "a hinge".to_owned(),
         Motion::Slide { .. } => "a slide".to_owned(),
@@ -153,11 +155,11 @@ pub(super) fn held_by(motion: &Motion) -> String {
 pub(super) fn beyond(model: &Model, wanted: &Wanted, ledger: &mut Ledger) {
     for (place, what) in &model.beyond {
         if wanted.bodies.is_empty() {
-            let message = format!("{what} is unknown to pushplan");
-            let advice = "take it out, or name the bodies that are meant with --body";
+            let message = format!("{what} is not supported");
+            let advice = "remove it, or select bodies with --body";
             ledger.fault(*place, message, advice);
         } else {
-            ledger.note(*place, format!("{what} is left out"));
+            ledger.note(*place, format!("{what} is ignored"));
         }
     }
 }

@@ -42,8 +42,8 @@ pub(super) fn joints(
             None => {
                 let message =
                     format!("`{name}` is attached to another body by {}", held_by(motion));
-                let advice = "joints between objects are fixed, turn about the vertical, or slide \
-                              along the table";
+                let advice = "joints between objects must be fixed, turn about the vertical, or \
+                              slide along the table";
                 ledger.fault(*place, message, advice);
             }
         }
@@ -100,7 +100,9 @@ fn turns(limits: Span, name: &str, place: Place, ledger: &mut Ledger) -> Option<
     let degrees = |angle: f64| (angle.to_degrees() * 10.0).round() / 10.0;
     let stated = format!("{} to {} degrees", degrees(low), degrees(high));
     if high - low >= 2.0 * PI {
-        let note = format!("`{name}` may turn by more than a turn ({stated}): here by any angle");
+        let note = format!(
+            "`{name}` may rotate by more than 360 degrees ({stated}); it is imported without limits"
+        );
         ledger.note(place, note);
         return None;
     }
@@ -109,7 +111,8 @@ fn turns(limits: Span, name: &str, place: Place, ledger: &mut Ledger) -> Option<
     let kept = Span { low, high: high.min(low + WIDEST) };
     if kept != limits {
         let [low, high] = [kept.low, kept.high].map(degrees);
-        let note = format!("`{name}` may turn by {stated}: here by {low} to {high} degrees");
+        let note =
+            format!("the range of `{name}` is {stated}; it is imported as {low} to {high} degrees");
         ledger.note(place, note);
     }
     Some(kept)

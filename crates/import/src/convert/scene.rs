@@ -49,11 +49,11 @@ pub fn objects(
     judged(model, &roots, wanted, &mut ledger);
     if roots.is_empty() && wanted.bodies.is_empty() && ledger.count() == 0 {
         let advice = match &solid_bodies(model)[..] {
-            [] => "objects stand freely (<freejoint/>, or a floating joint of the world); \
-                   `--as tool` imports a tool"
+            [] => "objects must be free (<freejoint/>, or a floating joint of the world); `--as \
+                   tool` imports a tool"
                 .to_owned(),
             names => format!(
-                "--free {} lets it stand freely (bodies with solids: {}); `--as tool` imports a tool",
+                "--free {} makes it free (bodies with solids: {}); `--as tool` imports a tool",
                 names[0],
                 listed(names)
             ),
@@ -118,10 +118,11 @@ pub fn objects(
             // Without a goal in the file, the placeholder goal is at the object, so the fault
             // concerns the object.
             for fault in faults.0.iter_mut().filter(|_| !has_goal) {
-                if let Some((name, within)) = fault.message.split_once(" would be inside ") {
+                if let Some((name, within)) = fault.message.split_once(" would overlap ") {
                     let name = name.trim_start_matches("at the goal ");
-                    fault.message = format!("{name} stands inside {within}");
-                    fault.advice = "move one of them, or name others with --body".to_owned();
+                    fault.message = format!("{name} overlaps {within}");
+                    fault.advice =
+                        "move one of them, or select other bodies with --body".to_owned();
                 }
             }
             ledger.adopt("task", faults);

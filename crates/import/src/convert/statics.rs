@@ -53,20 +53,24 @@ pub(super) fn statics<'a>(
     let mut level = true;
     for draft in drafts.iter().filter(|draft| draft.low < floor - STAND) {
         let (name, below) = (&draft.object.name, 1e3 * (floor - draft.low));
-        let note =
-            format!("`{name}` is {below:.0} mm inside the table in the file: it is set on it");
+        let note = format!(
+            "`{name}` is {below:.0} mm below the surface of the table in the file; it was raised \
+             onto it"
+        );
         ledger.note(draft.place, note);
     }
     for draft in drafts.iter().filter(|draft| draft.low > floor + STAND) {
         let (name, above) = (&draft.object.name, 1e3 * (draft.low - floor));
         if draft.low <= floor + DROP {
-            let note =
-                format!("`{name}` is {above:.0} mm above the table in the file: it is set down");
+            let note = format!(
+                "`{name}` is {above:.0} mm above the table in the file; it was lowered onto it"
+            );
             ledger.note(draft.place, note);
             continue;
         }
-        let message = format!("`{name}` is {above:.1} mm above where the lowest object stands");
-        let advice = "all objects stand on one table: set it down, or name others with --body";
+        let message = format!("`{name}` is {above:.1} mm above the underside of the lowest object");
+        let advice =
+            "all objects must stand on one table: lower it, or select other bodies with --body";
         ledger.fault(draft.place, message, advice);
         level = false;
     }
@@ -107,7 +111,7 @@ pub(super) fn statics<'a>(
             if upright.top() >= floor - STAND && drafts.iter().any(over) {
                 found.stand_on(solid, &upright, drafts, ledger)?;
             } else {
-                ledger.note(solid.place, format!("`{what}` lies below the table and is left out"));
+                ledger.note(solid.place, format!("`{what}` is below the table and is ignored"));
             }
             continue;
         }
@@ -120,8 +124,9 @@ pub(super) fn statics<'a>(
         if (z - floor).abs() > STAND {
             let (side, by) = if z < floor { ("above", floor - z) } else { ("below", z - floor) };
             let by = 1e3 * by;
-            let message = format!("the objects are {by:.1} mm {side} this plane, and on no table");
-            ledger.fault(solid.place, message, "set them down on it");
+            let message =
+                format!("the objects are {by:.1} mm {side} this plane and stand on no table");
+            ledger.fault(solid.place, message, "move them onto it");
             return None;
         }
         found.table = Some(solid);
@@ -130,7 +135,7 @@ pub(super) fn statics<'a>(
         Some(table) => found.table_friction = table.material.friction.unwrap_or(wanted.friction),
         None => ledger.note(
             model.bodies[0].place,
-            format!("there is no table: the objects stand on one of friction {}", wanted.friction),
+            format!("the file has no table; one with friction {} is assumed", wanted.friction),
         ),
     }
     Some(found)
@@ -153,7 +158,11 @@ impl<'a> Statics<'a> {
         let off = |draft: &&Draft<'_>| !upright.covers(draft.object.pose.position);
         if let Some(draft) = drafts.iter().find(off) {
             let message = format!("`{}` does not stand on the table", draft.object.name);
-            ledger.fault(draft.place, message, "set it down on the box that the others stand on");
+            ledger.fault(
+                draft.place,
+                message,
+                "move it onto the box that carries the other objects",
+            );
             return None;
         }
         self.table = Some(solid);
@@ -165,7 +174,7 @@ impl<'a> Statics<'a> {
                 self.table_top = Some(TableTop { size, middle: upright.pose.position });
             }
             _ => {
-                ledger.note(solid.place, "the table is turned or round: where it ends is left out")
+                ledger.note(solid.place, "the table is rotated or round, so its edges are ignored")
             }
         }
         Some(())
@@ -176,7 +185,7 @@ impl<'a> Statics<'a> {
 fn flat_at(solid: &Solid, what: &str, ledger: &mut Ledger) -> Option<f64> {
     let normal = solid.pose.rotation * nalgebra::Vector3::z();
     if normal.xy().norm() > 1e-3 || normal.z < 0.0 {
-        let advice = "put a box in its place: obstacles are cuboids";
+        let advice = "replace it by a box; obstacles are cuboids";
         ledger.fault(solid.place, format!("the plane `{what}` is not level"), advice);
         return None;
     }
@@ -248,17 +257,19 @@ fn obstacle<'a>(
     if let Some(draft) = within {
         let name = &draft.object.name;
         if wanted.bodies.is_empty() {
-            let message = format!("`{what}` is no box, and the box around it holds `{name}`");
-            let advice = "put several boxes in its place; with --body it is left out";
+            let message = format!("`{what}` is not a box, and its bounding box contains `{name}`");
+            let advice = "replace it by several boxes; with --body it is ignored";
             ledger.fault(solid.place, message, advice);
         } else {
-            let note = format!("`{what}` is left out: the box around it holds `{name}`");
+            let note = format!("`{what}` is ignored, because its bounding box contains `{name}`");
             ledger.note(solid.place, note);
         }
         return None;
     }
     let more = 1e2 * (size[0] * size[1] / area(&outline) - 1.0);
-    let note = format!("the obstacle `{what}` is the box around it, which covers {more:.0} % more");
+    let note = format!(
+        "the obstacle `{what}` is replaced by its bounding box, which covers {more:.0} % more"
+    );
     ledger.note(solid.place, note);
     Some((obstacle, solid))
 }

@@ -51,14 +51,14 @@ pub(super) fn of_group<'a>(
     let mut solids: Vec<Owned<'a>> =
         all.iter().copied().filter(|(_, solid)| !is_foot(solid)).collect();
     let Some((_, first)) = all.first() else {
-        let message = format!("`{}` has nothing that touches", owner.name);
-        let advice = "give it a box, a cylinder or a mesh that touches others";
+        let message = format!("`{}` has no solid that collides", owner.name);
+        let advice = "give it a box, a cylinder or a mesh with collision";
         ledger.fault(owner.place, message, advice);
         return Vec::new();
     };
     if all.len() > MANY {
-        let message = format!("`{}` has {} solids; {MANY} are read", owner.name, all.len());
-        ledger.fault(owner.place, message, "is this one thing on a table?");
+        let message = format!("`{}` has {} solids; the limit is {MANY}", owner.name, all.len());
+        ledger.fault(owner.place, message, "is this a single object on a table?");
         return Vec::new();
     }
     if all.len() == 1 || solids.is_empty() && all.len() < 3 {
@@ -93,8 +93,8 @@ pub(super) fn of_group<'a>(
     let Some(weighed) = together(model, bodies, wanted.density, ledger) else { return Vec::new() };
     if weighed.0 <= NOTHING {
         let message = format!("`{}` has no mass", owner.name);
-        let advice = "state its mass in kilograms (<inertial>), or what it is made of: --density 700 \
-                      (kg/m^3, wood)";
+        let advice = "state its mass in kilograms (<inertial>), or its density, such as --density \
+                      700 (kg/m^3, wood)";
         ledger.fault(owner.place, message, advice);
         return Vec::new();
     }
@@ -200,14 +200,16 @@ fn compound<'a>(
     let weighed = found.into_iter().map(|(standing, share, _)| (standing, share)).collect();
     let (mut pieces, more) = fewer(weighed);
     if pieces.len() > MOST {
-        let message = format!("`{name}` has {} solids, and {MOST} can be said", pieces.len());
-        ledger.fault(place, message, "leave out those that matter least");
+        let message =
+            format!("`{name}` has {} solids; a task can have at most {MOST}", pieces.len());
+        ledger.fault(place, message, "remove those that matter least");
         return None;
     }
     if pieces.len() < before {
         let (count, more) = (pieces.len(), 100.0 * more);
         let note = format!(
-            "the {before} solids of `{name}` are {count} here, which cover {more:.1} % more of the table"
+            "the {before} solids of `{name}` are merged into {count}, which cover {more:.1} % more \
+             of the table"
         );
         ledger.note(place, note);
     }
@@ -218,7 +220,8 @@ fn compound<'a>(
     let friction = pieces[0].0.solid.material.friction.unwrap_or(wanted.friction);
     let other = pieces.iter().map(|(piece, _)| piece.solid.material.friction);
     if other.flatten().any(|other| other != friction) {
-        let note = format!("solids of `{name}` rub differently: {friction} is taken for all");
+        let note =
+            format!("solids of `{name}` have different frictions; {friction} is used for all");
         ledger.note(place, note);
     }
     let mut masses: Vec<f64> = pieces.iter().map(|(_, share)| *share).collect();
@@ -254,8 +257,8 @@ fn compound<'a>(
     by_volume(&mut objects);
     if let Some(hangs) = raised(&mut objects, &undersides) {
         let note = format!(
-            "solids of `{name}` begin up to {:.0} mm above the lowest one and would not stay there: \
-             here all reach down",
+            "solids of `{name}` begin up to {:.0} mm above the lowest one without support; all are \
+             extended down to it",
             1e3 * hangs
         );
         ledger.note(place, note);
@@ -265,8 +268,7 @@ fn compound<'a>(
         let off = (moment.sum::<Vector>() / mass - centre).norm();
         if off > OFF {
             let by = 1e3 * off;
-            let note =
-                format!("the centre of mass of `{name}` is here {by:.1} mm off where it should be");
+            let note = format!("the imported centre of mass of `{name}` deviates by {by:.1} mm");
             ledger.note(place, note);
         }
     }
@@ -357,7 +359,7 @@ fn shares<'a>(
         let all: f64 = space.iter().sum();
         if of.inertial.is_some() && own.len() > 1 {
             let note =
-                format!("the mass of `{}` is split over its solids by volume", bare(&of.name));
+                format!("the mass of `{}` is divided among its solids by volume", bare(&of.name));
             ledger.note(of.place, note);
         }
         for (k, space) in own.into_iter().zip(space) {

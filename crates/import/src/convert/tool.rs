@@ -73,18 +73,19 @@ fn chosen(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Option<usize> 
     match candidates[..] {
         [body] if solid(&body) => return Some(body),
         [body] => {
-            let message = format!("nothing of `{}` touches anything", model.name_of(body));
+            let message = format!("no solid of `{}` collides", model.name_of(body));
             ledger.fault(model.bodies[body].place, message, names_them(model));
         }
         [] => {
             let message = match wanted.bodies.first() {
                 Some(asked) => format!("no body is called `{asked}`"),
-                None => "no body of the file touches anything".to_owned(),
+                None => "no body of the file has a solid that collides".to_owned(),
             };
             ledger.fault_of_file(message, names_them(model));
         }
         _ => {
-            let message = format!("there are {} bodies, and a tool is one", candidates.len());
+            let message =
+                format!("there are {} bodies, but a tool is a single one", candidates.len());
             ledger.fault_of_file(message, names_them(model));
         }
     }
@@ -94,8 +95,10 @@ fn chosen(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Option<usize> 
 /// Lists the bodies that can be imported as the tool.
 fn names_them(model: &Model) -> String {
     match &solid_bodies(model)[..] {
-        [] => "pushplan's tools are solids that touch: <geom>, <collision>, or a mesh".to_owned(),
-        names => format!("choose with --body: {}", names.join(", ")),
+        [] => {
+            "pushplan's tools are solids with collision: <geom>, <collision>, or a mesh".to_owned()
+        }
+        names => format!("select one with --body: {}", names.join(", ")),
     }
 }
 
@@ -113,9 +116,8 @@ fn assemble(
             && other.motion != Motion::Fixed;
         if moves {
             let how = held_by(&other.motion);
-            let message = format!("`{}` moves against the tool, by {how}", other.name);
-            let advice =
-                "a tool is one rigid piece: fix it, take it out, or name a piece with --body";
+            let message = format!("`{}` moves relative to the tool, by {how}", other.name);
+            let advice = "a tool is one rigid body: fix it, remove it, or select one with --body";
             ledger.fault(other.place, message, advice);
         }
     }
@@ -130,8 +132,8 @@ fn assemble(
     let count = solids.clone().count();
     if count > MAX_PARTS {
         let message =
-            format!("it has {count} solids that touch; a tool has at most {MAX_PARTS} parts");
-        ledger.fault(model.bodies[body].place, message, "leave out those that meet no object");
+            format!("the tool has {count} solids with collision; the limit is {MAX_PARTS} parts");
+        ledger.fault(model.bodies[body].place, message, "remove those that meet no object");
         return None;
     }
     for (of, solid) in solids {
@@ -148,8 +150,9 @@ fn assemble(
                     Shape::Prism { base, height }
                 }
                 Err(error) => {
-                    let message = format!("`{name}` is not a prism that pushplan knows: {error}");
-                    ledger.fault(solid.place, message, "put a box or a cylinder in its place");
+                    let message =
+                        format!("`{name}` is not a prism that pushplan supports: {error}");
+                    ledger.fault(solid.place, message, "replace it by a box or a cylinder");
                     continue;
                 }
             },
@@ -161,14 +164,14 @@ fn assemble(
     let low = lows.iter().map(|(.., low)| *low).fold(f64::INFINITY, f64::min);
     for (place, name, own) in lows.iter().filter(|(.., own)| own - low > LEVEL) {
         let message = format!("`{name}` begins {:.1} mm above the lowest part", 1e3 * (own - low));
-        let advice = "parts of a tool stand side by side: let it reach down, or let it touch \
-                      nothing if it meets no object";
+        let advice = "parts of a tool stand side by side: extend it down, or disable its collision \
+                      if it meets no object";
         ledger.fault(*place, message, advice);
     }
     let (_, friction) = *frictions.first()?;
     if let Some((place, other)) = frictions.iter().find(|(_, other)| *other != friction) {
         let message = format!("parts have different frictions, {friction} and {other}");
-        ledger.fault(*place, message, "a tool has one friction value: make them alike");
+        ledger.fault(*place, message, "a tool has a single friction value; use one for all parts");
     }
     let name = match &wanted.name {
         Some(name) => name.clone(),

@@ -100,7 +100,7 @@ impl Upright {
                     Outline::Ellipsoid(_) => "an ellipsoid",
                     _ => "a capsule",
                 };
-                ledger.fault(solid.place, format!("{what} is {kind}, and rolls"), PRIMITIVES);
+                ledger.fault(solid.place, format!("{what} is {kind}, which rolls"), PRIMITIVES);
                 None
             }
             Outline::Plane(_) => {
@@ -134,8 +134,8 @@ impl Upright {
         let volume = volume(solid);
         let found = Self::over(&placed, volume, matches!(solid.outline, Outline::Mesh(_)));
         if found.is_none() {
-            let advice = "is its scale right? Lengths are metres";
-            ledger.fault(solid.place, format!("{what} is flat, or too small to be pushed"), advice);
+            let advice = "check its scale; lengths are metres";
+            ledger.fault(solid.place, format!("{what} is flat or too small to be pushed"), advice);
         }
         found
     }
@@ -270,16 +270,16 @@ fn cloud(outline: &Outline) -> Vec<Point3<f64>> {
 }
 
 /// Advice for solids that rest on a round side.
-const ROLLS: &str = "nobody knows how far it would roll: stand it upright, or put a box in its place if it cannot \
-    roll or does not move";
+const ROLLS: &str = "its rolling distance cannot be predicted: stand it upright, or replace it by \
+    a box if it cannot roll or does not move";
 
 /// Advice for shapes that cannot be expressed.
-pub(super) const PRIMITIVES: &str = "put a box, an upright cylinder or a mesh (STL, OBJ) in its place, or let \
-    it touch nothing";
+pub(super) const PRIMITIVES: &str =
+    "replace it by a box, an upright cylinder or a mesh (STL, OBJ), or disable its collision";
 
 fn leans<T>(solid: &Solid, what: &str, ledger: &mut Ledger) -> Option<T> {
-    let advice = "pushplan's solids stand upright: turn it by multiples of 90 degrees";
-    ledger.fault(solid.place, format!("{what} leans"), advice);
+    let advice = "pushplan's solids stand upright: rotate it by multiples of 90 degrees";
+    ledger.fault(solid.place, format!("{what} is tilted"), advice);
     None
 }
 
@@ -339,7 +339,7 @@ fn prism(pose: &Isometry3<f64>, points: &[Point3<f64>]) -> Result<Upright, Strin
             } else {
                 String::new()
             };
-            return Err(format!("its {end} misses corners of its outline{by}"));
+            return Err(format!("its {end} lacks corners of its outline{by}"));
         }
     }
     Ok(Upright { base: Base::Polygon(corners), pose: frame, low, height: high - low, rough: None })
@@ -384,6 +384,6 @@ mod tests {
         let whole = prism(&pose, &[ring(0.0, 1.0), ring(0.05, 1.0)].concat()).expect("a prism");
         assert!((whole.area() - 0.0012).abs() < 1e-12 && (whole.top() - 0.55).abs() < 1e-12);
         let narrow = prism(&pose, &[ring(0.0, 1.0), ring(0.05, 0.9)].concat());
-        assert!(narrow.unwrap_err().contains("its top misses corners of its outline by 6.0 mm"));
+        assert!(narrow.unwrap_err().contains("its top lacks corners of its outline by 6.0 mm"));
     }
 }

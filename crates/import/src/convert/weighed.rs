@@ -43,7 +43,7 @@ pub(super) fn of_body(body: &Body, density: Option<f64>, ledger: &mut Ledger) ->
     for solid in &body.solids {
         if solid.material.weight == Weight::OfBody && density.is_none() {
             let message = format!("`{}` states no mass", body.name);
-            let advice = "say what it is made of, such as --density 700 (kg/m^3, wood), or add \
+            let advice = "give its density, such as --density 700 (kg/m^3, wood), or add \
                           <inertial> with its <mass>";
             ledger.fault(body.place, message, advice);
             return None;
@@ -116,7 +116,7 @@ pub(super) fn of_solid(solid: &Solid, density: Option<f64>, ledger: &mut Ledger)
             _ => String::new(),
         };
         let message = format!(
-            "what this solid weighs follows from a density, and its {what} is not known{why}"
+            "the mass of this solid is computed from a density, but its {what} is not known{why}"
         );
         ledger.fault(solid.place, message, "state `mass`, or add <inertial> to its body");
     }

@@ -61,13 +61,15 @@ impl Files {
     pub fn find(&self, base: &str, name: &str) -> Result<PathBuf, Refused> {
         let (Some(folder), Some(root)) = (&self.folder, &self.root) else {
             return Err(Refused {
-                message: format!("`{name}` is another file, and this is a text alone"),
-                advice: "read it from a file".to_owned(),
+                message: format!(
+                    "`{name}` is another file, but the input is a text without a folder"
+                ),
+                advice: "read the input from a file".to_owned(),
             });
         };
         let root = root.canonicalize().map_err(|error| Refused {
             message: format!("the folder {} cannot be read: {error}", root.display()),
-            advice: "name a folder with --root that exists".to_owned(),
+            advice: "give an existing folder with --root".to_owned(),
         })?;
         let named = match name.split_once("://") {
             Some(("package", rest)) => return self.in_package(&root, rest),
@@ -96,7 +98,7 @@ impl Files {
     fn in_package(&self, root: &Path, rest: &str) -> Result<PathBuf, Refused> {
         let missing = || Refused {
             message: format!("there is no file package://{rest} in or below {}", root.display()),
-            advice: "name the folder of the package, or the one around it, with --root".to_owned(),
+            advice: "give the folder of the package, or its parent, with --root".to_owned(),
         };
         let within = rest.split_once('/').map_or(rest, |(_, within)| within);
         let folder = self.folder.as_ref().and_then(|folder| folder.canonicalize().ok());
@@ -134,7 +136,7 @@ fn outside(name: &str, root: &Path, real: &Path) -> Refused {
     let shared: PathBuf =
         shared.map(|(part, _)| part).collect::<Vec<Component<'_>>>().iter().collect();
     Refused {
-        message: format!("`{name}` lies outside of the file's own folder"),
-        advice: format!("files in and below a folder may be read with --root {}", shared.display()),
+        message: format!("`{name}` is outside the folder of the file"),
+        advice: format!("--root {} allows files in and below that folder", shared.display()),
     }
 }

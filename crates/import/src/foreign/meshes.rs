@@ -26,7 +26,7 @@ pub fn load(path: &Path) -> Result<Triangles, Refused> {
         "obj" => obj(&bytes),
         "msh" => msh(&bytes),
         _ => {
-            let message = format!("meshes of the kind .{end} are not read");
+            let message = format!("meshes with the extension .{end} are not supported");
             return Err(refused(message, "convert it to STL or OBJ (MeshLab, trimesh)"));
         }
     };
@@ -37,12 +37,12 @@ pub fn load(path: &Path) -> Result<Triangles, Refused> {
         }
         Ok((_, faces)) if faces.len() > MOST => {
             let message = format!("{} has {} triangles", path.display(), faces.len());
-            Err(refused(message, "make the mesh coarser: at most a million are read"))
+            Err(refused(message, "make the mesh coarser; the limit is a million triangles"))
         }
         Ok(raw) => Ok(raw),
         Err(why) => {
             let message = format!("{} cannot be read as a mesh: {why}", path.display());
-            Err(refused(message, "write it out again (MeshLab, trimesh)"))
+            Err(refused(message, "export it again (MeshLab, trimesh)"))
         }
     }
 }
@@ -90,11 +90,11 @@ fn msh(bytes: &[u8]) -> Result<Triangles, String> {
     };
     let counts = [count(0), count(1), count(2), count(3)];
     let [Some(corners), Some(normals), Some(textures), Some(triangles)] = counts else {
-        return Err("its counts make no sense".to_owned());
+        return Err("its counts are not valid".to_owned());
     };
     let first_face = 4 + 3 * corners + 3 * normals + 2 * textures;
     if 4 * (first_face + 3 * triangles) != bytes.len() {
-        return Err("its length is not that of its counts".to_owned());
+        return Err("its length does not match its counts".to_owned());
     }
     let number = |k: usize| f64::from(word(k).map_or(0.0, f32::from_le_bytes));
     let index = |k: usize| word(k).map_or(0, u32::from_le_bytes);

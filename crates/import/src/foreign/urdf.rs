@@ -90,7 +90,7 @@ pub fn axis<'a>(joint: Node<'a, 'a>) -> Result<Vector3, Flaw> {
     let stated = element(joint, "axis").and_then(|axis| axis.attribute_node("xyz"));
     let axis = Vector3::from(stated.map_or(Ok([1.0, 0.0, 0.0]), numbers::<3>)?);
     axis.try_normalize(1e-12).ok_or_else(|| {
-        Flaw::of(joint, "the axis of this joint has no length", "write one such as `0 0 1`")
+        Flaw::of(joint, "the axis of this joint has length zero", "write an axis such as `0 0 1`")
     })
 }
 

@@ -42,8 +42,9 @@ pub fn list(attribute: Attribute) -> Result<Vec<f64>, Flaw> {
     let number = |word: &str| match word.parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
         _ => {
-            let message = format!("`{}` has `{word}`, not a number", attribute.name());
-            Err(Flaw::of_attribute(attribute, message, "write numbers with spaces between them"))
+            let message =
+                format!("`{}` contains `{word}`, which is not a number", attribute.name());
+            Err(Flaw::of_attribute(attribute, message, "write numbers separated by spaces"))
         }
     };
     attribute.value().split_whitespace().map(number).collect()

@@ -43,15 +43,16 @@ pub(crate) fn model(path: &Path, _: Language, unit: f64) -> Result<(Model, Vec<S
     points.iter_mut().for_each(|point| *point *= unit);
     let side = longest(&points);
     if !(SIZES[0]..=SIZES[1]).contains(&side) {
-        let message = format!("its longest side is {side} m, which is no thing on a table");
+        let message =
+            format!("its longest side is {side} m, which is too large for an object on a table");
         let likely = UNITS.iter().find(|(_, other)| {
             (LIKELY[0]..=LIKELY[1]).contains(&(side / unit * other)) && *other != unit
         });
         let advice = match likely {
             Some((word, other)) => {
-                format!("write its unit: --unit {word} makes it {:.3} m", side / unit * other)
+                format!("give its unit: --unit {word} makes it {:.3} m", side / unit * other)
             }
-            None => "write its unit: --unit mm, cm, m or in".to_owned(),
+            None => "give its unit: --unit mm, cm, m or in".to_owned(),
         };
         return Err(fault(message, advice).into());
     }
@@ -59,13 +60,14 @@ pub(crate) fn model(path: &Path, _: Language, unit: f64) -> Result<(Model, Vec<S
     let made = |counted| Mesh::new(points.clone(), faces.clone(), counted);
     let mut mesh = made(Counted::Enclosed);
     if !mesh.as_ref().is_some_and(Mesh::is_closed) {
-        notes
-            .push(format!("{file}: the mesh is not closed: its volume is that of its convex hull"));
+        notes.push(format!(
+            "{file}: the mesh is not closed, so the volume of its convex hull is used"
+        ));
         mesh = made(Counted::Hull);
     }
     let Some(mesh) = mesh.filter(|mesh| mesh.volume > 0.0) else {
         let advice = "is this the right file?".to_owned();
-        return Err(fault("the mesh is flat, or its numbers are none".to_owned(), advice).into());
+        return Err(fault("the mesh is flat or contains invalid numbers".to_owned(), advice).into());
     };
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let place = Place { file: 0, line: 1, column: 1 };

@@ -22,7 +22,7 @@ impl Models {
     /// Reads the file named by a `model` element; its faults are reported where it is attached.
     pub fn add<'a>(&mut self, source: &mut Source<'a>, node: Node<'a, 'a>, files: &Files) {
         let Some(file) = node.attribute("file") else {
-            source.fault(node, "this model names no file", "name its `file`");
+            source.fault(node, "this model has no `file`", "add its `file`");
             return;
         };
         let read = files.find("", file).and_then(|path| Ok((Files::bytes(&path)?, path)));
@@ -31,8 +31,8 @@ impl Models {
             Err(refused) => return source.fault(node, refused.message, refused.advice),
         };
         let Some(inner) = files.within(&path) else {
-            let message = "these models attach each other, or far too many";
-            return source.fault(node, message, "break the circle");
+            let message = "these models attach each other, or are far too many";
+            return source.fault(node, message, "break the cycle");
         };
         let Ok(text) = String::from_utf8(bytes) else {
             let message = format!("{file} is not UTF-8 text");
@@ -74,7 +74,7 @@ impl Models {
             Some(Err(faults)) => return source.ledger.take(faults),
             None => {
                 let message = format!("there is no model `{named}`");
-                return source.fault(node, message, "name one of those under <asset>");
+                return source.fault(node, message, "use a model defined under <asset>");
             }
         };
         let top = match node.attribute("body") {
@@ -83,14 +83,14 @@ impl Models {
                 Some(top) => top,
                 None => {
                     let message = format!("the model `{named}` has no body `{name}`");
-                    return source.fault(node, message, "correct its name");
+                    return source.fault(node, message, "correct the name of the body");
                 }
             },
         };
         let below = other.below(top);
         if model.bodies.len() + below.len() > MOST {
-            let message = format!("with these bodies there are more than {MOST}");
-            return source.fault(node, message, "attach fewer");
+            let message = format!("with these bodies the model has more than {MOST}");
+            return source.fault(node, message, "attach fewer bodies");
         }
         let prefix = node.attribute("prefix").unwrap_or_default();
         // The body keeps its pose relative to its former parent.

@@ -88,7 +88,7 @@ fn inside<'a>(
             "attach" => context.models.attach(source, child, (within.body, &within.pose), model),
             tag if UNSEEN.contains(&tag) => {}
             _ => {
-                let message = format!("<{tag}> is not read");
+                let message = format!("<{tag}> is not supported");
                 source.fault(child, message, FLATTEN);
             }
         }
@@ -99,8 +99,9 @@ fn inside<'a>(
 }
 
 /// Advice to let MuJoCo's compiler expand an element.
-pub(super) const FLATTEN: &str = "have MuJoCo write it out: `python3 -c \"import mujoco; \
-    mujoco.mj_saveLastXML('flat.xml', mujoco.MjModel.from_xml_path('FILE'))\"`, or take it out";
+pub(super) const FLATTEN: &str = "flatten the file with MuJoCo: `python3 -c \"import mujoco; \
+    mujoco.mj_saveLastXML('flat.xml', mujoco.MjModel.from_xml_path('FILE'))\"`, or remove the \
+    element";
 
 fn body<'a>(
     source: &mut Source<'a>,
@@ -111,7 +112,7 @@ fn body<'a>(
 ) {
     // The arm of an exported plan.
     if model.ours && node.attribute("name").is_some_and(|name| name.starts_with("arm/")) {
-        source.ledger.note(source.place(node), "the arm, which holds the tool, is left out");
+        source.ledger.note(source.place(node), "the arm that holds the tool is ignored");
         let is_tool = |node: &Node<'_, '_>| node.attribute("name") == Some(Model::TOOL);
         if let Some(tool) = node.descendants().find(is_tool) {
             held(source, context, tool, within, model);
@@ -127,7 +128,7 @@ fn body<'a>(
         return;
     };
     if let Some(lifted) = node.attribute_node("gravcomp").filter(|value| value.value() != "0") {
-        source.fault_of(lifted, "this body does not weigh what it should", "leave `gravcomp` out");
+        source.fault_of(lifted, "this body does not have its full weight", "remove `gravcomp`");
     }
     let index = model.bodies.len();
     let name = node.attribute("name").map_or_else(|| format!("body-{index}"), str::to_owned);
@@ -233,12 +234,12 @@ fn joint<'a>(
     let named = node.attribute("name").unwrap_or("without a name");
     if number(source, "stiffness")? != 0.0 || find("springdamper").is_some() {
         let message = format!("the joint {named} has a spring");
-        source.fault(node, message, "pushplan's joints have none: leave it out");
+        source.fault(node, message, "remove it; pushplan's joints have no springs");
     }
     for loss in ["damping", "frictionloss"] {
         if number(source, loss)? != 0.0 {
             let place = source.place(node);
-            source.ledger.note(place, format!("`{loss}` of the joint {named} is left out"));
+            source.ledger.note(place, format!("`{loss}` of the joint {named} is ignored"));
         }
     }
     let (start, at) = (number(source, "ref")?, find("pos"));
@@ -247,7 +248,11 @@ fn joint<'a>(
         None => [0.0, 0.0, 1.0],
     };
     let Some(axis) = Vector3::from(axis).try_normalize(1e-12) else {
-        source.fault(node, "the axis of this joint has no length", "write one such as `0 0 1`");
+        source.fault(
+            node,
+            "the axis of this joint has length zero",
+            "write an axis such as `0 0 1`",
+        );
         return None;
     };
     let axis = within.pose * axis;

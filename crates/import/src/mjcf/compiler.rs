@@ -95,7 +95,7 @@ impl Compiler {
                 ("strippath", word) => self.strip = word == "true",
                 ("exactmeshinertia", word) => self.exact = word == "true",
                 (name, _) if HARMLESS.contains(&name) => {}
-                _ => refuse("correct it, or take it out"),
+                _ => refuse("correct it, or remove it"),
             }
         }
     }
@@ -129,7 +129,7 @@ impl Compiler {
                 _ => turns::z_axis(source.numbers(attribute)?),
             };
             let Some(found) = found else {
-                let message = format!("`{name}` states no turn: an axis has no length");
+                let message = format!("`{name}` is not a valid rotation: an axis has length zero");
                 source.fault_of(attribute, message, "correct its numbers");
                 return None;
             };

@@ -23,8 +23,8 @@ pub(super) fn pairs<'a>(
             continue;
         }
         if tag != "pair" {
-            let message = format!("<{tag}> is not read: in pushplan everything touches everything");
-            source.fault(pair, message, "take it out");
+            let message = format!("<{tag}> is not supported: in pushplan all bodies collide");
+            source.fault(pair, message, "remove it");
             continue;
         }
         let names = ["geom1", "geom2"].map(|name| pair.attribute(name).unwrap_or_default());

@@ -41,13 +41,13 @@ impl<'a> Defaults<'a> {
             (Some(name), _) => name,
             (None, None) => MAIN,
             (None, Some(_)) => {
-                source.fault(node, "a <default> in another has no class", "name its `class`");
+                source.fault(node, "a nested <default> has no class", "add its `class`");
                 return;
             }
         };
         if name != MAIN && parent.is_none() {
             let message = format!("the outermost <default> has the class `{name}`, not `main`");
-            source.fault(node, message, "leave its `class` out");
+            source.fault(node, message, "remove its `class`");
             return;
         }
         self.classes.entry(name).or_default().parent = parent;
@@ -90,7 +90,7 @@ impl<'a> Defaults<'a> {
         let Some(named) = node.attribute_node(attribute) else { return };
         if named.value() != MAIN && !self.classes.contains_key(named.value()) {
             let message = format!("there is no class `{}`", named.value());
-            source.fault_of(named, message, "name one of those under <default>");
+            source.fault_of(named, message, "use a class defined under <default>");
         }
     }
 }

@@ -125,13 +125,13 @@ impl<'a> Context<'a> {
         let name = node.attribute("name").unwrap_or_default();
         if [(1.0, 1.0), (0.0, 0.0)].iter().all(|usual| *usual != (kinds, with)) {
             let place = source.place(node);
-            let note = "`contype` and `conaffinity` are left out: everything touches everything";
+            let note = "`contype` and `conaffinity` are ignored: all bodies collide";
             source.ledger.note(place, note);
         }
         let touches = kinds != 0.0 || with != 0.0 || self.paired.contains(name);
         if let Some(condim) = find("condim").filter(|condim| condim.value() == "1" && touches) {
             let place = source.place_of(condim);
-            let note = "`condim` 1 is left out: the geom rubs as its `friction` says";
+            let note = "`condim` 1 is ignored: the geom has its `friction`";
             source.ledger.note(place, note);
         }
         Some(Solid {
@@ -159,7 +159,7 @@ impl<'a> Context<'a> {
         let hollow = find("shellinertia").filter(|shell| shell.value() == "true");
         if let Some(shell) = hollow {
             let place = source.place_of(shell);
-            source.ledger.note(place, "this geom is hollow: here its mass is spread evenly");
+            source.ledger.note(place, "this geom is hollow; its mass is distributed uniformly");
         }
         let weight = match (find("mass"), find("density")) {
             _ if group < first || group > last => Weight::Mass(0.0),
@@ -208,7 +208,7 @@ impl<'a> Context<'a> {
             ("plane", [x, y, ..]) => Outline::Plane([*x, *y]),
             ("mesh", _) => {
                 let Some(named) = self.defaults.find(element, "mesh") else {
-                    source.fault(node, "this geom is a mesh but names none", "add `mesh`");
+                    source.fault(node, "this geom has the type mesh but no `mesh`", "add `mesh`");
                     return None;
                 };
                 self.meshes.outline(source, self, named)?
@@ -225,7 +225,7 @@ impl<'a> Context<'a> {
             }
             ("hfield" | "sdf", _) => Outline::Other(format!("a {kind}")),
             _ => {
-                let message = format!("`{kind}` is not a type of geom");
+                let message = format!("`{kind}` is not a geom type");
                 source.fault(node, message, "write box, cylinder or mesh");
                 return None;
             }

@@ -68,7 +68,7 @@ pub(crate) fn model<'a>(
             "option" => option(source, section),
             "keyframe" => {
                 if elements(section).any(|key| key.has_attribute("qpos")) {
-                    let note = "keyframes are left out: everything is where bodies and joints say";
+                    let note = "keyframes are ignored: the poses of bodies and joints are used";
                     let place = source.place(section);
                     source.ledger.note(place, note);
                 }
@@ -80,7 +80,7 @@ pub(crate) fn model<'a>(
                     model.beyond.push((source.place(section), format!("<{tag}>")));
                 }
             }
-            tag => source.fault(section, format!("<{tag}> is not read"), FLATTEN),
+            tag => source.fault(section, format!("<{tag}> is not supported"), FLATTEN),
         }
     }
     Some(model)
@@ -103,14 +103,16 @@ fn option<'a>(source: &mut Source<'a>, option: Node<'a, 'a>) {
         let stated = option.attribute(name).unwrap_or_default();
         if stated.split_whitespace().any(|word| word.parse().is_ok_and(|value: f64| value != 0.0)) {
             let place = source.place(option);
-            source.ledger.note(place, format!("`{name}` is left out: {what} does not push here"));
+            source
+                .ledger
+                .note(place, format!("`{name}` is ignored: {what} exerts no force in pushplan"));
         }
     }
     for flag in elements(option).filter(|node| node.has_tag_name("flag")) {
         for name in ["gravity", "contact", "constraint", "limit"] {
             if let Some(off) = flag.attribute_node(name).filter(|flag| flag.value() == "disable") {
-                let message = format!("{name} is switched off; pushplan's tables have it");
-                source.fault_of(off, message, "take the flag out");
+                let message = format!("{name} is disabled, but pushplan always simulates it");
+                source.fault_of(off, message, "remove the flag");
             }
         }
     }
@@ -122,11 +124,11 @@ fn gravity<'a>(source: &mut Source<'a>, option: Node<'a, 'a>) {
     let Some([x, y, z]) = source.numbers(stated) else { return };
     if x.hypot(y) > 1e-3 * GRAVITY || (z + GRAVITY).abs() > 0.02 * GRAVITY {
         let message =
-            format!("gravity is {x} {y} {z} m/s^2; pushplan's tables stand level on earth");
+            format!("gravity is {x} {y} {z} m/s^2, but pushplan's tables are level and on earth");
         let none = x.hypot(y).hypot(z) < 1e-3 * GRAVITY;
         let advice = match none {
-            true => "write `0 0 -9.81`: without weight nothing rubs",
-            false => "turn the scene, so that gravity is `0 0 -9.81`",
+            true => "write `0 0 -9.81`; without weight there is no friction",
+            false => "rotate the scene, so that gravity is `0 0 -9.81`",
         };
         source.fault_of(stated, message, advice);
     }
@@ -138,7 +140,7 @@ fn custom<'a>(source: &mut Source<'a>, section: Node<'a, 'a>, model: &mut Model)
         let name = text.attribute("name").unwrap_or_default();
         if let (Some(body), Some(words)) = (name.strip_prefix("words of "), text.attribute("data"))
         {
-            let note = format!("the goal of `{body}` is left out: \"{words}\" has no place here");
+            let note = format!("the goal of `{body}` is ignored: \"{words}\" cannot be imported");
             source.ledger.note(source.place(text), note);
         }
     }

@@ -32,11 +32,19 @@ pub(super) const COVERAGE: Ask = Ask {
                 }),
                 "The smallest share of the outline's area; default 0.95.",
             ),
-            Key::required("position", POSITION, "Where the outline is, [x, y] in metres."),
-            Key::optional("heading_deg", ANGLE, "Its heading, degrees; default 0."),
+            Key::required(
+                "position",
+                POSITION,
+                "Position of the target outline, [x, y] in metres.",
+            ),
+            Key::optional(
+                "heading_deg",
+                ANGLE,
+                "Heading of the target outline, degrees; default 0.",
+            ),
         ]),
-        "How much of its own outline there the object covers instead, seen from above, with all parts: what \
-     Push-T measures; by default any.",
+        "Required coverage of a target outline by the object, seen from above, with all parts. The \
+         target outline is the object's own outline at a given pose, as in Push-T. By default any.",
     )],
     about: About::Pose,
     read: |goal, object, scene| {

@@ -30,20 +30,21 @@ pub(super) const OFF_TABLE: Ask = Ask {
                 Key::required(
                     "edge",
                     Value::Word(&["far", "near", "left", "right"]),
-                    "The edge, as the robot sees it.",
+                    "The edge, seen from the robot.",
                 ),
                 Key::required(
                     "between",
                     numbers(&SHIFT_LIMIT, 2),
-                    "Between which places along it its centre of mass has to be, [low, high] in metres: x of the \
-                 left and the right edge, y of the others.",
+                    "Range along the edge in which the centre of mass must leave the table, [low, \
+                     high] in metres: x for the left and the right edge, y for the others.",
                 ),
             ]),
         ]),
-        "Over which edge of the table it is to fall instead of coming to rest, as the robot sees it: `any`, \
-     `far` (+x), `near` (-x), `left` (+y) or `right` (-y), or an `edge` and `between` which places along it. \
-     It falls once its centre of mass is beyond the edge; everything else stays, unless it may fall. By \
-     default it is to stay.",
+        "Edge of the table over which the object must fall instead of coming to rest, seen from \
+         the robot: `any`, `far` (+x), `near` (-x), `left` (+y) or `right` (-y). A map of `edge` \
+         and `between` restricts it to a range of the edge. The object falls once its centre of \
+         mass is beyond the edge; all other objects must stay unless they may fall. By default the \
+         object must stay.",
     )],
     about: About::Pose,
     read: |goal, object, scene| Some(Demand::Fall(fall(goal.get("off_table")?, object, scene)?)),
@@ -90,11 +91,11 @@ fn check(asked: &Asked, ledger: &mut Ledger) {
     }
     if scene.get("table").and_then(|table| table.get("size")).is_none() {
         let advice = "add `table: {size: [x, y]}` to the scene";
-        ledger.fault(node, "the table ends nowhere, so nothing falls off it", advice);
+        ledger.fault(node, "the table has no edges, so no object can fall off it", advice);
     }
     if let Some(other) = goal.get("relative_to") {
-        let advice = "leave it out: the table is where it is";
-        ledger.fault(other, "`off_table` is relative to nothing", advice);
+        let advice = "leave it out; the edges of the table are fixed in the world";
+        ledger.fault(other, "`off_table` cannot be relative to an object", advice);
     }
     let section = |key| asked.section(key);
     let held = section("joints").iter().find(|joint| {
@@ -103,7 +104,7 @@ fn check(asked: &Asked, ledger: &mut Ledger) {
     });
     if held.is_some() {
         let message = format!("`{}` is joined to the world", name.text().unwrap_or("?"));
-        ledger.fault(node, message, "what a joint holds does not fall");
+        ledger.fault(node, message, "an object joined to the world cannot fall");
     }
 }
 
@@ -111,8 +112,9 @@ fn check(asked: &Asked, ledger: &mut Ledger) {
 fn check_part(between: &Node, edge: Option<&str>, scene: &Node, ledger: &mut Ledger) {
     let Some(Span { low, high }) = span(between) else { return };
     if high - low < SHORTEST {
-        let message = format!("no part of an edge goes from {low} to {high}");
-        let advice = format!("the smaller place first, and at least {SHORTEST} m between them");
+        let message = format!("the range from {low} to {high} is reversed or too short");
+        let advice =
+            format!("write the smaller value first, with at least {SHORTEST} m between them");
         ledger.fault(between, message, advice);
         return;
     }
@@ -123,7 +125,7 @@ fn check_part(between: &Node, edge: Option<&str>, scene: &Node, ledger: &mut Led
     let [half, middle] = [0.5 * size, middle].map(|place| edge.along().dot(&place));
     if low > middle + half || high < middle - half {
         let (name, from, to) = (edge.name(), middle - half, middle + half);
-        let message = format!("the {name} edge goes from {from:.3} to {to:.3}");
-        ledger.fault(between, message, "ask for a part of it");
+        let message = format!("the {name} edge ranges only from {from:.3} to {to:.3}");
+        ledger.fault(between, message, "give a range within it");
     }
 }

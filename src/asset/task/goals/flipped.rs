@@ -12,7 +12,8 @@ pub(super) const FLIPPED: Ask = Ask {
     keys: &[Key::optional(
         "flipped",
         Value::Switch,
-        "At rest the object lies upside down (true) or on its underside (false); by default not asked for.",
+        "Whether the object must lie upside down (true) or on its underside (false) at rest; by \
+         default either.",
     )],
     about: About::Lifted,
     read: |goal, _, _| Some(Demand::Flipped(Flipped { flipped: goal.get("flipped")?.switch()? })),

@@ -44,8 +44,8 @@ pub(super) const GAP: Ask = Ask {
                 "Largest distance in metres; by default any.",
             ),
         ]),
-        "How far apart the object and another thing are to be instead, wherever both come to: the smallest \
-     distance between their outlines seen from above, with all parts; by default any.",
+        "Required distance between the object and another body at their final poses: the smallest \
+         distance of their outlines, seen from above, with all parts. By default any.",
     )],
     about: About::Place,
     read: |goal, object, scene| Some(Demand::Gap(gap(goal.get("gap")?, object, scene)?)),
@@ -98,14 +98,14 @@ fn check(asked: &Asked, ledger: &mut Ledger) {
     match (gap.get("min"), gap.get("max")) {
         (None, None) => {
             let advice = "add `min: 0.10` for 10 cm apart, or `max: 0.002` for touching";
-            ledger.fault(gap, "any gap would do", advice);
+            ledger.fault(gap, "every gap would satisfy the goal", advice);
         }
         (Some(node), Some(_)) => {
             if let (Some(min), Some(max)) = (limit("min"), limit("max"))
                 && max - min < PLAY
             {
-                let message = format!("no gap is at least {min} and at most {max} m");
-                ledger.fault(node, message, "leave 0.001 m between `min` and `max`, or more");
+                let message = format!("a gap cannot be at least {min} and at most {max} m");
+                ledger.fault(node, message, "leave at least 0.001 m between `min` and `max`");
             }
         }
         _ => {}

@@ -18,7 +18,7 @@ pub(super) const AT_LEAST: Key = Key::optional(
         high: 16.0,
         advice: "2 of 3 objects are `at_least: 2`",
     }),
-    "How many of the `objects` must reach the goal, whichever they are; by default all.",
+    "Number of the `objects` that must reach the goal; the planner chooses which. By default all.",
 );
 
 /// Returns the goals of the objects of one entry, or one group goal if `at_least` is given.
@@ -52,15 +52,15 @@ pub(super) fn check(goal: &Node, ledger: &mut Ledger) {
     };
     if node.number().is_some_and(|count| count > names.len() as f64) {
         let message = format!("only {} objects are named", names.len());
-        ledger.fault(node, message, "ask for less, or name more objects");
+        ledger.fault(node, message, "reduce `at_least`, or name more objects");
     }
     for key in ["joint", "joint_deg", "gap"] {
         if let Some(other) = goal.get(key) {
-            let message = format!("`{key}` does not go together with `at_least`");
+            let message = format!("`{key}` cannot be combined with `at_least`");
             ledger.fault(
                 other,
                 message,
-                "it relates one object to something; leave one of them out",
+                "it relates one object to another body; remove one of the two keys",
             );
         }
     }

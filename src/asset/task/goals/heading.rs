@@ -15,7 +15,7 @@ pub(super) const HEADING_TOLERANCE: f64 = 10.0;
 /// Entry for a heading in the world or in the frame of an object.
 pub(super) const HEADING: Ask = Ask {
     keys: &[
-        Key::optional("heading_deg", ANGLE, "Wanted heading, degrees; by default any."),
+        Key::optional("heading_deg", ANGLE, "Required heading, degrees; by default any."),
         Key::optional(
             "heading_tolerance_deg",
             Value::Number(Range {
@@ -31,7 +31,7 @@ pub(super) const HEADING: Ask = Ask {
             Value::Switch,
             "Whether headings at which the object looks the same count alike: quarter turns of a \
              square, half turns of a rectangle, n-th turns of a regular prism; default true. Write \
-             false where one side is marked.",
+             false if the sides differ, for example by a mark.",
         ),
     ],
     about: About::Turn,

@@ -19,9 +19,9 @@ pub(super) const TURN: Ask = Ask {
     keys: &[Key::optional(
         "joint_deg",
         ANGLE,
-        "How far its revolute joint has turned it, degrees counter-clockwise from the start, against what \
-         it is joined to; within the joint's limits, if by the longer way, and without limits by the shorter \
-         one. By default any.",
+        "Required rotation of its revolute joint, degrees counter-clockwise from the start, \
+         relative to the joined body. The rotation stays within the joint's limits, even if that \
+         is the longer way; without limits the shorter way counts. By default any.",
     )],
     about: About::Turn,
     read: |goal, object, scene| {
@@ -38,8 +38,8 @@ pub(super) const SHIFT: Ask = Ask {
     keys: &[Key::optional(
         "joint",
         SHIFT_LIMIT,
-        "How far its prismatic joint has let it slide along the axis, metres from the start, against what \
-         it is joined to; by default any.",
+        "Required displacement of its prismatic joint, metres along the axis from the start, \
+         relative to the joined body; by default any.",
     )],
     about: About::Place,
     read: |goal, object, scene| {
@@ -68,21 +68,22 @@ fn has_joint(asked: &Asked, (key, kind): (&str, &str), ledger: &mut Ledger) {
         }
         [_] => {
             let message = format!("the joint of `{name}` is not {kind}");
-            let advice = "turns are asked for by `joint_deg`, shifts by `joint`";
+            let advice = "use `joint_deg` for rotations and `joint` for displacements";
             ledger.fault(node, message, advice);
         }
         [] => {
-            let message = format!("`{name}` has no joint that moves");
-            ledger.fault(node, message, "name an object that a joint of the scene lets move");
+            let message = format!("`{name}` has no joint that can move");
+            ledger.fault(node, message, "name an object with a revolute or prismatic joint");
         }
         _ => {
-            let message = format!("`{name}` has several joints, so it is not clear which is meant");
-            ledger.fault(node, message, "ask for a position or a heading instead");
+            let message =
+                format!("`{name}` has several joints, so the choice of the joint is ambiguous");
+            ledger.fault(node, message, "state a position or a heading instead");
         }
     }
     if let Some(other) = asked.goal.get("relative_to") {
-        let advice = "leave it out: a joint counts against what it joins";
-        ledger.fault(other, format!("`{key}` is relative to something already"), advice);
+        let advice = "leave it out; a joint is measured relative to the joined body";
+        ledger.fault(other, format!("`{key}` is already relative to the joined body"), advice);
     }
 }
 
@@ -101,8 +102,8 @@ fn within_limits(wanted: &Node, joint: &Node, asked: &Asked, ledger: &mut Ledger
     let (low, high) = if first && !to_world { (-high, -low) } else { (low, high) };
     if wanted.number().is_some_and(|wanted| wanted < low || wanted > high) {
         let name = asked.name.text().unwrap_or("?");
-        let message = format!("the joint of `{name}` only comes from {low} to {high}");
-        ledger.fault(wanted, message, "ask for less, or widen the joint's limits");
+        let message = format!("the joint of `{name}` moves only from {low} to {high}");
+        ledger.fault(wanted, message, "choose a value in this range, or widen the joint's limits");
     }
 }
 

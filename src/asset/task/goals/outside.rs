@@ -16,8 +16,8 @@ pub(super) const OUTSIDE: Ask = Ask {
     keys: &[Key::optional(
         "outside",
         Value::Name,
-        "Name of an obstacle, such as the floor of a tray: at rest the object's centre of mass lies \
-         outside of it, seen from above; by default not asked for.",
+        "Name of an obstacle, such as the floor of a tray, outside of which the object's centre of \
+         mass must be at rest, seen from above; by default none.",
     )],
     about: About::Lifted,
     read: |goal, _, scene| {

@@ -14,7 +14,7 @@ pub(super) const POSITION: Ask = Ask {
         Key::optional(
             "position",
             POINT,
-            "Wanted position of its centre, [x, y] in metres; by default anywhere.",
+            "Required position of its centre, [x, y] in metres; by default any.",
         ),
         Key::optional(
             "tolerance",

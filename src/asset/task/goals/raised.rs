@@ -17,8 +17,8 @@ pub(super) const RAISED: Ask = Ask {
             high: 1.0,
             advice: "2 cm is 0.02",
         }),
-        "At the end of a lever-up the edge lies on the blade, this much higher than at the start, metres; \
-         by default not asked for.",
+        "Height by which the edge must lie higher than at the start, on the blade at the end of a \
+         lever-up, metres; by default any.",
     )],
     about: About::Lifted,
     read: |goal, _, _| Some(Demand::Raised(Raised { height: goal.get("raised")?.number()? })),

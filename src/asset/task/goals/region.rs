@@ -14,7 +14,7 @@ use super::ask::{About, Ask};
 const OUTSIDE: Key = Key::optional(
     "outside",
     Value::Switch,
-    "Whether the centre must lie outside of it instead; default false.",
+    "Whether the centre must lie outside the region instead; default false.",
 );
 
 /// Entry for a region that must contain the centre, or exclude it.
@@ -22,8 +22,8 @@ pub(super) const REGION: Ask = Ask {
     keys: &[Key::optional(
         "region",
         Value::Map(&[AREA, AREA_POSITION, AREA_YAW, OUTSIDE]),
-        "Where its centre may lie instead, a circle, rectangle or polygon; by default nowhere in \
-         particular.",
+        "Region in which its centre must lie instead: a circle, rectangle or polygon; by default \
+         any.",
     )],
     about: About::Place,
     read: |goal, _, _| {

@@ -31,8 +31,12 @@ fn bodies_and_joints_of_mjcf_become_what_the_advice_says() {
     );
     let leaning = "<geom name='bar' type='box' size='.3 .02 .02' pos='.5 0 .3' euler='0 45 0'/>";
     let rows: &[Row<'_>] = &[
-        (pair("stiffness='3'"), "have none: leave it out", &[(" stiffness='3'", "")]),
-        (pair("axis='0 0 0'"), "write one such as `0 0 1`", &[("'0 0 0'/", "'0 0 1'/")]),
+        (
+            pair("stiffness='3'"),
+            "remove it; pushplan's joints have no springs",
+            &[(" stiffness='3'", "")],
+        ),
+        (pair("axis='0 0 0'"), "write an axis such as `0 0 1`", &[("'0 0 0'/", "'0 0 1'/")]),
         (
             pair("axis='0 1 0'"),
             "turn about the vertical, or slide along the table",
@@ -45,7 +49,7 @@ fn bodies_and_joints_of_mjcf_become_what_the_advice_says() {
         ),
         (
             pair("axis='0 1 0'"),
-            "joints between objects are fixed",
+            "joints between objects must be fixed",
             &[("<joint axis='0 1 0'/>", "")],
         ),
         (
@@ -55,7 +59,7 @@ fn bodies_and_joints_of_mjcf_become_what_the_advice_says() {
         ),
         (
             mjcf(""),
-            "objects stand freely (<freejoint/>",
+            "objects must be free (<freejoint/>",
             &[(
                 "</worldbody>",
                 "<body pos='.5 0 .05'><freejoint/><geom type='box' size='.05 .05 .05'/></body></worldbody>",
@@ -63,19 +67,19 @@ fn bodies_and_joints_of_mjcf_become_what_the_advice_says() {
         ),
         (
             free(BOX).replace("</mujoco>", "<equality><weld body1='b'/></equality></mujoco>"),
-            "take it out, or name the bodies",
+            "remove it, or select bodies with --body",
             &[("<equality><weld body1='b'/></equality>", "")],
         ),
         (
             second(".9 0 .05")
                 .replace("</mujoco>", "<contact><exclude body1='b' body2='c'/></contact></mujoco>"),
-            "take it out, or name one of them with --body",
+            "remove the element, or select one of them with --body",
             &[("<exclude body1='b' body2='c'/>", "")],
         ),
         (second(".54 0 .05"), "move one of them", &[(".54 0", ".9 0")]),
         (
             free(&BOX.replace("/>", " contype='0' conaffinity='0'/>")),
-            "give it a box, a cylinder or a mesh that touches",
+            "give it a box, a cylinder or a mesh with collision",
             &[(" contype='0' conaffinity='0'", "")],
         ),
         (
@@ -95,27 +99,27 @@ fn bodies_and_joints_of_mjcf_become_what_the_advice_says() {
         ),
         (
             feet(&foot.replace("-.045", "-.043")),
-            "spheres are the points that a body stands on",
+            "spheres must be the support points of a body",
             &[("-.043", "-.045")],
         ),
         (
             feet(""),
-            "three to eight points can be stated",
+            "give it three to eight support points",
             &[("</body>", &format!("{foot}</body>"))],
         ),
         (
             free("<geom type='sphere' size='.05'/>"),
-            "put a box, an upright cylinder",
+            "replace it by a box, an upright cylinder",
             &[("type='sphere' size='.05'", "type='box' size='.05 .05 .05'")],
         ),
         (
             free("<geom type='capsule' size='.03 .05'/>"),
-            "put a box, an upright cylinder",
+            "replace it by a box, an upright cylinder",
             &[("capsule", "cylinder")],
         ),
         (
             free(&format!("{BOX}<geom type='plane' size='1 1 1'/>")),
-            "let it touch nothing",
+            "disable its collision",
             &[(
                 "<geom type='plane' size='1 1 1'/></body>",
                 "<geom type='plane' size='1 1 1' contype='0' conaffinity='0'/></body>",
@@ -123,21 +127,25 @@ fn bodies_and_joints_of_mjcf_become_what_the_advice_says() {
         ),
         (
             free(&BOX.replace("/>", " euler='0 20 0'/>")),
-            "turn it by multiples of 90 degrees",
+            "rotate it by multiples of 90 degrees",
             &[("'0 20 0'", "'0 90 0'")],
         ),
-        (second(".9 0 1.05"), "set it down, or name others with --body", &[("1.05", ".05")]),
-        (free(BOX).replace(".5 0 .05", ".5 0 1.05"), "set them down on it", &[("1.05", ".05")]),
+        (second(".9 0 1.05"), "lower it, or select other bodies with --body", &[("1.05", ".05")]),
+        (free(BOX).replace(".5 0 .05", ".5 0 1.05"), "move them onto it", &[("1.05", ".05")]),
         (double.clone(), "make the table one box, or a plane", &[(&tables, plane)]),
         (
             double,
             "make the table one box, or a plane",
             &[(&tables, &box_at(".7 0 -.1", ".5 .3 .1"))],
         ),
-        (beside, "set it down on the box that the others stand on", &[(".9 0 .05", ".5 .085 .05")]),
+        (
+            beside,
+            "move it onto the box that carries the other objects",
+            &[(".9 0 .05", ".5 .085 .05")],
+        ),
         (
             free(BOX).replace("'plane' size='1 1 1'", "'plane' size='1 1 1' euler='0 80 0'"),
-            "put a box in its place: obstacles are cuboids",
+            "replace it by a box; obstacles are cuboids",
             &[(
                 "type='plane' size='1 1 1' euler='0 80 0'",
                 "type='box' size='.1 1 1' pos='-.5 0 0'",
@@ -145,12 +153,12 @@ fn bodies_and_joints_of_mjcf_become_what_the_advice_says() {
         ),
         (
             free(BOX).replace(plane, &format!("{plane}{leaning}")),
-            "put several boxes in its place",
+            "replace it by several boxes",
             &[(leaning, &(box_at(".3 0 .5", ".1 .02 .1") + &box_at(".7 0 .15", ".05 .02 .1")))],
         ),
         (
             contradicting,
-            "state one for all solids of two bodies",
+            "state one for all solids of the two bodies",
             &[("friction='.4'", "friction='.3'")],
         ),
     ];

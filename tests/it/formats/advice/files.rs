@@ -41,7 +41,7 @@ fn files_are_found_and_read_as_the_advice_says() {
     };
     let (other, scene) = (("other.xml", sound.as_str()), "scene.xml");
     for (refused, advice, followed) in [
-        (including(""), "name its `file`", included.clone()),
+        (including(""), "add its `file`", included.clone()),
         (
             including(" file='asset.xml'"),
             "names are relative to the folder of the file",
@@ -49,10 +49,10 @@ fn files_are_found_and_read_as_the_advice_says() {
         ),
         (
             format!("<mujoco><include file='scene.xml'/>{}</mujoco>", &sound[8..sound.len() - 9]),
-            "break the circle",
+            "break the cycle",
             sound.clone(),
         ),
-        (attached(""), "name its `file`", attached(" file='other.xml'")),
+        (attached(""), "add its `file`", attached(" file='other.xml'")),
         (
             attached(" file='others.xml'"),
             "names are relative to the folder of the file",
@@ -60,8 +60,8 @@ fn files_are_found_and_read_as_the_advice_says() {
         ),
         (whole(&mesh("cube.obj")), "names are relative to the folder of the file", sound.clone()),
         (whole(&mesh("cube.dae")), "convert it to STL or OBJ", sound.clone()),
-        (whole(&mesh("cube.stl")), "write it out again (MeshLab, trimesh)", sound.clone()),
-        (assets.clone(), "name the file that includes this one", included.clone()),
+        (whole(&mesh("cube.stl")), "export it again (MeshLab, trimesh)", sound.clone()),
+        (assets.clone(), "give the file that includes this one", included.clone()),
     ] {
         let beside = [
             other,
@@ -75,9 +75,9 @@ fn files_are_found_and_read_as_the_advice_says() {
     let link = "<robot name='r'><link name='a'><inertial><origin xyz='.03 .03 .03'/><mass value='.5'/></inertial><collision><geometry>\
                 <mesh filename='package://parts/cube.obj' scale='.001 .001 .001'/></geometry></collision></link></robot>";
     let robot = [("robots/r.urdf", link)];
-    helped((&robot, None), "the one around it, with --root", (&robot, Some("")));
-    helped((&robot, Some("none")), "name a folder with --root that exists", (&robot, Some("")));
+    helped((&robot, None), "or its parent, with --root", (&robot, Some("")));
+    helped((&robot, Some("none")), "give an existing folder with --root", (&robot, Some("")));
     let above = whole(&mesh("../parts/cube.obj"));
     let scenes = [("scenes/scene.xml", above.as_str())];
-    helped((&scenes, None), "may be read with --root", (&scenes, Some("")));
+    helped((&scenes, None), "help: --root", (&scenes, Some("")));
 }

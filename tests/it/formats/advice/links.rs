@@ -23,28 +23,28 @@ fn links_and_joints_of_urdf_become_what_the_advice_says() {
     let rows: &[Row<'_>] = &[
         (
             urdf(&format!("{one}{one}")),
-            "give each link a name of its own",
+            "give each link a unique name",
             &[(one.as_str(), ""), ("</robot>", &format!("{one}</robot>"))],
         ),
-        (urdf(&format!("{one}<sensor/>")), "take it out", &[("<sensor/>", "")]),
+        (urdf(&format!("{one}<sensor/>")), "remove it", &[("<sensor/>", "")]),
         (
             circle,
-            "break it",
+            "remove one of them",
             &[("<joint name='k' type='fixed'><parent link='b'/><child link='a'/></joint>", "")],
         ),
         (
             jointed("fixed", "").replace("child link='b'", "child link='c'"),
-            "`<parent link>` and `<child link>` name links",
+            "`<parent link>` and `<child link>` must name links of the file",
             &[("child link='c'", "child link='b'")],
         ),
         (
             twice,
-            "a link has one parent",
+            "a link can have only one parent",
             &[("<joint name='k' type='fixed'><parent link='world'/><child link='b'/></joint>", "")],
         ),
         (
             jointed("continuous", "<axis xyz='0 0 0'/>"),
-            "write one such as `0 0 1`",
+            "write an axis such as `0 0 1`",
             &[("xyz='0 0 0'", "xyz='0 0 1'")],
         ),
         (
@@ -54,7 +54,7 @@ fn links_and_joints_of_urdf_become_what_the_advice_says() {
         ),
         (
             jointed("continuous", "<axis xyz='0 0 1'/><mimic joint='k'/>"),
-            "take <mimic> out",
+            "remove <mimic>",
             &[("<mimic joint='k'/>", "")],
         ),
         (
@@ -89,16 +89,16 @@ fn links_and_joints_of_urdf_become_what_the_advice_says() {
         ),
         (
             parted(outside),
-            "correct where its <inertial> has it",
+            "correct the position in its <inertial>",
             &[("xyz='.2 0 0'", "xyz='.02 0 0'")],
         ),
-        (gazebo("<mu1>much</mu1>"), "write one such as 0.4", &[("much", "0.4")]),
+        (gazebo("<mu1>much</mu1>"), "write a number such as 0.4", &[("much", "0.4")]),
         (
             gazebo("<turnGravityOff>true</turnGravityOff>"),
-            "take it out",
+            "remove it",
             &[("<turnGravityOff>true</turnGravityOff>", "")],
         ),
-        (gazebo("<kinematic>1</kinematic>"), "take it out", &[("<kinematic>1</kinematic>", "")]),
+        (gazebo("<kinematic>1</kinematic>"), "remove it", &[("<kinematic>1</kinematic>", "")]),
     ];
     edited(O, rows);
     // Without <inertial>, a density is required.
@@ -110,6 +110,6 @@ fn links_and_joints_of_urdf_become_what_the_advice_says() {
         helped((&text, O, &Wanted::default()), advice, (&text, &wood)).unwrap();
     }
     let fault = import(&parted(outside), O, &Wanted::default()).expect_err("a fault");
-    assert!(fault.contains("or take <inertial> out and say --density"), "{fault}");
+    assert!(fault.contains("or remove <inertial> and give --density"), "{fault}");
     import(&parted(""), O, &wood).expect("as the advice says");
 }

@@ -9,7 +9,7 @@ fn numbers_and_names_of_mjcf_are_corrected_as_the_advice_says() {
     let rows: &[Row<'_>] = &[
         (
             free("<geom type='box' size='.05 .04 x'/>"),
-            "write numbers with spaces",
+            "write numbers separated by spaces",
             &[(" x'", " .05'")],
         ),
         (
@@ -20,12 +20,12 @@ fn numbers_and_names_of_mjcf_are_corrected_as_the_advice_says() {
         (free(&BOX.replace("/>", " mass='1 2'/>")), "write one number", &[("'1 2'", "'1'")]),
         (
             free(&BOX.replace("/>", " colour='red'/>")),
-            "correct its name, or take it out",
+            "correct its name, or remove it",
             &[("colour='red'", "")],
         ),
         (
             free(&BOX.replace("/>", " mas='1'/>")),
-            "correct its name, or take it out",
+            "correct its name, or remove it",
             &[("mas=", "mass=")],
         ),
         (
@@ -50,22 +50,22 @@ fn numbers_and_names_of_mjcf_are_corrected_as_the_advice_says() {
         ),
         (
             with(&mesh("", 0.06), &geom.replace("'m'", "'n'")),
-            "name one of those under <asset>",
+            "use a mesh defined under <asset>",
             &[("'n'", "'m'")],
         ),
         (
             with(&mesh("", 0.06).replace("vertex='0 ", "vertex='"), geom),
-            "write x, y and z of each",
+            "write x, y and z of each vertex",
             &[("vertex='", "vertex='0 ")],
         ),
         (
             with(&mesh("scale='.001 .001 .001'", 0.06), geom),
-            "is its scale right? Lengths are metres",
+            "check its scale; lengths are metres",
             &[(".001 .001 .001", "1 1 1")],
         ),
         (
             with(&mesh("", 300.0), geom),
-            "give it `scale` 0.001 0.001 0.001",
+            "set its `scale` to 0.001 0.001 0.001",
             &[("name='m'", "name='m' scale='.001 .001 .001'")],
         ),
         (
@@ -75,17 +75,17 @@ fn numbers_and_names_of_mjcf_are_corrected_as_the_advice_says() {
         ),
         (
             with(classes, &BOX.replace("/>", " class='other'/>")),
-            "name one of those under <default>",
+            "use a class defined under <default>",
             &[("'other'", "'own'")],
         ),
         (
             with(&classes.replace(" class='own'", ""), BOX),
-            "name its `class`",
+            "add its `class`",
             &[("<default><default>", "<default><default class='own'>")],
         ),
         (
             with("<default class='all'><geom mass='.3'/></default>", BOX),
-            "leave its `class` out",
+            "remove its `class`",
             &[(" class='all'", "")],
         ),
         (
@@ -100,7 +100,7 @@ fn numbers_and_names_of_mjcf_are_corrected_as_the_advice_says() {
         ),
         (
             with("<compiler coordinate='global'/>", BOX),
-            "correct it, or take it out",
+            "correct it, or remove it",
             &[(" coordinate='global'", "")],
         ),
         (
@@ -108,10 +108,10 @@ fn numbers_and_names_of_mjcf_are_corrected_as_the_advice_says() {
             "correct its numbers",
             &[("'0 0 0 0'", "'1 0 0 0'")],
         ),
-        (with("<contact><cluster/></contact>", BOX), "take it out", &[("<cluster/>", "")]),
+        (with("<contact><cluster/></contact>", BOX), "remove it", &[("<cluster/>", "")]),
         (
             with("<option><flag contact='disable'/></option>", BOX),
-            "take the flag out",
+            "remove the flag",
             &[("<flag contact='disable'/>", "")],
         ),
         (
@@ -124,7 +124,7 @@ fn numbers_and_names_of_mjcf_are_corrected_as_the_advice_says() {
             with("<option gravity='0 -9.81 0'/>", BOX)
                 .replace("'plane'", "'plane' zaxis='0 1 0'")
                 .replace(".5 0 .05", ".5 .05 0"),
-            "turn the scene, so that gravity is `0 0 -9.81`",
+            "rotate the scene, so that gravity is `0 0 -9.81`",
             &[
                 ("'0 -9.81 0'", "'0 0 -9.81'"),
                 ("zaxis='0 1 0'", "zaxis='0 0 1'"),
@@ -133,7 +133,7 @@ fn numbers_and_names_of_mjcf_are_corrected_as_the_advice_says() {
         ),
         (
             free(BOX).replace("name='b'", "name='b' gravcomp='1'"),
-            "leave `gravcomp` out",
+            "remove `gravcomp`",
             &[(" gravcomp='1'", "")],
         ),
         (
