@@ -222,6 +222,6 @@ function trouble(message) {
 }
 
 main().catch((error) => {
-  trouble(`This browser cannot run the planner (${error.message}). It needs WebAssembly with SIMD: Chrome or Edge 114 or newer, or Firefox 145 or newer.`);
+  trouble(`This browser cannot run the planner (${error.message}). It needs WebAssembly with relaxed SIMD: Chrome or Edge 114 or newer, or Firefox 145 or newer.`);
   byId('foot').textContent = '';
 });

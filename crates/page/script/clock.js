@@ -50,7 +50,7 @@ function step(frames) {
   const [frame, share] = replay.place(view.time);
   // Between two frames, a step back leads to the start of the current one.
   let next = frame + frames + (frames < 0 && share > 1e-9 ? 1 : 0);
-  // At the joints of a run, two frames share a time.
+  // Two successive pushes of a run share a frame time.
   while (next > 0 && frames < 0 && replay.time[next] >= view.time) next--;
   const last = replay.time.length - 1;
   showTime(next > last ? duration() : replay.time[Math.max(0, next)]);
@@ -88,7 +88,7 @@ function keepLink() {
   try {
     history.replaceState(null, '', `#${linkPart()}`);
   } catch {
-    // Some embedding frames do not allow to change the address; only the link is lost.
+    // Some embedding frames do not allow changes of the address; only the link is lost.
   }
 }
 

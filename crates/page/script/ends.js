@@ -55,8 +55,8 @@
       return own.length ? `${count} of ${own.length} ${LAYERS[layer]}` : '';
     }).filter(Boolean);
     byId('ends-words').textContent = counts.length
-      ? `Crosses: nominal replays. Dots: replays with perturbed starts and frictions, of which ${counts.join(' and ')} reach the goal.`
-      : 'Crosses: nominal replays. There are no replays with perturbed starts and frictions.';
+      ? `Crosses: prediction and nominal replays. Dots: replays with perturbed starts and frictions, of which ${counts.join(' and ')} reach the goal.`
+      : 'Crosses: prediction and nominal replays. There are no replays with perturbed starts and frictions.';
   }
 
   whenPlanChanges.push(draw);

@@ -1,8 +1,8 @@
-// Bodies from above, in the units of the data: lengths are whole hundredths of a millimetre, angles and
-// times whole ten-thousandths of a radian and a second.
+// Bodies seen from above, in the units of the data. Lengths are integers in hundredths of a millimetre. Angles
+// and times are integers in ten-thousandths of a radian and of a second.
 
-const LENGTH = 1e-5; // metres in a unit of the data
-const FINE = 1e-4; // radians or seconds in a unit of the data
+const LENGTH = 1e-5; // metres per unit of the data
+const FINE = 1e-4; // radians or seconds per unit of the data
 
 const posed = ([x, y, heading]) => [x * LENGTH, y * LENGTH, heading * FINE];
 

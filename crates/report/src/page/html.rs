@@ -12,7 +12,7 @@ const STAGE: &str = "<figure class=\"stage\" id=\"stage\">";
 
 /// SHA-256 of [`SCRIPT`] and [`STYLE`], base 64, for the content security policy. A test compares
 /// the hashes, so that a release needs no hash function.
-const SCRIPT_HASH: &str = "FNy/uimjP7OS/hjGDaegTe+bO6weCb1DzFFfvIDyi5E=";
+const SCRIPT_HASH: &str = "0fW1B6D1XJEXm7zjhErF1p1CdGJXNMGz4OC1X84rvRw=";
 const STYLE_HASH: &str = "u7EzjcKpkdT4aibEyFyU17AosQ01L3krmKju702UC+s=";
 
 /// SHA-256 of [`SOLID`], and of three.js after decompression.
