@@ -1,4 +1,4 @@
-// What `src/report/page/script/solid.js` draws with: of three.js this and what it needs, nothing else.
+// The parts of three.js that `crates/page/script/solid.js` uses.
 export {
   BufferGeometry, CircleGeometry, Color, CylinderGeometry, DirectionalLight, EdgesGeometry, ExtrudeGeometry,
   Group, HemisphereLight, Line, LineBasicMaterial, LineLoop, LineSegments, Mesh, MeshBasicMaterial,

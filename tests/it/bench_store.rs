@@ -95,13 +95,13 @@ fn shards_that_do_not_make_one_run_are_not_merged() {
     measure(&other, seeded.with_shard("2/3".parse().expect("a shard")), &NoProgress)
         .expect("a shard");
     let error = refused(&[first, &other, third]).to_string();
-    assert!(error.contains("seed is 8 there, 7 was asked for"), "{error}");
+    assert!(error.contains("seed is 8 in the folder, but 7 was requested"), "{error}");
 
     let halves = folder.path().join("halves");
     let half = manifest().with_shard("2/2".parse().expect("a shard"));
     measure(&halves, half, &NoProgress).expect("a shard");
     let error = refused(&[first, &halves]).to_string();
-    assert!(error.contains("one of 2 shards, the first one of 3"), "{error}");
+    assert!(error.contains("split into 2 shards, but the first folder into 3"), "{error}");
 
     // A shard with a truncated last record lacks one task.
     shorten(&second.join("records.jsonl"), 3);
@@ -156,9 +156,9 @@ fn damage_before_the_last_line_is_named_and_never_mended_in_silence() {
     let broken = records.replacen("\"index\":2", "\"index\":", 1);
     let doubled = format!("{records}{}", records.lines().last().expect("a line").to_owned() + "\n");
     for (text, line, words) in [
-        (swapped, 3, "record 3 where record 2 belongs"),
+        (swapped, 3, "record 3 instead of record 2"),
         (broken, 3, "expected value"),
-        (doubled, TASKS + 1, "record 10 where no more belongs"),
+        (doubled, TASKS + 1, "record 10 instead of the end"),
     ] {
         fs::write(run.join("records.jsonl"), &text).expect("a file");
         let error = measure(&run, manifest(), &NoProgress).expect_err("damaged").to_string();
@@ -181,8 +181,8 @@ fn another_run_in_the_folder_is_refused_with_what_differs() {
         StoreError::OtherRun { differences, .. } => assert_eq!(
             differences[..],
             [
-                "settings.effort.beam is 24 there, 64 was asked for",
-                "weights is nothing there, \"00ff\" was asked for",
+                "settings.effort.beam is 24 in the folder, but 64 was requested",
+                "weights is unset in the folder, but \"00ff\" was requested",
             ]
         ),
         error => panic!("{error}"),

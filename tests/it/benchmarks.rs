@@ -67,7 +67,11 @@ fn a_folder_with_another_run_is_refused() {
     let before = compared(folder.path());
     let output = bench_tasks(&["--out", out, "--seed", "3"]);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
-    assert!(stderr(&output).contains("seed is 0 there, 3 was asked for"), "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("seed is 0 in the folder, but 3 was requested"),
+        "{}",
+        stderr(&output)
+    );
     assert_eq!(compared(folder.path()), before);
 
     let output = bench_tasks(&["--shard", "1/2"]);

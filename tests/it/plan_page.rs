@@ -246,7 +246,7 @@ fn tools_and_pushes_say_why_they_lost() {
     let data = self::data(&written(&folder, "too-far", &task, &solution));
     for tool in data["choice"].as_array().expect("tools") {
         let why = tool["why"].as_str().expect("words");
-        assert!(why.starts_with("no push can be made, mostly as "), "{why}");
+        assert!(why.starts_with("no push is feasible, mostly because "), "{why}");
     }
 }
 

@@ -15,7 +15,7 @@ globalThis.pushplanFailed = (message) => console.error(message);
  */
 export async function load() {
   const response = await fetch('library.wasm-gz');
-  if (!response.ok) throw new Error(`the planner cannot be fetched: ${response.status} ${response.statusText}`);
+  if (!response.ok) throw new Error(`cannot fetch the planner: ${response.status} ${response.statusText}`);
   const unpacked = response.body.pipeThrough(new DecompressionStream('gzip'));
   const headers = { 'Content-Type': 'application/wasm' };
   const module = await WebAssembly.compileStreaming(new Response(unpacked, { headers }));

@@ -20,7 +20,7 @@ const numeric = (label, path, { unit = 'm', step = 0.005, may = false } = {}) =>
 function fieldsOf({ kind, path, goal }) {
   const own = (...steps) => [...path, ...steps];
   const place = [numeric('x', own('position', 0)), numeric('y', own('position', 1))];
-  const turned = numeric('turned by', own('yaw_deg'), { unit: '°', step: 5, may: true });
+  const turned = numeric('rotation', own('yaw_deg'), { unit: '°', step: 5, may: true });
   const sizes = (...steps) => AXES.map((axis, k) => numeric(axis, own(...steps, k)));
   switch (kind) {
     case 'object': {
@@ -68,7 +68,7 @@ export function drawForm() {
     shown = now;
     form.replaceChildren();
     if (thing) {
-      const title = { goal: `Goal of ${thing.name}`, reach: 'Robot', home: 'Home of the hand' }[thing.kind] ?? thing.name;
+      const title = { goal: `Goal of ${thing.name}`, reach: 'Robot', home: 'Home of the end effector' }[thing.kind] ?? thing.name;
       form.append(html('h3', {}, title), ...fields.map(fieldShape));
     }
   }

@@ -31,6 +31,6 @@ export async function unpacked(part) {
     if (text.length > LONGEST) throw new Error('too long');
     return { text: new TextDecoder('utf-8', { fatal: true }).decode(text) };
   } catch {
-    throw new Error('the link is damaged: perhaps it was cut; ask for it once more');
+    throw new Error('the link is damaged, probably truncated: copy the whole link again');
   }
 }

@@ -73,7 +73,7 @@ async function main() {
     };
     own.done = ({ answer, broken }) => {
       ended();
-      if (broken) trouble(`The planner stopped: ${broken}. That is a defect; the link in the address bar helps to find it.`);
+      if (broken) trouble(`The planner crashed: ${broken}. This is a bug; please report it with the link in the address bar.`);
       else if (answer.fault) trouble(answer.fault);
       else take({ ...answer, version: own.version, effort: own.effort, took: performance.now() - own.since, whole: true });
     };
@@ -160,7 +160,7 @@ async function main() {
   addEventListener('hashchange', () => open(table, form));
 
   await open(table, form);
-  byId('foot').textContent = 'The planner is here: what you see runs in your browser.';
+  byId('foot').textContent = 'The planner runs in your browser.';
   document.documentElement.dataset.ready = Math.round(performance.now());
 }
 
@@ -169,7 +169,7 @@ async function open(table, form) {
   let found = {};
   try {
     found = await unpacked(location.hash.slice(1));
-    if (found.example && !shipped.has(found.example)) throw new Error(`there is no shipped task ${found.example}`);
+    if (found.example && !shipped.has(found.example)) throw new Error(`no shipped task is called ${found.example}`);
   } catch (error) {
     trouble(error.message);
   }
@@ -205,7 +205,7 @@ async function copyLink() {
     await navigator.clipboard.writeText(link);
     byId('copy-link').textContent = 'Copied';
   } catch {
-    byId('copy-link').textContent = 'It is in the address bar';
+    byId('copy-link').textContent = 'Copy it from the address bar';
   }
   setTimeout(() => { byId('copy-link').textContent = 'Copy link'; }, 2000);
 }
@@ -222,6 +222,6 @@ function trouble(message) {
 }
 
 main().catch((error) => {
-  trouble(`This browser cannot run the planner (${error.message}). It needs WebAssembly with vectors: Chrome or Edge from 114 on, Firefox from 145 on.`);
+  trouble(`This browser cannot run the planner (${error.message}). It needs WebAssembly with relaxed SIMD: Chrome or Edge 114 or newer, or Firefox 145 or newer.`);
   byId('foot').textContent = '';
 });

@@ -1,4 +1,4 @@
-// The task as a file: its text, with faults at their lines.
+// Text editor of the task file, with errors marked at their lines.
 
 import { task, write } from './task.js';
 

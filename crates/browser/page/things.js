@@ -65,7 +65,7 @@ function reaches(stage) {
   })).filter(({ path }) => Number.isFinite(at(path)));
   for (const one of list) one.pose[0] = at(one.path);
   if (isPoint(robot?.home)) {
-    list.push({ id: 'home', kind: 'home', index: 0, name: 'home of the hand', path: ['robot', 'home'], pose: [...robot.home.slice(0, 2), 0], turn: null });
+    list.push({ id: 'home', kind: 'home', index: 0, name: 'home of the end effector', path: ['robot', 'home'], pose: [...robot.home.slice(0, 2), 0], turn: null });
   }
   return list;
 }
@@ -95,7 +95,7 @@ export function words(thing) {
   const [x, y, heading] = thing.pose;
   const kinds = { object: 'object', obstacle: 'wall', goal: 'goal', reach: '', home: '' };
   if (thing.kind === 'reach') return `${thing.name}, ${x.toFixed(3)} metres`;
-  const turned = thing.turn && heading ? `, turned by ${Math.round(heading / degree)} degrees` : '';
+  const turned = thing.turn && heading ? `, rotated by ${Math.round(heading / degree)} degrees` : '';
   const name = thing.kind === 'goal' ? `goal of ${thing.name}` : `${thing.name}${kinds[thing.kind] && `, ${kinds[thing.kind]}`}`;
   return `${name}, at x ${x.toFixed(3)}, y ${y.toFixed(3)} metres${turned}`;
 }

@@ -26,7 +26,7 @@ pub fn solve(text: &str, file: &str, example: &str, effort: &str) -> Result<Solv
     let library = library()?;
     let task = parse_task(text, file, library).map_err(|faults| faults.to_string())?;
     let effort = Effort::ALL.into_iter().find(|one| one.to_string() == effort);
-    let effort = effort.ok_or("an effort is draft, standard or thorough")?;
+    let effort = effort.ok_or("the effort must be draft, standard or thorough")?;
     let planner = Planner::for_effort(effort).map_err(|error| error.to_string())?.build();
     let solution =
         planner.solve_with(&task, library, &WorkerProgress).map_err(|error| error.to_string())?;

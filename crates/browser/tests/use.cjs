@@ -60,13 +60,13 @@ async function usedAsPeopleDo(browser, address) {
   // Keyboard, and the description of the item.
   await page.locator('[data-id="goal-0"]').focus();
   await page.keyboard.press('ArrowUp');
-  check((await text(page)) !== before, 'an arrow key moves what has the focus');
-  check(/goal of .* at x/.test(await shown(page, '#where')), `it is said: ${await shown(page, '#where')}`);
+  check((await text(page)) !== before, 'an arrow key moves the focused item');
+  check(/goal of .* at x/.test(await shown(page, '#where')), `description: ${await shown(page, '#where')}`);
   await page.locator('#undo').click();
 
   // A fault at its line.
   await page.locator('#text').fill(before.replace('friction', 'fricton'));
-  check((await page.locator('#faults li').count()) > 0 && (await page.locator('#lines .faulty').count()) > 0, 'a fault is marked at its line');
+  check((await page.locator('#faults li').count()) > 0 && (await page.locator('#lines .faulty').count()) > 0, 'an error is marked at its line');
   check(await page.locator('#plan').isDisabled(), 'a faulty task cannot be planned');
   await page.locator('#text').fill(before);
 
@@ -77,7 +77,7 @@ async function usedAsPeopleDo(browser, address) {
   const frame = page.frameLocator('#page');
   await frame.locator('#play').waitFor();
   check(/pushplan predict/.test(await frame.locator('#command').textContent()), 'the page offers a command');
-  check((await frame.locator('#tools tr').count()) > 2, 'the page says why other tools lost');
+  check((await frame.locator('#tools tr').count()) > 2, 'the page explains why other tools were rejected');
 
   // Fields, additions and removals.
   await page.locator('#add-obstacle').click();
@@ -87,7 +87,7 @@ async function usedAsPeopleDo(browser, address) {
   check(/size: \[0.04, 0.31, 0.1\]/.test(await text(page)), 'a field changes the file');
   await page.locator('[data-id^="obstacle"].chosen').focus();
   await page.keyboard.press('Delete');
-  check(!/wall-1/.test(await text(page)), 'Delete takes it away');
+  check(!/wall-1/.test(await text(page)), 'Delete removes it');
 
   // A link holds the task.
   await drag(page, 'goal-0', [15, 15]);
@@ -97,7 +97,7 @@ async function usedAsPeopleDo(browser, address) {
   check((await text(second.page)) === own && /#task=/.test(link), `a link of ${link.length} letters holds the task`);
   await second.page.close();
   const cut = await opened(browser, link.slice(0, -9));
-  check(/damaged/.test(await shown(cut.page, '#trouble')), 'a cut link says so');
+  check(/damaged/.test(await shown(cut.page, '#trouble')), 'a truncated link is reported');
   await cut.page.close();
 
   // Cancelled.

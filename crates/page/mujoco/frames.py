@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Plays motions that pushplan exported in MuJoCo and says where everything is, frame by frame.
+"""Replays motions exported by pushplan in MuJoCo and reports the poses of all objects, frame by frame.
 
-Reads a line of JSON for each from stdin, {"scene": MJCF, "frames": [n, ...]}, the number of frames that
-each push is cut into, and writes one to stdout: {"frames": [...]}, each frame with `time`, `stroke`
-and, for each of the `objects` in the order of the scene, x, y, heading and their velocities; or
-{"failed": why}. The first line of stdout is the version of MuJoCo. `replay.py`
-lies beside this script. Metres, seconds, radians.
+Reads one line of JSON for each motion from stdin: {"scene": MJCF, "frames": [n, ...]}, where n is the
+number of frames of a push. Writes one line for each to stdout: {"frames": [...]}, or {"failed": reason}.
+A frame has `time`, `stroke` and, for each of the `objects` in the order of the scene, x, y, heading and
+their velocities. The first line of stdout is the version of MuJoCo. `replay.py` must be in the same folder.
+Units are metres, seconds and radians.
 """
 
 import json
@@ -17,7 +17,7 @@ import numpy as np
 from replay import Failed, Replay
 
 class Film(Replay):
-    """One scene, every frame of which is kept."""
+    """One scene whose frames are recorded."""
 
     def __init__(self, model):
         super().__init__(model)
@@ -26,7 +26,7 @@ class Film(Replay):
         self.frames = []
 
     def play(self, counts):
-        """Makes all pushes, each in so many frames."""
+        """Executes all pushes, each with its number of frames."""
         lifted = True
         for stroke, (push, count) in enumerate(zip(self.pushes, counts, strict=True)):
             start, end, duration, settle = push[0:2], push[2:4], push[4], push[5]
@@ -50,7 +50,7 @@ class Film(Replay):
             lifted = settle
 
     def wait(self, stroke, place):
-        """The tool stands still until everything rests."""
+        """Holds the tool still until everything rests."""
         speed, every, most = self.numbers["rest"]
         self.model.opt.timestep = self.step
         waited = 0
@@ -64,7 +64,7 @@ class Film(Replay):
             self.keep(stroke)
 
     def keep(self, stroke):
-        """Notes where everything is."""
+        """Records the poses and velocities of all objects."""
         # The last step moved the bodies, but did not update the derived quantities.
         mujoco.mj_forward(self.model, self.data)
         poses = np.array([self.pose(body) for body in self.bodies])
@@ -82,7 +82,7 @@ class Film(Replay):
 
 
 def film(request):
-    """The frames of one motion."""
+    """Returns the frames of one motion."""
     scene = Film(mujoco.MjModel.from_xml_string(request["scene"]))
     try:
         scene.play(request["frames"])

@@ -1,11 +1,11 @@
 
 
-# Checks of goals, which the scene holds as JSON: each is a quantity with limits, or a number of goals of a
-# group.
+# Checks of goals, which the scene holds as JSON. A check is a quantity with limits, or a minimum number of
+# goals of a group.
 
 
 def judged(check, scene):
-    """Whether a check holds at the end, and (quantity, error) of all that it measures."""
+    """Returns whether a check holds at the end, and (quantity, error) of all its quantities."""
     if "at_least" in check:
         found = [judged(one, scene) for one in check["at_least"]["of"]]
         held = sorted(found, key=lambda one: not one[0])[: check["at_least"]["count"]]
@@ -24,7 +24,7 @@ def judged(check, scene):
 
 
 def all_judged(scene, texts):
-    """Whether all goals are met, and the distance and the heading error of the first one."""
+    """Returns whether all goals are met, and distance and heading error of the first one."""
     met, errors = True, None
     for goal in json.loads(texts["goals"]):
         held, found = judged(goal["check"], scene)
@@ -39,7 +39,7 @@ def distance(scene, object, to, frame=None):
 
 
 def turn(scene, object, heading, symmetry, frame=None, middle=None):
-    """The turn from the nearest heading that looks alike; headings are nearest to `middle`, if that is there."""
+    """Returns the rotation from the nearest equivalent heading; headings are nearest to `middle`, if it is given."""
     found = scene.seen(object, frame)[2]
     if middle is not None:
         return abs(middle + math.remainder(found - middle, math.tau) - heading)
@@ -47,7 +47,7 @@ def turn(scene, object, heading, symmetry, frame=None, middle=None):
 
 
 def beyond(scene, object, corners, frame=None):
-    """How far a centre is outside of a convex region, metres; negative inside."""
+    """Returns the distance of a centre from a convex region, metres; negative inside."""
     ends = np.array(corners)
     sides = np.roll(ends, -1, axis=0) - ends
     outwards = np.stack([sides[:, 1], -sides[:, 0]], axis=1)
@@ -57,8 +57,8 @@ def beyond(scene, object, corners, frame=None):
 
 
 def over(scene, object, centre, edges, part=None):
-    """How far the centre of mass of what has fallen is beyond an edge over which it is to fall, and from the ends of
-    the part of that edge, if only one will do, metres."""
+    """Returns how far the centre of mass of a fallen object is beyond the wanted edge, metres. If only a part of the
+    edge counts, the distance from the ends of this part is a limit as well."""
     if not scene.has_left(object):
         return -math.inf
     edges = np.array(edges)
@@ -73,20 +73,20 @@ def over(scene, object, centre, edges, part=None):
 
 
 def outlines(pieces, pose):
-    """Polygons in the world where their body is at a pose."""
+    """Returns polygons in the world for a pose of their body."""
     x, y, heading = pose
     cos, sin = math.cos(heading), math.sin(heading)
     return [np.array(corners) @ np.array([[cos, sin], [-sin, cos]]) + [x, y] for corners in pieces]
 
 
 def gap(scene, object, own, others, other=None):
-    """The smallest distance between the outlines of an object and of something else; 0 where they overlap."""
+    """Returns the smallest distance between the outlines of an object and another body; 0 if they overlap."""
     there = outlines(others, [0, 0, 0] if other is None else scene.seen(other))
     return min(apart(a, b) for a in outlines(own, scene.seen(object)) for b in there)
 
 
 def apart(first, second):
-    """Distance of two convex polygons."""
+    """Returns the distance of two convex polygons."""
 
     def from_sides(points, corners):
         sides = np.roll(corners, -1, axis=0) - corners
@@ -106,7 +106,7 @@ def apart(first, second):
 
 
 def covered(scene, object, at, pieces, frame=None):
-    """The share of its outline at a pose that an object covers where it is."""
+    """Returns the share of the wanted outline that an object covers."""
 
     def area(corners):
         x, y = np.transpose(corners)
@@ -130,13 +130,13 @@ def covered(scene, object, at, pieces, frame=None):
 
 
 def raised(scene, object):
-    """How far the edge of an object was lifted by the last lever-up, metres; that it lies on the blade is not
-    looked at."""
+    """Returns how far the last lever-up lifted the edge of an object, metres. Contact with the blade is not
+    checked."""
     return scene.lifted(object)
 
 
 def tilt(scene, object):
-    """The angle between its upper side and straight up, radians."""
+    """Returns the angle between the upper side of an object and the vertical, radians."""
     return scene.leaning(object)
 
 
@@ -147,14 +147,14 @@ QUANTITIES = {
 
 
 def seen(pose, frame):
-    """A pose in the frame of another one."""
+    """Returns a pose in the frame of another pose."""
     x, y, turn = (own - other for own, other in zip(pose, frame))
     cos, sin = math.cos(frame[2]), math.sin(frame[2])
     return [cos * x + sin * y, cos * y - sin * x, turn]
 
 
 def texts(model):
-    """The texts of a scene by their names."""
+    """Returns the texts of a scene by name."""
     found = {}
     for k in range(model.ntext):
         name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_TEXT, k)

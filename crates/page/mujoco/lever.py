@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Plays lever-ups and plans in space of pushplan in MuJoCo and says what comes of them.
+"""Replays lever-ups and 3-D plans of pushplan in MuJoCo and reports their results.
 
     python3 lever.py SCENE.xml ... > results.jsonl
     python3 lever.py --against ours.jsonl --played results.jsonl
 
-Needs Python 3.11 and `pip install mujoco`. A line of JSON for each scene: `lift`, the levered plate at
-the end of each of equal times of the last turn, and `rest`, as x, y, z and the quaternion w, x, y, z; of a
-plan with a goal `reached`, too. With
-`--against` (what `pushplan-learn generate --format mjcf` says of the same scenes) it ends with how far both are
-from each other, on standard error; `--played` takes lines that were written before.
+Needs Python 3.11 and `pip install mujoco`. Prints one line of JSON for each scene: `lift`, the poses of the
+levered plate at equal intervals of the last rotation; `rest`, its final pose; and, for a plan with a goal,
+`reached`. A pose is x, y, z and the quaternion w, x, y, z. With `--against`, the output of `pushplan-learn
+generate --format mjcf` for the same scenes, it finally prints the differences to stderr. `--played` reads
+lines written earlier.
 """
 
 import argparse
@@ -27,7 +27,7 @@ PATIENCE = 4.0  # maximum waiting time, seconds
 
 
 def turned(a, b):
-    """The quaternion of turn b, then a."""
+    """Returns the quaternion of rotation b followed by rotation a."""
     found = np.zeros(4)
     mujoco.mju_mulQuat(found, np.array(a), np.array(b))
     return found
@@ -40,7 +40,7 @@ def rotated(vector, quaternion):
 
 
 class Hand:
-    """A body that goes where it is told: a blade, or a tool that pushes."""
+    """Body on a prescribed path: a blade, or a pushing tool."""
 
     def __init__(self, scene, name):
         self.scene = scene
@@ -54,11 +54,11 @@ class Hand:
         data.qvel[self.velocity : self.velocity + 6] = [*speed, *spin]
 
     def away(self):
-        """Laid aside, where it meets nothing."""
+        """Moves the body far away from all others."""
         self.put([50 + self.position, 0, 0], [1, 0, 0, 0])
 
     def go(self, pose, time, dt):
-        """Before a step from `time`, along `pose` (a time to a position and a turn)."""
+        """Sets pose and velocity for a step from `time`; `pose` maps a time to position and rotation."""
         (at, turn), (later, after) = pose(time), pose(time + dt)
         if np.dot(turn, after) < 0:
             after = -after
@@ -68,7 +68,7 @@ class Hand:
 
 
 class Scene:
-    """One scene and what is done in it."""
+    """One scene and its replay."""
 
     def __init__(self, path):
         self.model = mujoco.MjModel.from_xml_path(path)
@@ -92,7 +92,7 @@ class Scene:
         self.way = None
 
     def blade(self, k):
-        """Position and turn of a blade's centre over time."""
+        """Returns the lever-up and the pose of the blade's centre as a function of time."""
         keys = "depth pivot angle turn hold retreat speed frames".split()
         lever = dict(zip(keys, self.numbers[f"lever {k}"]))
         length, thickness = self.numbers[f"blade {k}"]
@@ -161,12 +161,12 @@ class Scene:
         return lift
 
     def levered(self, k):
-        """The plate that step k levers."""
+        """Returns the plate that step k levers."""
         name = self.texts.get(f"plate {k}")
         return self.model.body(name).id if name else self.plate
 
     def edge(self, k, local=None):
-        """The lever point in the plate's frame and in the world."""
+        """Returns the lever point in the plate's frame and in the world."""
         mujoco.mj_forward(self.model, self.data)
         plate = self.levered(k)
         at, turn = self.data.xpos[plate].copy(), self.data.xquat[plate].copy()
@@ -206,35 +206,35 @@ class Scene:
         return found
 
     def seen(self, name, frame=None):
-        """x, y and heading of an object in the world, or in another's frame."""
+        """Returns x, y and heading of an object in the world, or in the frame of another object."""
         body = self.data.body(f"plate/{name}")
         pose = [*body.xpos[:2].tolist(), math.atan2(body.xmat[3], body.xmat[0])]
         return pose if frame is None else seen(pose, self.seen(frame))
 
     def has_left(self, name):
-        """Whether an object has fallen off the table."""
+        """Returns `True` if an object has fallen off the table."""
         return self.data.body(f"plate/{name}").xpos[2] < 0.0
 
     def lifted(self, name):
-        """How far a lever-up has lifted the edge of an object, metres."""
+        """Returns how far a lever-up has lifted the edge of an object, metres."""
         return self.raised.get(self.model.body(f"plate/{name}").id, 0.0)
 
     def leaning(self, name):
-        """The angle between an object's upper side and straight up, radians."""
+        """Returns the angle between an object's upper side and the vertical, radians."""
         return math.acos(max(-1.0, min(1.0, float(self.data.body(f"plate/{name}").xmat[8]))))
 
 
 def far(one, other):
-    """Distance in millimetres and angle in degrees between two poses."""
+    """Returns distance in millimetres and angle in degrees between two poses."""
     cosine = abs(np.dot(one[3:], other[3:]))
     return 1e3 * math.dist(one[:3], other[:3]), 2 * math.degrees(math.acos(min(1, cosine)))
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Plays lever-ups in MuJoCo.")
+    parser = argparse.ArgumentParser(description="Replays lever-ups in MuJoCo.")
     parser.add_argument("scenes", nargs="*", metavar="SCENE")
-    parser.add_argument("--played", metavar="FILE", help="scenes that have been played")
-    parser.add_argument("--against", metavar="FILE", help="their outcome in pushplan")
+    parser.add_argument("--played", metavar="FILE", help="results of earlier replays")
+    parser.add_argument("--against", metavar="FILE", help="results of pushplan for the same scenes")
     arguments = parser.parse_args()
     ours = {}
     if arguments.against:
@@ -257,7 +257,7 @@ def main():
     if differences:
         middle = [statistics.median(column) for column in zip(*differences)]
         print(
-            "{} lever-ups, medians: over the turn {:.2f} mm, at its end {:.2f} mm and "
+            "{} lever-ups, median differences: during the rotation {:.2f} mm, at its end {:.2f} mm and "
             "{:.2f} degrees, at rest {:.2f} mm".format(len(differences), *middle),
             file=sys.stderr,
         )

@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
-"""Carries out plans of pushplan in MuJoCo and says whether they reach their goals.
+"""Replays plans of pushplan in MuJoCo and reports whether they reach their goals.
 
     pushplan export plans/*.plan.json --out mjcf
     python3 mjcf/replay.py mjcf/pull-back.xml       # one scene
-    python3 mjcf/replay.py mjcf > results.jsonl     # all scenes of a folder, and how many work
+    python3 mjcf/replay.py mjcf > results.jsonl     # all scenes of a folder, and a summary
 
 Needs Python 3.11 and `pip install mujoco`; the scenes hold everything else. A line of JSON for each
 plan goes to stdout, a table for several to stderr; the exit code is 0 if all of them work.
 
-A plan works if in the end everything rests and the goal's object is within the tolerance (with its
-heading, where one is asked for) or has fallen over the right edge, and if on the way nothing else toppled, the tool was not set down on an
-object, and no object was 2 mm inside an obstacle. An arm in the scene follows its joints' way by servos, held
-by nothing else, and must not run into anything. Lengths are in metres, angles in radians.
+A plan works if all objects are at rest at the end and the goal object is within the tolerance of position and,
+if the goal has one, heading, or has fallen over the right edge. Meanwhile no other object may topple, the
+tool may not be set down on an object, and no object may enter an obstacle by 2 mm. An arm in the scene is
+driven by servos alone along its joint trajectory, and may not collide. Lengths are in metres, angles in radians.
 """
 
 import argparse
@@ -42,11 +42,11 @@ SOLIDS = {
 
 
 class Failed(Exception):
-    """The plan fails before its end."""
+    """Failure of the plan before its end."""
 
 
 class Arm:
-    """The joints of an arm and the way that they are to go."""
+    """Joints of an arm and their trajectory."""
 
     def __init__(self, model, numbers):
         rows = np.array([data for name, data in numbers.items() if name.startswith("joints ")])
@@ -60,7 +60,7 @@ class Arm:
         self.off = 0.0  # maximum error of a joint
 
     def at(self, time):
-        """Positions and velocities: cubics between the points."""
+        """Returns joint positions and velocities, by cubic interpolation between the points."""
         k = int(np.clip(np.searchsorted(self.times, time) - 1, 0, len(self.times) - 2))
         dt = self.times[k + 1] - self.times[k]
         s = min(max((time - self.times[k]) / dt, 0.0), 1.0)
@@ -71,14 +71,14 @@ class Arm:
         return place, (d[0] * a + d[2] * b) / dt + d[1] * v + d[3] * w
 
     def tell(self, data, time):
-        """Tells the servos where to be at this time."""
+        """Sets the targets of the servos for this time."""
         place, speed = self.at(time)
         self.off = max(self.off, float(np.abs(data.qpos[self.position] - place).max()))
         data.ctrl[self.servos], data.ctrl[self.speeds] = place, speed
 
 
 class Replay:
-    """One scene."""
+    """One scene and its replay."""
 
     def __init__(self, model):
         self.model = model
@@ -94,7 +94,7 @@ class Replay:
         names = [b.name for b in bodies if b.name.split(" ")[0] == "tool"]
         self.tools = [[j for j in joints if j.name.rpartition(" ")[0] == name] for name in names]
         for tool in self.tools:
-            for joint in tool:  # the tool is held, so it must not fall in any step
+            for joint in tool:  # the tool is held, so its weight is compensated
                 if joint.name.endswith(" z"):
                     weight = -self.model.body("tool").mass[0] * self.model.opt.gravity[2]
                     self.data.qfrc_applied[joint.dofadr[0]] = weight
@@ -112,11 +112,11 @@ class Replay:
         self.heights = self.data.xpos[:, 2].copy()
 
     def has_fallen(self, body):
-        """Whether it has left the table, as it may."""
+        """Returns `True` if the body has left the table and is allowed to."""
         return body in self.loose and self.data.xpos[body, 2] < self.heights[body] - FALLEN
 
     def run(self):
-        """Makes all pushes, in order."""
+        """Executes all pushes, in order."""
         if self.arm:
             return self.follow()
         mujoco.mj_forward(self.model, self.data)  # a plan may have no pushes
@@ -140,7 +140,7 @@ class Replay:
             lifted = settle
 
     def take(self, index):
-        """Another tool, while those not in use hang high above the table."""
+        """Takes a tool; unused tools are kept high above the table."""
         for k, tool in enumerate(self.tools):
             for joint in tool:
                 if joint.name.endswith(" z"):
@@ -153,7 +153,7 @@ class Replay:
         self.tool_velocity = [joint.dofadr[0] for joint in joints]
 
     def follow(self):
-        """The arm goes all of its way, and stays until everything rests."""
+        """Moves the arm along its trajectory, and waits until everything rests."""
         self.data.qpos[self.arm.position] = self.arm.points[0]
         mujoco.mj_forward(self.model, self.data)
         for k in range(math.ceil(self.arm.times[-1] / self.step)):
@@ -163,7 +163,7 @@ class Replay:
         self.rest(self.advance)
 
     def set_down(self, place):
-        """The tool comes down from above."""
+        """Lowers the tool from above."""
         self.place(place, 0.0)
         mujoco.mj_forward(self.model, self.data)
         contact = self.data.contact
@@ -172,7 +172,7 @@ class Replay:
             raise Failed("set down on an object")
 
     def lift_off(self, start, end, duration, back):
-        """The tool goes back by so much, the way it came, and rises: what sticks to it comes along."""
+        """Moves the tool back along the push by `back`, then lifts it. Objects that stick to it move along."""
         way = np.linalg.norm(end[:2] - start[:2])
         if back == 0.0 or way == 0.0:
             return
@@ -189,7 +189,7 @@ class Replay:
         self.coast(there, height)
 
     def coast(self, place, height=0.0):
-        """The tool stands still until everything rests."""
+        """Holds the tool still until everything rests."""
         self.rest(lambda: self.move(place, 0.0, height))
 
     def rest(self, advance):
@@ -213,12 +213,12 @@ class Replay:
             self.data.qvel[joint.dofadr[0]] = rises
 
     def move(self, place, velocity, height=0.0, rises=0.0):
-        """One step with the tool at `place`, lifted by `height`."""
+        """Makes one step with the tool at `place`, lifted by `height`."""
         self.place(place, velocity, height, rises)
         self.advance()
 
     def advance(self):
-        """One step."""
+        """Makes one step."""
         mujoco.mj_step(self.model, self.data)
         contact = self.data.contact
         depth = contact.includemargin - contact.dist
@@ -228,7 +228,7 @@ class Replay:
         if self.deepest[KINDS.index("obstacle")] > JAMMED:
             raise Failed("jams")
         if self.deepest[KINDS.index("arm")] > JAMMED:
-            raise Failed("the arm runs into something")
+            raise Failed("the arm collides")
         if self.upright and self.data.xmat[self.upright, 8].min() < TOPPLED:
             raise Failed("topples")
 
@@ -247,22 +247,22 @@ class Replay:
         return True
 
     def seen(self, name, frame=None):
-        """The pose of an object in the world, or in another's frame."""
+        """Returns the pose of an object in the world, or in the frame of another object."""
         pose = self.pose(self.objects[f"object/{name}"])
         return pose if frame is None else seen(pose, self.seen(frame))
 
     def has_left(self, name):
-        """Whether an object has fallen off the table."""
+        """Returns `True` if an object has fallen off the table."""
         return self.has_fallen(self.objects[f"object/{name}"])
 
     def pose(self, body):
-        """x, y and heading."""
+        """Returns x, y and heading of a body."""
         turn = self.data.xmat[body]
         return [*self.data.xpos[body][:2].tolist(), math.atan2(turn[3], turn[0])]
 
 
 def replay(path):
-    """Plays the scene of a file; everything worth knowing of it, for JSON."""
+    """Replays the scene of a file, and returns its results for JSON."""
     scene = Replay(mujoco.MjModel.from_xml_path(str(path)))
     failure = None
     try:
@@ -297,7 +297,7 @@ def replay(path):
 
 
 def table(results):
-    """How many plans of which kind work, as Markdown."""
+    """Returns a Markdown table of the share of working plans by kind."""
     groups = {"all": results}
     for result in results:
         one, walls = result["pushes"] < 2, result["obstacles"]
@@ -333,7 +333,7 @@ def main():
     arguments = parser.parse_args()
     scenes = []
     for path in arguments.scenes:
-        # Lever-ups of the same folder are replayed by another script.
+        # Another script replays the lever-ups of the same folder.
         ours = (scene for scene in path.glob("*.xml") if "lever.py" not in scene.read_text())
         scenes += sorted(ours) if path.is_dir() else [path]
     results = []

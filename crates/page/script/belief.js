@@ -1,4 +1,4 @@
-// What was believed of joints, masses and frictions, under the clock of the replay.
+// The belief about joints, masses and frictions, synchronized with the replay.
 
 (() => {
   const { run } = page;
@@ -10,11 +10,11 @@
   const THOUSANDTH = 1e-3;
   const times = run.times.map((time) => time * FINE);
   const x = (time) => +(LEFT + (time / (duration() || 1)) * (WIDTH - LEFT - RIGHT)).toFixed(1);
-  // What is believed at last stays so: it is drawn beyond the end.
+  // The final belief is drawn up to the right margin.
   const until = (k) => (k + 1 < times.length ? x(times[k + 1]) : WIDTH);
   const place = (share) => +(HEIGHT - BOTTOM - share * (HEIGHT - TOP - BOTTOM)).toFixed(1);
 
-  /** A figure whose hand follows the clock; `words` says what is believed after a number of pushes. */
+  /** Returns a figure with a time cursor; `words` describes the belief after a number of pushes. */
   function figure(name, words, ...drawn) {
     const hand = svg('line', { y1: TOP, y2: HEIGHT - BOTTOM, class: 'hand' });
     const output = html('output', { 'aria-label': name });
@@ -41,7 +41,7 @@
     const scale = [0, 1].map((share) => svg('text', { x: LEFT - 5, y: place(share) + (share ? 10 : 0), class: 'small end' }, `${100 * share} %`));
     const words = (k) => {
       const said = shares[k].map((share, type) => `${run.types[type]} ${(share / 10).toFixed(1)} %`).join(', ');
-      return really === null ? said : `${said}; really ${run.types[really]}`;
+      return really === null ? said : `${said}; true: ${run.types[really]}`;
     };
     return figure(name, words, ...blocks, ...scale);
   }
@@ -63,7 +63,7 @@
     const text = (value) => (value * THOUSANDTH).toFixed(2);
     const words = (k) => {
       const said = `${text(values[k][0])} ± ${text(values[k][1])}${unit}`;
-      return really === null ? said : `${said}; really ${text(really)}${unit}`;
+      return really === null ? said : `${said}; true: ${text(really)}${unit}`;
     };
     return figure(name, words, ...drawn);
   }
@@ -73,7 +73,7 @@
       svg('rect', { width: 20, height: 20, rx: 3, class: `type-${type}` })), name)) : [];
   byId('belief-legend').replaceChildren(...legend);
   byId('belief-words').textContent = run.words
-    + (run.numbers.some(({ really }) => really !== null) ? ' Dashed: the truth.' : '');
+    + (run.numbers.some(({ really }) => really !== null) ? ' Dashed: ground truth.' : '');
 
   let shows = [];
   whenPlanChanges.push(() => {

@@ -1,4 +1,4 @@
-// Every push that the search considered: how near it leads, or why it cannot be made.
+// Pushes considered by the search: their scores, or the reasons why they are infeasible.
 
 (() => {
   const { candidates } = page;
@@ -11,10 +11,10 @@
   const [tools, levels] = [byId('candidates-tool'), byId('candidates-level')];
 
   const { considered, shown: kept } = candidates;
-  byId('candidates-words').textContent = 'Rows: which way a push goes. Columns: which part of the tool makes '
-    + 'contact, and how far the object lies to the left of its middle. Colour: the best predicted score, '
-    + 'which is how far from the goal it ends, in tolerances; up to 1 the goal is reached.'
-    + (kept < considered ? ` ${kept} of ${considered} are shown.` : '');
+  byId('candidates-words').textContent = 'Rows: push direction. Columns: the part of the tool in contact, and the '
+    + 'offset of the object to the left of its middle. Colour: the best predicted score, which is the final '
+    + 'error divided by the tolerance. Scores up to 1 reach the goal.'
+    + (kept < considered ? ` ${kept} of ${considered} pushes are shown.` : '');
 
   const unique = (list) => [...new Set(list)];
   const order = page.choice.map(({ tool }) => tool);
@@ -25,7 +25,7 @@
   levels.replaceChildren(...counts.map((count) => html('option', { value: count }, `${count}`)));
   byId('candidates-level-label').hidden = counts.length < 2;
 
-  /** Name of the colour of a cell. */
+  /** Returns the name of the colour of a cell. */
   function shade(cell) {
     if (cell <= REFUSED) return 'refused';
     if (cell === BLOCKED) return 'blocked';
@@ -34,11 +34,11 @@
     return `score-${step < 0 ? STEPS.length : step}`;
   }
 
-  /** What a cell says. */
+  /** Returns the description of a cell. */
   function words(cell) {
     if (cell <= REFUSED) return candidates.reasons[REFUSED - cell];
-    if (cell === BLOCKED) return 'something on the way does not give way';
-    if (cell === NOT_TRIED) return 'not tried: the same as another one, beyond the budget, or it never came to rest';
+    if (cell === BLOCKED) return 'blocked by an immovable body';
+    if (cell === NOT_TRIED) return 'not tried: duplicate, beyond the budget, or never at rest';
     return `score ${(cell / 100).toFixed(2)}, ${cell <= 100 ? 'reaches' : 'misses'} the goal`;
   }
 
@@ -46,7 +46,7 @@
     const columns = faces.reduce((sum, [, count]) => sum + count, 0) || 1;
     const rows = Math.ceil(cells.length / columns);
     const [left, top, pitch] = [64, 20, CELL + GAP];
-    // Parts stand apart.
+    // Columns of different parts are separated.
     const spaces = [];
     faces.forEach(([, count], k) => { for (let c = 0; c < count; c++) spaces.push(k * 8); });
     const width = left + columns * pitch + faces.length * 8;
@@ -84,7 +84,7 @@
   function draw() {
     const wanted = candidates.grids.filter(({ tool, pushes }) => tool === tools.value && `${pushes}` === levels.value);
     byId('grids').replaceChildren(...wanted.map(grid));
-    byId('cell').textContent = 'Point at a cell to see what it says.';
+    byId('cell').textContent = 'Point at a cell to see its score or reason.';
     const drawn = wanted.flatMap(({ cells }) => cells);
     const counts = candidates.reasons.map((_, k) => drawn.filter((cell) => cell === REFUSED - k).length);
     const key = (name, text, mark = '') => html('span', { class: 'key' },

@@ -1,4 +1,4 @@
-// How far the object is from the goal over time, under the clock of the replay.
+// The goal error over time, synchronized with the replay.
 
 (() => {
   byId('chart').hidden = !goals.length;
@@ -9,14 +9,14 @@
   const still = svg('g');
   const hand = svg('line', { y1: TOP, y2: HEIGHT - BOTTOM, class: 'hand' });
   const dots = svg('g');
-  root.append(svg('title', {}, `${page.measure?.name ?? 'Distance from the goal'} over time`), still, hand, dots);
+  root.append(svg('title', {}, `${page.measure?.name ?? 'Goal error'} over time`), still, hand, dots);
   byId('chart').append(root);
 
   let [least, most] = [0, 1]; // metres
   const x = (time) => +(LEFT + (time / (duration() || 1)) * (width - LEFT - RIGHT)).toFixed(1);
   const y = (error) => +(HEIGHT - BOTTOM - ((error - least) / (most - least)) * (HEIGHT - TOP - BOTTOM)).toFixed(1);
 
-  /** A round step that cuts `span` into at most `count` pieces. */
+  /** Returns a round step that divides `span` into at most `count` intervals. */
   function roundStep(span, count) {
     const power = 10 ** Math.floor(Math.log10(span / count));
     return [1, 2, 5, 10].map((m) => m * power).find((size) => size * count >= span);
@@ -28,7 +28,7 @@
     root.setAttribute('viewBox', `0 0 ${width} ${HEIGHT}`);
     const tolerance = goals[0].tolerance * LENGTH;
     const errors = replays().flatMap((replay) => Array.from(replay.time, (t) => replay.error(t)));
-    // What is measured instead of a distance may sink below where it began.
+    // Other quantities than distances may become negative.
     least = Math.min(0, ...errors) * 1.06;
     most = Math.max(tolerance * 1.2, ...errors) * 1.06 || 1;
     const bottom = HEIGHT - BOTTOM;
@@ -43,7 +43,7 @@
         svg('text', { x: LEFT - 7, y: height + 4, class: 'small end' }, `${+(k * rise * 1000).toPrecision(6)}`),
       );
     }
-    still.append(svg('text', { x: width - RIGHT - 4, y: TOP + 10, class: 'small end' }, page.measure?.axis ?? 'off the goal, mm'));
+    still.append(svg('text', { x: width - RIGHT - 4, y: TOP + 10, class: 'small end' }, page.measure?.axis ?? 'goal error, mm'));
     const pace = roundStep(duration() || 1, Math.min(8, width / 60));
     for (let k = 0; k * pace <= duration() + 1e-9; k++) {
       const name = `${+(k * pace).toPrecision(6)}${k ? '' : ' s'}`;

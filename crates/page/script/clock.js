@@ -1,15 +1,15 @@
-// What is looked at: which plan, which layers, when. One clock for all that is drawn.
+// View state: the plan, the visible layers, and the time that all drawings share.
 
 const view = { plan: 0, time: 0, playing: false, speed: 1, hidden: new Set(), graph: false };
 const whenPlanChanges = [];
 const whenTimeChanges = [];
-/** What keys do, by name. */
+/** Actions of keys, by key name. */
 const keys = {};
 
 const plan = () => page.plans[view.plan];
 const replays = () => replaysOf(plan());
 const shown = () => replays().filter((replay) => !view.hidden.has(replay.layer));
-/** The replay that is drawn in full: the one nearest to the truth. */
+/** The replay that is drawn solid: the one closest to reality. */
 const leading = () => shown().at(-1) ?? replays().at(-1);
 const duration = () => Math.max(0, ...replays().map((replay) => replay.end));
 
@@ -42,15 +42,15 @@ function play(playing) {
   keepLink();
 }
 
-/** Goes on by a number of frames of the leading replay. */
+/** Moves by a number of frames of the leading replay. */
 function step(frames) {
   play(false);
   const replay = leading();
   if (!replay) return;
   const [frame, share] = replay.place(view.time);
-  // From between two frames, back is to the start of this one.
+  // Between two frames, a step back leads to the start of the current one.
   let next = frame + frames + (frames < 0 && share > 1e-9 ? 1 : 0);
-  // Where a run goes on, two frames share a time.
+  // Two successive pushes of a run share a frame time.
   while (next > 0 && frames < 0 && replay.time[next] >= view.time) next--;
   const last = replay.time.length - 1;
   showTime(next > last ? duration() : replay.time[Math.max(0, next)]);
@@ -64,7 +64,7 @@ function toggle(layer) {
   keepLink();
 }
 
-/** The prediction whose graph the page has, if it has one. */
+/** The prediction with a graph, if any. */
 const graphed = () => replays().find((replay) => replay.graph);
 
 function toggleGraph() {
@@ -88,7 +88,7 @@ function keepLink() {
   try {
     history.replaceState(null, '', `#${linkPart()}`);
   } catch {
-    // Inside some frames an address cannot be changed; nothing is lost but the link.
+    // Some embedding frames do not allow changes of the address; only the link is lost.
   }
 }
 

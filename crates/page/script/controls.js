@@ -1,4 +1,4 @@
-// Buttons, slider and keys; at last the page is shown as its link says.
+// Buttons, slider and keys; finally the page shows the state of its link.
 
 (() => {
   const [scrub, button] = [byId('scrub'), byId('play')];
@@ -9,7 +9,7 @@
   byId('forward').addEventListener('click', () => step(1));
   byId('speed').addEventListener('change', (event) => { view.speed = Number(event.target.value); });
   scrub.addEventListener('input', () => {
-    // Before the clock puts the slider back to its own time.
+    // The value is read before the clock resets the slider.
     const wanted = Number(scrub.value);
     play(false);
     showTime(wanted);
@@ -36,7 +36,7 @@
   document.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const { tagName, type } = event.target;
-    // A list has its own keys; a button, a box and a summary are pressed with space.
+    // Lists have their own keys; space presses buttons, checkboxes and summaries.
     if (tagName === 'SELECT') return;
     if (event.key === ' ' && (['BUTTON', 'SUMMARY'].includes(tagName) || type === 'checkbox')) return;
     const layer = replays()[Number(event.key) - 1]?.layer;
@@ -46,16 +46,16 @@
     act(event);
   });
 
-  // A button that was clicked must not keep the space key to itself; one reached by key does.
+  // A clicked button must not capture the space key; a button reached by keyboard does.
   document.addEventListener('click', (event) => {
     if (event.detail > 0) event.target.closest?.('button')?.blur();
   });
 
   let width = 0;
   new ResizeObserver(() => {
-    // Figures are drawn for their width; their own change of height is none.
+    // Figures are drawn for their width; changes of height alone are ignored.
     const now = widthOf(byId('stage'));
-    // Not at once, as that may change the width again.
+    // Deferred, because drawing may change the width again.
     if (now !== width) requestAnimationFrame(() => showPlan(view.plan));
     width = now;
   }).observe(byId('stage'));

@@ -1,4 +1,4 @@
-// What can be taken along: a command, a script, a plan file, a link.
+// Export: a command, a script, a plan file, a link.
 
 (() => {
   const file = () => {
@@ -19,7 +19,7 @@
     byId('file-details').hidden = !plan().file;
     byId('file').textContent = plan().file ? file() : '';
   });
-  // A page within another has no address of its own.
+  // An embedded page has no address of its own.
   byId('link-details').hidden = location.protocol === 'about:';
   whenTimeChanges.push(() => {
     byId('link').textContent = `${location.href.split('#')[0]}#${linkPart()}`;
@@ -32,7 +32,7 @@
         await navigator.clipboard.writeText(source.textContent);
         button.textContent = 'Copied';
       } catch {
-        // A browser that refuses leaves the text marked, one key away.
+        // If the browser denies access to the clipboard, the text is selected for copying.
         getSelection().selectAllChildren(source);
         button.textContent = 'Selected: press Ctrl-C';
       }

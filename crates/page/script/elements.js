@@ -1,5 +1,5 @@
 'use strict';
-// How elements are made, and numbers as people read them. Text is only ever set as text.
+// Creation of elements, and formats of numbers. Text is never parsed as HTML.
 
 const byId = (id) => document.getElementById(id);
 
@@ -9,28 +9,28 @@ function filled(node, attributes, children) {
   return node;
 }
 
-/** An HTML element. */
+/** Returns an HTML element. */
 function html(tag, attributes = {}, ...children) {
   return filled(document.createElement(tag), attributes, children);
 }
 
-/** An SVG element. */
+/** Returns an SVG element. */
 function svg(tag, attributes = {}, ...children) {
   return filled(document.createElementNS('http://www.w3.org/2000/svg', tag), attributes, children);
 }
 
-/** On which side the cells of a column line up. */
+/** Returns the alignment class of a column. */
 const side = (numeric) => ({ class: numeric ? 'number' : '' });
 
-/** The first row of a table; `numeric` says which columns hold numbers. */
+/** Returns the header row of a table; `numeric` marks the columns of numbers. */
 const headed = (names, numeric) => html('tr', {}, ...names.map((name, c) => html('th', {
   scope: 'col', ...side(numeric[c]),
 }, name)));
 
-/** Width of a figure in pixels, so that its text is as large on a phone as on a desk. */
+/** Returns the width of a figure, pixels, so that its text is equally large on all screens. */
 const widthOf = (figure) => Math.max(300, Math.round(figure.clientWidth) || 800);
 
-/** A length in metres as people read it. */
+/** Formats a length given in metres. */
 function millimetres(metres) {
   const value = metres * 1000;
   return `${value.toFixed(Math.abs(value) < 99.95 ? 1 : 0)} mm`;

@@ -1,10 +1,10 @@
-// Where the goal's object comes to rest: as planned, and in the disturbed replays.
+// Final positions of the goal object: as planned, and in the perturbed replays.
 
 (() => {
   const SIZE = 280;
   const figure = byId('ends');
-  // Of a run nothing was disturbed, lever-ups end in other ways, and recordings have no goal; around
-  // regions and headings ends say nothing.
+  // Runs have no perturbed replays, lever-ups have other outcomes, and recordings have no goal. For
+  // regions and headings, final positions show no errors.
   const none = Boolean(page.run ?? page.measure) || goals[0]?.tolerance === 0;
   byId('ends-card').hidden = none;
   if (none) return;
@@ -20,7 +20,7 @@
     }));
     const tolerance = goal.tolerance * LENGTH;
     const far = Math.max(...[...finals, ...ends].map(({ x, y }) => Math.hypot(x, y)));
-    // One that went astray must not shrink all others to a dot.
+    // Outliers are clamped, so that they do not shrink the rest to a dot.
     const most = Math.min(Math.max(tolerance * 1.3, far * 1.1), tolerance * 4);
     const scale = SIZE / 2 / most;
     const map = ({ x, y }) => {
@@ -31,7 +31,7 @@
     const root = svg('svg', { role: 'img', class: 'plot', viewBox: `0 0 ${SIZE} ${SIZE}` });
     const middle = SIZE / 2;
     root.append(
-      svg('title', {}, 'Ends around the goal'),
+      svg('title', {}, 'Final positions around the goal'),
       svg('circle', { cx: middle, cy: middle, r: tolerance * scale, class: 'goal' }),
       svg('path', { d: `M${middle - 6} ${middle}h12M${middle} ${middle - 6}v12`, class: 'goal-cross' }),
     );
@@ -55,8 +55,8 @@
       return own.length ? `${count} of ${own.length} ${LAYERS[layer]}` : '';
     }).filter(Boolean);
     byId('ends-words').textContent = counts.length
-      ? `Crosses: as planned. Dots: with starts and frictions slightly off, ${counts.join(' and ')} replays reach the goal.`
-      : 'Crosses: as planned. No replay with starts and frictions slightly off was made.';
+      ? `Crosses: prediction and nominal replays. Dots: replays with perturbed starts and frictions, of which ${counts.join(' and ')} reach the goal.`
+      : 'Crosses: prediction and nominal replays. There are no replays with perturbed starts and frictions.';
   }
 
   whenPlanChanges.push(draw);

@@ -1,6 +1,6 @@
-// Trajectories: unpacked, and where everything is between frames.
+// Trajectories: unpacking, and poses interpolated between frames.
 
-/** Values of a column: the first and differences, or one for all `count` frames. */
+/** Returns the values of a column, stored as the first value and differences, or as one for all `count` frames. */
 function unpacked(column, count, unit) {
   const values = new Float64Array(count);
   let sum = 0;
@@ -16,7 +16,7 @@ const between = (a, b, share) => a.map((value, k) => value + (b[k] - value) * sh
 class Replay {
   constructor(raw, strokes) {
     const count = raw.time.length;
-    // Of the columns of a pose the third and those after the fourth are angles, or shares.
+    // The third column of a pose and the columns after the fourth are angles or shares.
     const columns = (pose) => pose.map((column, c) => unpacked(column, count, c === 2 || c > 3 ? FINE : LENGTH));
     this.layer = raw.layer;
     this.by = raw.by;
@@ -31,7 +31,7 @@ class Replay {
     this.strokes = strokes;
   }
 
-  /** Index of the last frame at or before `time`, and how far it is to the next one. */
+  /** Returns the index of the last frame at or before `time`, and the share of the way to the next one. */
   place(time) {
     let [low, high] = [0, this.time.length - 1];
     if (time >= this.end) return [high, 0];
@@ -44,18 +44,18 @@ class Replay {
     return [low, span > 0 ? Math.max(0, (time - this.time[low]) / span) : 0];
   }
 
-  /** Pose of an object at `time`. */
+  /** Returns the pose of an object at `time`. */
   object(index, time) {
     return this.pose(this.objects[index], this.place(time));
   }
 
-  /** The stroke under way at `time`. */
+  /** Returns the current stroke at `time`. */
   stroke(time) {
     const [frame] = this.place(time);
     return this.strokes[Math.max(0, this.firsts.findLastIndex((first) => first <= frame))];
   }
 
-  /** Pose of the tool frame at `time`. It is set down for a stroke in no time. */
+  /** Returns the pose of the tool frame at `time`. Lowering the tool takes no time. */
   toolPose(time) {
     const [frame, share] = this.place(time);
     const stroke = this.firsts.indexOf(frame + 1);
@@ -72,7 +72,7 @@ class Replay {
     return between(here, columns.map((column) => column[frame + 1]), share);
   }
 
-  /** Distance of the goal's object from the goal at `time`, or what is measured instead, metres. */
+  /** Returns the goal error at `time`, or the other measured quantity, metres. */
   error(time) {
     if (this.measure) {
       const [frame, share] = this.place(time);
@@ -83,7 +83,7 @@ class Replay {
     return Math.hypot(x - goals[0].at[0] * LENGTH, y - goals[0].at[1] * LENGTH);
   }
 
-  /** How far its heading is from the nearest that is wanted, radians. */
+  /** Returns the error from the nearest accepted heading, radians. */
   headingError(time) {
     const [goal] = goals;
     const heading = this.object(goal.objects[0], time)[2];
@@ -97,7 +97,7 @@ class Replay {
   }
 }
 
-/** Replays of a plan in the order of layers, unpacked when they are first asked for. */
+/** Returns the replays of a plan in the order of layers; each plan is unpacked at its first use. */
 const replaysOf = (() => {
   const known = new Map();
   return (plan) => {

@@ -1,4 +1,4 @@
-// The pushes of a run, each of which opens its moment, and tables of what was found.
+// The pushes of a run, each with a button that shows its start, and tables of the results.
 
 (() => {
   const { run } = page;

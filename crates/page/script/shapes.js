@@ -1,23 +1,23 @@
-// Bodies from above, in the units of the data: lengths are whole hundredths of a millimetre, angles and
-// times whole ten-thousandths of a radian and a second.
+// Bodies seen from above, in the units of the data. Lengths are integers in hundredths of a millimetre. Angles
+// and times are integers in ten-thousandths of a radian and of a second.
 
-const LENGTH = 1e-5; // metres in a unit of the data
-const FINE = 1e-4; // radians or seconds in a unit of the data
+const LENGTH = 1e-5; // metres per unit of the data
+const FINE = 1e-4; // radians or seconds per unit of the data
 
 const posed = ([x, y, heading]) => [x * LENGTH, y * LENGTH, heading * FINE];
 
-/** Distance of the farthest corner from a body's own origin, metres. */
+/** Returns the distance of the farthest corner from a body's own origin, metres. */
 const radius = (shape) => LENGTH * ('disc' in shape ? shape.disc
   : Math.max(...shape.polygon.map(([x, y]) => Math.hypot(x, y))));
 
-/** The shape of a body about its own origin; `px` says how many pixels a length in metres is. */
+/** Returns the shape of a body about its own origin; `px` converts metres to pixels. */
 function outlined(shape, px, attributes) {
   if ('disc' in shape) return svg('circle', { r: px(shape.disc * LENGTH), ...attributes });
   const corners = shape.polygon.map(([x, y]) => `${px(x * LENGTH)},${px(-y * LENGTH)}`);
   return svg('polygon', { points: corners.join(' '), ...attributes });
 }
 
-/** The world position of a point in the frame of a pose. */
+/** Returns the world position of a point in the frame of a pose. */
 function placed([x, y, heading], [u, v]) {
   const [c, s] = [Math.cos(heading), Math.sin(heading)];
   return [x + c * u - s * v, y + s * u + c * v];

@@ -1,5 +1,5 @@
-// The table in 3-D, under the same clock and with the same layers. three.js draws; it lies packed in
-// the page, and the browser runs it only if it is what the page's policy says.
+// The table in 3-D, with the same time and layers. three.js draws it. The page holds three.js compressed,
+// and the browser runs it only if its hash is in the content security policy.
 
 const solid = (() => {
   const flat = byId('stage');
@@ -19,7 +19,7 @@ const solid = (() => {
   let scene;
   let camera;
   let controls;
-  let moved = []; // what moves, and where it is at a time
+  let moved = []; // moving nodes, and their poses as functions of time
   let ready = false;
 
   function show(inDepth) {
@@ -34,7 +34,7 @@ const solid = (() => {
     getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim());
   const layerColour = (layer) => colour({ seen: 'planar', real: 'spatial' }[layer] ?? layer);
 
-  /** The solid of a body, in its own frame. */
+  /** Returns the solid of a body, in its own frame. */
   function geometry({ shape, height, under = 0 }) {
     const [tall, low] = [height * LENGTH, under * LENGTH];
     if ('disc' in shape) {
@@ -45,11 +45,11 @@ const solid = (() => {
     return new THREE.ExtrudeGeometry(new THREE.Shape(corners), { depth: tall, bevelEnabled: false }).translate(0, 0, low);
   }
 
-  /** A body with its edges; a ghost lets everything through. */
+  /** Returns a body with its edges; a ghost is transparent. */
   function piece(body, fill, rim, ghost = false) {
     const form = geometry(body);
     const material = new THREE.MeshLambertMaterial({ color: fill });
-    // Behind what is solid at the same place, as they would flicker through each other.
+    // Drawn behind coincident solids, because they would flicker otherwise.
     if (ghost) {
       Object.assign(material, {
         transparent: true, opacity: 0.14, depthWrite: false, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2,
@@ -65,7 +65,7 @@ const solid = (() => {
     return whole;
   }
 
-  /** Puts something where a pose says; one in space says the height and the turn, too. */
+  /** Moves a node to a pose; poses in space include height and rotation. */
   function placed(node, [x, y, heading, z, ...turn], height = 0) {
     node.position.set(x, y, z ?? height);
     if (turn.length) node.quaternion.set(...turn).normalize();
@@ -87,7 +87,7 @@ const solid = (() => {
   const reachOf = (shape) => LENGTH * ('disc' in shape ? shape.disc
     : Math.max(...shape.polygon.map(([x, y]) => Math.hypot(x, y))));
 
-  /** Middle and half the width of all that is looked at. */
+  /** Returns centre and half width of the visible content. */
   function extent() {
     let [low, high] = [[Infinity, Infinity], [-Infinity, -Infinity]];
     const add = ([x, y], room) => {
@@ -115,7 +115,7 @@ const solid = (() => {
     const ground = new THREE.Mesh(new THREE.PlaneGeometry(width, depth),
       new THREE.MeshLambertMaterial({ color: colour('grid') }));
     ground.receiveShadow = true;
-    // A hair lower, so that nothing that lies on it flickers.
+    // Slightly lower, so that bodies on it do not flicker.
     scene.add(placed(ground, [left, top, 0], -THIN / 3));
     const [right, far] = [left + width / 2, top + depth / 2];
     const grid = [];
@@ -210,7 +210,7 @@ const solid = (() => {
 
   function light(middle, half) {
     const sun = new THREE.DirectionalLight(0xffffff, 2);
-    // From the left, so that shadows fall to where they are seen.
+    // From the left, so that shadows remain visible.
     sun.position.set(middle[0] - 1.7 * half, middle[1] - 0.2 * half, 2 * half);
     sun.target.position.set(...middle, 0);
     sun.castShadow = true;
@@ -257,7 +257,7 @@ const solid = (() => {
     move();
   }
 
-  /** Looks from where the drawing from above has its lower edge. */
+  /** Moves the camera to its initial position, at the lower edge of the top view. */
   function home() {
     const [[x, y], half] = extent();
     controls.target.set(x, y, 0);
@@ -266,7 +266,7 @@ const solid = (() => {
     render();
   }
 
-  /** Turns about the vertical, tilts, goes nearer or away. */
+  /** Rotates the camera about the vertical, tilts it, and zooms. */
   function orbit(turn, tilt, away) {
     const from = camera.position.clone().sub(controls.target);
     const far = from.length();
@@ -279,7 +279,7 @@ const solid = (() => {
     render();
   }
 
-  /** Makes `THREE`, which stands packed in the page. */
+  /** Loads `THREE`, which the page holds compressed. */
   async function unpack() {
     const packed = Uint8Array.from(atob(byId('three').textContent), (letter) => letter.charCodeAt(0));
     const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'));
@@ -288,10 +288,10 @@ const solid = (() => {
 
   async function begin() {
     if (!document.createElement('canvas').getContext('webgl2')) {
-      throw new Error('The 3-D view needs WebGL 2, which this browser does not offer here. A drawing is shown instead.');
+      throw new Error('The 3-D view needs WebGL 2, which this browser does not provide. The page shows a drawing instead.');
     }
     if (!('DecompressionStream' in window)) {
-      throw new Error('The 3-D view needs a browser of 2023 or later. A drawing is shown instead.');
+      throw new Error('The 3-D view needs a browser from 2023 or later. The page shows a drawing instead.');
     }
     await unpack();
     renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
@@ -301,7 +301,7 @@ const solid = (() => {
     camera.up.set(0, 0, 1);
     controls = new THREE.OrbitControls(camera, canvas);
     controls.maxPolarAngle = 1.52;
-    // A page that is scrolled past must not be held back: the wheel zooms what was clicked.
+    // The wheel zooms only after a click, so that it does not interrupt scrolling.
     controls.enableZoom = false;
     canvas.addEventListener('focus', () => { controls.enableZoom = true; });
     canvas.addEventListener('blur', () => { controls.enableZoom = false; });
@@ -316,9 +316,9 @@ const solid = (() => {
       h: home,
       v: () => show(figure.hidden),
     });
-    byId('more-keys').textContent = ' a and d turn the 3-D view, w and s tilt it, plus and minus zoom, h looks from '
-      + 'where it began, v changes the view.';
-    words.textContent = 'Drag to turn, with the right button to move; once clicked, the wheel zooms.';
+    byId('more-keys').textContent = ' In the 3-D view, a and d rotate, w and s tilt, plus and minus zoom, h resets '
+      + 'the camera; v switches between the views.';
+    words.textContent = 'Drag to rotate, drag with the right button to move. After a click, the wheel zooms.';
     show(true);
     home();
     controls.addEventListener('change', render);
@@ -338,11 +338,11 @@ const solid = (() => {
   });
 
   return {
-    /** Resolves when the view stands, or it is said why there is none. */
+    /** Resolves when the view is ready, or the page states why there is none. */
     begun,
-    /** Where an object of a layer is drawn, metres. */
+    /** Returns the drawn position of an object of a layer, metres. */
     where: (layer, object) => moved.find((one) => one.layer === layer && one.object === object)?.node.position.toArray(),
-    /** The pixel of the canvas at which a point of the world is seen. */
+    /** Returns the pixel of the canvas that shows a point of the world. */
     pixel: (point) => {
       const { x, y } = new THREE.Vector3(...point).project(camera);
       return [((x + 1) / 2) * canvas.width, ((1 - y) / 2) * canvas.height];

@@ -1,13 +1,13 @@
-// The table from above: what stands where at the time of the clock.
+// The top view of the table at the current time.
 
 (() => {
-  // Where something else is measured, a drawing stands here.
+  // Pages that measure another quantity show a drawing instead.
   if (page.measure) return;
   const MARGIN = 0.05; // metres around everything
   const root = svg('svg', { role: 'img', class: 'plot' });
   const still = svg('g');
   const moving = svg('g');
-  const over = svg('g'); // what is above the table
+  const over = svg('g'); // bodies above the table
   const pushes = svg('g');
   const graph = svg('g');
   const RELATIONS = ['contact', 'fixed', 'revolute', 'prismatic'];
@@ -33,7 +33,7 @@
     return svg('polyline', { points: points.map((p) => map(p).join(',')).join(' '), ...attributes });
   }
 
-  /** A tool as one piece: rims first, fills over them. */
+  /** Returns the shape of a tool as one piece: rims first, fills over them. */
   function toolShape(tool, className) {
     const group = svg('g', { class: className });
     for (const layer of ['rim', 'fill']) {
@@ -63,7 +63,7 @@
       for (const area of goal.areas) add(posed(area.at), radius(area.shape));
     }
     for (const body of [...objects, ...obstacles, ...regions]) add(posed(body.at), radius(body.shape));
-    // Where nothing moves there is room to show the robot.
+    // If nothing moves, the robot is shown as well.
     if (!plan().strokes.length) add([0, 0]);
     for (const stroke of plan().strokes) {
       const tool = page.tools[stroke.tool];
@@ -156,7 +156,7 @@
     }
   }
 
-  /** Where the end effector goes, over everything. */
+  /** Draws the path of the end effector above all bodies. */
   function drawPushes() {
     pushes.replaceChildren();
     plan().strokes.forEach((stroke, k) => {
@@ -182,7 +182,7 @@
       moving.append(shape);
       bodies.push([shape, place]);
     };
-    // Of several tools the one that pushes is shown.
+    // Only the tool in use is shown.
     for (const index of new Set(plan().strokes.map((stroke) => stroke.tool))) {
       const place = (time) => (lead.stroke(time).tool === index ? at(lead.toolPose(time)) : 'scale(0)');
       add(toolShape(page.tools[index], 'tool'), place);
@@ -207,7 +207,7 @@
     });
   }
 
-  /** Nodes and relations that the network reads in the frame under way, as predicted. */
+  /** Draws nodes and relations of the network graph in the current predicted frame. */
   function drawGraph() {
     graph.replaceChildren();
     const replay = view.graph && graphed();

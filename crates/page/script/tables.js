@@ -3,10 +3,10 @@
 (() => {
   const WORDS = {
     passed: 'works', fragile: 'fragile', failed: 'fails', open: 'not verified',
-    reached: 'reached', given_up: 'given up', inferred: 'inferred',
+    reached: 'reached', given_up: 'not reached', inferred: 'inferred',
   };
 
-  const measured = page.measure?.name ?? 'Off the goal';
+  const measured = page.measure?.name ?? 'Goal error';
   byId('measure').textContent = measured;
   byId('task').textContent = page.task;
   const [goal] = goals;
@@ -46,8 +46,8 @@
         toggleGraph();
         byId('show-graph').focus();
       });
-      const title = 'Bodies and relations as the network reads them: thick what is fixed, dotted contacts, '
-        + 'a line a hinge, dashed a slide; key g';
+      const title = 'Bodies and relations in the network graph. Thick lines: fixed joints; thin lines: hinges; '
+        + 'dashed lines: slides; dotted lines: contacts. Key g';
       rows.push(html('div', { class: 'layer' }, html('label', { title }, box, html('span', {}, 'graph'))));
     }
     byId('layers').replaceChildren(...rows);
@@ -60,14 +60,14 @@
     if (goal.heading) {
       const turned = replays().map((replay) => `${LAYERS[replay.layer]} ${degrees(replay.headingError(view.time))}`);
       const allowed = degrees(goal.heading[1] * FINE);
-      byId('heading').textContent = `Heading off by: ${turned.join(', ')}; ${allowed} allowed.`;
+      byId('heading').textContent = `Heading error: ${turned.join(', ')}; ${allowed} allowed.`;
     }
   }
 
-  /** Which columns hold numbers: those between the first two and the last one. */
+  /** Marks the columns of numbers: all except the first two and the last one. */
   const numeric = (columns) => Array.from({ length: columns }, (_, c) => c > 1 && c < columns - 1);
 
-  /** A button that opens a plan. */
+  /** Returns a button that opens a plan. */
   function opener(index, text) {
     const button = html('button', { class: 'open', 'aria-label': `Show plan ${index + 1}` }, text);
     button.addEventListener('click', () => {
@@ -101,7 +101,7 @@
       html('td', { class: 'number' }, `${refused}`),
       html('td', { class: 'number' }, best),
       html('td', {}, why)));
-    const names = ['', 'tool', 'pushes considered', 'cannot be made', 'best score in the search', 'why'];
+    const names = ['', 'tool', 'pushes considered', 'infeasible', 'best score in the search', 'result'];
     byId('tools').replaceChildren(headed(names, numeric(names.length)), ...rows);
   }
 

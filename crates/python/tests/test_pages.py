@@ -57,7 +57,7 @@ def test_the_script_of_a_page_makes_its_plan_again(
         )
         assert ran.returncode == 0, ran.stderr
         assert plan.error is not None
-        assert ran.stdout == f"predicted to end {1000 * plan.error:.1f} mm off\n"
+        assert ran.stdout == f"predicted error: {1000 * plan.error:.1f} mm\n"
         saved = pushplan.Plan.load(tmp_path / "a.json")
         assert saved.to_dict()["plan"] == plan.to_dict()["plan"]
     whole = subprocess.run(

@@ -31,8 +31,8 @@ pub fn belief_document(title: &str, belief: &Belief, names: &[&str], ranges: &[S
         ("fixed", Right),
         ("revolute", Right),
         ("prismatic", Right),
-        ("taken for", Left),
-        ("where, now", Left),
+        ("assumed joint", Left),
+        ("axis at the end", Left),
         ("since observation", Right),
     ]);
     for (p, between) in &rows {
@@ -50,7 +50,7 @@ pub fn belief_document(title: &str, belief: &Belief, names: &[&str], ranges: &[S
         1 => "1 pair is".to_owned(),
         count => format!("{count} pairs are"),
     };
-    let title = format!("{title}: {observations} observations; {pairs} near enough to be joined");
+    let title = format!("{title}: {observations} observations; {pairs} close enough to be joined");
     let figures = if rows.is_empty() { Vec::new() } else { vec![over_time(belief, &name)] };
     let mut sections = vec![Section { table, figures, ..Section::default() }];
     let masses = belief.mass_shares();
@@ -90,14 +90,14 @@ fn mass_sections(masses: &MassShares, names: &[&str], ranges: &[Span]) -> Vec<Se
             (0..ranges.len())
                 .map(|k| shares.as_ref().map_or(NONE.to_owned(), |shares| shares_of(&shares[k]))),
         );
-        let known = if shares.is_some() { "by what it touched" } else { "no: touched no other" };
+        let known = if shares.is_some() { "by contacts" } else { "no: no contact" };
         cells.push(known.to_owned());
         table.row(cells);
     }
     let mut sections = vec![Section { title: "Masses".into(), table, ..Section::default() }];
     if !masses.ratios.is_empty() {
         let mut table =
-            Table::new([("objects", Left), ("ratio of masses", Right), ("nine in ten", Right)]);
+            Table::new([("objects", Left), ("mass ratio", Right), ("90 % interval", Right)]);
         for ratio in &masses.ratios {
             let [a, b] = ratio.between.map(|k| names[k]);
             let [mean, sd] = ratio.log;
@@ -109,7 +109,7 @@ fn mass_sections(masses: &MassShares, names: &[&str], ranges: &[Span]) -> Vec<Se
             ];
             table.row(cells);
         }
-        sections.push(Section { title: "Ratios of masses".into(), table, ..Section::default() });
+        sections.push(Section { title: "Mass ratios".into(), table, ..Section::default() });
     }
     sections
 }
@@ -134,7 +134,7 @@ fn stops(limits: Option<Span>, free: f64, unit: impl Fn(f64) -> String) -> Strin
     let Some(limits) = limits else { return String::new() };
     let sides = [limits.low, limits.high].into_iter().filter(|far| far.abs() < free);
     let sides: Vec<String> = sides.map(unit).collect();
-    format!(", goes on to {} at most", sides.join(" and "))
+    format!(", remaining travel {}", sides.join(" and "))
 }
 
 /// Returns the index of the most probable joint type.
@@ -169,7 +169,7 @@ fn over_time(belief: &Belief, name: &dyn Fn([usize; 2]) -> String) -> Figure {
         }
     });
     let chart = Chart {
-        title: "Probability of the type believed at the end".into(),
+        title: "Probability of the final joint estimate".into(),
         x: Axis { label: "observations".into(), log: false },
         y: Axis { label: "probability, %".into(), log: false },
         series: series.collect(),

@@ -65,7 +65,7 @@ pub(super) fn line(moved: &[Bystander<'_>]) -> Option<String> {
     let of = |one: &Bystander| {
         let fell = if one.fell { " and falls" } else { "" };
         let turned = match one.turned > 0.02 {
-            true => format!(", turned by {}", degrees(one.turned)),
+            true => format!(", rotated by {}", degrees(one.turned)),
             false => String::new(),
         };
         format!("{} by {}{turned}{fell}", one.name, millimetres(one.moved))

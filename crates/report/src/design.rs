@@ -26,17 +26,17 @@ pub fn design_document(task: &Task, design: &Design) -> Document {
         Some(tool) => {
             let mut section = parts(tool);
             if task.tools != ToolChoice::All {
-                section.lines.push(format!("add {} to `tools` of the task to use it", tool.name));
+                section.lines.push(format!("to use it, add {} to `tools` in the task", tool.name));
             }
             document.sections.insert(0, section);
-            document.notes.push(format!("tools that there are: {known}"));
+            document.notes.push(format!("existing tools: {known}"));
         }
         None => document.title = format!("{}: no new tool; {known}{}", task.name, why_none(design)),
     }
     let spent = &design.spent;
     if spent.looked_at > 0 {
         let line = format!(
-            "tools: {} looked at in {} rollouts, {} of them promising; solved with {} of these",
+            "tools: {} screened in {} rollouts, {} of them promising; task solved with {} of these",
             spent.looked_at, spent.rollouts, spent.promising, spent.solved
         );
         document.sections.push(Section { lines: vec![line], ..Section::default() });
@@ -56,9 +56,9 @@ pub fn design_document(task: &Task, design: &Design) -> Document {
 /// Returns the reason why no tool is proposed, a clause after the result of the known tools.
 fn why_none(design: &Design) -> &'static str {
     match (design.known.status, design.spent.looked_at) {
-        (PlanStatus::Solved, 0) => ", and none could do so with more margin",
-        (PlanStatus::Solved, _) => ", and none was found that does so with more margin",
-        _ => ", and none was found that does better",
+        (PlanStatus::Solved, 0) => "; no tool can solve it with more margin",
+        (PlanStatus::Solved, _) => "; the search found no tool with more margin",
+        _ => "; the search found no better tool",
     }
 }
 
@@ -70,7 +70,7 @@ fn parts(tool: &Tool) -> Section {
     };
     Section {
         title: format!(
-            "The tool {}, held at its origin with the grip turned by {}",
+            "Tool {}, gripped at its origin with a yaw of {}",
             tool.name,
             degrees(tool.grip.heading)
         ),
@@ -80,7 +80,7 @@ fn parts(tool: &Tool) -> Section {
                 ("part", Align::Left, &|part| part.name.clone()),
                 ("size", Align::Left, &size),
                 ("centre", Align::Left, &|part| point(part.pose.position)),
-                ("turn", Align::Right, &|part| degrees(part.pose.heading)),
+                ("rotation", Align::Right, &|part| degrees(part.pose.heading)),
             ],
         ),
         ..Section::default()

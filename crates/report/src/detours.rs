@@ -23,8 +23,8 @@ pub(super) fn detours(task: &Task, plan: &Plan, tools: &[Arc<Tool>]) -> Vec<Stri
         let (height, by) = (task.robot.travel, by.join(", "));
         let (from, to) = (k + 1, k + 2);
         Some(format!(
-            "between pushes {from} and {to} the tool goes {height:.2} m above the table around {what}, by \
-             {by}"
+            "between pushes {from} and {to} the tool moves {height:.2} m above the table around \
+             {what}, via {by}"
         ))
     };
     pushes.windows(2).enumerate().filter_map(around).collect()

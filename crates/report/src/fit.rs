@@ -29,13 +29,13 @@ pub fn fit_document(fit: &Fit, objects: &[&str]) -> Document {
         rows,
         &[
             ("", Left, &|(name, _)| (*name).to_owned()),
-            ("likeliest", Right, &|(_, it)| format!("{:.3}", it.best)),
+            ("most likely", Right, &|(_, it)| format!("{:.3}", it.best)),
             ("mean", Right, &|(_, it)| format!("{:.3}", it.mean)),
-            ("deviation", Right, &|(_, it)| format!("{:.3}", it.deviation)),
+            ("std. deviation", Right, &|(_, it)| format!("{:.3}", it.deviation)),
             ("90 % interval", Right, &|(_, it)| {
                 format!("{:.3} to {:.3}", it.interval.low, it.interval.high)
             }),
-            ("the recordings", Left, &|(_, it)| identification(it).to_owned()),
+            ("evidence", Left, &|(_, it)| identification(it).to_owned()),
         ],
     );
     let share = |error: &SupportError| {
@@ -58,7 +58,7 @@ pub fn fit_document(fit: &Fit, objects: &[&str]) -> Document {
     }));
     let noise = match fit.settings.noise {
         Some(_) => "stated",
-        None => "found",
+        None => "estimated",
     };
     let title = format!(
         "{}: {} recordings, {} objects move by {} on average; noise of {} ({noise})",
@@ -74,7 +74,7 @@ pub fn fit_document(fit: &Fit, objects: &[&str]) -> Document {
         sections: vec![
             Section { table: numbers, figures: vec![picture], ..Section::default() },
             Section {
-                title: "Errors, each with the friction that suits it best".into(),
+                title: "Errors, each with its best-fitting friction".into(),
                 table: errors,
                 ..Section::default()
             },
@@ -94,16 +94,16 @@ pub fn table_fit_section(fit: &TableFit) -> Section {
     let changed = fit.head.iter().any(|value| *value != 0.0);
     let head = match changed {
         true => format!(
-            "It learnt {} numbers from {} pushes, each within {:.2} before them.",
+            "{} parameters learned from {} pushes, with a prior standard deviation of {:.2}.",
             fit.head.len(),
             fit.pushes,
             fit.spread.prior
         ),
-        false => "It learnt nothing: pushes left out are not predicted better.".to_owned(),
+        false => "No parameters learned: held-out pushes are not predicted better.".to_owned(),
     };
     let support = match fit.support {
-        Some(spread) => format!("objects rest at {spread:.2}"),
-        None => "objects rest as stated".to_owned(),
+        Some(spread) => format!("support spread {spread:.2}"),
+        None => "support as stated".to_owned(),
     };
     let friction = match fit.friction {
         Some(friction) => format!("friction with the tool {friction:.2}"),
@@ -112,23 +112,23 @@ pub fn table_fit_section(fit: &TableFit) -> Section {
     let noise = format!("noise of {}", fine_millimetres(fit.noise));
     Section {
         title: "The network on this table".into(),
-        lines: vec![head, format!("With it: {support}, {friction}, {noise}.")],
+        lines: vec![head, format!("With the network: {support}, {friction}, {noise}.")],
         ..Section::default()
     }
 }
 
 fn identification(estimate: &Estimate) -> &'static str {
     match (estimate.identified, estimate.at_the_end) {
-        (true, false) => "tell it",
-        (true, true) => "tell it, but the best value is the end of the range",
-        (false, _) => "hardly tell it: the posterior is nearly as wide as the range",
+        (true, false) => "clear",
+        (true, true) => "clear, but the best value is the end of the range",
+        (false, _) => "weak: the posterior is nearly as wide as the range",
     }
 }
 
 /// Draws the posterior as shaded cells: spread from left to right, friction upwards.
 fn picture(posterior: &Posterior) -> String {
     let grid = posterior.grid;
-    let title = "How likely spread and friction are";
+    let title = "Posterior of spread and friction";
     let mut svg = Svg::new(CORNER.x + SIZE.x + 24.0, CORNER.y + SIZE.y + 52.0, title);
     svg.text(Vector::new(CORNER.x, 26.0), title, Font::new(16.0, INK).bold());
     svg.rect(CORNER, SIZE, 0.0, Style::fill("#fbfcfd").outlined("#dee2e6", 1.0));

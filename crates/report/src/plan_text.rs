@@ -58,7 +58,7 @@ pub(super) fn plan_sections(plan: &Plan) -> Vec<Section> {
     let section = |(k, row): (usize, &&[Step])| {
         let title = match k {
             0 => String::new(),
-            _ => format!("Then {}, once everything rests", row_line(row)),
+            _ => format!("Then, once everything is at rest: {}", row_line(row)),
         };
         let table = match &row[0] {
             Step::Push(_) => push_table(row),
@@ -91,10 +91,10 @@ fn lever_table(lever: &LeverUp) -> Table {
         [lever],
         &[
             ("edge", Right, &|lever| lever.place.edge.to_string()),
-            ("along it", Right, &|lever| format!("{:.0} %", 100.0 * lever.place.fraction)),
+            ("along the edge", Right, &|lever| format!("{:.0} %", 100.0 * lever.place.fraction)),
             ("depth", Right, &|lever| millimetres(lever.depth)),
             ("pivot", Right, &|lever| millimetres(lever.pivot)),
-            ("turn", Right, &|lever| degrees(lever.angle)),
+            ("rotation", Right, &|lever| degrees(lever.angle)),
             ("speed", Right, &|lever| format!("{:.2} m/s", lever.speed)),
         ],
     )
@@ -216,7 +216,7 @@ fn lying_table(
 /// Returns the name of an engine for a sentence or a table.
 pub(super) fn engine_name(engine: Engine) -> &'static str {
     match engine {
-        Engine::Planar => "planar",
+        Engine::Planar => "2-D",
         Engine::Spatial => "3-D",
         Engine::Upright => "3-D, upright",
     }

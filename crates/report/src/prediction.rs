@@ -90,9 +90,9 @@ fn effect_table(task: &Task, effects: &[TimedEffect]) -> Table {
             ("model", Left, &|(_, effect, _)| effect.trajectory.by.to_string()),
             ("final position", Left, &|(k, _, end)| point(end.poses[*k].position)),
             ("moved", Right, &|(k, _, end)| millimetres(moved(end, *k))),
-            ("turned", Right, &|(k, _, end)| turned(*k, end)),
+            ("rotated", Right, &|(k, _, end)| turned(*k, end)),
             ("goal error", Right, &|(k, _, end)| error(*k, end)),
-            ("computed in", Right, &|(_, effect, _)| seconds(effect.seconds)),
+            ("computing time", Right, &|(_, effect, _)| seconds(effect.seconds)),
         ],
     )
 }

@@ -21,7 +21,7 @@ pub fn recorded_document(reports: &[RecordedErrors]) -> Document {
     let reported = |name| before.iter().any(|report| report.names.contains(name));
     if newest.names.len() > 1 && !newest.names.iter().any(reported) {
         sections.extend(newest.errors.models.first().map(|model| Section {
-            title: format!("{} by recording, beside the error that it expects", model.model),
+            title: format!("{} by recording, with the error that the model expects", model.model),
             table: each_table(&newest.names, &model.each),
             ..Section::default()
         }));
@@ -56,11 +56,11 @@ pub fn recordings_document(reports: &[RecordedErrors]) -> Document {
 
 /// Explanation of the columns of [`recorded_table`].
 const LEGEND: &str = "\
-mean, median, p95: final distance from the recorded position over all objects; heading: mean final
-heading error of objects of known heading; of motion: the mean as a share of the mean recorded
-motion; over frames: the same averaged over all recorded frames instead of the last; overlap:
-deepest of any two predicted objects; own spread: how far the planar engine ends from itself when
-everything starts 0.1 mm beside";
+mean, median, p95: final position error over all objects. heading: mean final heading error of
+objects with a known heading. of motion: the mean error as a share of the mean recorded motion.
+over frames: this share, averaged over all recorded frames instead of the last one. overlap: the
+deepest overlap of two predicted objects. own spread: the final distance between two replays of
+the 2-D engine whose starts differ by 0.1 mm.";
 
 /// Formats the number of trajectories, described by `of`, and the true displacement of objects.
 pub fn trials_line(errors: &TrialErrors, of: &str) -> String {

@@ -72,18 +72,22 @@ pub fn headline(trace: &Trace) -> String {
     };
     let end = match trace.end {
         Some(End::Reached) => "reached",
-        Some(End::BudgetExhausted) => "given up, all pushes are used up",
-        Some(End::NoImprovingPush) => "given up, no push brings it nearer",
+        Some(End::BudgetExhausted | End::NoImprovingPush) => "not reached",
         None => "not finished",
     };
+    let reason = match trace.end {
+        Some(End::BudgetExhausted) => ", because the push budget is exhausted",
+        Some(End::NoImprovingPush) => ", because no push reduces the error",
+        _ => "",
+    };
     let off = |what: &str, state: Option<State>| {
-        state.map(|state| format!("{what} {}", millimetres(trace.task.goals[0].error(&state))))
+        state.map(|state| format!("{} ({what})", millimetres(trace.task.goals[0].error(&state))))
     };
     let off: Vec<String> =
-        [off("seen", seen(trace)), off("really", trace.real())].into_iter().flatten().collect();
+        [off("observed", seen(trace)), off("true", trace.real())].into_iter().flatten().collect();
     match off.is_empty() {
-        true => format!("{end} {pushes}"),
-        false => format!("{end} {pushes}; off by {}", off.join(", ")),
+        true => format!("{end} {pushes}{reason}"),
+        false => format!("{end} {pushes}{reason}; error {}", off.join(", ")),
     }
 }
 
@@ -109,14 +113,14 @@ pub fn steps(trace: &Trace) -> Table {
             ("length", Right, &|(_, step)| {
                 push(step).map_or(NONE.to_owned(), |push| millimetres(push.length))
             }),
-            ("left of the plan", Right, &|(_, step)| {
+            ("pushes remaining", Right, &|(_, step)| {
                 step.plan.pushes().len().saturating_sub(step.pushes).to_string()
             }),
-            ("reaches the goal in", Right, &|(_, step)| {
+            ("success probability", Right, &|(_, step)| {
                 format!("{:.0} %", 100.0 * step.chance.share)
             }),
-            ("off, seen", Right, &|(_, step)| millimetres(goal.error(&step.state))),
-            ("really", Right, &|(_, step)| real(step).map_or(NONE.to_owned(), millimetres)),
+            ("error, observed", Right, &|(_, step)| millimetres(goal.error(&step.state))),
+            ("error, true", Right, &|(_, step)| real(step).map_or(NONE.to_owned(), millimetres)),
         ],
     )
 }
@@ -124,10 +128,10 @@ pub fn steps(trace: &Trace) -> Table {
 fn why(why: Why) -> &'static str {
     match why {
         Why::Plan => "plan",
-        Why::Rest => "rest of the plan",
-        Why::Best => "best known",
+        Why::Rest => "remaining plan",
+        Why::Best => "best on average",
         Why::Approach => "approach",
-        Why::Probe => "probe",
+        Why::Probe => "exploratory",
     }
 }
 
@@ -169,7 +173,7 @@ fn joints(trace: &Trace) -> Option<Section> {
         ("fixed", Right),
         ("revolute", Right),
         ("prismatic", Right),
-        ("really", Left),
+        ("true joint", Left),
     ]);
     for (between, shares) in pairs.iter().zip(&last.probabilities) {
         let mut cells = vec![name(*between)];
@@ -191,7 +195,7 @@ fn joints(trace: &Trace) -> Option<Section> {
         }
     });
     let chart = Chart {
-        title: "Probability of the joints believed at the end".into(),
+        title: "Probability of the final joint estimate".into(),
         x: Axis { label: "pushes".into(), log: false },
         y: Axis { label: "probability, %".into(), log: false },
         series: series.collect(),
@@ -215,9 +219,9 @@ fn numbers(trace: &Trace) -> Option<Section> {
     let mut table = Table::new([
         ("", Left),
         ("mass, kg", Right),
-        ("really", Right),
+        ("true", Right),
         ("friction", Right),
-        ("really", Right),
+        ("true", Right),
     ]);
     for (k, object) in scene.things() {
         let (Some(mass), Some(friction)) =

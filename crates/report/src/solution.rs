@@ -26,11 +26,11 @@ pub fn solution_document(task: &Task, solution: &Solution) -> Document {
         let mut outcomes = outcome_section(task, predicted, best.verdict.as_ref());
         outcomes.lines.extend(best.refinement.aimed_at.map(|aim| {
             let aim = point(aim);
-            format!("aimed at {aim}, as the same plan aimed at the goal ended next to it in 3-D")
+            format!("aimed at {aim}, because the plan aimed at the goal itself missed it in 3-D")
         }));
         let share = solution.partial.as_ref().and_then(|partial| partial.robustness);
         outcomes.lines.extend(share.map(|share| {
-            format!("{:.0} % of the disturbed replays meet the goals that are met", 100.0 * share)
+            format!("{:.0} % of the perturbed replays meet the same goals", 100.0 * share)
         }));
         outcomes.lines.extend(detours(task, &best.plan, &best.tools));
         sections.push(outcomes);
@@ -42,7 +42,7 @@ pub fn solution_document(task: &Task, solution: &Solution) -> Document {
         sections.extend(refusals(solution));
     }
     sections.push(Section {
-        lines: vec![format!("plans: {}", models_words(task, solution)), cost(solution)],
+        lines: vec![format!("models: {}", models_words(task, solution)), cost(solution)],
         ..Section::default()
     });
     Document {
@@ -57,29 +57,29 @@ pub fn solution_document(task: &Task, solution: &Solution) -> Document {
 pub(super) fn headline(task: &Task, solution: &Solution) -> String {
     let Some(best) = solution.best() else {
         let step = if solution.statistics.levers.is_some() { "lever-up" } else { "push" };
-        return format!("no plan{}; no {step} can be made at all", cause(solution));
+        return format!("no plan{}; no {step} is feasible", cause(solution));
     };
     let plan = plan_line(&best.plan);
     let headline = match solution.status {
         PlanStatus::Solved if best.plan.is_empty() => {
-            "solved; the object is at the goal already".to_owned()
+            "solved; the object is already at the goal".to_owned()
         }
         PlanStatus::Solved => format!("solved with {plan}"),
         PlanStatus::Fragile => format!("fragile; the most robust is {plan}"),
         PlanStatus::Partial => {
             let (met, missed) = met(task, solution);
-            format!("partial: {met} of {} goals with {plan}; not {missed}", task.goals.len())
+            format!("partial: {met} of {} goals with {plan}; not met: {missed}", task.goals.len())
         }
         PlanStatus::NoPlan if best.plan.is_empty() => {
-            format!("no plan{}; no push brings the object nearer", cause(solution))
+            format!("no plan{}; no push reduces the error", cause(solution))
         }
-        PlanStatus::NoPlan => format!("no plan{}; the nearest is {plan}", cause(solution)),
+        PlanStatus::NoPlan => format!("no plan{}; the closest is {plan}", cause(solution)),
         PlanStatus::FailedVerification => {
-            format!("failed verification; the best by prediction is {plan}")
+            format!("failed verification; the best predicted plan is {plan}")
         }
     };
     match solution.stopped {
-        true => format!("{headline} (stopped before the search was over)"),
+        true => format!("{headline} (stopped before the search finished)"),
         false => headline,
     }
 }
@@ -115,12 +115,12 @@ fn refusals(solution: &Solution) -> Option<Section> {
     // The sort is stable: equal counts keep the order of their kinds.
     reasons.sort_by_key(|reason| std::cmp::Reverse(reason.1));
     (!reasons.is_empty()).then(|| Section {
-        title: format!("{considered} {what} were considered; of these could not be made"),
+        title: format!("Infeasible {what}, of {considered} considered"),
         table: Table::of(
             reasons,
             &[
                 (what, Align::Right, &|(_, count)| count.to_string()),
-                ("why", Align::Left, &|(why, _)| why.clone()),
+                ("reason", Align::Left, &|(why, _)| why.clone()),
             ],
         ),
         ..Section::default()
@@ -162,11 +162,11 @@ pub(super) fn models_words(task: &Task, solution: &Solution) -> String {
         matches!(decided, ModelKind::Network { .. }) && task.scene.objects.len() > CORRECTED;
     let decided = ModelSpec::from(decided);
     let line = match screened.map(ModelSpec::from) {
-        Some(screened) => format!("screened by {screened}, decided by {decided}"),
-        None => format!("decided by {decided}"),
+        Some(screened) => format!("{screened} (screening), {decided} (final)"),
+        None => decided.to_string(),
     };
     match crowd {
-        true => format!("{line}, its prior alone while more than {CORRECTED} objects move"),
+        true => format!("{line}; only its analytic model while more than {CORRECTED} objects move"),
         false => line,
     }
 }
@@ -175,8 +175,8 @@ fn cost(solution: &Solution) -> String {
     let statistics = &solution.statistics;
     let timing = &statistics.timing;
     format!(
-        "rollouts: {}, of which {} to decide; verified: {}; time: {}, of which search {}, \
-         refinement {}, verification {}",
+        "rollouts: {}, of which {} with the final model; plans verified: {}; time: {} (search {}, \
+         refinement {}, verification {})",
         statistics.rollouts,
         statistics.decided,
         statistics.verified,

@@ -71,10 +71,10 @@ fn task_table(tasks: &[Finished<SolvedTask>]) -> Table {
         ("tool", Align::Left),
         ("pushes", Align::Right),
         ("predicted", Align::Right),
-        ("planar", Align::Right),
+        ("2-D", Align::Right),
         ("3-D", Align::Right),
         ("allowed", Align::Right),
-        ("disturbed", Align::Right),
+        ("perturbed", Align::Right),
         ("time", Align::Right),
     ]);
     for Finished { record, seconds: times, .. } in tasks {
@@ -143,7 +143,7 @@ pub fn error_chart(title: &str, errors: &[(String, Vec<f64>)]) -> Figure {
     let chart = Chart {
         title: title.to_owned(),
         x: Axis::log("final error, mm"),
-        y: Axis::linear("tasks within it, %"),
+        y: Axis::linear("tasks within this error, %"),
         series: series.collect(),
     };
     Figure::chart("errors", chart)

@@ -16,17 +16,16 @@ use super::table::{Align, NONE, Table};
 
 /// Explanatory notes, a paragraph each.
 const NOTES: [&str; 3] = [
-    "First choice: the best of all chained sequences of up to three pushes and their stops every \
-     5 mm, by prediction alone; not pushing is one of them. Oracle: all sequences played in the \
-     planar engine. Planned: what `pushplan solve` makes of the same goal with the same tool \
-     poses: pushes that start anywhere in contact, in eight directions, searched, refined and \
-     replayed in 3-D until one ends within 5 cm (tried: replays a task).",
-    "When the tool stops, it stands where it is while the cylinder glides to rest, in every model \
-     and engine alike. The tool has no hand that could touch the cylinder.",
-    "For a tool pose alone all tasks count, those too that it cannot solve, and, for sequences, \
-     where it cannot be set down at home because the cylinder is in its way. Times are of one \
-     task by itself, its share of the rollouts that other tasks use too included; processor \
-     times need --threads 1.",
+    "First choice: the chained sequence of up to three pushes with the best prediction. Sequences \
+     may stop every 5 mm, and not pushing is one of them. Oracle: the best of all sequences by \
+     replay in the 2-D engine. Planned: the plan of `pushplan solve` for the same goal and tool \
+     poses. Its pushes start anywhere in contact, in eight directions. They are searched, refined \
+     and replayed in 3-D until one ends within 5 cm (tried: replays per task).",
+    "When the tool stops, it stays in place while the cylinder glides to rest, in all models and \
+     engines. The tool has no hand that could touch the cylinder.",
+    "For a single tool pose, all tasks count, including unsolvable ones. For sequences, these \
+     include tasks in which the cylinder obstructs the tool's home. Times are per task, including \
+     its share of the rollouts that several tasks use. Processor times need --threads 1.",
 ];
 
 /// Methods shown for each tool pose alone.
@@ -90,8 +89,7 @@ pub fn tools_document(run: &RunManifest, tasks: &[Finished<ToolRecord>]) -> Docu
                 ..Section::default()
             },
             Section {
-                title: "Time of a task with all tool poses, on the wall and on the processor"
-                    .into(),
+                title: "Wall and processor time per task with all tool poses".into(),
                 table: time_table(tasks),
                 ..Section::default()
             },
@@ -110,9 +108,9 @@ pub fn single_document(report: &SinglePushes) -> Document {
     let model = &report.model;
     let choices = [
         ("no push".to_owned(), report.nothing),
-        ("oracle (planar)".to_owned(), report.solvable),
+        ("oracle (2-D)".to_owned(), report.solvable),
         (format!("{model}, predicted"), report.predicted),
-        (format!("{model}, in the planar engine"), report.planar),
+        (format!("{model}, in the 2-D engine"), report.planar),
         (format!("{model}, in 3-D"), report.spatial),
     ];
     let table = Table::of(
@@ -125,7 +123,7 @@ pub fn single_document(report: &SinglePushes) -> Document {
     Document {
         title: format!(
             "{} tasks of seed {}, one push of 20 cm each, solved within 10 cm; {} of the goals are \
-             near enough for a push to matter",
+             close enough for a push to help",
             report.tasks, report.seed, report.near
         ),
         sections: vec![Section { table, ..Section::default() }],
@@ -139,7 +137,7 @@ fn title(method: Method) -> &'static str {
         Method::Nothing => "no push",
         Method::Random => "random",
         Method::Oracle => "oracle",
-        Method::Planar => "first choice, planar engine",
+        Method::Planar => "first choice, 2-D engine",
         Method::First => "first choice",
         Method::Planned => "planned",
     }
@@ -149,7 +147,7 @@ fn row_table(rows: &[&ToolRow], first: &str, name: impl Fn(&ToolRow) -> String) 
     let mut table = Table::new([
         (first, Align::Left),
         ("predicted", Align::Right),
-        ("planar", Align::Right),
+        ("2-D", Align::Right),
         ("\u{2264} 5 cm", Align::Right),
         ("\u{2264} 10 cm", Align::Right),
         ("3-D", Align::Right),

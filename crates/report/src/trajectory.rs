@@ -20,7 +20,7 @@ pub fn trajectory_figures(file: &TrajectoryFile, name: &str, animate: bool) -> V
     let source = source(trajectory);
     let picture = ScenePicture {
         title: format!("{}: {}", task.name, plan_line(plan)),
-        notes: vec![format!("{} from the goal at rest", millimetres(error))],
+        notes: vec![format!("final error {}", millimetres(error))],
         scene: &task.scene,
         goals: task.shown_goals(),
         robot: Some(&task.robot),

@@ -64,7 +64,7 @@ pub(super) fn outcome_section(
     let replayed = replayed.map(|e| (engine_name(e.engine).to_owned(), &e.outcome, e.fault()));
     let reached = predicted.as_ref().is_some_and(|(_, outcome, _)| outcome.reached);
     let mut lines = vec![match verdict {
-        None if reached => "verdict: not verified, as it was stopped before".to_owned(),
+        None if reached => "verdict: not verified, because the search was stopped".to_owned(),
         _ => format!("verdict: {}", verdict_line(task, verdict)),
     }];
     lines.extend(verdict.and_then(force_line).map(|force| format!("force: {force}")));
@@ -80,7 +80,7 @@ pub(super) fn outcome_section(
 /// Formats the verdict and its reason in a sentence.
 pub(super) fn verdict_line(task: &Task, verdict: Option<&Verdict>) -> String {
     let Some(verdict) = verdict else {
-        return "not verified, as the prediction misses the goal".to_owned();
+        return "not verified, because the prediction misses the goal".to_owned();
     };
     let engines: Vec<&str> = nominal(verdict).map(|e| engine_name(e.engine)).collect();
     match &verdict.reason {
@@ -104,14 +104,14 @@ pub(super) fn verdict_line(task: &Task, verdict: Option<&Verdict>) -> String {
             )
         }
         Some(Reason::NeverOn { engine, support, replays }) => format!(
-            "fragile: works as written, but never where objects rest on {}: in {replays} of {replays} \
-             {} replays with small errors",
-            resting(support),
-            engine_name(*engine)
+            "fragile: works as written, but fails in all {replays} perturbed {} replays in which \
+             objects rest on {}",
+            engine_name(*engine),
+            resting(support)
         ),
         Some(Reason::Fragile { engine, reached, replays, wanted }) => format!(
-            "fragile: works as written, but with small errors of starts and frictions {reached} of \
-             {replays} {} replays reach the goal ({:.0} % asked for)",
+            "fragile: works as written, but with small errors of starts and frictions only \
+             {reached} of {replays} {} replays reach the goal ({:.0} % required)",
             engine_name(*engine),
             100.0 * wanted
         ),
@@ -124,7 +124,7 @@ fn misses(task: &Task, end: &Outcome) -> String {
     let share = first.and_then(|goal| goal.covered(&end.state).zip(goal.wanted_share()));
     if let (Some((covered, asked)), [_]) = (share, &task.goals[..]) {
         let [covered, asked] = [covered, asked].map(percent);
-        return format!("covers {covered} of its outline, not {asked},");
+        return format!("covers {covered} of the goal outline ({asked} required)");
     }
     let mut by = Vec::new();
     for (k, (goal, miss)) in task.goals.iter().zip(&end.goals).enumerate() {
@@ -150,7 +150,7 @@ fn misses(task: &Task, end: &Outcome) -> String {
 /// Describes the support of objects.
 fn resting(support: &Support) -> String {
     match support {
-        Support::Even => "all of their underside".to_owned(),
+        Support::Even => "their whole underside".to_owned(),
         Support::Corners => "their corners or rims".to_owned(),
         Support::Spread(share) => format!("points at {:.0} % of their corners", 100.0 * share),
         Support::Points(_) => "points".to_owned(),
@@ -164,12 +164,12 @@ fn perturbed(verdict: &Verdict) -> String {
         let count = verdict.perturbed(engine).count();
         let reached = verdict.perturbed(engine).filter(|e| e.outcome.reached).count();
         if count > 0 {
-            found.push(format!("{reached} of {count} in the {} one", engine_name(engine)));
+            found.push(format!("{reached}/{count} ({})", engine_name(engine)));
         }
     }
     match found.is_empty() {
         true => String::new(),
-        false => format!("; of the disturbed replays {} do", found.join(" and ")),
+        false => format!("; perturbed replays: {}", found.join(", ")),
     }
 }
 
@@ -178,7 +178,7 @@ fn force_line(verdict: &Verdict) -> Option<String> {
     let forces: Vec<Force> = nominal(verdict).filter_map(|evidence| evidence.force).collect();
     let most = |of: fn(&Force) -> f64| forces.iter().map(of).reduce(f64::max);
     let (lasting, peak) = (most(|force| force.lasting)?, most(|force| force.peak)?);
-    Some(format!("about {lasting:.0} N lasting, {peak:.0} N at first touch"))
+    Some(format!("about {lasting:.0} N sustained, {peak:.0} N at impact"))
 }
 
 /// Returns the nominal replays, 2-D first.
@@ -210,7 +210,7 @@ mod tests {
         ];
         let verdict = Verdict::judge(Vec::new(), evidence, 0.75);
         insta::assert_snapshot!(replay_warnings(&verdict).join("\n"), @r"
-        planar and 3-D: can is below the tool when it is set down for push 2, so the nominal replay fails
+        2-D and 3-D: can is below the tool when it is set down for push 2, so the nominal replay fails
         3-D: can toppled, so its pose on the table is unreliable; push lower or slower
         ");
     }

@@ -59,7 +59,7 @@ fn a_run_is_played_with_what_was_predicted_and_believed() {
         // Rounded to a tenth of a per cent through thousandths.
         let none = format!("none {:.1} %", (1e3 * shares[0]).round() / 10.0);
         assert!(text.contains(&none), "after {k} pushes: {text}, {none}");
-        assert!(text.contains("really "), "{text}");
+        assert!(text.contains("true: "), "{text}");
     }
     let numbers = trace.task.scene.objects.len() * 2 + 1;
     let figures = number(&browser.value("document.querySelectorAll('#belief figure').length"));

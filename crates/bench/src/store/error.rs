@@ -35,7 +35,7 @@ pub enum StoreError {
     #[error("{0}")]
     Write(Faults),
     /// Invalid manifest.
-    #[error("{} is not a manifest of pushplan: {source}", path.display())]
+    #[error("{} is not a valid manifest: {source}", path.display())]
     Manifest {
         /// Path of the manifest.
         path: PathBuf,
@@ -44,7 +44,7 @@ pub enum StoreError {
     },
     /// Folder that holds a different run.
     #[error(
-        "{} holds another run; choose another folder, or ask for the same:{}",
+        "{} holds a different run; choose another folder, or use the settings of this run:{}",
         path.display(),
         list(differences)
     )]
@@ -65,15 +65,15 @@ pub enum StoreError {
         why: String,
     },
     /// Records without a manifest, which cannot be attributed to a run.
-    #[error("{} holds records, but no manifest says of what; choose another folder", path.display())]
+    #[error("{} holds records without a manifest; choose another folder", path.display())]
     Stray {
         /// Path of the folder.
         path: PathBuf,
     },
     /// Folder without a run.
     #[error(
-        "{} holds neither data nor a benchmark; `pushplan-learn generate DIR` and `pushplan bench ... \
-         --out DIR` make them",
+        "{} holds neither data nor a benchmark; create them with `pushplan-learn generate DIR` or \
+         `pushplan bench ... --out DIR`",
         path.display()
     )]
     Missing {
@@ -94,7 +94,7 @@ pub enum StoreError {
     },
     /// Record that does not survive a round trip, for example because it contains an undefined
     /// number.
-    #[error("the record of task {index} cannot be kept: {why}")]
+    #[error("cannot store the record of task {index}: {why}")]
     Record {
         /// Index of the task.
         index: usize,
@@ -103,7 +103,7 @@ pub enum StoreError {
     },
     /// Run with unfinished tasks.
     #[error(
-        "the run in {} has {done} of {total} tasks; run its command again to finish it",
+        "the run in {} has {done} of {total} tasks; run the same command again to finish it",
         path.display()
     )]
     Unfinished {
@@ -115,7 +115,11 @@ pub enum StoreError {
         total: usize,
     },
     /// Duplicate shard.
-    #[error("{} and {} are both shard {shard}; leave one out", first.display(), second.display())]
+    #[error(
+        "{} and {} are both shard {shard}; name only one of them",
+        first.display(),
+        second.display()
+    )]
     DuplicateShard {
         /// Duplicated shard.
         shard: Shard,
@@ -125,7 +129,7 @@ pub enum StoreError {
         second: PathBuf,
     },
     /// Incomplete set of shards.
-    #[error("to merge, all {of} shards are needed; missing: {}", Numbers(missing))]
+    #[error("a merge needs all {of} shards; missing: {}", Numbers(missing))]
     MissingShards {
         /// Number of shards of the run.
         of: usize,
@@ -133,16 +137,16 @@ pub enum StoreError {
         missing: Vec<usize>,
     },
     /// Folder of a merge that already holds a run.
-    #[error("{} holds a run already; merge into another folder", path.display())]
+    #[error("{} already holds a run; merge into another folder", path.display())]
     Occupied {
         /// Path of the folder.
         path: PathBuf,
     },
     /// Merge without shards.
-    #[error("there is nothing to merge")]
+    #[error("no folders to merge")]
     NothingToMerge,
     /// Folders without a run.
-    #[error("none of these folders holds a run: {}", folders(paths))]
+    #[error("no run in these folders: {}", folders(paths))]
     NoRun {
         /// Paths of the folders.
         paths: Vec<PathBuf>,

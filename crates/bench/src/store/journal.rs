@@ -60,7 +60,7 @@ impl Journal {
             .map_err(StoreError::io("write", &path))?;
         if read.torn {
             progress.note(&format!(
-                "{} is incomplete after record {}; the rest is made again",
+                "{} is incomplete after record {}; later records are computed again",
                 path.display(),
                 read.count
             ));
@@ -147,8 +147,8 @@ pub fn read_records(
         match look(&record) {
             Ok(index) if Some(index) == wanted => {}
             Ok(index) => {
-                let wanted = wanted.map_or("no more".to_owned(), |index| format!("record {index}"));
-                return Err(damaged(format!("record {index} where {wanted} belongs")));
+                let wanted = wanted.map_or("the end".to_owned(), |index| format!("record {index}"));
+                return Err(damaged(format!("record {index} instead of {wanted}")));
             }
             // After a crash, some blocks of the last record may be missing on disk.
             Err(_) if matches!(coming, Next::End) => return Ok(Held { torn: true, ..held }),

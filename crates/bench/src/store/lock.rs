@@ -130,15 +130,15 @@ fn note_another_machine(dir: &Path, before: Option<String>, progress: &dyn Progr
     let here = format!(" on {}", host());
     if let Some(writer) = before.filter(|writer| !writer.ends_with(&here)) {
         progress.note(&format!(
-            "{} was last written to by {writer}, which did not say that it has ended; if it still \
-             runs, stop one of the two, as locks do not reach across machines there",
+            "{writer} was the last to write to {} and did not report its end; if it still runs, \
+             stop one of the two processes, because locks of this folder do not work across machines",
             dir.display()
         ));
     }
 }
 
 fn note_no_locks(dir: &Path, before: Option<String>, progress: &dyn Progress) {
-    let last = before.map_or(String::new(), |writer| format!(" (last to write was {writer})"));
+    let last = before.map_or(String::new(), |writer| format!(" (last writer: {writer})"));
     progress.note(&format!(
         "the file system of {} has no locks: make sure that only one pushplan writes there{last}",
         dir.display()

@@ -103,7 +103,7 @@ impl RunManifest {
             .map_err(|source| StoreError::Manifest { path: path.clone(), source })?;
         if manifest.format_version != FORMAT_VERSION {
             let why = format!(
-                "it has format {}, this program reads {FORMAT_VERSION}",
+                "the format version is {}, but this program reads {FORMAT_VERSION}",
                 manifest.format_version
             );
             return Err(StoreError::Damaged { path, record: 1, why });
@@ -123,12 +123,12 @@ impl RunManifest {
     pub(super) fn differences(&self, wanted: &Self) -> Vec<String> {
         let (there, wanted) = (self.leaves(), wanted.leaves());
         let keys: std::collections::BTreeSet<&String> = there.keys().chain(wanted.keys()).collect();
-        let show = |leaf: Option<&String>| leaf.map_or("nothing".to_owned(), String::clone);
+        let show = |leaf: Option<&String>| leaf.map_or("unset".to_owned(), String::clone);
         keys.into_iter()
             .filter(|key| there.get(*key) != wanted.get(*key))
             .map(|key| {
                 let (there, wanted) = (show(there.get(key)), show(wanted.get(key)));
-                format!("{key} is {there} there, {wanted} was asked for")
+                format!("{key} is {there} in the folder, but {wanted} was requested")
             })
             .collect()
     }
@@ -179,10 +179,10 @@ mod tests {
         assert_eq!(
             there.differences(&wanted),
             [
-                "seed is 7 there, 8 was asked for",
-                "settings.effort.beam is 24 there, 64 was asked for",
-                "shard is nothing there, 2/3 was asked for",
-                "weights is \"00ff\" there, nothing was asked for",
+                "seed is 7 in the folder, but 8 was requested",
+                "settings.effort.beam is 24 in the folder, but 64 was requested",
+                "shard is unset in the folder, but 2/3 was requested",
+                "weights is \"00ff\" in the folder, but unset was requested",
             ]
         );
         assert!(there.differences(&there.clone()).is_empty());

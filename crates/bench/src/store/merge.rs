@@ -34,8 +34,10 @@ impl Family {
         if merged != *first || shard.of() != of {
             let mut differences = merged.differences(first);
             if shard.of() != of {
-                differences
-                    .push(format!("it is one of {} shards, the first one of {of}", shard.of()));
+                differences.push(format!(
+                    "it is split into {} shards, but the first folder into {of}",
+                    shard.of()
+                ));
             }
             return Err(StoreError::OtherRun { path: dir.to_owned(), differences });
         }

@@ -17,7 +17,10 @@ pub struct Shard {
 
 /// Error of an invalid shard.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
-#[error("a shard is written i/n, from 1/n to n/n with n at most {most}; `{text}` is not one", most = Shard::MOST)]
+#[error(
+    "`{text}` is not a shard; write i/n with i from 1 to n, and n at most {most}",
+    most = Shard::MOST
+)]
 pub struct ShardError {
     text: String,
 }
@@ -116,7 +119,7 @@ mod tests {
         assert_eq!("2/4".parse(), Shard::new(2, 4));
         for text in ["", "2", "0/4", "5/4", "1/0", "-1/2", "1/2/3", "1/100001", "a/b"] {
             let error = text.parse::<Shard>().expect_err(text);
-            assert!(error.to_string().contains(&format!("`{text}` is not one")), "{error}");
+            assert!(error.to_string().contains(&format!("`{text}` is not a shard")), "{error}");
         }
         assert!(serde_json::from_str::<Shard>(r#"{"number": 3, "of": 2}"#).is_err());
     }

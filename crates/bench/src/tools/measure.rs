@@ -27,7 +27,7 @@ use super::{
 #[derive(Debug, Error)]
 pub enum ToolBenchError {
     /// Index without a task.
-    #[error("there is no task {index}")]
+    #[error("no task has the index {index}")]
     NoTask {
         /// Index of the task.
         index: usize,

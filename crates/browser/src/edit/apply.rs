@@ -54,7 +54,7 @@ fn edited(text: &str, file: &str, edit: &Edit) -> Result<String, Faults> {
     let value = value.map_err(|error| unwritable(file, &error))?;
     let mut wanted = tree::of(&root);
     if !tree::set(&mut wanted, &edit.path, value.as_ref()) {
-        let message = format!("there is nothing at {}", named(&edit.path));
+        let message = format!("no value at {}", named(&edit.path));
         return Err(Fault::of_file(file, message, "write it into the file").into());
     }
     let reads_as_wanted = |text: &String| {
@@ -78,8 +78,8 @@ fn named(path: &[Step]) -> String {
 }
 
 fn unwritable(file: &str, error: &dyn std::error::Error) -> Faults {
-    let message = format!("its values cannot be written: {error}");
-    Fault::of_file(file, message, "keys of maps must be words").into()
+    let message = format!("cannot write its values: {error}");
+    Fault::of_file(file, message, "keys of maps must be text").into()
 }
 
 /// Returns the entry of `value` at `step`.

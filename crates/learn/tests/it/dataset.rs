@@ -237,7 +237,7 @@ fn other_settings_a_second_writer_an_empty_order_and_a_blocked_path_are_refused(
     generate(&one, Shard::WHOLE, dir.path(), &NoProgress).unwrap();
     match generate(&small(), Shard::WHOLE, dir.path(), &NoProgress) {
         Err(DatasetError::Store(StoreError::OtherRun { differences, .. })) => {
-            assert_eq!(differences, ["tasks is 2 there, 44 was asked for"]);
+            assert_eq!(differences, ["tasks is 2 in the folder, but 44 was requested"]);
         }
         other => panic!("{other:?}"),
     }

@@ -36,7 +36,7 @@ fn what_is_missing_is_named_as_array_jobs_take_it() {
     let there = [1, 2, 4, 5, 6].map(folder);
     let output = merge(&home.path().join("merged"), &there);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
-    assert!(stderr(&output).contains("all 9 shards are needed; missing: 3,7-9"));
+    assert!(stderr(&output).contains("needs all 9 shards; missing: 3,7-9"));
     assert!(!home.path().join("merged").exists());
 
     // One episode of two is truncated.
@@ -63,10 +63,10 @@ fn wrong_shards_are_refused() {
     let folder = home.path().join("part");
     done(&on(command, &folder, Some((1, 2))));
     for (command, shard, words) in [
-        (command, Some((2, 2)), "shard is 1/2 there, 2/2 was asked for"),
-        (command, None, "shard is 1/2 there, nothing was asked for"),
-        (command, Some((3, 2)), "`3/2` is not one"),
-        ("generate --episodes 5", Some((1, 2)), "tasks is 4 there, 5 was asked for"),
+        (command, Some((2, 2)), "shard is 1/2 in the folder, but 2/2 was requested"),
+        (command, None, "shard is 1/2 in the folder, but unset was requested"),
+        (command, Some((3, 2)), "`3/2` is not a shard"),
+        ("generate --episodes 5", Some((1, 2)), "tasks is 4 in the folder, but 5 was requested"),
     ] {
         let output = on(command, &folder, shard);
         assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
@@ -76,7 +76,7 @@ fn wrong_shards_are_refused() {
     let other = home.path().join("other");
     done(&on("generate --episodes 4 --seed 9", &other, Some((2, 2))));
     for (folders, words) in [
-        ([&folder, &other], "seed is 9 there, 1 was asked for"),
+        ([&folder, &other], "seed is 9 in the folder, but 1 was requested"),
         ([&folder, &folder], "are both shard 1/2"),
     ] {
         let output = merge(&home.path().join("merged"), &folders.map(Clone::clone));

@@ -67,7 +67,7 @@ pub fn recording_page(
         candidates: None,
         run: Some(Run {
             kind: "Recording",
-            words: "Before the first push, and corrected after every observation.",
+            words: "Initial belief, updated after every observation.",
             found: found(document),
             columns: Vec::new(),
             numeric: Vec::new(),
@@ -91,7 +91,7 @@ fn found(document: &Document) -> Vec<Found> {
         let columns = section.table.columns();
         Found {
             title: match section.title.as_str() {
-                "" => "What is known in the end".to_owned(),
+                "" => "Final belief".to_owned(),
                 title => title.to_owned(),
             },
             columns: columns.iter().map(|(name, _)| name.clone()).collect(),

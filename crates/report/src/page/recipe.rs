@@ -177,7 +177,7 @@ impl Origin {
         ));
         let model = model.map_or(String::new(), |model| format!(", {model}"));
         lines.push(format!("predicted = pushplan.predict(plan{model})"));
-        lines.push("print(f\"predicted to end {1000 * predicted.error:.1f} mm off\")".to_owned());
+        lines.push("print(f\"predicted error: {1000 * predicted.error:.1f} mm\")".to_owned());
         lines.push("print(pushplan.verify(plan))".to_owned());
         lines.join("\n")
     }

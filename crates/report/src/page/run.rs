@@ -64,7 +64,7 @@ fn run(trace: &Trace, starts: &[f64]) -> Run {
     let (types, joints) = joints(trace);
     Run {
         kind: "Run",
-        words: "Before the first push, and corrected after every one.",
+        words: "Initial belief, updated after every push.",
         found: Vec::new(),
         columns: table.columns().iter().map(|(name, _)| name.clone()).collect(),
         numeric: table.columns().iter().map(|(_, side)| *side == Align::Right).collect(),
@@ -92,8 +92,8 @@ fn name(trace: &Trace) -> String {
     };
     let probes = match probes {
         0 => String::new(),
-        1 => ", one to find something out".to_owned(),
-        count => format!(", {count} to find something out"),
+        1 => ", 1 of them exploratory".to_owned(),
+        count => format!(", {count} of them exploratory"),
     };
     format!("{pushes} with {}{probes}", tools.join(" and "))
 }
@@ -154,7 +154,7 @@ fn replays(trace: &Trace, clock: &Clock) -> Vec<data::Replay> {
     replays.extend(replay_of(Layer::Predicted, trace.planner.clone(), &predicted, reached));
     let by = match (&trace.truth, clock.layer) {
         (Some(truth), Layer::Real) => format!("{} simulation", engine_name(truth.engine)),
-        _ => "what was seen".to_owned(),
+        _ => "observations".to_owned(),
     };
     let mut came = clock.joined(&clock.came);
     if came.is_empty() {

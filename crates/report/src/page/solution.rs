@@ -21,7 +21,7 @@ use super::replay::{ends, replays};
 use super::replayed::{Making, shown_replay, standing};
 
 /// Names of the columns of the table of plans.
-const COLUMNS: [&str; 6] = ["plan", "predicted", "planar", "3-D", "disturbed", "what came of it"];
+const COLUMNS: [&str; 6] = ["plan", "predicted", "2-D", "3-D", "perturbed", "outcome"];
 
 /// Returns the page of a solution. `nominal` holds the replays of the first plan, even if it was
 /// not verified; `recipe` returns the recipe for a plan's replays.
@@ -55,7 +55,7 @@ pub fn solution_page(
         plan.replays = list;
     }
     making.data.columns = COLUMNS.to_vec();
-    making.data.models = format!("Plans were {}.", models_words(task, solution));
+    making.data.models = format!("Models: {}.", models_words(task, solution));
     // For lever-ups only the plans are kept.
     if solution.statistics.levers.is_none() {
         making.data.choice = choice(solution);
@@ -102,7 +102,7 @@ fn why(task: &Task, solution: &Solution, k: usize) -> String {
     let ranked = &solution.plans[k];
     let Some(verdict) = &ranked.verdict else {
         return match (ranked.plan.is_empty(), ranked.outcome.reached) {
-            (true, _) => "leaves everything as it is".to_owned(),
+            (true, _) => "moves nothing".to_owned(),
             (false, true) => "predicted to reach the goal; not replayed".to_owned(),
             (false, false) => "predicted to miss the goal".to_owned(),
         };
@@ -112,13 +112,13 @@ fn why(task: &Task, solution: &Solution, k: usize) -> String {
         return verdict_line(task, Some(verdict));
     }
     match (verdict.robustness, best.and_then(|best| best.robustness)) {
-        (None, Some(_)) => "works as written; not replayed with disturbances".to_owned(),
+        (None, Some(_)) => "works as written; not replayed with perturbations".to_owned(),
         (Some(own), Some(best)) if own < best => {
             let found = fewest(verdict);
             let engine = found.map_or("", |(_, _, engine)| engine_name(engine));
-            format!("passes, but in fewer disturbed replays ({engine})")
+            format!("passes, but fewer perturbed replays reach the goal ({engine})")
         }
-        _ => "passes as well".to_owned(),
+        _ => "also passes".to_owned(),
     }
 }
 
@@ -162,22 +162,22 @@ fn lost(
                 "best by prediction, but fails in a replay".to_owned()
             }
             PlanStatus::Partial => "chosen: it meets some of the goals".to_owned(),
-            PlanStatus::NoPlan => "comes nearest, but misses the goal".to_owned(),
+            PlanStatus::NoPlan => "closest, but misses the goal".to_owned(),
         },
         (Some((k, plan)), _) => match &plan.verdict {
-            Some(verdict) if verdict.passed => format!("works too, as plan {}", k + 1),
+            Some(verdict) if verdict.passed => format!("also works, as plan {}", k + 1),
             Some(_) => format!("fails in a replay, as plan {} shows", k + 1),
             None if plan.outcome.reached => format!("predicted to work, as plan {}", k + 1),
             None => format!("predicted to miss, as plan {} shows", k + 1),
         },
         (None, None) => match frequent(pushes) {
-            Some(reason) => format!("no push can be made, mostly as {reason}"),
+            Some(reason) => format!("no push is feasible, mostly because {reason}"),
             None => "no push was tried".to_owned(),
         },
         (None, Some(best)) if is_behind(best) => {
-            "leads through something that does not give way".to_owned()
+            "an immovable body blocks every way to the goal".to_owned()
         }
-        (None, Some(best)) if best > 1.0 => "ends too far from the goal by prediction".to_owned(),
-        (None, Some(_)) => "predicted to come near; others were taken further".to_owned(),
+        (None, Some(best)) if best > 1.0 => "predicted to end too far from the goal".to_owned(),
+        (None, Some(_)) => "predicted to end close, but not selected for refinement".to_owned(),
     }
 }

@@ -33,7 +33,7 @@ pub fn strokes(plan: &Plan, tools: &[Arc<Tool>], index: &dyn Fn(&str) -> usize) 
 pub fn measure(plan: &Plan) -> Measure {
     match plan.levers() {
         true => Measure { name: "Edge raised", axis: "edge raised, mm" },
-        false => Measure { name: "Off the goal", axis: "off the goal, mm" },
+        false => Measure { name: "Goal error", axis: "goal error, mm" },
     }
 }
 

@@ -152,7 +152,7 @@ pub fn legend_of_fixed(scene: &Scene) -> impl Iterator<Item = (Sample, String)> 
     let entries = [
         (standing, palette::OBSTACLE, "obstacle"),
         (above, palette::OVERHEAD, "obstacle above the table"),
-        (!scene.keep_out.is_empty(), palette::KEEP_OUT, "to be kept out of"),
+        (!scene.keep_out.is_empty(), palette::KEEP_OUT, "keep-out region"),
     ];
     let there = entries.into_iter().filter(|(there, ..)| *there);
     there.map(|(_, style, words)| (Sample::Area(style), words.to_owned()))

@@ -98,10 +98,10 @@ impl Captions<'_> {
         let allowed = millimetres(self.goal().tolerance());
         let (colour, words, mark): (_, _, &[[f64; 2]]) = if self.is_reached() {
             let tick = &[[-3.6, 0.2], [-1.2, 2.8], [3.8, -2.6]];
-            (palette::GOOD, format!("reached: at rest {error} from the goal"), tick)
+            (palette::GOOD, format!("reached: final error {error}"), tick)
         } else {
             let cross = &[[-3.0, -3.0], [3.0, 3.0], [0.0, 0.0], [-3.0, 3.0], [3.0, -3.0]];
-            let words = format!("missed: {error} from the goal, allowed are {allowed}");
+            let words = format!("missed: final error {error}, allowed {allowed}");
             (palette::BAD, words, cross)
         };
         let centre = at + Vector::new(8.0, -5.0);

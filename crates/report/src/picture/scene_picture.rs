@@ -38,8 +38,8 @@ impl fmt::Display for Source {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Source::Predicted => "predicted",
-            Source::Seen => "seen",
-            Source::Simulated(Engine::Planar) => "simulated in the plane",
+            Source::Seen => "observed",
+            Source::Simulated(Engine::Planar) => "simulated in 2-D",
             Source::Simulated(Engine::Spatial) => "simulated in 3-D",
             Source::Simulated(Engine::Upright) => "simulated in 3-D, upright",
         })
@@ -193,11 +193,11 @@ impl ScenePicture<'_> {
         }
         for track in &self.tracks {
             let words = match track.source {
-                Source::Predicted => "predicted way and end",
-                Source::Seen => "seen",
-                Source::Simulated(Engine::Planar) => "simulated, planar",
+                Source::Predicted => "predicted path and end",
+                Source::Seen => "observed",
+                Source::Simulated(Engine::Planar) => "simulated, 2-D",
                 Source::Simulated(Engine::Spatial) => "simulated, 3-D",
-                Source::Simulated(Engine::Upright) => "simulated, 3-D upright",
+                Source::Simulated(Engine::Upright) => "simulated, 3-D, upright",
             };
             add(Sample::Way(style(track.source)), words.to_owned());
         }

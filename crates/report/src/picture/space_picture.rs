@@ -104,7 +104,7 @@ impl SpacePicture<'_> {
         }
         self.plot(&mut svg, &top, ("from above", "x, m", "y, m"), (frames, moving), &above);
         self.goal_above(&mut svg, &top);
-        let names = ("from the side, the blade coming from the left", "inward, m", "z, m");
+        let names = ("from the side; the blade enters from the left", "inward, m", "z, m");
         self.plot(&mut svg, &side, names, (frames, moving), &beside);
         self.goal_beside(&mut svg, &side);
         svg.finish()

@@ -109,7 +109,7 @@ fn what_cannot_be_changed_in_place_is_written_anew() {
     assert_eq!(change("b.0", 5.into()), "a:\n- 1\n- 2\nb:\n- 5\n- 2\nc: one two\n");
     assert_eq!(change("c", "x".into()), "a:\n- 1\n- 2\nb:\n- 1\n- 2\nc: x\n");
     let nowhere = [Edit { path: path("a.7.b"), value: Some(1.into()) }];
-    assert!(edit(text, "t", &nowhere).unwrap_err().to_string().contains("nothing at `a.8.b`"));
+    assert!(edit(text, "t", &nowhere).unwrap_err().to_string().contains("no value at `a.8.b`"));
 }
 
 #[test]

@@ -64,7 +64,7 @@ fn a_plan_becomes_a_script() {
     ]
     plan = pushplan.Plan.of(task, "bob's hook", pushes, grip_yaw=0, tools=tools)
     predicted = pushplan.predict(plan, "planar")
-    print(f"predicted to end {1000 * predicted.error:.1f} mm off")
+    print(f"predicted error: {1000 * predicted.error:.1f} mm")
     print(pushplan.verify(plan))
     "#);
 }

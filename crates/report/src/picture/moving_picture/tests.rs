@@ -62,12 +62,12 @@ fn only_what_moves_is_animated_and_no_script_runs() {
 
 #[test]
 fn the_ending_says_whether_the_goal_is_reached() {
-    let reached = "reached: at rest 0.0 mm from the goal";
+    let reached = "reached: final error 0.0 mm";
     assert!(picture_of(&WAYS, true, Vec::new()).contains(reached));
     let toppled = vec![Warning::Toppled { object: "box".to_owned() }];
     assert!(!picture_of(&WAYS, true, toppled).contains(reached));
     let short = picture_of(&WAYS[..2], true, Vec::new());
-    assert!(short.contains("missed: 50.0 mm from the goal, allowed are 20.0 mm"));
+    assert!(short.contains("missed: final error 50.0 mm, allowed 20.0 mm"));
 }
 
 #[test]
