@@ -67,7 +67,7 @@ fn main() -> Result<(), pushplan::Error> {
     if let Some(best) = solution.best() {
         let robustness = best.verdict.as_ref().and_then(|verdict| verdict.robustness);
         println!("{}: use the {}", task.name, best.plan.tool());
-        println!("{:.0} % of disturbed replays work", 100.0 * robustness.unwrap_or_default());
+        println!("{:.0} % of perturbed replays work", 100.0 * robustness.unwrap_or_default());
     }
     Ok(())
 }

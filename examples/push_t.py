@@ -368,7 +368,7 @@ def gap(places: complex | npt.NDArray[np.complex128], shape: Any) -> float:
 
 
 def controlled() -> Floats:
-    """Linear maps from the agent's position, velocity and action to its state 10 to 100 ms later."""
+    """Linear maps from agent position, velocity and action to its state 10 to 100 ms later."""
     once = np.eye(3)
     once[1] += 0.01 * np.array([-100.0, -20.0, 100.0])
     once[0] += 0.01 * once[1]
