@@ -1,17 +1,18 @@
 //! Turns the real pushes of MLab_EXP (Jiaji Zhou, Apache License 2.0), as JSON files of one plate
-//! each, into recordings: `cargo run --release --example convert_mlab -- FILE... --out FOLDER`.
-//! `--first N` converts only the first N pushes of each file. Adapt it to convert your own data.
+//! each, into recordings: `cargo run --release --example convert_mlab -- FILE... --out FOLDER`, with
+//! `--first N` of only the first N pushes of each file. An example of how to bring data of your own
+//! into that form.
 //!
-//! The fingertip is a point, known to about 1 mm. Here it is a cylinder of 2 mm radius. It is
-//! shifted from the given path by its radius, away from the edge that the point approaches, so
-//! that the surfaces meet at the point. The object's pose is the pose of its centre of mass.
-//! Frictions are not given. The friction between tip and plate is 0.5; `pushplan fit` estimates
-//! 0.46 to 0.54 in every file. The friction between plate and table is 0.3; like the plate's mass
-//! and height, it does not affect slow pushes.
+//! The fingertip is a point, known to about 1 mm. Here it is a cylinder of 2 mm radius, thin enough
+//! that its place on an edge is the point's, and off the given path by its radius, away from the
+//! edge that the point comes to, so that the surfaces meet where the point would. The object stands
+//! where its centre of mass is. Frictions are not given: 0.5 between tip and plate, which `pushplan
+//! fit` finds in every file (0.46 to 0.54), and 0.3 between plate and table, which slow pushes do not
+//! feel, as little as the plate's mass and height.
 //!
-//! Pushes by a blade with two tips are files with `head` and `path`. The tips are such cylinders
-//! behind the points. A bar, as deep as the hollow of the blade, joins them. The plate was observed
-//! before and after a push, and the blade also during the push.
+//! Pushes by a blade with two tips are files with `head` and `path`. The tips are such cylinders,
+//! behind the points, joined by a bar that lies as deep as the blade is hollowed. The plate was seen
+//! before and after a push, the blade also on the way.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -116,7 +117,7 @@ fn recording(name: &str, given: &Pushes, push: &Push) -> Result<Recording, Box<d
         }
         Stands::Word(_) => Support::Even,
     };
-    // The object's pose is the pose of its centre of mass.
+    // The object's pose is that of its centre of mass.
     let placed = |[x, y, degrees]: [f64; 3]| {
         let frame = Pose::new(x, y, degrees.to_radians());
         Pose { position: frame.point(centre), heading: frame.heading }

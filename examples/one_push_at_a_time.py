@@ -1,6 +1,7 @@
-"""A closed loop: observe, plan, make the first push, observe again.
+"""A closed loop: look, plan, make the first push, look again.
 
-Here the world is the 2-D engine with higher frictions than the task states. Replace it by a robot.
+Here the world is the planar engine with objects that rub more than anybody knows; a robot would be
+in its place.
 
     python examples/one_push_at_a_time.py
 """
@@ -27,7 +28,7 @@ TASK = pushplan.Task.parse(
 
 
 def make(task: pushplan.Task, plan: pushplan.Plan) -> npt.NDArray[np.float64]:
-    """Makes the first push of a plan in the world; returns the poses of the objects afterwards."""
+    """What the first push of a plan really does: poses of the objects afterwards."""
     push = plan.pushes[0]
     first = pushplan.Plan.of(task, plan.tool, [push], grip_yaw=plan.grip_yaw)
     poses: npt.NDArray[np.float64] = pushplan.predict(first, "planar,friction=130%").poses[-1]

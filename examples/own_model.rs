@@ -1,7 +1,7 @@
 //! An effect model of one's own, planned with: `cargo run --release --example own_model`.
 //!
-//! The support of an object is not observable, and it decides how far the object rotates. This
-//! model rolls out every push with three plausible support models and predicts their mean.
+//! Nobody sees what an object rests on, and that decides how far it turns. This model rolls every
+//! push out on three plausible supports and predicts the mean of what happens.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use pushplan::{
 struct OnAnySupport(Prior);
 
 impl EffectModel for OnAnySupport {
-    /// Model name in predictions; a model without settings of its own uses an existing name.
+    /// What predictions say they are from: a model without settings of its own borrows the name.
     fn spec(&self) -> &ModelSpec {
         self.0.spec()
     }
@@ -67,7 +67,7 @@ fn main() -> Result<(), pushplan::Error> {
     if let Some(best) = solution.best() {
         let robustness = best.verdict.as_ref().and_then(|verdict| verdict.robustness);
         println!("{}: use the {}", task.name, best.plan.tool());
-        println!("{:.0} % of perturbed replays work", 100.0 * robustness.unwrap_or_default());
+        println!("{:.0} % of disturbed replays work", 100.0 * robustness.unwrap_or_default());
     }
     Ok(())
 }

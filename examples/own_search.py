@@ -1,6 +1,6 @@
-"""A search of your own: rolls out thousands of candidates into arrays and verifies the best.
+"""A search of one's own: thousands of candidates rolled out into arrays, the best one verified.
 
-It is the cross-entropy method over one push: draw candidates, keep the best, draw around them.
+The cross-entropy method over one push: draw candidates, keep the best, draw again around them.
 
     python examples/own_search.py
 """
@@ -35,7 +35,7 @@ def main() -> None:
         pushes = rng.normal(middle, spread, (CANDIDATES, 5))
         pushes[:, 3] = np.clip(pushes[:, 3], 0.01, 0.5)
         rolled = pushplan.rollout(TASK, "paddle", pushes, record="outcome")
-        # A tool that is lowered onto the box pushes nothing.
+        # A tool that comes down on the box has pushed nothing.
         broken = np.array([len(warnings) > 0 for warnings in rolled.warnings])
         best = pushes[np.argsort(rolled.errors + broken)[:KEPT]]
         middle, spread = best.mean(axis=0), best.std(axis=0)

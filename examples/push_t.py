@@ -1,9 +1,9 @@
 """Push-T, the benchmark of imitation learning, played by planning.
 
-A round finger pushes a T onto its outline, in 300 steps of 0.1 s. Success is to cover 95 % of the
-outline. This program learns nothing: it reads the true state and knows the shape, whereas learned
-policies use human demonstrations. Before every push it predicts about a thousand pushes, alone and
-in sequence, and makes the push with the fewest predicted steps to success.
+A round finger pushes a T onto its outline, in 300 steps of 0.1 s; 95 % of the outline covered is
+success. Nothing is learned here: the true state is read and the shape is known, where learned
+policies know what people have shown them. Before every push some thousand are predicted, alone and
+one after another, and the one is made that promises success in the fewest steps.
 
     pip install pushplan gym-pusht
     python examples/push_t.py --seeds 100000 100050
@@ -24,22 +24,22 @@ import pushplan
 
 Floats = npt.NDArray[np.float64]
 
-#: The environment uses pixels; one pixel counts as a millimetre.
+#: The environment counts in pixels; one is taken for a millimetre.
 PIXEL = 0.001
-#: Bounds of the agent's targets, and positions of the walls, pixels.
+#: Where the agent may be told to go, and where the walls begin, pixels.
 ARENA, WALLS = shapely.box(1, 1, 511, 511), (7.0, 504.0)
 FINGER = 15.0
-#: Distance of the finger from the T before a push and on the path to it, pixels.
+#: How near the finger comes to the T before a push and on its way there, pixels.
 GAP, MARGIN = 2.0, 6.0
-#: Displacement in a step of 0.1 s, on the path and while pushing, pixels.
+#: Pixels in a step of 0.1 s, on the way and while pushing.
 TRAVEL, PUSH = 45.0, 12.0
-#: Shorter steps on the path, pixels, if a longer step touches the T.
+#: What a step on the way may be, pixels, if a longer one touches the T.
 PACES = (60.0, 45.0, 30.0, 20.0, 12.0, 6.0, 2.0)
-#: Steps of a push without its paths, steps per pixel of distance, and steps per factor of e.
+#: Steps that a push takes beside its ways, that a pixel of distance is worth, and a factor of e.
 EXTRA, FAR, FACTOR = 4.0, 0.35, 12.0
-#: Sufficient distance, pixels, and error of predictions as a share of the displacement.
+#: A distance that is near enough, pixels, and by what share of their way predictions are off.
 NEAR, DOUBT = 1.2, 0.05
-#: Number of pushes that are predicted with a second push after them.
+#: How many pushes are looked at with another one behind.
 BEAM = 8
 #: Corners of the T in its own frame, and points spread evenly over it, pixels.
 SHAPE = shapely.union_all([shapely.box(-60, 0, 60, 30), shapely.box(-15, 30, 15, 120)])
@@ -47,9 +47,9 @@ PLACES = [(x, y) for x in range(-55, 60, 10) for y in range(5, 120, 10)]
 GRID = np.array([x + 1j * y for x, y in PLACES if SHAPE.covers(shapely.Point(x, y))])
 CORNERS = np.array([complex(x, y) for x, y in SHAPE.exterior.coords[:-1]])
 
-#: The environment's T has its centre of mass between the middles of bar and stem, and no friction
-#: against the finger. It stops at once after a push, like a T that stands on the corners of both
-#: solids.
+#: The environment's T has its centre of mass between the middles of bar and stem and no friction
+#: against the finger. What moves there stops at once, which resembles a table on which the T
+#: stands on the corners of both.
 TASK = pushplan.Task.parse(
     """
     scene:
@@ -80,7 +80,7 @@ TOOL = pushplan.Tool.parse(
 
 
 def placed(poses: Floats, points: npt.NDArray[np.complex128]) -> npt.NDArray[np.complex128]:
-    """Positions of the T's points, ``[..., points]``, for poses ``[..., 3]``."""
+    """Where points of the T are, ``[..., points]``, for poses ``[..., 3]``."""
     place, turn = poses[..., 0] + 1j * poses[..., 1], np.exp(1j * poses[..., 2])
     found: npt.NDArray[np.complex128] = place[..., None] + points * turn[..., None]
     return found
@@ -93,13 +93,13 @@ def tee(pose: Floats) -> Any:
 
 
 class Goal:
-    """Distance of a T from the outline that it must cover."""
+    """How far a T is from the outline that it has to cover."""
 
     def __init__(self, pose: Floats) -> None:
         self.points, self.outline = placed(pose, GRID), tee(pose)
 
     def distance(self, poses: Floats) -> Floats:
-        """Mean distance of the T's points from their targets, pixels."""
+        """Mean distance of the T's points from where they belong, pixels."""
         gaps: Floats = np.abs(placed(poses, GRID) - self.points).mean(axis=-1)
         return gaps
 
@@ -113,31 +113,31 @@ class Goal:
 
 
 def bar_of(poses: Floats) -> Floats:
-    """Pose of the middle of the bar, which is the object's pose, metres: ``[..., 1, 3]``."""
+    """Where the middle of the bar is, whose pose is the object's, metres: ``[..., 1, 3]``."""
     middles = placed(poses, np.array([15j])) * PIXEL
     return np.stack([middles.real, middles.imag, poses[..., 2, None]], axis=-1)
 
 
 def pose_of(bar: Floats) -> Floats:
-    """The pose of the T whose bar has this pose, pixels."""
+    """The pose of the T whose bar is here, pixels."""
     place = (bar[..., 0] + 1j * bar[..., 1]) / PIXEL - 15j * np.exp(1j * bar[..., 2])
     return np.stack([place.real, place.imag, bar[..., 2]], axis=-1)
 
 
 class Pushes(NamedTuple):
-    """Pushes and their predictions: every frame is a push that ends there."""
+    """Pushes and what they are predicted to do: every frame is a push that ends there."""
 
-    #: Index of the start pose of each push.
+    #: Which of the starting poses each push is for.
     of: npt.NDArray[np.int64]
     start: npt.NDArray[np.complex128]
     along: npt.NDArray[np.complex128]
-    #: Length so far, pixels, ``[pushes, frames]``, and pose of the T then, ``[.., 3]``.
+    #: How far each has gone, pixels, ``[pushes, frames]``, and where the T is then, ``[.., 3]``.
     gone: Floats
     poses: Floats
 
 
 def pushes(poses: Floats, spots: int, slants: Floats, length: float | np.floating[Any]) -> Pushes:
-    """Pushes from all sides of the T for each pose, along the normal and oblique to it."""
+    """Pushes from all around the T for each of some poses, along the normal and aslant of it."""
     ring = SHAPE.buffer(FINGER + GAP).exterior
     at = [ring.interpolate((spot + 0.5) / spots, normalized=True) for spot in range(spots)]
     starts = np.array([complex(point.x, point.y) for point in at])
@@ -159,7 +159,7 @@ def pushes(poses: Floats, spots: int, slants: Floats, length: float | np.floatin
     )
     tips = (rolled.tool_poses[..., 0] + 1j * rolled.tool_poses[..., 1]) / PIXEL
     ends = pose_of(rolled.poses[:, :, 0])
-    # Neither the finger nor the T leaves the arena further than it does already.
+    # Neither the finger leaves the arena nor the T, farther than it does already.
     corners = placed(ends, CORNERS)
     sides = np.stack([corners.real, corners.imag])
     outside = np.maximum(np.maximum(WALLS[0] - sides, sides - WALLS[1]).max(axis=(0, -1)), 0.0)
@@ -172,7 +172,7 @@ def pushes(poses: Floats, spots: int, slants: Floats, length: float | np.floatin
 
 
 class Way:
-    """Paths of the finger around a T at rest."""
+    """Ways of the finger around a T that stays where it is."""
 
     def __init__(self, agent: complex, pose: Floats) -> None:
         self.agent, self.tee = agent, tee(pose)
@@ -184,7 +184,7 @@ class Way:
         self.step = ring.length / count
 
     def clear(self, ends: npt.NDArray[np.complex128], start: complex) -> npt.NDArray[np.bool_]:
-        """Whether straight paths from a position avoid the T; they may begin in contact with it."""
+        """Whether straight ways from a place meet no T; they may begin where it touches."""
         lines = np.stack([np.full(len(ends), start), ends], axis=1)
         straight = shapely.linestrings(np.stack([lines.real, lines.imag], axis=-1))
         least = min(FINGER + 1.0, gap(start, self.tee) - 0.1)
@@ -192,7 +192,7 @@ class Way:
         return ok
 
     def arc(self, end: complex) -> npt.NDArray[np.complex128] | None:
-        """The shorter path along the ring, if one stays in the arena."""
+        """The shorter way along the ring, if one stays in the arena."""
         first, last = (int(np.argmin(np.abs(self.ring - at))) for at in (self.agent, end))
         count = len(self.ring)
         onward = [(first + k) % count for k in range((last - first) % count + 1)]
@@ -201,7 +201,7 @@ class Way:
         return self.ring[min(ways, key=len)] if ways else None
 
     def lengths(self, ends: npt.NDArray[np.complex128]) -> Floats:
-        """Path lengths to these positions, pixels; infinite without a path."""
+        """How far it is to these places, pixels; infinite where there is no way."""
         found = np.abs(ends - self.agent)
         for index in np.flatnonzero(~self.clear(ends, self.agent)):
             arc = self.arc(ends[index])
@@ -209,10 +209,10 @@ class Way:
         return found
 
     def to(self, end: complex) -> list[complex]:
-        """The corners of a short path to this position."""
+        """The corners of a short way to this place."""
         arc = self.arc(end)
         points = np.array([*(arc if arc is not None else []), end])
-        # A finger in contact with the T leaves it first.
+        # What touches the T leaves it first.
         touches = gap(self.agent, self.tee) < FINGER + 1.0
         corners = [complex(self.ring[np.argmin(np.abs(self.ring - self.agent))])] if touches else []
         at = corners[0] if touches else self.agent
@@ -225,7 +225,7 @@ class Way:
 
 
 class Push(NamedTuple):
-    """A straight path of the finger, and the predicted number of steps to success."""
+    """A straight way of the finger, and after how many steps success is promised."""
 
     start: complex
     end: complex
@@ -233,8 +233,8 @@ class Push(NamedTuple):
 
 
 def left(goal: Goal, before: Floats, after: Floats) -> Floats:
-    """Steps to success from ``after``: each push gains about the same factor, and the error of
-    predictions is a share of the displacement from ``before``."""
+    """Steps to success from ``after``: each push gains about the same factor, and predictions are
+    off by a share of the way from ``before``."""
     moved = np.abs(placed(after, GRID) - placed(before, GRID)).mean(axis=-1)
     distance = np.maximum(goal.distance(after) + DOUBT * moved, NEAR)
     steps = FAR * distance + FACTOR * np.log(distance / NEAR)
@@ -243,7 +243,7 @@ def left(goal: Goal, before: Floats, after: Floats) -> Floats:
 
 
 def choose(goal: Goal, agent: complex, pose: Floats) -> Push | None:
-    """The push with the fewest predicted steps to success, alone or with a second push."""
+    """The push that promises success in the fewest steps, be it with another one after it."""
     near = float(goal.distance(pose))
     first = pushes(
         pose[None], 64, np.array([-0.6, -0.3, 0.0, 0.3, 0.6]), np.clip(2.5 * near, 30, 130)
@@ -254,14 +254,14 @@ def choose(goal: Goal, agent: complex, pose: Floats) -> Push | None:
     value = np.where(
         first.gone > np.clip(0.4 * near, 3.0, 30.0), steps + left(goal, pose, first.poses), np.inf
     )
-    # The best frame of every push; after the best of these, a second push is predicted.
+    # Of every push the best frame; behind the best of those another push is looked at.
     frame = value.argmin(axis=1)
     order = np.argsort(value.min(axis=1))[:BEAM]
     frame, chosen = frame[order], (order, frame[order])
     ends, gone = first.poses[chosen], first.gone[chosen]
     tips = first.start[order] + first.along[order] * gone
     second = pushes(ends, 32, np.array([-0.4, 0.0, 0.4]), np.clip(2.0 * near, 30, 130))
-    # The path between both is approximated by a circle about the T.
+    # The way between both is taken for a circle about the T.
     middle = placed(ends, np.array([45j]))[:, 0]
     turn = np.abs(np.angle((second.start - middle[second.of]) / (tips - middle)[second.of]))
     later = steps[chosen][second.of] + 90.0 * turn / TRAVEL + EXTRA
@@ -275,7 +275,7 @@ def choose(goal: Goal, agent: complex, pose: Floats) -> Push | None:
 
 
 class Game:
-    """A running environment."""
+    """An environment that is being played."""
 
     def __init__(self, seed: int, steps: int) -> None:
         self.seed = seed
@@ -310,7 +310,7 @@ class Game:
             self.push(push.end)
 
     def follow(self, corners: list[complex]) -> None:
-        """Moves the agent along these corners, as fast as possible without touching the T."""
+        """Moves the agent along these corners, as fast as it can without touching the T."""
         shape = tee(self.pose)
         for corner in corners:
             while not self.over and abs(corner - self.agent) > 1.0:
@@ -326,7 +326,7 @@ class Game:
                 self.halt(corner)
 
     def foreseen(self, wanted: complex) -> npt.NDArray[np.complex128]:
-        """Positions of the agent during a step that ends here, and during a second step at rest."""
+        """Where the agent is during a step that ends here, and another that stays."""
         state = np.array([self.agent - wanted, complex(*self.info["vel_agent"]), 0.0])
         found = []
         for _ in range(2):
@@ -343,12 +343,12 @@ class Game:
         self.halt(end)
 
     def act(self, wanted: complex) -> None:
-        """A step that ends with the agent at this position."""
+        """A step after which the agent is here."""
         state = np.array([self.agent - wanted, complex(*self.info["vel_agent"])])
         self.step(wanted - MOVE[-1, 0, :2] @ state / MOVE[-1, 0, 2])
 
     def halt(self, wanted: complex) -> None:
-        """Two steps that end with the agent at rest at this position."""
+        """Two steps after which the agent rests here."""
         state = np.array([self.agent - wanted, complex(*self.info["vel_agent"])])
         drift, drive = MOVE[-1, :, :2], MOVE[-1, :, 2]
         steering = np.stack([drift @ drive, drive], axis=1)
@@ -363,12 +363,12 @@ class Game:
 
 
 def gap(places: complex | npt.NDArray[np.complex128], shape: Any) -> float:
-    """The smallest distance of the finger's centre from the T over these positions."""
+    """The least distance of the finger's middle from the T in any of these places."""
     return float(np.min(shapely.distance(shapely.points(np.real(places), np.imag(places)), shape)))
 
 
 def controlled() -> Floats:
-    """Linear maps from agent position, velocity and action to its state 10 to 100 ms later."""
+    """What 1 to 10 hundredths of a second make of place, velocity and action of the agent."""
     once = np.eye(3)
     once[1] += 0.01 * np.array([-100.0, -20.0, 100.0])
     once[0] += 0.01 * once[1]
@@ -381,7 +381,7 @@ MOVE = controlled()
 def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
     parser.add_argument("--seeds", type=int, nargs=2, default=[0, 3], metavar=("FROM", "BELOW"))
-    parser.add_argument("--steps", type=int, default=300, help="maximum number of steps of a game")
+    parser.add_argument("--steps", type=int, default=300, help="most steps of a game")
     options = parser.parse_args()
     games = [Game(seed, options.steps) for seed in range(*options.seeds)]
     for game in games:

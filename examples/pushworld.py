@@ -1,15 +1,15 @@
 """PushWorld's puzzles as tasks: a grid of cells becomes a table of boxes.
 
-PushWorld (Kansky et al. 2023, https://github.com/google-deepmind/pushworld) is a benchmark of
-puzzles in text: a cell is empty (``.``), a wall (``W``), a wall for the agent alone (``AW``), the
-agent (``A``), a movable (``M0``), the goal of one (``G0``), or several of them joined by ``+``. A
-task file states the same in metres:
+PushWorld (Kansky et al. 2023, https://github.com/google-deepmind/pushworld) is a benchmark of puzzles
+in text: a cell is empty (``.``), a wall (``W``), a wall for the agent alone (``AW``), the agent
+(``A``), a movable (``M0``), the goal of one (``G0``), or several of them joined by ``+``. A task file
+says the same in metres:
 
 - a cell is 80 mm; rows go along x, away from the robot, and columns along -y;
 - an object of n cells is n times 80 mm less 16 mm long, so 8 mm of play are left on either side;
-- a plate that fits into one cell is lowered from above, instead of an agent that walks around, so
-  the agent's shape and position do not matter; walls for the agent alone are keep-out regions of
-  the plate;
+- a plate that fits into one cell comes from above, instead of an agent that has to go around, so
+  what the agent looks like and where it stands do not matter; walls for the agent alone are regions
+  that the plate keeps out of;
 - an object is at its goal within 30 mm and 20 degrees.
 
     python examples/pushworld.py "At Crossroads.pwp" --out puzzles
@@ -44,7 +44,7 @@ PLATE = pushplan.Tool.of(
     }
 )
 
-#: The puzzle of the example without a file: a row that must be cleared first.
+#: What the example shows without a file: a row that has to be freed first.
 SHOWN = """
  .  .  .  .  .  .  .
  A  .  M0 .  M1 .  G0
@@ -53,21 +53,21 @@ SHOWN = """
 
 
 def read(text: str) -> tuple[dict[str, Cells], tuple[int, int]]:
-    """The cells of every name in a puzzle, by row and column, and the size of the grid."""
+    """The cells of everything that a puzzle names, by row and column, and how many of these."""
     rows = [line.split() for line in text.splitlines() if line.strip()]
     if not rows or len({len(row) for row in rows}) != 1:
-        raise ValueError("the rows of a puzzle must have the same length")
+        raise ValueError("the rows of a puzzle are of one length")
     cells: dict[str, Cells] = defaultdict(set)
     for row, line in enumerate(rows):
         for column, cell in enumerate(line):
             for name in cell.upper().split("+"):
                 if not re.fullmatch(r"\.|W|AW|A|[MG]\d+", name):
-                    raise ValueError(f"row {row + 1}, column {column + 1}: `{name}` is not a cell")
+                    raise ValueError(f"row {row + 1}, column {column + 1}: `{name}` is no cell")
                 cells[name].add((row, column))
     del cells["."]
     for goal in (name for name in cells if name.startswith("G")):
         if "M" + goal[1:] not in cells:
-            raise ValueError(f"`{goal}` has no movable `M{goal[1:]}`")
+            raise ValueError(f"`{goal}` is the goal of no movable")
     return cells, (len(rows), len(rows[0]))
 
 
@@ -75,7 +75,7 @@ Rectangle = tuple[int, int, int, int]
 
 
 def apart(cells: Cells) -> list[Rectangle]:
-    """Disjoint rectangles, as first and last row and column, that cover these cells."""
+    """Rectangles, first and last row and column, that make up these cells, none over another."""
     left, found = set(cells), []
     while left:
         found.append(max(spanned(left), key=area))
@@ -84,7 +84,7 @@ def apart(cells: Cells) -> list[Rectangle]:
 
 
 def solids(cells: Cells) -> list[Rectangle]:
-    """Rectangles that stay connected when shrunk: adjacent cells share one of them."""
+    """The same, but two cells side by side are in one of them: shrunk, they are still one piece."""
     full = [one for one in spanned(cells) if not any(grown(one, cells))]
     open_pairs, found = pairs(cells), [max(full, key=area)]
     while open_pairs := open_pairs - pairs(inside(found[-1])):
@@ -134,7 +134,7 @@ def grown(one: Rectangle, cells: Cells) -> list[bool]:
 
 
 class Table:
-    """Positions of a puzzle's cells on the table."""
+    """Where the cells of a puzzle are on the table."""
 
     def __init__(self, rows: int, columns: int) -> None:
         self.rows, self.columns = rows, columns
@@ -148,7 +148,7 @@ class Table:
         return [round(x, 4), round(y, 4)], [round(extent, 4) for extent in extents]
 
     def movable(self, name: str, cells: Cells) -> dict[str, Any]:
-        """An object of these cells; its position is the position of its largest rectangle."""
+        """An object of these cells; the position is that of its largest rectangle."""
         found: list[dict[str, Any]] = []
         for one in solids(cells):
             middle, size = self.place(one)
@@ -168,7 +168,7 @@ class Table:
         return {**whole, "parts": parts} if parts else whole
 
     def walls(self, cells: Cells) -> list[dict[str, Any]]:
-        """Walls of cells, and walls around the table."""
+        """Walls of cells, and those around the table."""
         around = [(-1, -1, -1, self.columns), (self.rows, self.rows, -1, self.columns)]
         around += [(0, self.rows - 1, -1, -1), (0, self.rows - 1, self.columns, self.columns)]
         found = []
@@ -178,7 +178,7 @@ class Table:
         return found
 
     def closed(self, cells: Cells) -> list[dict[str, Any]]:
-        """Keep-out regions of the tool."""
+        """What the tool keeps out of."""
         found = []
         for k, one in enumerate(apart(cells)):
             middle, size = self.place(one)
@@ -228,7 +228,7 @@ def main() -> None:
         task = task_of(path.read_text(), name, chosen.pushes)
         file = chosen.out / f"{name}.yaml"
         (chosen.out / "tools").mkdir(parents=True, exist_ok=True)
-        # JSON is valid YAML.
+        # What is JSON is YAML.
         (chosen.out / "tools/plate.yaml").write_text(json.dumps(PLATE.to_dict(), indent=1))
         file.write_text(task.to_yaml())
         print(file)

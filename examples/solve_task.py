@@ -1,4 +1,4 @@
-"""Builds a task and a tool in code, chooses a tool and pushes, and saves plan and report.
+"""Builds a task and a tool in code, chooses a tool and pushes, and keeps plan and page.
 
     python examples/solve_task.py [FOLDER]
 """
@@ -47,7 +47,7 @@ def main(folder: Path) -> None:
     best = solution.best
     assert solution.solved and best is not None
     verdict = pushplan.verify(best, disturbed=32)
-    print(f"{verdict.robustness:.0%} of perturbed replays reach the goal")
+    print(f"{verdict.robustness:.0%} of disturbed replays reach the goal")
     folder.mkdir(exist_ok=True)
     best.save(folder / f"{task.name}.plan.json")
     (folder / f"{task.name}.html").write_text(solution.page(), encoding="utf-8")

@@ -27,7 +27,7 @@ fn main() -> Result<(), pushplan::Error> {
     let Some(best) = solution.best() else { return Ok(()) };
     let pushes = best.plan.steps.len();
     println!("{}: {pushes} push(es) with the {}", task.name, best.plan.tool());
-    println!("predicted error {:.1} mm", 1000.0 * best.outcome.error());
+    println!("off by {:.1} mm as predicted", 1000.0 * best.outcome.error());
 
     // `pushplan verify` and `pushplan export` read this file.
     if let Some(folder) = std::env::args_os().nth(1).map(PathBuf::from) {

@@ -1,11 +1,11 @@
-"""The whole loop in MuJoCo: a camera detects tags, and an arm pushes the tagged objects to their goals.
+"""The whole thing once, in MuJoCo: a camera sees tags, and an arm pushes what they are on to its goal.
 
     pip install 'pushplan[camera]' 'mujoco>=3.3,<5'
     python examples/robot/run.py [--scenes 40] [--seed 1] [--film robot.webp]
 
-The program detects AprilTags in a rendered image, plans from the detected poses for a Panda with a tool in its
-hand, and sends the joint trajectory to position servos. It repeats this until the goal is certainly reached or no
-plan is left. For every scene it prints a line of JSON with the claimed and the true result.
+It looks (AprilTags in a rendered picture), plans from where things are seen (a Panda with a tool in its hand),
+sends the trajectory of the joints to position servos, and looks again, until the goal is reached for sure, or
+nothing more can be done. Of every scene a line of JSON says what was claimed and what is true.
 """
 
 from __future__ import annotations
@@ -23,18 +23,18 @@ from pushplan.poses import look
 
 from world import EDGE, TABLE, Film, World, camera, tags_of
 
-#: Joint positions during an observation, with the tool out of view, rad.
+#: Where joints are when the camera looks: with the tool aside, rad.
 HOME = [1.4, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]
-#: Maximum number of observations of a scene.
+#: Looks at a scene, at most.
 LOOKS = 5
-#: Required tolerance, and the smaller tolerance of plans, metres: camera and task are not exact.
+#: What is to be kept, and what is planned for, metres: the camera is not exact, and neither is the task.
 TOLERANCE, PLANNED = 0.02, 0.012
-#: A goal is reached if the error is within the tolerance by so many standard deviations of the camera.
+#: Reached is what is within the tolerance even if the camera is off by so many standard deviations.
 SURE = 3.0
 
 
 def drawn(rng: np.random.Generator, urdf: Path) -> pushplan.Task:
-    """A can or a box with a goal elsewhere, and sometimes a second object or a wall."""
+    """A can or a box that is to go somewhere else, and sometimes a second thing, or a wall."""
 
     def thing(name: str, at: Any) -> dict[str, Any]:
         if rng.random() < 0.5:
@@ -73,14 +73,14 @@ def drawn(rng: np.random.Generator, urdf: Path) -> pushplan.Task:
 
 
 def attempt(task: pushplan.Task, world: World) -> dict[str, Any]:
-    """Moves the object to the goal as observed by the camera; returns the claimed result and its history."""
+    """Brings the goods to the goal, as far as the camera can tell; what is claimed, and how it went."""
     tags = tags_of(task)
     eye = camera().placed(world.photo(), TABLE, EDGE)
     plans = 0
     for _ in range(LOOKS):
         seen = look(task, world.photo(), eye, tags)
         if seen.missing:
-            return {"claims": f"not detected: {', '.join(seen.missing)}", "plans": plans}
+            return {"claims": f"does not see {', '.join(seen.missing)}", "plans": plans}
         task = task.at(seen.poses)
         error = task.score(seen.poses) * PLANNED
         if error + SURE * seen.noise[0] <= TOLERANCE:
@@ -90,14 +90,14 @@ def attempt(task: pushplan.Task, world: World) -> dict[str, Any]:
             return {"claims": best.status, "plans": plans, "seen_mm": 1e3 * error}
         world.carry_out(best.best)
         plans += 1
-    return {"claims": "not reached within the maximum of observations", "plans": plans}
+    return {"claims": "tried often enough", "plans": plans}
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--scenes", type=int, default=1)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--film", type=Path, help="an animation of the first scene (WebP)")
+    parser.add_argument("--film", type=Path, help="an animated picture of the first scene (WebP)")
     parser.add_argument("--urdf", type=Path, default=Path(__file__).with_name("panda.urdf"), help="another Panda")
     options = parser.parse_args()
     reached = false = 0

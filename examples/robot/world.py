@@ -1,7 +1,7 @@
-"""A table in MuJoCo with tags on its objects, a camera above it, and an arm with servos at its joints.
+"""A table in MuJoCo with tags on its objects, a camera above it, and an arm whose joints servos move.
 
-It replaces the robot: a planner uses only `photo` and `carry_out`. True masses and frictions are drawn around the
-values of the task.
+It stands for the robot: `photo` and `carry_out` are all that a planner is given of it. What is true of the
+objects is not what the task states: masses and frictions are drawn around that.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import math
 import os
 from typing import Any, Callable, Optional
 
-# Rendering without a screen; MUJOCO_GL=osmesa needs no graphics driver.
+# Without a screen; MUJOCO_GL=osmesa does it without a graphics driver.
 os.environ.setdefault("MUJOCO_GL", "egl")
 
 import cv2  # type: ignore[import-not-found,import-untyped,unused-ignore]
@@ -24,24 +24,24 @@ from pushplan.poses import Camera, Tag
 Floats = npt.NDArray[np.float64]
 
 WIDTH, HEIGHT, FIELD = 1280, 960, 50.0
-#: Position and target of the camera: in front, so that the arm at home hides little.
+#: Where the camera is, and what it looks at: from ahead, so that the arm at home hides little.
 EYE, MIDDLE = np.array([1.15, 0.0, 0.85]), np.array([0.5, 0.0, 0.0])
-#: Position and target of a second camera, for films only.
+#: The same of a second camera, which only makes films.
 FILM = np.array([1.3, -0.85, 1.05]), np.array([0.36, 0.0, 0.24])
 FAMILY = "DICT_APRILTAG_36h11"
 #: Tags on the table: ids and middles, and the edge of their black squares, metres.
 TABLE = {0: (0.28, -0.48), 1: (0.80, -0.42), 2: (0.28, 0.48), 3: (0.80, 0.42)}
 EDGE, ON_OBJECTS = 0.07, 0.05
 FIRST = 10
-#: Black share of a tag, within its white margin.
+#: Of a tag the part that is black, within white.
 BLACK = 0.7
 COLOURS = {
     "table": [0.75, 0.72, 0.66, 1], "object": [0.80, 0.35, 0.25, 1], "obstacle": [0.35, 0.35, 0.35, 1],
     "tool": [0.25, 0.45, 0.75, 1], "arm": [0.93, 0.93, 0.93, 1],
 }
-#: Speed of joints on the path home, rad/s.
+#: How fast joints go home, rad/s.
 HOMEWARDS = 0.5
-#: Speed below which a body is at rest, m/s, and maximum waiting time, seconds.
+#: What rests is slower than this, m/s; nobody waits for longer, seconds.
 REST, PATIENCE = 1e-3, 5.0
 
 
@@ -51,43 +51,43 @@ def tags_of(task: pushplan.Task) -> list[Tag]:
 
 
 def camera() -> Camera:
-    """The calibrated camera; its pose is computed from the tags on the table."""
+    """The camera as it was calibrated; where it is, is found by the tags on the table."""
     focal = HEIGHT / 2 / math.tan(math.radians(FIELD) / 2)
-    # The origin of MuJoCo's pixels is a corner, the origin of OpenCV's pixels their middle.
+    # MuJoCo's pixels are counted by their corners, OpenCV's by their middles.
     return Camera(np.array([[focal, 0, WIDTH / 2 - 0.5], [0, focal, HEIGHT / 2 - 0.5], [0, 0, 1]]))
 
 
 class World:
-    """The table of a task; ``poses`` are the true poses of its objects, x, y and heading."""
+    """The table of a task; ``poses`` is where its objects truly are, x, y and heading."""
 
     def __init__(self, task: pushplan.Task, seed: int) -> None:
         self.task = task
         rng = np.random.default_rng(seed)
-        #: Factors of true masses and frictions relative to the task.
+        #: By how much objects are heavier, and rub more, than the task says.
         self.heavier = rng.uniform(0.8, 1.25, len(task.objects))
         self.rougher = rng.uniform(0.85, 1.15, len(task.objects))
-        #: Indices of the free joints of the objects.
+        #: Of the free joints of the objects.
         self.places: Optional[Floats] = None
         #: Called with model and data after every step, for films.
         self.watch: Optional[Callable[[Any, Any], None]] = None
         self._build(pushplan.Plan.of(task, task.tools[0] if task.tools else "stick", []))
 
     def photo(self) -> npt.NDArray[np.uint8]:
-        """The image of the camera."""
+        """What the camera sees."""
         mujoco.mj_forward(self.model, self.data)
         with mujoco.Renderer(self.model, HEIGHT, WIDTH) as renderer:
             renderer.update_scene(self.data, "camera")
             return np.ascontiguousarray(renderer.render())
 
     def carry_out(self, plan: pushplan.Plan) -> None:
-        """Attaches the tool of the plan to the arm, executes the plan, and returns home."""
+        """The arm takes the tool of the plan, does what the plan says, and goes home."""
         self._build(plan)
         way = plan.to_dict()["joints"]["points"]
         times = np.array([point["time"] for point in way])
         places = np.array([point["positions"] for point in way])
         speeds = np.array([point["velocities"] for point in way])
         if not np.allclose(places[-1], places[0]):
-            # The plan has no path home past the objects; a lifted arm rarely collides.
+            # The plan found no way home past what stands there; what is lifted mostly meets nothing.
             takes = 1.5 * np.abs(places[-1] - places[0]).max() / HOMEWARDS
             times = np.append(times, times[-1] + takes)
             places, speeds = np.vstack([places, places[0]]), np.vstack([speeds, 0 * speeds[0]])
@@ -102,7 +102,7 @@ class World:
 
     @property
     def poses(self) -> Floats:
-        """True poses of the objects; the heading of a toppled object is NaN."""
+        """Where the objects truly are; heading is NaN of what has toppled."""
         found = []
         for name in self.task.objects:
             body = self.data.body(f"object/{name}")
@@ -125,7 +125,7 @@ class World:
         return np.concatenate([joint.qposadr[0] + np.arange(7) for joint in self.free])
 
     def _build(self, plan: pushplan.Plan) -> None:
-        """The scene of a plan, with tags and a camera; objects keep their poses."""
+        """The scene of a plan, with tags and a camera; objects are where they were."""
         spec = mujoco.MjSpec.from_string(plan.to_mjcf())
         spec.visual.global_.offwidth, spec.visual.global_.offheight = WIDTH, HEIGHT
         spec.visual.headlight.ambient, spec.visual.headlight.specular = [0.5] * 3, [0.0] * 3
@@ -144,7 +144,7 @@ class World:
                 # The column that stands for the arm's base in plans would hide it.
                 geom.rgba[3] = 0
         if not plan.pushes:
-            # The hand is empty, and no arm is visible.
+            # Nothing is in the hand, and there is no arm to see.
             for geom in spec.body("tool").geoms:
                 geom.rgba[3] = 0
         for name, eye, middle in [("camera", EYE, MIDDLE), ("film", *FILM)]:
@@ -165,7 +165,7 @@ class World:
         mujoco.mj_forward(self.model, self.data)
 
     def _make_true(self) -> None:
-        """Sets the true masses and frictions instead of the values of the task."""
+        """Masses and frictions as they are, not as the task has them."""
         for k, name in enumerate(self.task.objects):
             body = self.model.body(f"object/{name}")
             self.model.body_mass[body.id] *= self.heavier[k]
@@ -177,7 +177,7 @@ class World:
 
 
 def stick(spec: Any, body: Any, tag: int, edge: float, at: list[float]) -> None:
-    """Attaches a tag to a body."""
+    """Glues a tag to a body."""
     dictionary = cv2.aruco.getPredefinedDictionary(getattr(cv2.aruco, FAMILY))
     black = cv2.aruco.generateImageMarker(dictionary, tag, 400)
     white = round(400 * (1 / BLACK - 1) / 2)
@@ -194,7 +194,7 @@ def stick(spec: Any, body: Any, tag: int, edge: float, at: list[float]) -> None:
 
 
 def towards(eye: Floats, middle: Floats) -> Floats:
-    """The orientation of a camera with this target, w x y z."""
+    """The turn of a camera that looks there, w x y z."""
     ahead = (middle - eye) / np.linalg.norm(middle - eye)
     right = np.cross(ahead, [0, 0, 1])
     right /= np.linalg.norm(right)
@@ -204,7 +204,7 @@ def towards(eye: Floats, middle: Floats) -> Floats:
 
 
 class Film:
-    """Film of the second camera, at twice the speed."""
+    """What the second camera sees of what is carried out, twice as fast."""
 
     EVERY, SIZE = 0.2, (270, 360)
 
@@ -214,7 +214,7 @@ class Film:
         self.due = 0.0
 
     def watch(self, model: Any, data: Any) -> None:
-        """Call it after every step."""
+        """To be called after every step."""
         if model is not self.model:
             self.model, self.due = model, 0.0
             self.renderer = mujoco.Renderer(model, *self.SIZE)
@@ -224,14 +224,14 @@ class Film:
             self.frames.append(self.renderer.render()[:, :, ::-1].copy())
 
     def save(self, path: str) -> None:
-        """Writes an animation: WebP, GIF or APNG by the file ending, with OpenCV 4.11 or newer."""
+        """As an animated picture: WebP, GIF or APNG by the ending, with OpenCV 4.11 or newer."""
         animation = cv2.Animation()
         animation.frames, animation.durations = self.frames, [round(500 * self.EVERY)] * len(self.frames)
         cv2.imwriteanimation(path, animation, [cv2.IMWRITE_WEBP_QUALITY, 70])
 
 
 def between(times: Floats, places: Floats, speeds: Floats, time: float) -> tuple[Floats, Floats]:
-    """Positions and velocities of joints: cubics between the points of a path."""
+    """Positions and velocities of joints: cubics between the points of a way."""
     k = int(np.clip(np.searchsorted(times, time) - 1, 0, len(times) - 2))
     dt = times[k + 1] - times[k]
     s = min(max((time - times[k]) / dt, 0.0), 1.0)

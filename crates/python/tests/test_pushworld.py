@@ -50,10 +50,10 @@ def test_cells_become_metres(pushworld: ModuleType) -> None:
 @pytest.mark.parametrize(
     ("text", "fault"),
     [
-        (" . .\n .", "the same length"),
-        (" . X\n . .", "row 1, column 2: `X` is not a cell"),
-        (" . G0\n . .", "`G0` has no movable `M0`"),
-        ("", "the same length"),
+        (" . .\n .", "of one length"),
+        (" . X\n . .", "row 1, column 2: `X` is no cell"),
+        (" . G0\n . .", "`G0` is the goal of no movable"),
+        ("", "of one length"),
     ],
 )
 def test_what_is_no_puzzle_is_refused(pushworld: ModuleType, text: str, fault: str) -> None:
