@@ -43,7 +43,7 @@
 //!     let solution = planner.solve(&task, &library)?;
 //!     assert_eq!(solution.status, PlanStatus::Solved);
 //!     if let Some(best) = solution.best() {
-//!         println!("use the {}: off by {:.1} mm", best.plan.tool(), 1000.0 * best.outcome.error());
+//!         println!("use the {}: error {:.1} mm", best.plan.tool(), 1000.0 * best.outcome.error());
 //!     }
 //!     Ok(())
 //! }

@@ -1,9 +1,9 @@
-//! Efforts: measured levels of planning.
+//! Efforts: models and budgets of each level of planning.
 //!
-//! `pushplan-lab tradeoff` measures robustness and cost of every level and states the level of each
-//! effort (`crates/lab/results/tradeoff.json`). These levels lie on the Pareto front among the
-//! levels in which the network decides. A test compares the rows below with that file, and fails if
-//! another such level is both cheaper and more robust.
+//! `pushplan-lab tradeoff` measures robustness and cost of levels, and
+//! `crates/lab/results/tradeoff.json` holds the published measurement. A test compares the rows
+//! below with that file. If they differ, the published page must be marked stale; if they agree, no
+//! other level in which the network decides may be both cheaper and more robust.
 
 use std::num::NonZeroU16;
 

@@ -39,8 +39,9 @@ impl fmt::Display for Effort {
 }
 
 /// Budgets of a planner, as counts and not in seconds, so that results do not depend on the
-/// machine. A push of one object costs about 0.04 ms of one core in the analytic model, 0.16 in the
-/// network, 1.1 in 2-D and 9 in 3-D simulation (`crates/lab/results/tradeoff.md`).
+/// machine. A push of one object costs about twice as much in the network as in the analytic model,
+/// tens of times as much in 2-D simulation, and hundreds of times as much in 3-D simulation
+/// (`crates/lab/results/tradeoff.md`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Settings {
     /// Number of lateral offsets per contacting face. Three distinguish left, right and middle;
