@@ -61,7 +61,8 @@ const HOUSES: [(&str, &str, Rooms); 12] = [
             ("trivial", ""),
             ("bench", "image parts trivial"),
             ("report", "bench"),
-            ("cli", "image parts trivial bench report"),
+            ("published", "bench"),
+            ("cli", "image parts trivial bench report published"),
         ],
     ),
 ];

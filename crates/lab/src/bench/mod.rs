@@ -4,6 +4,7 @@
 //! written as JSON; nothing is rendered here.
 
 mod adapted;
+mod answers;
 mod baselines;
 mod belief;
 mod calibration;
@@ -25,6 +26,7 @@ mod timing;
 mod tradeoff;
 
 pub use adapted::{AdaptedPush, AdaptedRow, Ratio, Split, adapted_rows, measure_split, splits};
+pub use answers::{AnswerError, Answers};
 pub use baselines::{crowd_baselines, push_baselines};
 pub use belief::{
     Asked, BeliefCase, BeliefRecord, BeliefStep, BeliefSuite, BeliefSummary, Checkpoint,

@@ -14,7 +14,7 @@ use pushplan_command::{exit_code, start};
 
 use super::{
     adapted, convergence, cost, evaluate, hdd, joints, kept, lever_points, lever_tasks, levers,
-    masses, probes, random, refinement, rest_of_way, tradeoff, train,
+    masses, measure, probes, random, refinement, rest_of_way, tradeoff, train,
 };
 
 /// Measures the published results of pushplan: errors, costs, success, beliefs and trade-offs.
@@ -46,6 +46,7 @@ enum Command {
     LeverTasks(SuiteArgs<lever_tasks::LeverTasksArgs>),
     LeverPoints(lever_points::LeverPointsArgs),
     Train(train::TrainArgs),
+    Measure(measure::MeasureArgs),
     Merge(MergeArgs),
     Status(StatusArgs),
     Report(ReportArgs),
@@ -58,6 +59,7 @@ const GROUPS: Groups = &[
     ("Belief", &["joints", "rest-of-way", "masses", "probes"]),
     ("Levering", &["levers", "lever-tasks", "lever-points", "hdd", "convergence", "train"]),
     ("Saved runs", &["merge", "status", "report"]),
+    ("Published tables", &["measure"]),
 ];
 
 /// Runs the command with the given arguments, the program's name first, and returns its exit code.
@@ -84,6 +86,7 @@ fn execute(cli: &Cli, session: &Session) -> Result<u8, CliError> {
         Command::LeverTasks(args) => args.run(session)?,
         Command::LeverPoints(args) => lever_points::run(args, session)?,
         Command::Train(args) => return train::run(args, session),
+        Command::Measure(args) => measure::run(args, session)?,
         Command::Merge(args) => saved::merge(args, &kept::SUITES, session)?,
         Command::Status(args) => status::run(args, session)?,
         Command::Report(args) => saved::report(args, &kept::SUITES, session)?,

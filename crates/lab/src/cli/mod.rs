@@ -12,6 +12,7 @@ mod lever_points;
 mod lever_tasks;
 mod levers;
 mod masses;
+mod measure;
 mod probes;
 mod random;
 mod refinement;

@@ -9,6 +9,7 @@ mod joints_bench;
 mod lever_models;
 mod lever_parts;
 mod parts_training;
+mod published;
 mod random_tasks;
 mod shards;
 mod shipped_network;

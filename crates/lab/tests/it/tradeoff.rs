@@ -13,6 +13,7 @@ use pushplan_lab::bench::{
     Level, ObjectCost, PlanRow, Suite, SuiteKind, TradeOff, TradeOffReport, TradeOffSettings, Unit,
     dominates, is_open_to, levels, plan_levels,
 };
+use pushplan_lab::published::{place, select, tables};
 use pushplan_lab::report::tradeoff_document;
 
 fn model(spec: &str) -> Fallback {
@@ -122,14 +123,29 @@ fn every_level_is_measured_and_an_interrupted_run_goes_on() {
     assert!(document.to_page().contains("](tradeoff-push.svg)"));
 }
 
-/// Shipped results of `pushplan-lab tradeoff`.
+/// Published results of `pushplan-lab tradeoff`, and their page.
 const MEASURED: &str = include_str!("../../results/tradeoff.json");
+const PAGE: &str = include_str!("../../results/tradeoff.md");
+
+/// Returns `true` if an effort runs the models and budgets that were published for it, as far as pushes
+/// go.
+fn is_published(effort: Effort, report: &TradeOffReport) -> bool {
+    let level = &report.efforts[&effort];
+    let Models { screened, decided } = effort.models();
+    let first = |spec: &ModelSpec| ModelSpec::of(spec.first().kind.clone());
+    let models = Models { screened: first(&screened), decided: first(&decided) };
+    let Settings { replays, levers, .. } = level.settings;
+    let pushing = Settings { replays, levers, ..effort.settings() };
+    models == level.models() && pushing == level.settings
+}
 
 #[test]
 fn every_effort_is_a_measured_level_that_no_other_makes_needless() {
     let report: TradeOffReport = serde_json::from_str(MEASURED).unwrap();
-    // A file from before screening models has no information on the efforts.
-    if report.plans.iter().all(|row| row.level.screen.is_none()) {
+    // Published levels that no effort runs are evidence of nothing, and their page must state that.
+    if !Effort::ALL.iter().all(|effort| is_published(*effort, &report)) {
+        let stale = place(PAGE, "tradeoff").expect("a place").stale;
+        assert!(stale.is_some(), "efforts run other models: `pushplan-lab measure tradeoff`");
         return;
     }
     let row = |name: &str| report.plans.iter().find(|row| row.level.name == name).unwrap();
@@ -139,14 +155,7 @@ fn every_effort_is_a_measured_level_that_no_other_makes_needless() {
             let level = &report.efforts[effort];
             let row = row(&level.name);
             assert_eq!(&row.level, level);
-            let Models { screened, decided } = effort.models();
-            let first = |spec: &ModelSpec| ModelSpec::of(spec.first().kind.clone());
-            let models = Models { screened: first(&screened), decided: first(&decided) };
-            assert_eq!(models, level.models(), "{effort}");
-            let Settings { replays, levers, .. } = level.settings;
-            let pushing = Settings { replays, levers, ..effort.settings() };
-            assert_eq!(pushing, level.settings, "{effort}");
-            assert!(effort.settings().replays >= replays, "{effort}");
+            assert!(effort.settings().replays >= level.settings.replays, "{effort}");
             row
         })
         .collect();
@@ -172,12 +181,10 @@ fn every_effort_is_a_measured_level_that_no_other_makes_needless() {
 fn the_page_says_what_each_effort_costs_and_gives() {
     let report: TradeOffReport = serde_json::from_str(MEASURED).unwrap();
     let document = tradeoff_document(&report);
-    let efforts = document.sections.iter().find(|section| section.title == "Efforts");
-    let table = efforts.expect("a table of efforts").table.to_markdown();
-    assert!(
-        include_str!("../../results/tradeoff.md").contains(&table),
-        "the page has not\n{table}"
-    );
+    let published = tables().find(|table| table.name == "tradeoff").expect("a published table");
+    let efforts = published.picks.iter().filter(|pick| pick.0 == "Efforts").copied();
+    let table = select(&document.to_markdown(), &efforts.collect::<Vec<_>>()).unwrap();
+    assert!(PAGE.contains(&table), "the page lacks\n{table}");
 }
 
 /// Share of the engine's cost below which a model is preferred. Closer to the engine's cost, the
@@ -256,19 +263,19 @@ fn what_models_say_of_their_errors_is_what_was_measured() {
     }
     // The shipped errors of analytic model and network agree with the results on four times as many
     // pushes.
-    let results = include_str!("../../results/results.md");
+    let results = include_str!("../../results/prediction.md");
     for name in ["prior", "network"] {
         let rows: Vec<Vec<&str>> = results
             .lines()
-            .filter(|line| line.starts_with(&format!("| {name} ")))
+            .filter(|line| line.starts_with(&format!("|{name}|")))
             .map(|line| line.split('|').map(str::trim).collect())
             .collect();
         for (suite, row) in suites.iter().zip([&rows[0], &rows[2]]) {
             let case = &suite.cases[0];
             let job = Job::stated(&case.scene, case.motion.clone());
             let expected = model(name).trust(&case.scene, &job).error().expect("it was measured");
-            assert_eq!(format!("{:.2} mm", 1e3 * expected.median), row[4], "{name}");
-            assert_eq!(format!("{:.2} mm", 1e3 * expected.p95), row[5], "{name}");
+            assert_eq!(format!("{:.2}", 1e3 * expected.median), row[3], "{name}");
+            assert_eq!(format!("{:.2}", 1e3 * expected.p95), row[4], "{name}");
         }
     }
 }

@@ -8,38 +8,34 @@ use super::cell::{Cell, Kind};
 use super::judged::{Judged, Verdict, Yardstick};
 use super::tasks::TaskCell;
 
-/// Rule by which cells are judged.
-const RULE: &str = "\
-A cell is a set of pushes with one extreme in common. Otherwise, one to three 10 cm objects (400 g,
-friction 0.4, table friction 0.5) are pushed 20 cm at 0.1 m/s by the shipped tools in turn. The
-error of a push is the maximum over its objects. It combines as squares the distance of the centre
-from its position in the 2-D engine and, for a cuboid, the rotation error times its mean radius. A
-push is wrong if its error exceeds three limits: 3 times the 95th percentile of ordinary pushes of
-its kind, 5 % of the true motion, and 3 times the spread of the ground truth. This spread is its
-change if the time step is halved or the start shifted by 0.1 mm. If the error exceeds only the
-first two limits, the push is undecided. Some ordinary pushes are wrong, too (last column of the
-first table), so a cell is wrong if more than a tenth of its pushes are. A push is flagged if the
-model warned before or during the rollout. A cell is a DEFECT in three cases: more than a tenth of
-its pushes are wrong and not flagged, a prediction is not finite, or an object ends farther away
-than the tool could send it. If the engine itself is known to be wrong (\u{2020}), every push must
-be flagged; in front of a wall, this holds if the object truly touches both tool and wall.
-";
+/// Returns all tables in Markdown, each below its title.
+pub fn page(extremes: &Extremes) -> String {
+    let tables = [
+        ("Ordinary pushes", yardstick_table(&extremes.yardsticks)),
+        ("Cells by extreme", extreme_table(&extremes.cells)),
+        ("All cells", cell_table(&extremes.cells)),
+        ("Tasks", task_table(&extremes.tasks)),
+    ];
+    let tables = tables.map(|(title, table)| format!("{title}:\n\n{}", table.to_markdown()));
+    format!("{}.\n\n{}", line(extremes), tables.join("\n"))
+}
 
-/// Returns the page, with the `command` that writes it.
-pub fn page(extremes: &Extremes, command: &str) -> String {
-    let mut doubts: Vec<&str> =
-        extremes.cells.iter().filter_map(|(cell, _)| Some(cell.doubt?.why)).collect();
-    doubts.sort_unstable();
-    doubts.dedup();
-    let doubts: String = doubts.iter().map(|doubt| format!("- \u{2020} {doubt}\n")).collect();
-    format!(
-        "# At the extremes\n\n{}.\n\n```sh\n{command}\n```\n\n{RULE}\n{}\n{}\n{doubts}\n\
-         ## Tasks\n\nEach row is a random solvable task with an extreme value, at draft effort.\n\n{}",
-        line(extremes),
-        yardstick_table(&extremes.yardsticks).to_markdown(),
-        cell_table(&extremes.cells).to_markdown(),
-        task_table(&extremes.tasks).to_markdown(),
-    )
+/// Returns all cells as lines of a file.
+pub fn csv(extremes: &Extremes) -> String {
+    cell_table(&extremes.cells).to_csv()
+}
+
+/// Returns extreme, value and objects of a cell as they begin its line in [`csv`].
+pub fn beginning(cell: &Cell) -> String {
+    let mut table = Table::new(["extreme", "value", "on"].map(|name| (name, Align::Left)));
+    table.row(named(cell));
+    table.to_csv().lines().nth(1).unwrap_or_default().to_owned()
+}
+
+/// Extreme, value and objects of a cell; the sign is of cells whose truth is doubted.
+fn named(cell: &Cell) -> [String; 3] {
+    let doubt = if cell.doubt.is_some() { " \u{2020}" } else { "" };
+    [cell.factor.to_owned(), format!("{}{doubt}", cell.value), on(cell.kind).to_owned()]
 }
 
 fn line(extremes: &Extremes) -> String {
@@ -81,6 +77,26 @@ fn yardstick_table(yardsticks: &[Yardstick]) -> Table {
     table
 }
 
+/// Numbers of cells with each verdict, by extreme.
+fn extreme_table(cells: &[(Cell, Judged)]) -> Table {
+    let names = VERDICTS.map(|verdict| (title(verdict), Align::Right));
+    let columns = [("extreme", Align::Left)].into_iter().chain(names);
+    let mut table = Table::new(columns);
+    let mut extremes: Vec<&str> = Vec::new();
+    for (cell, _) in cells {
+        if !extremes.contains(&cell.factor) {
+            extremes.push(cell.factor);
+        }
+    }
+    for extreme in extremes {
+        let own = || cells.iter().filter(|(cell, _)| cell.factor == extreme);
+        let count = |verdict| own().filter(|(_, judged)| judged.verdict == verdict).count();
+        let counts = VERDICTS.map(|verdict| count(verdict).to_string());
+        table.row([extreme.to_owned()].into_iter().chain(counts));
+    }
+    table
+}
+
 fn cell_table(cells: &[(Cell, Judged)]) -> Table {
     let mut table = Table::new([
         ("extreme", Align::Left),
@@ -96,16 +112,17 @@ fn cell_table(cells: &[(Cell, Judged)]) -> Table {
         ("of", Align::Right),
         ("verdict", Align::Left),
         ("warnings", Align::Left),
+        ("doubt", Align::Left),
     ]);
     for (cell, judged) in cells {
         let of = |summary: &Option<Summary>, value: fn(&Summary) -> f64| {
             summary.as_ref().map_or(NONE.to_owned(), |summary| short(value(summary)))
         };
-        let doubt = if cell.doubt.is_some() { " \u{2020}" } else { "" };
+        let [factor, value, on] = named(cell);
         table.row([
-            cell.factor.to_owned(),
-            format!("{}{doubt}", cell.value),
-            on(cell.kind).to_owned(),
+            factor,
+            value,
+            on,
             of(&judged.motion, |summary| summary.mean),
             of(&judged.error, |summary| summary.mean),
             of(&judged.error, |summary| summary.p95),
@@ -116,6 +133,7 @@ fn cell_table(cells: &[(Cell, Judged)]) -> Table {
             judged.pushes.to_string(),
             verdict(judged),
             judged.warnings.join("; "),
+            cell.doubt.map_or_else(String::new, |doubt| doubt.why.to_owned()),
         ]);
     }
     table
@@ -153,14 +171,27 @@ fn on(kind: Kind) -> &'static str {
     }
 }
 
-fn verdict(judged: &Judged) -> String {
-    let title = match judged.verdict {
+/// All verdicts, in the order of columns.
+const VERDICTS: [Verdict; 5] = [
+    Verdict::Right,
+    Verdict::RightFlagged,
+    Verdict::WrongFlagged,
+    Verdict::Undecided,
+    Verdict::Defect,
+];
+
+fn title(verdict: Verdict) -> &'static str {
+    match verdict {
         Verdict::Right => "right",
         Verdict::RightFlagged => "right, flagged",
         Verdict::WrongFlagged => "wrong, flagged",
         Verdict::Undecided => "no ground truth, flagged",
         Verdict::Defect => "DEFECT",
-    };
+    }
+}
+
+fn verdict(judged: &Judged) -> String {
+    let title = title(judged.verdict);
     if judged.finite < judged.pushes {
         format!("{title}, {} not finite", judged.pushes - judged.finite)
     } else if judged.bounded < judged.pushes {

@@ -1,0 +1,80 @@
+//! Tables of plans.
+
+use super::super::table::{ALL, Published, table};
+use super::inputs::{PLANS, PUSHES, RUNS};
+
+/// Results of tool choices.
+const CHOICES: &[&str] = &["choice", "planar", "3-D", "largest", "≤ 5 cm#1", "pushes"];
+
+/// Tables of plans.
+#[rustfmt::skip] // a table in a few lines each
+pub const TABLES: &[Published] = &[
+    table("random-tasks", "random-tasks.md", (25, 600, "tasks"), PLANS,
+        "pushplan-lab random --count 600", &[
+            ("By kind and method", &["kind", "tasks", "solved", "within, 3-D", "predicted, mean",
+            "3-D, mean", "3-D, median", "3-D, p95"], &["| prior,", "network"]),
+            ("By kind and method", &["kind", "method", "within, 3-D", "3-D, mean"],
+            &["| all | random", "| all | do nothing"]),
+            ("Time and effort", &["kind", "fragile", "pushes", "attempts", "rollouts", "search",
+            "refinement", "verification", "time", "time, p95"], ALL),
+        ]),
+    table("shipped-tasks", "shipped-tasks.md", (3, 51, "tasks"), PLANS,
+        "pushplan bench tasks tasks/*.yaml", &[
+            ("tasks solved", &["task", "status", "tool", "planar", "3-D", "allowed", "time"],
+            &["no plan", "| 2 |"]),
+        ]),
+    table("everyday", "everyday.md", (30, 300, "tasks"), PLANS,
+        "KIND=everyday crates/lab/benches/mujoco runs/everyday 300 7", &[]),
+    table("impossible", "impossible.md", (15, 130, "tasks"), PLANS,
+        "python3 crates/lab/benches/impossible.py --out runs/impossible --count 5 \
+         --solve pushplan", &[
+            ("", ALL, &["called solved"]),
+        ]),
+    table("edited", "impossible.md", (6, 320, "edited plans"), PLANS,
+        "python3 crates/lab/benches/edited.py runs/mujoco/plans --out runs/edited \
+         --verify pushplan", &[
+            ("", ALL, &[" pass"]),
+        ]),
+    table("tool-choice", "tool-choice.md", (10, 118, "tasks"), PLANS,
+        "pushplan bench tools", &[
+            ("All tool poses together", CHOICES, ALL),
+            ("Each tool pose alone", &["tool, choice", "3-D", "≤ 5 cm#1", "pushes"], &[",
+            planned"]),
+        ]),
+    table("tool-choice-scattered", "tool-choice.md", (10, 142, "tasks"), PLANS,
+        "pushplan bench tools --layout scattered", &[
+            ("All tool poses together", CHOICES, ALL),
+        ]),
+    table("tool-choice-single", "tool-choice.md", (10, 20000, "tasks"), PUSHES,
+        "pushplan bench tools --form single --tasks 20000", &[]),
+    table("refinement", "refinement.md", (8, 200, "tasks"), PLANS,
+        "pushplan-lab refinement --model network", &[
+            ("200 random", &["plans", "solved", "on all supports", "predicted", "planar", "3-D",
+            "median", "p95", "replays a task", "rollouts"], ALL),
+        ]),
+    table("designed-tools", "designed-tools.md", (20, 40, "tasks"), PLANS,
+        "for way in '' '--candidates 100' --random; do python3 \
+         crates/lab/benches/design.py --out runs/designed --solve pushplan $way; done", &[
+            ("", ALL, &["solved"]),
+        ]),
+    table("push-t", "benchmarks.md", (15, 50, "games"), PLANS,
+        "python examples/push_t.py --seeds 100000 100050", &[
+            ("", ALL, &["covered"]),
+        ]),
+    table("pushworld", "benchmarks.md", (30, 68, "puzzles"), PLANS,
+        "python examples/pushworld.py --out runs/pushworld", &[
+            ("", ALL, &["solved"]),
+        ]),
+    table("robot-arms", "robot-arms.md", (15, 39, "tasks an arm"), PLANS,
+        "python crates/lab/benches/arms.py --effort draft --out runs/arms", &[
+            ("", ALL, &["pinocchio_agrees"]),
+        ]),
+    table("robot-arms-mujoco", "robot-arms.md", (15, 96, "plans"), PLANS,
+        "python crates/lab/benches/arms.py --arms panda --mujoco --out runs/arms-mujoco", &[
+            ("", ALL, &["reached_in_mujoco"]),
+        ]),
+    table("camera-loop", "robot-arms.md", (15, 20, "scenes"), RUNS,
+        "python examples/robot/run.py --scenes 20 --seed 20261127", &[
+            ("", ALL, &["\"reached\""]),
+        ]),
+];
