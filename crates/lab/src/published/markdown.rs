@@ -5,7 +5,7 @@ use super::table::Pick;
 /// Units that a column states once, in its header.
 const UNITS: [&str; 8] = ["mm", "%", "\u{b5}s", "ms", "s", "\u{b0}", "times", "m"];
 
-/// Most lines of plain text that are published.
+/// Maximum number of published lines of plain text.
 const LINES: usize = 12;
 
 /// A table with the line above it.
@@ -48,7 +48,7 @@ fn lines(output: &str, words: &[&str]) -> Result<String, String> {
     }
 }
 
-/// All tables, in order.
+/// Returns the tables of an output, in order.
 fn found(output: &str) -> Vec<Found> {
     let (mut tables, mut title, mut inside) = (Vec::<Found>::new(), "", false);
     for line in output.lines().map(str::trim) {

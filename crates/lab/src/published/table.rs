@@ -2,7 +2,7 @@
 
 use super::registry::SUBJECTS;
 
-/// All columns or rows.
+/// Selection of every column or row.
 pub(super) const ALL: &[&str] = &[];
 
 /// Part of a command's output that is published: words of a table's title, its columns, and words of

@@ -24,7 +24,7 @@ use cell::{Cell, Kind};
 use judged::{Judged, Verdict, Yardstick};
 use tasks::TaskCell;
 
-/// All published cells, and the folder for the tables that `pushplan-lab measure extremes` reads.
+/// Published cells, and the folder for the tables that `pushplan-lab measure extremes` reads.
 const CELLS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/results/extremes.csv");
 const TABLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../target");
 

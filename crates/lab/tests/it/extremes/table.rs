@@ -171,7 +171,7 @@ fn on(kind: Kind) -> &'static str {
     }
 }
 
-/// All verdicts, in the order of columns.
+/// Verdicts in the order of columns.
 const VERDICTS: [Verdict; 5] = [
     Verdict::Right,
     Verdict::RightFlagged,
