@@ -92,11 +92,13 @@ impl Found {
         let wanted = |row: &&Vec<String>| {
             rows.is_empty() || rows.iter().any(|words| joined(row).contains(words))
         };
-        let of = |row: &Vec<String>| places.iter().filter_map(|at| row.get(*at).cloned()).collect();
+        let of = |row: &Vec<String>| -> Vec<String> {
+            places.iter().filter_map(|at| row.get(*at).cloned()).collect()
+        };
         let mut table = Self {
             title: self.title.clone(),
             header: of(&self.header),
-            alignment: of(&self.alignment),
+            alignment: of(&self.alignment).iter().map(|cell: &String| aligned(cell)).collect(),
             rows: self.rows.iter().filter(wanted).map(of).collect(),
         };
         if table.rows.is_empty() {
@@ -139,6 +141,11 @@ impl Found {
         let rows = [&self.header, &self.alignment].into_iter().chain(&self.rows);
         rows.map(|row| format!("|{}|\n", row.join("|"))).collect()
     }
+}
+
+/// Shortest mark of a column's alignment.
+fn aligned(cell: &str) -> String {
+    if cell.ends_with(':') { "--:" } else { "---" }.to_owned()
 }
 
 /// The number before a unit.

@@ -133,7 +133,7 @@ fn parts_of_an_output_are_selected_with_units_in_the_header() {
     assert_eq!(picked, "|model|mean|mean|\n|---|--:|--:|\n|two|1 ms|2.0 mm|\n");
     let both = select(output, &[("First", &["mean", "mean#1", "note"], &[]), ("Last", &[], &[])]);
     let table = "|mean, mm|mean|note|\n|--:|--:|---|\n|1.5|3 \u{b5}s|a\\|b|\n|2.0|1 ms||\n";
-    assert_eq!(both.unwrap(), format!("First:\n\n{table}\nLast:\n\n|x|\n|-|\n|1|\n"));
+    assert_eq!(both.unwrap(), format!("First:\n\n{table}\nLast:\n\n|x|\n|---|\n|1|\n"));
     let plain = "one: 3 of 5\ntwo: 4 of 5\n7 of 10 solved\n";
     assert_eq!(select(plain, &[("", &[], &["solved"])]).unwrap(), "```text\n7 of 10 solved\n```\n");
     for (pick, fault) in [
