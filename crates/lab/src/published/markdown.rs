@@ -1,6 +1,9 @@
 //! Tables within the Markdown that commands print.
 
-use super::table::Pick;
+use super::table::{ALL, Pick};
+
+/// Selection of the only table, or of the last lines.
+const EVERYTHING: &[Pick] = &[("", ALL, ALL)];
 
 /// Units that a column states once, in its header.
 const UNITS: [&str; 8] = ["mm", "%", "\u{b5}s", "ms", "s", "\u{b0}", "times", "m"];
@@ -24,14 +27,14 @@ struct Found {
 /// Words of the first pick that the output lacks.
 pub fn select(output: &str, picks: &[Pick]) -> Result<String, String> {
     let tables = found(output);
-    let picks = if picks.is_empty() { &[("", &[][..], &[][..])][..] } else { picks };
+    let picks = if picks.is_empty() { EVERYTHING } else { picks };
     if tables.is_empty() {
         return lines(output, picks[0].2);
     }
     let mut parts = Vec::new();
     for pick in picks {
-        let mut table = tables.iter().find(|table| table.title.contains(pick.0));
-        let table = table.take().ok_or_else(|| format!("no table `{}`", pick.0))?.picked(pick)?;
+        let table = tables.iter().find(|table| table.title.contains(pick.0));
+        let table = table.ok_or_else(|| format!("no table `{}`", pick.0))?.picked(pick)?;
         let title = if picks.len() > 1 { format!("{}:\n\n", table.title) } else { String::new() };
         parts.push(title + &table.shown());
     }
