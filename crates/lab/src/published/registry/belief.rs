@@ -62,11 +62,11 @@ pub const TABLES: &[Published] = &[
         "pushplan-lab masses --touching --crowds 9 --count 24", &[
             ("Masses are 0.2", MASSES, NOISY),
         ]),
-    table("masses-controlled", "masses.md", (10, 100, "trajectories a row"), BELIEFS,
+    table("masses-controlled", "mass-conditions.md", (10, 100, "trajectories a row"), BELIEFS,
         "pushplan-lab masses --touching --controlled rows wedges --count 100", &[
             ("Masses are 0.2", MASSES, NOISY),
         ]),
-    table("masses-friction", "masses.md", (8, 100, "trajectories a row"), BELIEFS,
+    table("masses-friction", "mass-conditions.md", (8, 100, "trajectories a row"), BELIEFS,
         "pushplan-lab masses --frictions --seen exact --seen fine --count 100", &[
             ("Masses are 0.2", MASSES, NOISY),
         ]),

@@ -41,11 +41,11 @@ pub const TABLES: &[Published] = &[
             ("Each tool pose alone", &["tool, choice", "3-D", "≤ 5 cm#1", "pushes"], &[",
             planned"]),
         ]),
-    table("tool-choice-scattered", "tool-choice.md", (10, 142, "tasks"), PLANS,
+    table("tool-choice-scattered", "tool-choice-scattered.md", (10, 142, "tasks"), PLANS,
         "pushplan bench tools --layout scattered", &[
             ("All tool poses together", CHOICES, ALL),
         ]),
-    table("tool-choice-single", "tool-choice.md", (10, 20000, "tasks"), PUSHES,
+    table("tool-choice-single", "tool-choice-scattered.md", (10, 20000, "tasks"), PUSHES,
         "pushplan bench tools --form single --tasks 20000", &[]),
     table("refinement", "refinement.md", (8, 200, "tasks"), PLANS,
         "pushplan-lab refinement --model network", &[
