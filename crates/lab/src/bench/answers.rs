@@ -24,7 +24,7 @@ const PUSHES: [(SuiteKind, usize); 3] =
 /// Number of objects in a crowd.
 const CROWD: usize = 6;
 
-/// Shipped tasks of pushes: by walls, to a heading, with a joint, by two pushes, and without a plan.
+/// Shipped tasks of pushes: near walls, to a heading, with a joint, with two tools, without a plan.
 const TASKS: [&str; 6] =
     ["pull-back-behind-wall", "narrow-gap", "turn-the-box", "drawer", "two-tools", "boxed-in"];
 

@@ -57,7 +57,7 @@ impl Fingerprint {
     }
 }
 
-/// Numbers to a tenth of a millimetre or a thousandth of their unit, so that other processors agree.
+/// Numbers to four decimals, a tenth of a millimetre, so that other processors agree.
 fn text(numbers: &[f64]) -> String {
     // Adding zero makes -0 positive.
     let rounded =

@@ -31,8 +31,8 @@ pub fn recorded(page: &str, name: &str, place: &Place) -> Option<String> {
     Some(format!("{before}{}{after}", place.text()))
 }
 
-/// Returns a page on which the table has the mark that it deserves today; `None` if it has no place for
-/// the table.
+/// Returns a page on which the table has the mark that it deserves today; `None` if it has no place
+/// for the table.
 pub fn marked(page: &str, table: &Published, now: &Fingerprint) -> Option<String> {
     let place = place(page, table.name)?;
     let stale = place.judge(table, now);

@@ -13,7 +13,8 @@ use super::markdown::select;
 use super::place::{Age, Place};
 use super::table::Published;
 
-/// Folder of unfinished runs, one below it for each set of inputs: a run on other weights starts anew.
+/// Folder of unfinished runs. Each set of inputs has its own below it, so that a run on other weights
+/// starts anew.
 const RUNS: &str = "runs/";
 
 /// Subcommands that keep finished tasks in the folder given with `--out`, and resume.

@@ -5,8 +5,8 @@ use super::registry::SUBJECTS;
 /// Selection of every column or row.
 pub(super) const ALL: &[&str] = &[];
 
-/// Part of a command's output that is published: words of a table's title, its columns, and words of
-/// its rows. `name#1` is the second column of that name. Of plain text rows are lines.
+/// Published part of a command's output: words of a table's title, its columns, and words of its
+/// rows. `name#1` is the second column of that name. The rows of plain text are its lines.
 pub type Pick = (&'static str, &'static [&'static str], &'static [&'static str]);
 
 /// Input that numbers of a table depend on.
