@@ -13,7 +13,7 @@ use super::markdown::select;
 use super::place::{Age, Place};
 use super::table::Published;
 
-/// Folder of unfinished runs. Each set of inputs has its own below it, so that a run on other weights
+/// Folder of unfinished runs. Each set of inputs has its own below it: a run on other weights
 /// starts anew.
 const RUNS: &str = "runs/";
 
