@@ -158,7 +158,7 @@ impl MeasureArgs {
                 left += 1;
                 continue;
             }
-            session.say(&format!("{}: {}", table.name, table.command));
+            session.message(&format!("{}: {}", table.name, table.command));
             let place = published::run(table, Path::new("."), now);
             if interrupt::requested() {
                 let message = "interrupted; run the same command again to resume";

@@ -117,7 +117,7 @@ fn other_weights_and_other_verification_mark_the_tables_that_depend_on_them() {
     }
 
     let draft = Effort::Draft.settings();
-    let stricter = Answers::of(draft.replaying(draft.disturbed + 1)).unwrap();
+    let stricter = Answers::of(draft.replaying(draft.replays + 1)).unwrap();
     let now = Fingerprint::of(&weights(), &stricter).unwrap();
     assert_eq!(stale(&before, &now), depending_on(&[Input::Plans, Input::LeverUps]));
     let kept = ["prediction", "real-pushes", "masses", "cost"];

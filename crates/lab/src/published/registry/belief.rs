@@ -34,8 +34,8 @@ pub const TABLES: &[Published] = &[
         "pushplan-lab joints --types-only --count 50", &[
             ("Types at the end", &["set", "seen", "pairs", "none, %", "residuals, %", "filter, %",
             "regulator, %", "regulator: joined, %"], ALL),
-            ("How sure, and where", &["set", "seen", "nll", "calibration, %", "all ordered pairs,
-            %", "anchor, median", "axis, median"], &["| regulator |"]),
+            ("How sure, and where", &["set", "seen", "nll", "calibration, %",
+            "all ordered pairs, %", "anchor, median", "axis, median"], &["| regulator |"]),
         ]),
     table("joint-errors", "joint-errors.md", (20, 40, "trajectories a row"), BELIEFS,
         "pushplan-lab joints --seen fine --count 40", &[

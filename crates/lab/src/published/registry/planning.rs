@@ -38,8 +38,8 @@ pub const TABLES: &[Published] = &[
     table("tool-choice", "tool-choice.md", (10, 118, "tasks"), PLANS,
         "pushplan bench tools", &[
             ("All tool poses together", CHOICES, ALL),
-            ("Each tool pose alone", &["tool, choice", "3-D", "≤ 5 cm#1", "pushes"], &[",
-            planned"]),
+            ("Each tool pose alone", &["tool, choice", "3-D", "≤ 5 cm#1", "pushes"],
+            &[", planned"]),
         ]),
     table("tool-choice-scattered", "tool-choice-scattered.md", (10, 142, "tasks"), PLANS,
         "pushplan bench tools --layout scattered", &[
