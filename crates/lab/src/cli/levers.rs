@@ -148,7 +148,8 @@ pub(super) struct Named {
 impl Named {
     /// Loads weights.
     ///
-    /// # Errors [`CliError::File`] if the weights cannot be used.
+    /// # Errors
+    /// Returns [`CliError::File`] if the weights cannot be used.
     pub fn load(path: &Path, among_blocks: bool) -> Result<Self, CliError> {
         let network = load_lever(path).map_err(|error| CliError::File(error.to_string()))?;
         Ok(Self { network, path: path.display().to_string(), among_blocks })

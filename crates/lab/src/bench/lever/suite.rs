@@ -85,7 +85,8 @@ impl LeverSuite {
 
     /// Solves task `index` with `planner`. The times are the planner's alone.
     ///
-    /// # Errors If the planner refuses the task.
+    /// # Errors
+    /// Returns an error if the planner refuses the task.
     pub fn measure(
         &self,
         planner: &Planner,

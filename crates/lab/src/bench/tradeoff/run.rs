@@ -92,7 +92,8 @@ impl<'a> TradeOff<'a> {
     /// Creates a run over `levels` and `plans`. Plans whose models are not among the levels are
     /// left out.
     ///
-    /// # Errors If the timing thread cannot be started.
+    /// # Errors
+    /// Returns an error if the timing thread cannot be started.
     pub fn new(
         library: &'a ToolLibrary,
         levels: Vec<Level>,
@@ -154,7 +155,8 @@ impl<'a> TradeOff<'a> {
     /// Measures unit `index`. Errors are computed on the current rayon pool; timed work runs on one
     /// thread.
     ///
-    /// # Errors If a task cannot be made with these tools.
+    /// # Errors
+    /// Returns an error if a task cannot be made with these tools.
     pub fn measure(&self, index: usize) -> Result<Measured<Unit>, RandomError> {
         let rounds = self.levels.len() + 1;
         let tasks = rounds + self.settings.rounds;
