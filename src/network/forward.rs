@@ -86,7 +86,7 @@ impl Forward {
     /// Converts parameters in the layout of [`super::layout_of`].
     ///
     /// # Panics
-    /// If a parameter is missing.
+    /// Panics if a parameter is missing.
     pub fn of(config: &Config, normaliser: &Normaliser, parameters: &Parameters) -> Self {
         let get = |name: &str| parameters.values[name].clone();
         let layer = |name: &str, even: &Statistics, odd: &Statistics| {
@@ -162,7 +162,7 @@ impl Forward {
     /// Adds `head` to the last layer; a head that changes nothing leaves every bit.
     ///
     /// # Panics
-    /// If the head has another width.
+    /// Panics if the head has another width.
     pub fn with_head(self, head: &Head) -> Self {
         assert_eq!(head.half(), self.half, "a head of another width");
         Self { head: (!head.is_none()).then(|| head.clone()), ..self }

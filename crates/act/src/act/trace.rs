@@ -170,7 +170,7 @@ impl Trace {
     /// Reads a trace.
     ///
     /// # Errors
-    /// [`ActError::Trace`] if the file at `path` is missing or damaged.
+    /// Returns [`ActError::Trace`] if the file at `path` is missing or damaged.
     pub fn load(path: &Path) -> Result<Self, ActError> {
         let fault = |why: String| ActError::Trace(format!("{}: {why}", path.display()));
         let text = std::fs::read(path).map_err(|error| fault(error.to_string()))?;
@@ -193,7 +193,7 @@ impl Trace {
     /// Writes the trace atomically.
     ///
     /// # Errors
-    /// If it cannot be written.
+    /// Returns an error if it cannot be written.
     pub fn write(&self, path: &Path) -> Result<(), Faults> {
         // Serialising plain data cannot fail.
         let mut text = serde_json::to_vec(self).unwrap_or_default();

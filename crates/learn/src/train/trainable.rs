@@ -45,7 +45,7 @@ pub trait Trainable: Sync + Sized {
     /// of the last [`Self::follow`].
     ///
     /// # Errors
-    /// Errors of candle.
+    /// Returns errors of candle.
     fn gradient(
         &self,
         weights: &Parameters,

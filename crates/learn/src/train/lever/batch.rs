@@ -105,7 +105,7 @@ impl LeverBatch {
     /// Creates a batch of examples.
     ///
     /// # Errors
-    /// Errors of candle; examples of these sizes cause none.
+    /// Returns errors of candle; examples of these sizes cause none.
     pub fn new(
         examples: &[&LeverExample],
         scales: &[Statistics; 2],
@@ -168,7 +168,7 @@ impl LeverBatch {
     /// [`LeverGraph::forward`].
     ///
     /// # Errors
-    /// Errors of candle.
+    /// Returns errors of candle.
     pub fn loss(&self, network: &LeverGraph, beside: Option<&Tensor>) -> Result<Tensor> {
         let (poses, end) = network.forward(&self.tensors, beside)?;
         let [axes, rest, slip, ending] = WEIGHTS;
