@@ -81,8 +81,8 @@ impl ToolLibrary {
     /// Adds the tools of every `.yaml` or `.yml` file of the folder `path`.
     ///
     /// # Errors
-    /// Returns the errors of [`ToolLibrary::load`]; also a tool whose name is already in the
-    /// library.
+    /// Returns the errors of [`ToolLibrary::load`], and an error for a tool whose name is already
+    /// in the library.
     pub fn with_folder(self, path: impl AsRef<Path>) -> Result<Self, Faults> {
         let path = path.as_ref();
         let files = files_in(path, &["yaml", "yml"])?;

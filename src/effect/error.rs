@@ -26,7 +26,7 @@ pub enum ModelError {
     Custom(&'static str),
     /// A table fit that was learned with another network.
     #[error(
-        "the fit was learnt with other weights ({weights}) than the model has; fit again with this \
+        "the fit was learned with other weights ({weights}) than the model has; fit again with this \
          model"
     )]
     Fit {

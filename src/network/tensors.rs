@@ -50,7 +50,7 @@ pub fn encode_parameters(
 /// finite.
 ///
 /// # Errors
-/// Returns [`ParameterError`] for the first parameter that is not.
+/// Returns [`ParameterError`] for the first parameter that fails one of these checks.
 pub fn decode_parameters(
     file: &SafeTensors<'_>,
     layout: &[(&str, Vec<usize>)],

@@ -37,7 +37,7 @@ pub trait Card: Clone + Serialize + DeserializeOwned {
     /// Checks that sizes and scales are possible for a network; called before [`Card::layout`].
     ///
     /// # Errors
-    /// Returns [`WeightsError`] for the first that is not.
+    /// Returns [`WeightsError`] for the first impossible size or scale.
     fn check(&self) -> Result<(), WeightsError>;
 
     /// Returns the names and shapes of all parameters.

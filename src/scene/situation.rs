@@ -1,4 +1,4 @@
-//! The present state of a scene, with a belief about it.
+//! The present state of a scene, with assumed physical parameters.
 
 use std::sync::Arc;
 
@@ -6,15 +6,15 @@ use crate::geometry::{Pose, Vector};
 
 use super::{GRAVITY, JointKind, Physics, Scene, State};
 
-/// The start of planning. Planning again from an intermediate state or under another belief is the
-/// same call with another situation.
+/// The start of planning. To plan again from an intermediate state or with other parameters, the
+/// caller passes another situation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Situation {
     /// Scene.
     pub scene: Arc<Scene>,
     /// Poses and velocities of all objects.
     pub start: State,
-    /// Belief about the objects.
+    /// Assumed physical parameters.
     pub physics: Arc<Physics>,
 }
 

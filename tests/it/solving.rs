@@ -1,4 +1,4 @@
-//! The planner from end to end, with the planar engine as effect model.
+//! The planner from end to end, with the 2-D engine as effect model.
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -1,5 +1,5 @@
-//! `pushplan check`: reads files and reports all errors, and prints JSON schemas of user-written
-//! files.
+//! `pushplan check`: reports all errors of files, or prints the JSON schema of a kind of file that
+//! users write.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! The points of support of an object.
+//! The support points (feet) of an object.
 
 use crate::Vector;
 
@@ -9,7 +9,7 @@ pub const MAX_FEET: usize = 16;
 /// rounding.
 const MIDDLE: f64 = 1e-9;
 
-/// Points of support of an object with their shares of its weight.
+/// Support points of an object with their shares of its weight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Feet {
     /// Coordinates in the object's frame, metres; entries beyond `count` carry nothing.

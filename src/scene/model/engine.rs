@@ -16,6 +16,6 @@ pub enum Engine {
 }
 
 impl Engine {
-    /// Engines of a verdict, in display order; predictions are compared with the planar engine.
+    /// Engines of a verdict, in display order; predictions are compared with the 2-D engine.
     pub const ALL: [Self; 2] = [Self::Planar, Self::Spatial];
 }

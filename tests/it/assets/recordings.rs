@@ -278,7 +278,7 @@ fn everything_wrong_is_said_with_its_place() {
     assert!(found.contains("JSON has no NaN"), "{found}");
 }
 
-/// Replays the recorded pusher in the planar engine.
+/// Replays the recorded pusher in the 2-D engine.
 fn replayed(recording: &Recording) -> Trajectory {
     let motion = recording.replay().motion;
     let job = Job { start: recording.start(), ..Job::stated(&recording.scene, motion) };

@@ -54,7 +54,8 @@ pub struct Trace {
     pub prior_numbers: Numbers,
     /// Steps in order.
     pub steps: Vec<Step>,
-    /// Network fit learnt from all steps, including the initial fit; `None` if nothing was learnt.
+    /// Network fit learned from all steps, including the initial fit; `None` if nothing was
+    /// learned.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub learnt: Option<TableFit>,
     /// Reason for the end of the run; `None` while it continues.

@@ -51,8 +51,8 @@ pub struct SearchCost {
 /// Times pushes of `suite` on one thread: `model` with `batch` jobs per call on the same scene and
 /// one per call, then both engines.
 ///
-/// The jobs of a batch are copies of a push, which no model can detect. Their time is the cost of a
-/// candidate in a search.
+/// The jobs of a batch are copies of one push. No model takes advantage of that, so their time is
+/// the cost of a candidate in a search.
 ///
 /// # Errors
 /// Returns an error if the thread cannot be started.

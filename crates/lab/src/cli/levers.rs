@@ -34,7 +34,7 @@ pub struct LeversArgs {
     /// Seed of the lever-ups
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
-    /// Number of remembered lever-ups, for models without physics
+    /// Number of remembered lever-ups of the models without physics
     #[arg(long, value_name = "N", default_value_t = 1600,
           value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     known: u64,
@@ -115,7 +115,7 @@ pub fn run(args: &LeversArgs, session: &Session) -> Result<(), CliError> {
     args.form.show(session, &document)
 }
 
-/// Returns the models, from the simplest on.
+/// Returns the models, simplest first.
 fn models(known: &[LeverEpisode]) -> Vec<Box<dyn LeverModel>> {
     let like = |neighbour| LeverBaseline::like(neighbour, known, 1);
     let nearest = |features| like(Neighbour::Nearest(features));

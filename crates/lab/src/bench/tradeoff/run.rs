@@ -29,7 +29,7 @@ const SUITES: [SuiteKind; 2] = [SuiteKind::Single, SuiteKind::Touching];
 /// have the same draws, which differ from those by which the plan was chosen.
 const PERTURBED: VerifySettings = VerifySettings { replays: 12, seed: 0xD157 };
 
-/// Name of the time of the level that solves every task a second time.
+/// Key of the time of the level that solves every task a second time.
 pub(super) const CONTROL: &str = "control";
 
 /// Size of a run.
