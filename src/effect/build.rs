@@ -21,7 +21,7 @@ impl EffectModels {
     /// Returns the shipped weights with their card.
     ///
     /// # Errors
-    /// Returns [`ModelError::Shipped`] if the library was built around a damaged weights file.
+    /// Returns [`ModelError::Shipped`] if the library was built with a damaged weights file.
     pub fn weights() -> Result<PredictorWeights, ModelError> {
         PredictorWeights::from_bytes(pushplan_models::BRDPN).map_err(ModelError::Shipped)
     }

@@ -1,8 +1,9 @@
 //! Fused inference: the predictor on preallocated buffers, with direct calls of `gemm` kernels.
 //!
-//! Computes the same as the graph that training differentiates, which a test checks, without
-//! tensors and, except for single rows, without allocation. The normaliser is folded into the first
-//! layers. Rows are stored [2, M, h], parity first, so every half is one dense matrix.
+//! The results equal those of the graph that training differentiates, which a test checks. No
+//! tensors are used and, except for single rows, no memory is allocated. The normaliser is folded
+//! into the first layers. Rows are stored [2, M, h], parity first, so every half is one dense
+//! matrix.
 
 use crate::graph::{Batch, Correction, GIVEN, OUTPUT_EVEN, OUTPUT_ODD};
 

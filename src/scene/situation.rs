@@ -54,8 +54,8 @@ impl Situation {
     ///
     /// Sliding under the ellipsoidal limit surface decelerates at about mu g along the generalised
     /// velocity s = sqrt(v^2 + c^2 omega^2). It lasts s / (mu g) and covers half the distance that
-    /// the present speeds would cover in that time. Exact without spin; a comparison of the stops
-    /// of a push, never a result.
+    /// the present speeds would cover in that time. Exact without rotation. It serves to compare
+    /// the stops of a push, and is never a result.
     pub fn coasted(&self, state: &State) -> State {
         let mut rest = state.clone();
         for k in 0..self.scene.objects.len() {

@@ -52,7 +52,7 @@ impl EffectModel for Wishful {
     }
 }
 
-/// Planar engine that predicts the end of every push next to its true end.
+/// 2-D engine that predicts the end of every push next to its true end.
 struct Beside(Simulated, Vector);
 
 impl EffectModel for Beside {

@@ -33,7 +33,7 @@ pub fn bare() -> String {
 /// Returns the names of the shipped tools as JSON: tools that push, and tools that lever.
 ///
 /// # Errors
-/// Returns an error if the library was built around damaged tools.
+/// Returns an error if the library was built with damaged tools.
 #[wasm_bindgen]
 pub fn tools() -> Result<String, String> {
     let library = library()?;

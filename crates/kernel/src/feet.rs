@@ -135,8 +135,8 @@ impl Feet {
     }
 
     /// Returns the shares of the weight with the centre of the load at `lean`, in the object's
-    /// frame. Points cannot pull. Where some would have to, the others carry the whole load, and
-    /// its centre is closer to the middle.
+    /// frame. Points cannot pull. If the load of a point would be negative, the other points carry
+    /// the whole load, whose centre is then closer to the middle than `lean`.
     pub fn leaning(&self, lean: Vector) -> [f64; MAX_FEET] {
         let slope = self.slope(lean);
         let mut load = self.load;

@@ -42,7 +42,7 @@ pub struct MassesArgs {
     /// Qualities of the observations, one or more [default: exact, fine and coarse]
     #[arg(long, num_args = 1.., value_parser = possible_values(&SIGHTINGS), value_name = "HOW")]
     seen: Vec<Sighting>,
-    /// Treat friction coefficients of the objects and the table as unknown, too
+    /// Also treat friction coefficients of the objects and the table as unknown
     #[arg(long)]
     frictions: bool,
     /// Number of trajectories of each set

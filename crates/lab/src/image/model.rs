@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::{ImageFeatures, ImageSizes, ImageWeights, image_code, image_inputs};
 
-/// A network, alone or as a correction of the prior.
+/// A network, alone or as a correction of the analytic model.
 #[derive(Clone, Debug)]
 pub struct ImageNetwork {
     features: ImageFeatures,

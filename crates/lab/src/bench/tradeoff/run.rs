@@ -239,7 +239,7 @@ fn replay(task: &Task, solution: &mut Solution) {
     }
 }
 
-/// Returns the name of the time of a level's replays.
+/// Returns the key of the time of a level's replays.
 pub(super) fn verification_key(level: &str) -> String {
     format!("{level}, verification")
 }

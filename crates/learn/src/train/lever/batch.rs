@@ -19,7 +19,7 @@ const BOUND: f32 = 10.0;
 const NEAR: f64 = 4e-4;
 
 /// Weights in the loss of axes, pose at rest, slip and ending, relative to positions during the
-/// turn.
+/// rotation.
 ///
 /// Positions dominate; the other terms help slightly.
 const WEIGHTS: [f64; 4] = [0.3, 0.1, 0.1, 0.1];
