@@ -73,7 +73,7 @@ pub fn run(args: &CheckArgs, session: &Session) -> Result<u8, CliError> {
         };
         match asset::check(file, Some(&library)).and_then(read) {
             Ok(kind) => {
-                session.print(&format!("{}: {kind}, fine\n", file.display()))?;
+                session.print(&format!("{}: {kind}, valid\n", file.display()))?;
                 if args.why && kind == Kind::Task {
                     code = code.max(why(file, &library, session)?);
                 }

@@ -97,8 +97,8 @@ impl ModelKind {
                 *weights = Some(unquoted(value).ok_or_else(|| SpecError::Value {
                     key: "weights",
                     found: value.to_owned(),
-                    expected: "a file, in double quotes (those in its name doubled) if its name \
-                               holds a comma, a bar or quotes",
+                    expected: "a file; if its name contains a comma, a bar, `>` or quotes, write \
+                               it in double quotes and double the inner quotes",
                 })?);
             }
             (Self::Network { steps, .. }, "steps") => {

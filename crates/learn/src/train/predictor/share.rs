@@ -42,7 +42,8 @@ pub(super) fn shared(
     for share in SHARES {
         let ratios: Vec<f64> =
             errors(share).iter().zip(&alone).map(|(own, prior)| own / prior.max(1e-9)).collect();
-        progress.line(&format!("share {share}: errors relative to the prior {ratios:.3?}"));
+        progress
+            .line(&format!("share {share}: errors relative to the analytic model {ratios:.3?}"));
         let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
         if ratios.iter().all(|ratio| *ratio <= 1.0 + CHANCE) && mean < best.1 {
             best = (share, mean);
