@@ -39,7 +39,8 @@ pub enum RegulatorError {
 /// Belief regulator: a recurrent network on the evidence of every pair and the effects of a frozen
 /// propagation network.
 ///
-/// The propagation network shares its weights with the physics predictor (thesis 7.2.3).
+/// The propagation network shares its weights with the physics predictor (Tekden 2020, section
+/// 7.2.3).
 #[derive(Clone)]
 pub struct BeliefRegulator {
     network: Arc<Network>,

@@ -47,11 +47,11 @@ pub struct LeversArgs {
     /// Restrict to plates with this many corners
     #[arg(long, value_name = "N")]
     corners: Option<usize>,
-    /// Split as in the thesis: test the lever-ups of --seed that `train memory --random-split`
+    /// Split as in Tekden (2020): test the lever-ups of --seed that `train memory --random-split`
     /// leaves out, and remember its training lever-ups
     #[arg(long, conflicts_with_all = ["known", "known_seed"])]
     random_split: bool,
-    /// Measure only up to the first slip, as in the thesis
+    /// Measure only up to the first slip, as in Tekden (2020)
     #[arg(long)]
     cut: bool,
     #[command(flatten)]
