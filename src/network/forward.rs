@@ -1,6 +1,6 @@
 //! Fused inference: the predictor on preallocated buffers, with direct calls of `gemm` kernels.
 //!
-//! The results equal those of the graph that training differentiates, which a test checks. No
+//! The results equal the results of the graph that training differentiates, which a test checks. No
 //! tensors are used and, except for single rows, no memory is allocated. The normaliser is folded
 //! into the first layers. Rows are stored [2, M, h], parity first, so every half is one dense
 //! matrix.

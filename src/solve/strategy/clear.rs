@@ -15,8 +15,8 @@ use crate::task::{Job, Task};
 /// Maximum number of kinds of plans whose obstructions are examined, per number of pushes.
 const KINDS: usize = 16;
 
-/// Maximum number of swept regions to clear, per number of pushes. The order is that of the final
-/// errors of their plans.
+/// Maximum number of swept regions to clear, per number of pushes. Regions whose plans have smaller
+/// final errors come first.
 const REGIONS: usize = 3;
 
 /// Maximum error of an examined plan in units of the tolerance; above 1 because refinement can

@@ -1,7 +1,7 @@
 //! Controlled set-ups in which only masses vary between trajectories and every cylinder is pushed
 //! by another one, as in section 8.3 of Tekden (2020).
 //!
-//! That thesis shows its set-ups in a picture without sizes; these follow its description. A
+//! The source shows its set-ups in a picture without sizes; these follow its description. A
 //! cylinder pushed against another one continues to push it if it is the heavier one, otherwise it
 //! slips off to either side.
 
